@@ -1,0 +1,18 @@
+# Every library comes from a Debian package; ./run installs them by name.
+find_package(Threads REQUIRED)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc video videoio ximgproc photo)
+find_package(OpenImageIO REQUIRED)
+find_package(OpenColorIO REQUIRED PATHS /usr/share/cmake)
+find_package(glm REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(FFTW3F REQUIRED IMPORTED_TARGET fftw3f)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+if(WEFT_TESTS)
+    find_package(GTest REQUIRED)
+    # Clips and photographs that some tests measure on; those tests skip when it is empty or missing.
+    set(WEFT_SHARED_DATA_DIR "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH "Evaluation data")
+endif()

@@ -1,0 +1,32 @@
+# weft_library(NAME SOURCES a.cpp … [PUBLIC dep …] [PRIVATE dep …])
+#   One static library per folder, linked as weft::NAME. A library without sources is an interface.
+function(weft_library name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+    set(target weft_${name})
+    if(ARG_SOURCES)
+        add_library(${target} STATIC ${ARG_SOURCES})
+        target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+        target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+    else()
+        add_library(${target} INTERFACE)
+        target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR})
+        target_link_libraries(${target} INTERFACE ${ARG_PUBLIC})
+    endif()
+    add_library(weft::${name} ALIAS ${target})
+endfunction()
+
+# weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full])
+#   One GoogleTest program per folder. A label "full" keeps it out of the plain ./test.
+function(weft_test name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+    set(target test_${name})
+    add_executable(${target} ${ARG_SOURCES})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${target} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest_main)
+    target_compile_definitions(${target} PRIVATE
+        WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+        WEFT_SHARED_DATA_DIR="${WEFT_SHARED_DATA_DIR}")
+    include(GoogleTest)
+    gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
+        TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+endfunction()

@@ -1,0 +1,44 @@
+#pragma once
+// Colour spaces by name and the transforms between them.
+
+#include <memory>
+#include <string>
+
+#include "engine/core/error.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// "srgb" (sRGB primaries, encoded by the piecewise sRGB curve), "linear" (the same primaries, scene
+/// linear), or the name of a space, role or alias of the OpenColorIO config in $OCIO.
+struct ColorSpace {
+    std::string name = "srgb";
+    bool operator==(const ColorSpace&) const = default;
+};
+
+/// Reads a colour-space name. Errors: Usage when it is neither built in nor known to $OCIO; the
+/// message lists some names that are.
+[[nodiscard]] Expected<ColorSpace> parse_color_space(const std::string& name);
+
+/// A fixed conversion of RGB pixels. Immutable; apply() may be called from several threads.
+/// Values are neither clipped to [0, 1] nor is NaN or infinity changed into a number: the sRGB
+/// curve continues above 1 and, mirrored, below 0.
+class ColorTransform {
+  public:
+    virtual ~ColorTransform() = default;
+    /// Converts every pixel in place.
+    virtual void apply(ImageView<float, 3> rgb) const = 0;
+    [[nodiscard]] virtual bool identity() const = 0;
+};
+
+/// Errors: Usage when either space is unknown or OpenColorIO has no conversion between them.
+/// "srgb" and "linear" meet OpenColorIO spaces through the config's role scene_linear when it has
+/// linear Rec.709/sRGB primaries under a usual name, else the message says what is missing.
+[[nodiscard]] Expected<std::shared_ptr<const ColorTransform>> make_color_transform(
+    const ColorSpace& from, const ColorSpace& to);
+
+/// The piecewise sRGB curve (IEC 61966-2-1), continued above 1 and mirrored below 0.
+[[nodiscard]] float srgb_to_linear(float encoded);
+[[nodiscard]] float linear_to_srgb(float linear);
+
+}  // namespace weft

@@ -1,0 +1,57 @@
+#pragma once
+// Light from the plate (method: "Lighting"; the paper, 2.4).
+
+#include <optional>
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+enum class LightForm {
+    kGain,     ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [1/8, 8].
+    kDetail,   ///< Display V: (λ Φ + (1−λ) B) · (V_T / B), B the base of the texture's V.
+    kLiteral   ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
+};
+
+/// How an illumination is taken out of a plate.
+struct ShadingOptions {
+    float pattern_px = 14;    ///< Structures smaller than this belong to the surface, not the light
+                              ///< (plate pixels at full size); shadow edges of larger areas stay sharp.
+    int downscale = 2;        ///< Works at 1/downscale of the plate (1, 2 or 4).
+};
+
+/// The plate's shading: H/d × W/d, d the downscale (rounded up), linear light, > 0 everywhere; inside
+/// the matte estimated, outside continued smoothly. Old reflectance finer than pattern_px is gone,
+/// edges of larger light and dark areas are sharp to a pixel of this image.
+struct Shading {
+    ImageF1 value;
+    int downscale = 2;
+    Size full;                ///< Size of the plate it belongs to.
+};
+
+/// `linear`: plate in linear light, H×W×3; NaN and infinity are left out. `visible`: region without
+/// holdouts; pixels under 128 do not count. An empty matte gives a shading of 1 everywhere.
+[[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options);
+
+/// Steady in time: mixes the shading with the previous frame's, moved along the motion, where the two
+/// agree within noise; where they do not (a moving shadow, a change of light) the new one stands.
+/// `prev_from_cur`: full-size motion of the surface, pixels.
+[[nodiscard]] Shading steady_shading(const Shading& current, const Shading& previous, ViewF2 prev_from_cur);
+
+/// The median inside the matte: S₀, to be taken on the reference frame.
+[[nodiscard]] float median_shading(const Shading& shading, ViewU8x1 visible);
+
+/// From an illumination picture E, stretched over `box` of a plate of `full` size (the paper).
+[[nodiscard]] Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full);
+
+struct LightOptions {
+    LightForm form = LightForm::kGain;
+    float strength = 1;       ///< λ, 0–1.
+};
+
+/// Lights `texture` (linear light, H×W×3, in place), whose pixel (0, 0) lies at `origin` on the
+/// plate. Pixels where `matte` (same size and origin) is 0 may be left as they are.
+void apply_light(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const Shading& shading,
+                 float reference, const LightOptions& options);
+
+}  // namespace weft

@@ -1,0 +1,41 @@
+#pragma once
+// Carrying a painted matte from its keyframe to the neighbouring frames.
+
+#include <memory>
+
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+struct MatteEstimate {
+    Matte matte;
+    float confidence = 1;    ///< 0–1: how sure the boundary is, 1 on the keyframe itself.
+};
+
+/// Walks away from one keyframe, forwards or backwards in time, one frame at a time. The keyframe's
+/// matte is never changed. Not thread-safe; two walkers may run in two threads.
+class MatteWalker {
+  public:
+    /// `frame`: display-encoded 8-bit plate, H×W×3. `key`: its painted matte, the same size.
+    MatteWalker(ViewU8x3 frame, ViewU8x1 key);
+    ~MatteWalker();
+    MatteWalker(MatteWalker&&) noexcept;
+    MatteWalker& operator=(MatteWalker&&) noexcept;
+
+    /// The matte of the next frame of the walk. `prev_from_cur`: for each pixel of `frame` where it
+    /// was in the frame before (of the walk), pixels; its `valid` says where that can be trusted.
+    [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Two estimates of one frame, from the keyframe before and the one after it. `position` in [0, 1]
+/// is where the frame lies between them (0: at `from_before`'s keyframe).
+[[nodiscard]] MatteEstimate merge_estimates(const MatteEstimate& from_before,
+                                            const MatteEstimate& from_after, float position,
+                                            ViewU8x3 frame);
+
+}  // namespace weft

@@ -1,0 +1,69 @@
+#include "engine/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace weft {
+namespace {
+
+class Parallel : public testing::Test {
+  protected:
+    ~Parallel() override { set_thread_count(0); }
+};
+
+TEST_F(Parallel, CallsEveryIndexOnce) {
+    for (const int threads : {1, 2, 5}) {
+        set_thread_count(threads);
+        std::vector<std::atomic<int>> calls(1000);
+        parallel_for(calls.size(), [&](std::size_t i) { ++calls[i]; });
+        for (const auto& c : calls) EXPECT_EQ(c, 1);
+    }
+}
+
+TEST_F(Parallel, NestedCallsRun) {
+    set_thread_count(3);
+    std::atomic<int> calls{0};
+    parallel_for(8, [&](std::size_t) { parallel_for(8, [&](std::size_t) { ++calls; }); });
+    EXPECT_EQ(calls, 64);
+}
+
+TEST_F(Parallel, CallersFromSeveralThreadsDoNotMix) {
+    set_thread_count(3);
+    std::vector<std::thread> callers;
+    std::atomic<int> sum{0};
+    for (int t = 0; t < 4; ++t) {
+        callers.emplace_back([&] {
+            for (int k = 0; k < 50; ++k) parallel_for(10, [&](std::size_t) { ++sum; });
+        });
+    }
+    for (auto& c : callers) c.join();
+    EXPECT_EQ(sum, 4 * 50 * 10);
+}
+
+TEST_F(Parallel, RethrowsAfterAllHaveFinished) {
+    set_thread_count(2);
+    std::atomic<int> calls{0};
+    EXPECT_THROW(parallel_for(20,
+                              [&](std::size_t i) {
+                                  ++calls;
+                                  if (i == 3) throw std::runtime_error("three");
+                              }),
+                 std::runtime_error);
+    EXPECT_EQ(calls, 20);
+}
+
+TEST_F(Parallel, RowsComeInBandsThatDoNotDependOnThreads) {
+    set_thread_count(2);
+    std::vector<int> band_of(25, -1);
+    parallel_rows(25, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) band_of[static_cast<std::size_t>(y)] = y0;
+    });
+    for (int y = 0; y < 25; ++y) EXPECT_EQ(band_of[static_cast<std::size_t>(y)], y / 8 * 8);
+}
+
+}  // namespace
+}  // namespace weft
