@@ -9,20 +9,23 @@
 
 namespace weft {
 
-/// "srgb" (sRGB primaries, encoded by the piecewise sRGB curve), "linear" (the same primaries, scene
-/// linear), or the name of a space, role or alias of the OpenColorIO config in $OCIO.
+/// "srgb" (sRGB primaries, encoded by the piecewise sRGB curve), "linear" (the same primaries,
+/// scene linear), or the name of a space, role or alias of the OpenColorIO config in $OCIO.
 struct ColorSpace {
     std::string name = "srgb";
     bool operator==(const ColorSpace&) const = default;
 };
 
 /// Reads a colour-space name. Errors: Usage when it is neither built in nor known to $OCIO; the
-/// message lists some names that are.
+/// message lists some names that are. Unreadable when the config of $OCIO cannot be loaded.
+/// "srgb" and "linear", written so, are always the built-in ones; "sRGB" is the config's, if it has
+/// such a name, else the built-in one too.
 [[nodiscard]] Expected<ColorSpace> parse_color_space(const std::string& name);
 
 /// A fixed conversion of RGB pixels. Immutable; apply() may be called from several threads.
-/// Values are neither clipped to [0, 1] nor is NaN or infinity changed into a number: the sRGB
-/// curve continues above 1 and, mirrored, below 0.
+/// Between the built-in spaces apply() is exact to about 2e-7 relative, so all 8-bit and 16-bit
+/// codes survive there and back. Values are neither clipped to [0, 1] nor is NaN or infinity
+/// changed into a number: the sRGB curve continues above 1 and, mirrored, below 0.
 class ColorTransform {
   public:
     virtual ~ColorTransform() = default;
@@ -32,8 +35,11 @@ class ColorTransform {
 };
 
 /// Errors: Usage when either space is unknown or OpenColorIO has no conversion between them.
-/// "srgb" and "linear" meet OpenColorIO spaces through the config's role scene_linear when it has
-/// linear Rec.709/sRGB primaries under a usual name, else the message says what is missing.
+/// "srgb" and "linear" meet OpenColorIO spaces through the config's space with linear Rec.709/sRGB
+/// primaries, found under a usual name ("Linear Rec.709 (sRGB)", "lin_srgb", "lin_rec709",
+/// "Utility - Linear - sRGB", "Utility - Linear - Rec.709", …, or "linear" where that is the role
+/// scene_linear), else through its sRGB texture space ("sRGB - Texture", "srgb_tx",
+/// "Utility - sRGB - Texture", …). Where there is neither, the message says so.
 [[nodiscard]] Expected<std::shared_ptr<const ColorTransform>> make_color_transform(
     const ColorSpace& from, const ColorSpace& to);
 

@@ -17,6 +17,12 @@ struct FlowField {
     [[nodiscard]] bool empty() const { return d.empty(); }
 };
 
+/// Which way in time a file of true motion points.
+enum class MotionDirection {
+    kForward,    ///< later_from_earlier, on the earlier frame's pixels.
+    kBackward    ///< earlier_from_later, on the later frame's pixels.
+};
+
 /// Which place of the texture plane each pixel shows, in texels (texel (i, j) has its centre at
 /// (i + 0.5, j + 0.5)). `origin` is where the field's pixel (0, 0) lies on the plate.
 struct TextureCoords {

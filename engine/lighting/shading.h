@@ -8,35 +8,49 @@
 namespace weft {
 
 enum class LightForm {
-    kGain,     ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [1/8, 8].
-    kDetail,   ///< Display V: (λ Φ + (1−λ) B) · (V_T / B), B the base of the texture's V.
-    kLiteral   ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
+    kGain,    ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [1/8, 8].
+    kDetail,  ///< Display V: (λ Φ + (1−λ) B) · (V_T / B), B the base of the texture's V.
+    kLiteral  ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
 };
+// V is max(R, G, B) under the sRGB curve, Φ the shading under it, B a Gaussian (σ 12 px) of V
+// inside the matte, at least 0.02; V changes by scaling the encoded R, G, B with V'/V.
 
 /// How an illumination is taken out of a plate.
 struct ShadingOptions {
-    float pattern_px = 14;    ///< Structures smaller than this belong to the surface, not the light
-                              ///< (plate pixels at full size); shadow edges of larger areas stay sharp.
-    int downscale = 2;        ///< Works at 1/downscale of the plate (1, 2 or 4).
+    /// Structures smaller than this belong to the surface, not the light (plate pixels at full
+    /// size); shadow edges of larger areas stay sharp. Contrast below some 10% is light all the
+    /// same.
+    float pattern_px = 14;
+    /// Works at 1/downscale of the plate (1, 2 or 4).
+    int downscale = 2;
+    /// Takes out what the surface's own colour explains of its lightness.
+    bool chromaticity = true;
 };
 
-/// The plate's shading: H/d × W/d, d the downscale (rounded up), linear light, > 0 everywhere; inside
-/// the matte estimated, outside continued smoothly. Old reflectance finer than pattern_px is gone,
-/// edges of larger light and dark areas are sharp to a pixel of this image.
+/// The plate's shading: H/d × W/d, d the downscale (rounded up), linear light, > 0 everywhere;
+/// inside the matte estimated, outside continued smoothly. Old reflectance finer than pattern_px is
+/// gone, edges of larger light and dark areas are sharp to a pixel of this image.
 struct Shading {
     ImageF1 value;
     int downscale = 2;
-    Size full;                ///< Size of the plate it belongs to.
+    Size full;          ///< Size of the plate it belongs to.
+    Matte inside = {};  ///< H/d × W/d, 255 where estimated, 0 where continued; empty: everywhere.
 };
 
 /// `linear`: plate in linear light, H×W×3; NaN and infinity are left out. `visible`: region without
-/// holdouts; pixels under 128 do not count. An empty matte gives a shading of 1 everywhere.
-[[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options);
+/// holdouts; pixels under 128 do not count, the rim counts little. An empty matte gives a shading
+/// of 1 everywhere. Thread-safe, and bit-identical for any number of threads, as is all in this
+/// header.
+[[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible,
+                                       const ShadingOptions& options);
 
-/// Steady in time: mixes the shading with the previous frame's, moved along the motion, where the two
-/// agree within noise; where they do not (a moving shadow, a change of light) the new one stands.
-/// `prev_from_cur`: full-size motion of the surface, pixels.
-[[nodiscard]] Shading steady_shading(const Shading& current, const Shading& previous, ViewF2 prev_from_cur);
+/// Steady in time: mixes the shading with the previous frame's, moved along the motion, where the
+/// two agree within noise; where they do not (a moving shadow, a change of light) the new one
+/// stands. `prev_from_cur`: full-size motion of the surface, pixels; where it is NaN the new one
+/// stands, as it does everywhere if the two differ in size. A change of light wider than some 200
+/// px is followed at once, a smaller one as soon as it exceeds the noise.
+[[nodiscard]] Shading steady_shading(const Shading& current, const Shading& previous,
+                                     ViewF2 prev_from_cur);
 
 /// The median inside the matte: S₀, to be taken on the reference frame.
 [[nodiscard]] float median_shading(const Shading& shading, ViewU8x1 visible);
@@ -46,11 +60,12 @@ struct Shading {
 
 struct LightOptions {
     LightForm form = LightForm::kGain;
-    float strength = 1;       ///< λ, 0–1.
+    float strength = 1;  ///< λ, 0–1.
 };
 
 /// Lights `texture` (linear light, H×W×3, in place), whose pixel (0, 0) lies at `origin` on the
-/// plate. Pixels where `matte` (same size and origin) is 0 may be left as they are.
+/// plate. Pixels where `matte` (same size and origin) is 0 may be left as they are. Strength 0, or
+/// a shading equal to the reference, changes no bit; NaN in the texture stays where it is.
 void apply_light(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const Shading& shading,
                  float reference, const LightOptions& options);
 

@@ -18,15 +18,16 @@ enum class PixelDepth { kU8, kU16, kHalf, kFloat };
 /// One decoded frame. Integer depths are scaled to [0, 1] by 1/255 or 1/65535, so that writing the
 /// same depth gives the same codes back; half and float are as they stand in the file.
 struct PlateFrame {
-    ImageF3 rgb;                    ///< A grey file's value stands in all three.
-    ImageF1 alpha;                  ///< Empty when the file has none.
+    ImageF3 rgb;    ///< A grey file's value stands in all three.
+    ImageF1 alpha;  ///< Empty when the file has none.
     PixelDepth depth = PixelDepth::kU8;
-    std::int64_t nonfinite = 0;     ///< Pixels with a NaN or infinite component.
+    std::int64_t nonfinite = 0;  ///< Pixels with a NaN or infinite component.
 };
 
 struct ReadOptions {
-    std::string layer;              ///< EXR layer ("beauty" reads beauty.R, .G, .B); empty: R, G, B.
-    int movie_start = 1001;         ///< The number of a movie's first frame.
+    std::string layer;  ///< EXR layer ("beauty" reads beauty.R, .G, .B); empty: R, G, B.
+    /// The number of a movie's first frame, and of a single picture without a number in its name.
+    int movie_start = 1001;
 };
 
 /// A plate. read() may be called from several threads; a movie serialises them inside.
@@ -35,20 +36,26 @@ class FrameReader {
     virtual ~FrameReader() = default;
     [[nodiscard]] virtual const std::vector<int>& frames() const = 0;  ///< Ascending, as on disk.
     [[nodiscard]] virtual Size size() const = 0;                       ///< Of the first frame.
-    [[nodiscard]] virtual double fps() const = 0;                      ///< 0 when the files do not say.
+    [[nodiscard]] virtual double fps() const = 0;  ///< 0 when the files do not say.
     [[nodiscard]] virtual PixelDepth depth() const = 0;
-    [[nodiscard]] virtual bool display_encoded() const = 0;  ///< Default space is sRGB, else linear.
+    [[nodiscard]] virtual bool display_encoded()
+        const = 0;  ///< Default space is sRGB, else linear.
     [[nodiscard]] virtual std::string path_of(int frame) const = 0;
     /// Errors: MissingFrames (no such file), Unreadable (truncated, not an image, another size than
     /// the first frame); each names the file and what to do.
     [[nodiscard]] virtual Expected<PlateFrame> read(int frame) const = 0;
     /// Changes whenever the frame's file may have changed (path, size, modification time in ns).
     [[nodiscard]] virtual Expected<Hash128> stamp(int frame) const = 0;
+    /// What is odd about the plate though it can be read (a movie that says it has more frames).
+    [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// Opens a pattern (a folder with exactly one numbered sequence counts as one) or a movie file.
-/// Errors: MissingFrames when a pattern matches no file, Unreadable for a movie without frames or a
-/// file that is neither, Usage when a folder holds several sequences (the message lists them).
+/// Opens a pattern (a folder with exactly one numbered sequence counts as one), a movie file or a
+/// single picture (a plate of one frame). An EXR frame is its display window, 0 where it has no
+/// data. Opening a movie decodes it once to count its frames, since containers do not tell
+/// reliably. Errors: MissingFrames when a pattern matches no file, Unreadable for a movie without
+/// frames or a file that is neither, Usage when a folder holds several sequences (the message lists
+/// them) or the pattern has two numbers.
 [[nodiscard]] Expected<std::shared_ptr<const FrameReader>> open_plate(const std::string& path,
                                                                       const ReadOptions& options);
 

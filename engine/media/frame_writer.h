@@ -7,39 +7,52 @@
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/media/atomic_file.h"  // remove_stale_temporaries()
 #include "engine/media/frame_reader.h"
 
 namespace weft {
 
 struct WriteOptions {
-    PixelDepth depth = PixelDepth::kU8;     ///< PNG, TIFF: U8 or U16; JPEG: U8; EXR: half or float.
-    int jpeg_quality = 95;                  ///< 4:4:4
-    std::string exr_compression = "zip";
+    /// PNG: U8 or U16; TIFF: U8, U16 or float; JPEG: U8; EXR: half or float; DPX: U8 or U16.
+    PixelDepth depth = PixelDepth::kU8;
+    int jpeg_quality = 95;  ///< 4:4:4
+    std::string exr_compression =
+        "zip";          ///< none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
+    int dpx_bits = 10;  ///< A U16 DPX holds 10 bits (the film standard), 12 or 16.
 };
 
 /// The depth to write when the user did not say: the plate's own where the format can hold it
-/// (PNG/TIFF for U8 and U16, EXR for half and float), else the nearest that can.
+/// (PNG/TIFF for U8 and U16, EXR for half and float, TIFF for float), else the nearest that can:
+/// PNG and DPX take half and float as U16, TIFF takes half as float, EXR takes U8 as half (its
+/// codes survive) and U16 as float, JPEG takes all as U8.
 [[nodiscard]] PixelDepth default_depth(const std::string& path, PixelDepth plate);
 /// Errors: Usage when the extension is unknown or cannot hold this depth.
 [[nodiscard]] Status check_format(const std::string& path, const WriteOptions& options);
 
 /// Rounds to the nearest code (half up) once, clamps integers to their range, writes to a temporary
-/// name beside `path`, and renames it. `alpha` may be empty. Errors: NoSpace (disk full, quota),
-/// Unreadable (folder missing or not writable). On error no file of either name remains.
-[[nodiscard]] Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha, const WriteOptions& options);
+/// name beside `path`, and renames it. NaN becomes 0 in an integer file; a finite value beyond the
+/// range of half becomes the largest half, while infinity stays infinity. `alpha` may be empty;
+/// JPEG leaves it out. Nothing in the file depends on the time, so the same pixels give the same
+/// bytes. Errors: Usage (see check_format), NoSpace (disk full, quota), Unreadable (folder missing
+/// or not writable). On error no new file remains, and an older one at `path` is untouched.
+[[nodiscard]] Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha,
+                                 const WriteOptions& options);
+/// Coverage as 8-bit grey: PNG or TIFF (JPEG would blur it: Usage).
 [[nodiscard]] Status write_matte(const std::string& path, ViewU8x1 matte);
-
-/// Removes what a killed run may have left: temporary names of write_image() in the folder of `path`.
-void remove_stale_temporaries(const std::string& path);
 
 /// A review movie: .mp4 (H.264 where the build has it, else MPEG-4) or .mkv (FFV1, lossless 8 bit).
 /// Frames go to a temporary name; close() renames it. Destroyed without close(): nothing remains.
+/// Movies have even sizes: the last column or row is repeated where one is missing. One thread.
 class MovieWriter {
   public:
     virtual ~MovieWriter() = default;
-    [[nodiscard]] virtual Status add(ViewF3 display_rgb) = 0;  ///< sRGB-encoded [0, 1].
+    /// sRGB-encoded [0, 1]. Errors: Usage for another size; NoSpace.
+    [[nodiscard]] virtual Status add(ViewF3 display_rgb) = 0;
+    /// Errors: NoSpace, RenderFailed when no frame was added or the encoder wrote nothing.
     [[nodiscard]] virtual Status close() = 0;
 };
-[[nodiscard]] Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size, double fps);
+/// Errors: Usage (another extension, an empty size, fps not above 0), Unreadable (the folder).
+[[nodiscard]] Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size,
+                                                                double fps);
 
 }  // namespace weft

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,22 +8,30 @@
 
 namespace weft {
 
-/// A numbered file name: `####` or `@@@@` (one character a digit, at least that many), `%04d`, `%d`.
-/// A name without any of these is a single file (is_single()).
+/// A numbered file name: `####` or `@@@@` (one character a digit, at least that many), `%04d`,
+/// `%d`. A name without any of these is a single file (is_single()).
 class SequencePattern {
   public:
-    /// Errors: Usage when more than one placeholder stands in the name, or one in the folder part.
+    /// Errors: Usage when more than one placeholder stands in the name, or one in the folder part
+    /// (there a lone # or @ is an ordinary character).
     [[nodiscard]] static Expected<SequencePattern> parse(std::string_view text);
+    /// A single file whose name is taken as it stands (logo@2x.png has no frame number).
+    [[nodiscard]] static SequencePattern single(std::string_view path);
 
     [[nodiscard]] bool is_single() const { return !numbered_; }
     [[nodiscard]] const std::string& text() const { return text_; }
-    /// Negative numbers are written as -0012: the sign comes before the padding.
+    /// Negative numbers are written as -0012: the sign comes before the padding. A single file has
+    /// the same path for every frame.
     [[nodiscard]] std::string path_for(int frame) const;
-    /// The number in a path that this pattern would write, or nothing.
-    [[nodiscard]] Expected<std::vector<int>> list_frames() const;  ///< Ascending. Error: Unreadable folder.
+    /// The number in a path that this pattern would write, or nothing: path_for(*frame_of(p)) == p.
+    [[nodiscard]] std::optional<int> frame_of(std::string_view path) const;
+    /// The frames whose files are in the folder now, ascending; none for a single file. Error:
+    /// Unreadable folder.
+    [[nodiscard]] Expected<std::vector<int>> list_frames() const;
 
   private:
-    std::string text_, prefix_, suffix_;  // whole, before and after the number (prefix has the folder)
+    std::string text_, prefix_,
+        suffix_;  // whole, before and after the number (prefix has the folder)
     int padding_ = 0;
     bool numbered_ = false;
 };

@@ -52,4 +52,13 @@ struct SeamResult {
 [[nodiscard]] std::optional<SeamResult> solve_planar_dual(const SeamProblem& problem);
 [[nodiscard]] SeamResult solve_grid_maxflow(const SeamProblem& problem);
 
+/// Minimum-error boundary (Efros & Freeman 2001) under the same costs: from every side of the window
+/// whose border is tied to the old picture a boundary that is monotone along that side is found by
+/// dynamic programming; the new picture shows behind all of them. Ties hold. Never below the minimum
+/// cut. The original bounds a boundary's step to one pixel a row; here a step may be longer and pays
+/// for it, because overlaps may be ragged. Data terms take no part. Pure; thread-safe.
+[[nodiscard]] SeamResult solve_min_error_boundary(const SeamProblem& problem);
+/// Direct stitching: the new picture wherever it is not tied to the old one.
+[[nodiscard]] SeamResult solve_direct(const SeamProblem& problem);
+
 }  // namespace weft

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "engine/core/cancel.h"
 #include "engine/core/error.h"
@@ -30,6 +31,7 @@ struct PlaneOptions {
     std::uint64_t region = 0, frame = 0;        ///< Further keys of the random numbers.
     bool tileable = false;                      ///< Opposite borders join along cut seams.
     std::optional<PlaneGuide> guide;
+    int refine_passes = 0;                      ///< Rounds of blocks over the worst seams, 0 is off.
 };
 
 /// Times in seconds of wall clock; total includes planning and cold caches.
@@ -55,5 +57,9 @@ struct TexturePlane {
 [[nodiscard]] Expected<TexturePlane> grow_plane(ViewU8x3 sample, const PlaneOptions& options,
                                                 const CancelToken& cancel = {},
                                                 const ProgressFn& progress = {});
+
+/// What an artist should know about a sample before it is grown, or nothing: that it is one flat
+/// colour.
+[[nodiscard]] std::optional<std::string> sample_warning(ViewU8x3 sample);
 
 }  // namespace weft

@@ -1,0 +1,68 @@
+#pragma once
+// The subcommands, free of how their arguments were written. Each returns the exit code.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/console.h"
+#include "app/session/render_job.h"
+#include "engine/metrics/measuring_motion.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+/// How a job is run, whatever it renders.
+struct RunOptions {
+    std::string backend = "auto";
+    int threads = 0;
+    bool overwrite = false, skip_existing = false;
+    bool dry_run = false;
+    AnalysisCacheOptions cache;
+    std::string report;                       ///< Path of the JSON report.
+    ProgressStyle progress = ProgressStyle::kPlain;
+    bool json = false;
+};
+
+/// `weft replace` and `weft render`: the project has its paths resolved.
+int render_command(const Project& project, const RunOptions& run);
+
+int matte_command(const Project& project, const std::string& output, const RunOptions& run);
+
+struct SynthOptions {
+    std::string sample, output, source_map, texture_space;
+    PlaneOptions plane;
+    int threads = 0;
+    bool overwrite = false, json = false;
+};
+int synth_command(const SynthOptions& options);
+
+struct MeasureCommandOptions {
+    Project project;                          ///< Plate, matte, placement, motion; paths resolved.
+    std::string result;
+    std::string texture;                      ///< Plane to compare with; empty: none.
+    std::string motion_estimator = "deepflow";
+    int threads = 0;
+    bool json = false;
+};
+int measure_command(const MeasureCommandOptions& options);
+
+struct DiffOptions {
+    std::string a, b;
+    std::string frames;
+    double tolerance = 0;                     ///< Largest difference that counts as the same.
+    bool json = false;
+};
+int diff_command(const DiffOptions& options);
+
+int info_command(const std::string& path, bool json);
+int validate_command(const std::string& path, bool files);
+int new_command(const std::string& path, const Project& project, bool overwrite);
+int apply_command(const std::string& path, const std::string& actions, bool dry_run);
+/// A change of one region (or, without a name, a new one) in a project file.
+int region_add_command(const std::string& path, Region region);
+int region_list_command(const std::string& path, bool json);
+
+int demo_command(const std::string& assets, const std::string& output, const RunOptions& run);
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+#pragma once
+// What goes to which stream: results and progress to stdout, messages to stderr. With --json exactly
+// one object goes to stdout and progress to stderr.
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "engine/core/cancel.h"
+#include "engine/core/error.h"
+#include "engine/core/progress.h"
+
+namespace weft {
+
+enum class ProgressStyle { kPlain, kJson, kNone };
+
+/// Prints to a stream and flushes it, so that a farm's log is never behind.
+void print(std::FILE* stream, std::string_view text);
+void print_warning(std::string_view text);
+/// Prints the error to stderr and returns its exit code.
+[[nodiscard]] int report_error(const Error& error);
+
+/// One line for each finished frame: "frame 1042 37/100 37.0% 1.84s"; other stages by name.
+[[nodiscard]] ProgressFn progress_printer(ProgressStyle style, bool to_stderr);
+
+/// A token that SIGINT and SIGTERM cancel, with the exit codes 130 and 143.
+[[nodiscard]] CancelToken cancel_on_signals();
+
+}  // namespace weft

@@ -1,0 +1,61 @@
+#include <filesystem>
+
+#include "app/cli/commands.h"
+#include "app/project/project_file.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Frames of the plate above the same frames of the result, at half size, in one picture.
+Status write_contact_sheet(const Project& project, const std::string& path) {
+    WEFT_TRY(plate, open_plate(project.plate.path, {}));
+    WEFT_TRY(result, open_plate(project.output.path, {}));
+    constexpr int kColumns = 4, kGap = 8;
+    const Size half{plate->size().width / 2, plate->size().height / 2};
+    ImageF3 sheet(kColumns * (half.width + kGap) - kGap, 2 * half.height + kGap, 0.12f);
+    const auto& frames = result->frames();
+    for (int column = 0; column < kColumns; ++column) {
+        const std::size_t last = frames.size() - 1;
+        const int frame = frames[last * static_cast<std::size_t>(column) / (kColumns - 1)];
+        for (int row = 0; row < 2; ++row) {
+            WEFT_TRY(picture, (row == 0 ? plate : result)->read(frame));
+            for (int y = 0; y < half.height; ++y) {
+                for (int x = 0; x < half.width; ++x) {
+                    float* out = sheet.pixel(column * (half.width + kGap) + x, row * (half.height + kGap) + y);
+                    for (int c = 0; c < 3; ++c) {
+                        out[c] = 0.25f * (picture.rgb.pixel(2 * x, 2 * y)[c] + picture.rgb.pixel(2 * x + 1, 2 * y)[c] +
+                                          picture.rgb.pixel(2 * x, 2 * y + 1)[c] +
+                                          picture.rgb.pixel(2 * x + 1, 2 * y + 1)[c]);
+                    }
+                }
+            }
+        }
+    }
+    return write_image(path, sheet, {}, {});
+}
+
+}  // namespace
+
+int demo_command(const std::string& assets, const std::string& output, const RunOptions& run) {
+    const std::string path = (fs::path(assets) / "demo" / "demo.weft").string();
+    auto project = load_project(path);
+    if (!project) return report_error(project.error());
+    *project = resolve_paths(*project, project_dir(path));
+    project->output.path = (fs::path(output) / "####.png").string();
+    project->output.movie = (fs::path(output) / "demo.mp4").string();
+    if (const int exit = render_command(*project, run); exit != 0 || run.dry_run) return exit;
+    const std::string sheet = (fs::path(output) / "contact_sheet.png").string();
+    if (const Status written = write_contact_sheet(*project, sheet); !written) return report_error(written.error());
+    if (!run.json) {
+        print(stdout, "The demo shot is in " + fs::absolute(output).string() + ":\n  frames         " +
+                          project->output.path + "\n  movie          " + project->output.movie +
+                          "\n  contact sheet  " + sheet + " (plate above, result below)\n");
+    }
+    return 0;
+}
+
+}  // namespace weft

@@ -1,0 +1,85 @@
+#pragma once
+// Names of enumerators. Internal: others use choice_name() of parameters.h.
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "app/project/project.h"
+
+namespace weft {
+
+template <class E>
+struct Choices;
+
+template <>
+struct Choices<Quality> {
+    static constexpr std::array<std::pair<Quality, std::string_view>, 2> kNames{
+        {{Quality::kDraft, "draft"}, {Quality::kFinal, "final"}}};
+};
+template <>
+struct Choices<OutputDepth> {
+    static constexpr std::array<std::pair<OutputDepth, std::string_view>, 5> kNames{
+        {{OutputDepth::kAuto, "auto"},
+         {OutputDepth::k8, "8"},
+         {OutputDepth::k16, "16"},
+         {OutputDepth::kHalf, "half"},
+         {OutputDepth::kFloat, "float"}}};
+};
+template <>
+struct Choices<WrapMode> {
+    static constexpr std::array<std::pair<WrapMode, std::string_view>, 3> kNames{
+        {{WrapMode::kRepeat, "repeat"},
+         {WrapMode::kMirror, "mirror"},
+         {WrapMode::kClamp, "clamp"}}};
+};
+template <>
+struct Choices<MotionDirection> {
+    static constexpr std::array<std::pair<MotionDirection, std::string_view>, 2> kNames{
+        {{MotionDirection::kForward, "forward"}, {MotionDirection::kBackward, "backward"}}};
+};
+template <>
+struct Choices<SeamMethod> {
+    static constexpr std::array<std::pair<SeamMethod, std::string_view>, 3> kNames{
+        {{SeamMethod::kGraphCut, "graphcut"},
+         {SeamMethod::kDynamicProgramming, "dp"},
+         {SeamMethod::kNone, "none"}}};
+};
+template <>
+struct Choices<TemporalMode> {
+    static constexpr std::array<std::pair<TemporalMode, std::string_view>, 3> kNames{
+        {{TemporalMode::kLocked, "locked"},
+         {TemporalMode::kPaper, "paper"},
+         {TemporalMode::kNone, "none"}}};
+};
+template <>
+struct Choices<LightSource> {
+    static constexpr std::array<std::pair<LightSource, std::string_view>, 3> kNames{
+        {{LightSource::kPlate, "plate"},
+         {LightSource::kNone, "none"},
+         {LightSource::kImage, "image"}}};
+};
+template <>
+struct Choices<LightForm> {
+    static constexpr std::array<std::pair<LightForm, std::string_view>, 3> kNames{
+        {{LightForm::kGain, "gain"},
+         {LightForm::kDetail, "detail"},
+         {LightForm::kLiteral, "literal"}}};
+};
+
+template <class E>
+[[nodiscard]] constexpr std::string_view name_of(E value) {
+    for (const auto& [candidate, name] : Choices<E>::kNames)
+        if (candidate == value) return name;
+    return {};
+}
+
+/// `name` is one of the choices: normalise() has checked it.
+template <class E>
+[[nodiscard]] constexpr E choice_from(std::string_view name) {
+    for (const auto& [value, candidate] : Choices<E>::kNames)
+        if (candidate == name) return value;
+    return E{};
+}
+
+}  // namespace weft

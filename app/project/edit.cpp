@@ -1,0 +1,231 @@
+#include "app/project/edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+std::string shown(const RegionRef& ref) {
+    return ref.id != 0 ? std::to_string(ref.id) : ref.name;
+}
+
+Expected<std::size_t> index_of(const Project& project, const RegionRef& ref) {
+    if (ref.id == 0) return find_region(project, ref.name);
+    for (std::size_t i = 0; i < project.regions.size(); ++i)
+        if (project.regions[i]->id == ref.id) return i;
+    return fail(ErrorCode::kUsage, fmt::format("There is no region with the id {}", ref.id));
+}
+
+/// The project with one region replaced by what `change(Region&) -> Status` makes of it.
+template <class Change>
+Expected<Project> with_region(const Project& project, const RegionRef& ref, Change&& change) {
+    WEFT_TRY(index, index_of(project, ref));
+    Region region = *project.regions[index];
+    WEFT_CHECK_OK(change(region));
+    Project out = project;
+    out.regions[index] = std::move(region);
+    return out;
+}
+
+/// Every parameter in its range: for values that did not come in one by one.
+template <class Owner>
+Status check_parameters(const Owner& owner, std::span<const Parameter<Owner>> table) {
+    for (const Parameter<Owner>& parameter : table)
+        WEFT_CHECK_OK(normalise(parameter, parameter.read(owner)));
+    return {};
+}
+
+template <class Owner>
+Status set_by_key(Owner& owner, std::span<const Parameter<Owner>> table, const std::string& key,
+                  const ParameterValue& value) {
+    WEFT_TRY(parameter, find_parameter(table, key));
+    return set_parameter(owner, *parameter, value);
+}
+
+Expected<Project> apply_one(const Project& project, const SetPlate& edit) {
+    Project out = project;
+    out.plate = edit.plate;
+    WEFT_CHECK_OK(check_parameters(out, project_parameters()));
+    return out;
+}
+
+Expected<Project> apply_one(const Project& project, const SetOutput& edit) {
+    Project out = project;
+    out.output = edit.output;
+    WEFT_CHECK_OK(check_parameters(out, project_parameters()));
+    return out;
+}
+
+Expected<Project> apply_one(const Project& project, const SetProjectParameter& edit) {
+    Project out = project;
+    WEFT_CHECK_OK(set_by_key(out, project_parameters(), edit.key, edit.value));
+    return out;
+}
+
+Expected<Project> apply_one(const Project& project, const AddRegion& edit) {
+    WEFT_CHECK_OK(check_parameters(edit.region, region_parameters()));
+    Region region = edit.region;
+    if (region.id == 0) region.id = project.next_region_id;
+    if (region.id == UINT32_MAX)
+        return fail(ErrorCode::kUsage, "The project has used up its region ids; start a new one");
+    if (region_by_id(project, region.id))
+        return fail(
+            ErrorCode::kUsage,
+            fmt::format("There is a region with the id {} already; leave the id out", region.id));
+    const int count = static_cast<int>(project.regions.size());
+    const int index = edit.index.value_or(count);
+    if (index < 0 || index > count)
+        return fail(ErrorCode::kUsage,
+                    fmt::format("A new region's index is {}, but must be 0 to {}", index, count));
+    Project out = project;
+    out.next_region_id = std::max(out.next_region_id, region.id + 1);
+    out.regions.insert(out.regions.begin() + index, Leaf<Region>(std::move(region)));
+    return out;
+}
+
+Expected<Project> apply_one(const Project& project, const RemoveRegion& edit) {
+    WEFT_TRY(index, index_of(project, edit.region));
+    Project out = project;
+    out.regions.erase(out.regions.begin() + static_cast<std::ptrdiff_t>(index));
+    return out;
+}
+
+Expected<Project> apply_one(const Project& project, const MoveRegion& edit) {
+    WEFT_TRY(from, index_of(project, edit.region));
+    const int last = static_cast<int>(project.regions.size()) - 1;
+    if (edit.index < 0 || edit.index > last)
+        return fail(ErrorCode::kUsage,
+                    fmt::format("A region's index is {}, but must be 0 to {}", edit.index, last));
+    Project out = project;
+    const Leaf<Region> region = out.regions[from];
+    out.regions.erase(out.regions.begin() + static_cast<std::ptrdiff_t>(from));
+    out.regions.insert(out.regions.begin() + edit.index, region);
+    return out;
+}
+
+Expected<Project> apply_one(const Project& project, const RenameRegion& edit) {
+    return with_region(project, edit.region, [&](Region& region) {
+        return set_by_key(region, region_parameters(), "name", edit.name);
+    });
+}
+
+Expected<Project> apply_one(const Project& project, const SetRegionParameter& edit) {
+    return with_region(project, edit.region, [&](Region& region) {
+        return set_by_key(region, region_parameters(), edit.key, edit.value);
+    });
+}
+
+Expected<Project> apply_one(const Project& project, const SetMatte& edit) {
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        region.matte = edit.matte;
+        return check_parameters(region, region_parameters());
+    });
+}
+
+Expected<Project> apply_one(const Project& project, const SetMatteKeyframe& edit) {
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        if (!region.matte->files.empty())
+            return fail(ErrorCode::kUsage, fmt::format("The matte of region '{}' comes from the "
+                                                       "files '{}'; set matte.files to nothing "
+                                                       "before giving it keyframes",
+                                                       shown(edit.region), region.matte->files));
+        if (edit.path.empty())
+            return fail(ErrorCode::kUsage,
+                        fmt::format("The matte keyframe of frame {} needs a path", edit.frame));
+        region.matte = region.matte.with(
+            [&](MatteSource& matte) { matte.keyframes[edit.frame].path = edit.path; });
+        return {};
+    });
+}
+
+Expected<Project> apply_one(const Project& project, const RemoveMatteKeyframe& edit) {
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        if (!region.matte->keyframes.contains(edit.frame))
+            return fail(ErrorCode::kUsage,
+                        fmt::format("Region '{}' has no matte keyframe on frame {}",
+                                    shown(edit.region), edit.frame));
+        region.matte =
+            region.matte.with([&](MatteSource& matte) { matte.keyframes.erase(edit.frame); });
+        return {};
+    });
+}
+
+Expected<Project> apply_one(const Project& project, const SetHoldouts& edit) {
+    for (const MatteSource& holdout : edit.holdouts)
+        WEFT_CHECK_OK(check_parameters(holdout, matte_parameters()));
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        region.holdouts = edit.holdouts;
+        return {};
+    });
+}
+
+Expected<Project> apply_one(const Project& project, const SetTexture& edit) {
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        region.texture = edit.texture;
+        return check_parameters(region, region_parameters());
+    });
+}
+
+std::string name_of_region(const Project& project, const RegionRef& ref) {
+    const Region* region = ref.id != 0 ? region_by_id(project, ref.id) : nullptr;
+    return region && !region->name.empty() ? region->name
+           : ref.id != 0                   ? "region " + shown(ref)
+                                           : ref.name;
+}
+
+}  // namespace
+
+Expected<Project> apply_edit(const Project& project, const Edit& edit) {
+    return std::visit([&](const auto& e) { return apply_one(project, e); }, edit);
+}
+
+Expected<Project> apply_edits(const Project& project, const std::vector<Edit>& edits) {
+    Project out = project;
+    for (std::size_t i = 0; i < edits.size(); ++i) {
+        auto next = apply_edit(out, edits[i]);
+        if (!next) return fail_in(std::move(next).error(), fmt::format("Action {}", i + 1));
+        out = std::move(*next);
+    }
+    return out;
+}
+
+std::string edit_label(const Project& before, const Edit& edit) {
+    const auto region = [&](const RegionRef& ref) { return name_of_region(before, ref); };
+    struct Label {
+        const decltype(region)& name;
+        std::string operator()(const SetPlate&) const { return "Set the plate"; }
+        std::string operator()(const SetOutput&) const { return "Set the output"; }
+        std::string operator()(const SetProjectParameter& e) const { return "Set " + e.key; }
+        std::string operator()(const AddRegion& e) const {
+            return "Add " + (e.region.name.empty() ? "a region" : e.region.name);
+        }
+        std::string operator()(const RemoveRegion& e) const { return "Remove " + name(e.region); }
+        std::string operator()(const MoveRegion& e) const { return "Move " + name(e.region); }
+        std::string operator()(const RenameRegion& e) const {
+            return fmt::format("Rename {} to {}", name(e.region), e.name);
+        }
+        std::string operator()(const SetRegionParameter& e) const {
+            return fmt::format("Set {} of {}", e.key, name(e.region));
+        }
+        std::string operator()(const SetMatte& e) const {
+            return "Set the matte of " + name(e.region);
+        }
+        std::string operator()(const SetMatteKeyframe& e) const {
+            return fmt::format("Matte keyframe {} of {}", e.frame, name(e.region));
+        }
+        std::string operator()(const RemoveMatteKeyframe& e) const {
+            return fmt::format("Remove matte keyframe {} of {}", e.frame, name(e.region));
+        }
+        std::string operator()(const SetHoldouts& e) const {
+            return "Set the holdouts of " + name(e.region);
+        }
+        std::string operator()(const SetTexture& e) const {
+            return "Set the texture of " + name(e.region);
+        }
+    };
+    return std::visit(Label{region}, edit);
+}
+
+}  // namespace weft

@@ -1,0 +1,344 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "app/project/parameters.h"
+#include "engine/core/frame_range.h"
+
+namespace weft {
+namespace {
+
+std::string display_name(const ParameterInfo& info) {
+    return info.flag.empty() ? info.full_key() : fmt::format("{} ({})", info.flag, info.full_key());
+}
+
+std::string_view type_name(ParameterKind kind) {
+    switch (kind) {
+        case ParameterKind::kFlag:
+            return "true or false";
+        case ParameterKind::kInteger:
+            return "a whole number";
+        case ParameterKind::kNumber:
+            return "a number";
+        case ParameterKind::kChoice:
+        case ParameterKind::kText:
+            return "a text";
+        case ParameterKind::kPath:
+            return "a path";
+        case ParameterKind::kPoint:
+            return "two numbers, x and y";
+        case ParameterKind::kCorners:
+            return "four points (top left, top right, bottom right, bottom left)";
+        case ParameterKind::kFrames:
+            return "a list of frame numbers";
+    }
+    return "";
+}
+
+std::string shown(const ParameterValue& value) {
+    struct Show {
+        std::string operator()(std::monostate) const { return "nothing"; }
+        std::string operator()(bool v) const { return v ? "true" : "false"; }
+        std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+        std::string operator()(double v) const { return fmt::format("{}", v); }
+        std::string operator()(const std::string& v) const {
+            constexpr std::size_t kLongest = 60;
+            return v.size() <= kLongest ? "'" + v + "'" : "'" + v.substr(0, kLongest) + "…'";
+        }
+        std::string operator()(const std::vector<double>& v) const {
+            return fmt::format("{} numbers", v.size());
+        }
+    };
+    return std::visit(Show{}, value);
+}
+
+tl::unexpected<Error> wrong(const ParameterInfo& info, const ParameterValue& value,
+                            const std::string& wanted) {
+    return fail(ErrorCode::kUsage,
+                fmt::format("{} is {}, but must be {}", display_name(info), shown(value), wanted));
+}
+
+std::string range_text(const ParameterInfo& info) {
+    std::string out = fmt::format("{} to {}", info.min, info.max);
+    if (!info.unit.empty()) out += fmt::format(" {}", info.unit);
+    return out;
+}
+
+/// "graphcut, dp or none"
+std::string choices_text(const ParameterInfo& info) {
+    std::string out;
+    for (std::size_t i = 0; i < info.choices.size(); ++i) {
+        if (i > 0) out += i + 1 == info.choices.size() ? " or " : ", ";
+        out += info.choices[i];
+    }
+    return out;
+}
+
+/// False for NaN too.
+bool in_range(const ParameterInfo& info, double v) {
+    return v >= info.min && v <= info.max;
+}
+
+std::optional<std::int64_t> whole(const ParameterValue& value) {
+    if (const auto* i = std::get_if<std::int64_t>(&value)) return *i;
+    const auto* d = std::get_if<double>(&value);
+    constexpr double kExact = 9007199254740992.0;  // 2^53
+    if (d && std::trunc(*d) == *d && std::abs(*d) <= kExact) return static_cast<std::int64_t>(*d);
+    return std::nullopt;
+}
+
+Expected<ParameterValue> normalise_integer(const ParameterInfo& info, const ParameterValue& value) {
+    const std::optional<std::int64_t> number = whole(value);
+    if (!number) return wrong(info, value, "a whole number from " + range_text(info));
+    if (!in_range(info, static_cast<double>(*number))) return wrong(info, value, range_text(info));
+    return ParameterValue(*number);
+}
+
+Expected<ParameterValue> normalise_number(const ParameterInfo& info, const ParameterValue& value) {
+    double number = 0;
+    if (const auto* i = std::get_if<std::int64_t>(&value))
+        number = static_cast<double>(*i);
+    else if (const auto* d = std::get_if<double>(&value))
+        number = *d;
+    else
+        return wrong(info, value, "a number from " + range_text(info));
+    if (!in_range(info, number)) return wrong(info, value, range_text(info));
+    return ParameterValue(number == 0 ? 0.0 : number);  // no negative zero: files compare by bytes
+}
+
+Expected<ParameterValue> normalise_text(const ParameterInfo& info, ParameterValue value) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (!text) return wrong(info, value, std::string(type_name(info.kind)));
+    if (text->find('\0') != std::string::npos)
+        return fail(ErrorCode::kUsage, display_name(info) + " holds a zero character; remove it");
+    return value;
+}
+
+Expected<ParameterValue> normalise_choice(const ParameterInfo& info, ParameterValue value) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (!text || std::find(info.choices.begin(), info.choices.end(), *text) == info.choices.end())
+        return wrong(info, value, choices_text(info));
+    return value;
+}
+
+Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterValue value) {
+    auto* numbers = std::get_if<std::vector<double>>(&value);
+    if (!numbers) return wrong(info, value, std::string(type_name(info.kind)));
+    const std::size_t wanted = info.kind == ParameterKind::kPoint     ? 2
+                               : info.kind == ParameterKind::kCorners ? 8
+                                                                      : numbers->size();
+    if (numbers->size() != wanted) return wrong(info, value, std::string(type_name(info.kind)));
+    for (double& number : *numbers) {
+        const bool fits = in_range(info, number) &&
+                          (info.kind != ParameterKind::kFrames || std::trunc(number) == number);
+        if (!fits)
+            return fail(ErrorCode::kUsage,
+                        fmt::format("{} holds {}, but must hold numbers from {}",
+                                    display_name(info), number, range_text(info)));
+        if (number == 0) number = 0;
+    }
+    if (info.kind == ParameterKind::kFrames) {
+        std::sort(numbers->begin(), numbers->end());
+        numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
+    }
+    return value;
+}
+
+std::optional<double> number_from(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+/// Numbers between commas and spaces; nothing when one of them is none.
+std::optional<std::vector<double>> numbers_from(std::string_view text) {
+    std::vector<double> out;
+    constexpr std::string_view kBetween = ", \t";
+    for (std::size_t at = 0;
+         (at = text.find_first_not_of(kBetween, at)) != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+        const std::optional<double> number = number_from(text.substr(at, end - at));
+        if (!number) return std::nullopt;
+        out.push_back(*number);
+        at = end;
+    }
+    return out;
+}
+
+std::optional<bool> flag_from(std::string_view text) {
+    for (const std::string_view yes : {"true", "on", "yes", "1"})
+        if (text == yes) return true;
+    for (const std::string_view no : {"false", "off", "no", "0"})
+        if (text == no) return false;
+    return std::nullopt;
+}
+
+/// The text as the type of the parameter; the text itself where it is no such thing, so that
+/// normalise() says what it should have been.
+Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text) {
+    const ParameterValue as_text{std::string(text)};
+    switch (info.kind) {
+        case ParameterKind::kFlag: {
+            const auto flag = flag_from(text);
+            return flag ? ParameterValue(*flag) : as_text;
+        }
+        case ParameterKind::kInteger:
+        case ParameterKind::kNumber: {
+            const auto number = number_from(text);
+            return number ? ParameterValue(*number) : as_text;
+        }
+        case ParameterKind::kPoint:
+        case ParameterKind::kCorners: {
+            auto numbers = numbers_from(text);
+            return numbers ? ParameterValue(std::move(*numbers)) : as_text;
+        }
+        case ParameterKind::kFrames: {
+            if (text.empty()) return ParameterValue(std::vector<double>());
+            WEFT_TRY(frames, parse_frame_list(text));
+            return ParameterValue(std::vector<double>(frames.begin(), frames.end()));
+        }
+        default:
+            return as_text;
+    }
+}
+
+/// Small and enough: the names are short (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({row[j] + 1, diagonal + 1, changed});
+        }
+    }
+    return row.back();
+}
+
+template <class Owner>
+Status set_text(Owner& owner, const Parameter<Owner>& parameter,
+                std::span<const Parameter<Owner>> table, std::string_view text) {
+    const auto& choices = parameter.choices;
+    if (!parameter.path_key.empty() &&
+        std::find(choices.begin(), choices.end(), text) == choices.end()) {
+        const std::string path_name = fmt::format("{}.{}", parameter.group, parameter.path_key);
+        WEFT_TRY(path, find_parameter(table, path_name));
+        WEFT_CHECK_OK(set_parameter(owner, *path, std::string(text)));
+        return set_parameter(owner, parameter, std::string(choices.back()));
+    }
+    WEFT_TRY(value, parse_parameter(parameter, text));
+    parameter.write(owner, value);
+    return {};
+}
+
+}  // namespace
+
+std::string ParameterInfo::full_key() const {
+    return group.empty() ? std::string(key) : fmt::format("{}.{}", group, key);
+}
+
+Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue value) {
+    if (info.optional && std::holds_alternative<std::monostate>(value)) return value;
+    switch (info.kind) {
+        case ParameterKind::kFlag:
+            if (!std::holds_alternative<bool>(value)) return wrong(info, value, "true or false");
+            return value;
+        case ParameterKind::kInteger:
+            return normalise_integer(info, value);
+        case ParameterKind::kNumber:
+            return normalise_number(info, value);
+        case ParameterKind::kChoice:
+            return normalise_choice(info, std::move(value));
+        case ParameterKind::kText:
+        case ParameterKind::kPath:
+            return normalise_text(info, std::move(value));
+        case ParameterKind::kPoint:
+        case ParameterKind::kCorners:
+        case ParameterKind::kFrames:
+            return normalise_numbers(info, std::move(value));
+    }
+    return value;
+}
+
+Expected<ParameterValue> parse_parameter(const ParameterInfo& info, std::string_view text) {
+    if (info.optional && (text.empty() || text == "none")) return ParameterValue();
+    auto value = typed(info, text);
+    if (!value) return fail_in(std::move(value).error(), display_name(info));
+    return normalise(info, std::move(*value));
+}
+
+std::string format_parameter(const ParameterInfo& info, const ParameterValue& value) {
+    if (std::holds_alternative<std::monostate>(value)) return {};
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    const auto* numbers = std::get_if<std::vector<double>>(&value);
+    if (!numbers) return shown(value);
+    if (info.kind == ParameterKind::kFrames)
+        return format_frame_list(std::vector<int>(numbers->begin(), numbers->end()));
+    std::string out;
+    for (std::size_t i = 0; i < numbers->size(); ++i) {
+        if (i > 0) out += i % 2 == 1 ? "," : " ";
+        out += fmt::format("{}", (*numbers)[i]);
+    }
+    return out;
+}
+
+std::string allowed_values(const ParameterInfo& info) {
+    switch (info.kind) {
+        case ParameterKind::kFlag:
+            return "true or false";
+        case ParameterKind::kChoice: {
+            if (info.path_key.empty()) return choices_text(info);
+            ParameterInfo named = info;
+            named.choices.back() = "a path";
+            return choices_text(named);
+        }
+        case ParameterKind::kText:
+        case ParameterKind::kPath:
+            return {};
+        default:
+            return range_text(info);
+    }
+}
+
+template <class Owner>
+Expected<const Parameter<Owner>*> find_parameter(std::span<const Parameter<Owner>> table,
+                                                 std::string_view key_or_flag) {
+    std::string nearest;
+    std::size_t best = std::string_view::npos;
+    for (const Parameter<Owner>& parameter : table) {
+        const std::string key = parameter.full_key();
+        if (key == key_or_flag || (!parameter.flag.empty() && parameter.flag == key_or_flag))
+            return &parameter;
+        for (const std::string_view name : {std::string_view(key), parameter.key, parameter.flag}) {
+            // Bounded, so that a hostile name costs nothing.
+            const std::size_t distance = edit_distance(name, key_or_flag.substr(0, 64));
+            if (distance < best) best = distance, nearest = key;
+        }
+    }
+    return fail(ErrorCode::kUsage, fmt::format("There is no parameter '{}'; the nearest is '{}'",
+                                               key_or_flag.substr(0, 64), nearest));
+}
+template Expected<const Parameter<Region>*> find_parameter(std::span<const Parameter<Region>>,
+                                                           std::string_view);
+template Expected<const Parameter<Project>*> find_parameter(std::span<const Parameter<Project>>,
+                                                            std::string_view);
+
+Status set_parameter_text(Region& region, const Parameter<Region>& parameter,
+                          std::string_view text) {
+    return set_text(region, parameter, region_parameters(), text);
+}
+Status set_parameter_text(Project& project, const Parameter<Project>& parameter,
+                          std::string_view text) {
+    return set_text(project, parameter, project_parameters(), text);
+}
+
+}  // namespace weft

@@ -1,0 +1,158 @@
+#include "app/project/project.h"
+
+#include <charconv>
+
+namespace weft {
+namespace {
+
+std::size_t heap_bytes(const std::string& text) {
+    return text.capacity() > std::string().capacity() ? text.capacity() + 1 : 0;
+}
+
+constexpr std::size_t kMapNodeBytes = 48;  // a red-black node's links and malloc's own
+
+std::size_t heap_bytes(const Extras& extra) {
+    std::size_t bytes = 0;
+    for (const auto& [key, value] : extra)
+        bytes += kMapNodeBytes + 2 * sizeof(std::string) + heap_bytes(key) + heap_bytes(value);
+    return bytes;
+}
+
+/// Sum over strings and extras.
+template <class... Members>
+std::size_t heap_bytes_of(const Members&... members) {
+    return (heap_bytes(members) + ... + 0);
+}
+
+std::string list_regions(const Project& project) {
+    if (project.regions.empty()) return "the project has none yet; add one first";
+    std::string out = "there are ";
+    constexpr std::size_t kMostListed = 10;
+    for (std::size_t i = 0; i < project.regions.size() && i < kMostListed; ++i) {
+        if (i > 0) out += ", ";
+        const Region& region = *project.regions[i];
+        out += "'" + (region.name.empty() ? std::to_string(region.id) : region.name) + "'";
+    }
+    if (project.regions.size() > kMostListed) out += " and more";
+    return out;
+}
+
+Leaf<MatteSource> map_matte(const Leaf<MatteSource>& matte, const auto& map) {
+    if (matte->empty()) return matte;
+    return matte.with([&](MatteSource& m) {
+        map(m.files);
+        for (auto& [frame, key] : m.keyframes)
+            map(key.path);
+    });
+}
+
+}  // namespace
+
+Expected<std::size_t> find_region(const Project& project, std::string_view name_or_id) {
+    std::size_t found = project.regions.size();
+    for (std::size_t i = 0; i < project.regions.size(); ++i) {
+        if (project.regions[i]->name != name_or_id) continue;
+        if (found != project.regions.size())
+            return fail(ErrorCode::kUsage, "Several regions are called '" +
+                                               std::string(name_or_id) +
+                                               "'; use the id, or rename one");
+        found = i;
+    }
+    if (found != project.regions.size()) return found;
+    RegionId id = 0;
+    const char* end = name_or_id.data() + name_or_id.size();
+    const auto [stop, error] = std::from_chars(name_or_id.data(), end, id);
+    if (error == std::errc() && stop == end)
+        for (std::size_t i = 0; i < project.regions.size(); ++i)
+            if (project.regions[i]->id == id) return i;
+    return fail(ErrorCode::kUsage,
+                "There is no region '" + std::string(name_or_id) + "'; " + list_regions(project));
+}
+
+const Region* region_by_id(const Project& project, RegionId id) {
+    for (const Leaf<Region>& region : project.regions)
+        if (region->id == id) return &*region;
+    return nullptr;
+}
+
+Status add_matte_text(MatteSource& matte, std::string_view text) {
+    const std::string shown(text);
+    const std::size_t equals = text.find('=');
+    int frame = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), frame);
+    const bool keyframe =
+        error == std::errc() && equals != std::string_view::npos && stop == text.data() + equals;
+    if (!keyframe) {
+        if (text.empty())
+            return fail(ErrorCode::kUsage,
+                        "A matte is an empty text; give a pattern or FRAME=FILE");
+        if (!matte.empty())
+            return fail(
+                ErrorCode::kUsage,
+                "'" + shown + "' is a second matte; give one pattern, or keyframes as FRAME=FILE");
+        matte.files = shown;
+        return {};
+    }
+    const std::string_view path = text.substr(equals + 1);
+    if (path.empty())
+        return fail(ErrorCode::kUsage, "'" + shown + "' names no file; write FRAME=FILE");
+    if (!matte.files.empty())
+        return fail(ErrorCode::kUsage, "'" + shown + "' is a keyframe, but the matte is '" +
+                                           matte.files + "' already; give one or the other");
+    if (!matte.keyframes.emplace(frame, MatteKeyframe{std::string(path), {}}).second)
+        return fail(ErrorCode::kUsage,
+                    "Frame " + std::to_string(frame) + " has two mattes; give one");
+    return {};
+}
+
+Project map_paths(const Project& project,
+                  const std::function<std::string(const std::string&)>& visit) {
+    const auto map = [&](std::string& path) {
+        if (!path.empty()) path = visit(path);
+    };
+    Project out = project;
+    map(out.plate.path);
+    map(out.output.path);
+    map(out.output.movie);
+    for (Leaf<Region>& leaf : out.regions) {
+        leaf = leaf.with([&](Region& region) {
+            region.matte = map_matte(region.matte, map);
+            if (!region.holdouts->empty())
+                region.holdouts = region.holdouts.with([&](std::vector<MatteSource>& holdouts) {
+                    for (MatteSource& holdout : holdouts)
+                        holdout = *map_matte(holdout, map);
+                });
+            map(region.texture.sample);
+            map(region.texture.plane);
+            map(region.motion.files);
+            map(region.light.image);
+        });
+    }
+    return out;
+}
+
+std::size_t own_bytes(const MatteSource& matte) {
+    std::size_t bytes =
+        sizeof matte + heap_bytes_of(matte.files, matte.select.channel, matte.extra);
+    for (const auto& [frame, key] : matte.keyframes)
+        bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra);
+    return bytes;
+}
+
+std::size_t own_bytes(const Region& r) {
+    return sizeof r + r.reference_frames.capacity() * sizeof(int) +
+           heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
+                         r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
+                         r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,
+                         r.extra);
+}
+
+std::size_t own_bytes(const Project& p) {
+    return sizeof p + p.regions.capacity() * sizeof(Leaf<Region>) +
+           heap_bytes_of(p.name, p.plate.path, p.plate.layer, p.plate.space, p.plate.extra,
+                         p.color.working_space, p.color.texture_space, p.color.out_space,
+                         p.color.extra, p.settings.frames, p.settings.extra, p.output.path,
+                         p.output.movie, p.output.exr_compression, p.output.extra, p.extra);
+}
+
+}  // namespace weft

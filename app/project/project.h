@@ -1,0 +1,207 @@
+#pragma once
+// The document: an immutable value. Editing, undo, jobs, the command line and the editor all use
+// this one. The only way to change it is an Edit (edit.h); every number and choice in it is
+// described once, in parameters.h; docs/FORMATS.md describes the file.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/project/leaf.h"
+#include "engine/compute/wrap_mode.h"
+#include "engine/core/error.h"
+#include "engine/core/fields.h"
+#include "engine/lighting/light_source.h"
+#include "engine/lighting/shading.h"
+#include "engine/media/image_files.h"
+#include "engine/seam/seam.h"
+#include "engine/temporal/temporal_mode.h"
+
+namespace weft {
+
+/// A point on the plate in full-resolution pixels, origin top-left, y down.
+struct PlatePoint {
+    double x = 0, y = 0;
+    bool operator==(const PlatePoint&) const = default;
+};
+
+/// Stable name of a region inside its project, from 1; never given twice. It keys the region's
+/// random numbers and cached analysis, so it must survive renaming and reordering.
+using RegionId = std::uint32_t;
+
+/// The sequence whose surfaces are replaced.
+struct Plate {
+    std::string path;        ///< Pattern ("frames/####.png"), folder or movie.
+    std::string layer;       ///< EXR layer; empty: the file's R, G, B.
+    int movie_start = 1001;  ///< Number of a movie's first frame.
+    std::string space;       ///< Colour space; empty: by the file type.
+    double fps = 0;          ///< 0: as the files say, else 24.
+    Extras extra;
+    bool operator==(const Plate&) const = default;
+};
+
+/// Colour spaces of the shot; empty: by the file type (textures, output) or linear (working).
+struct ColorSettings {
+    std::string working_space, texture_space, out_space;
+    Extras extra;
+    bool operator==(const ColorSettings&) const = default;
+};
+
+enum class Quality { kDraft, kFinal };
+
+struct RenderSettings {
+    Quality quality = Quality::kFinal;
+    std::int64_t seed = 1;
+    std::string frames;  ///< "1-40", "1-100x2", "1,4,9-12"; empty: every frame of the plate.
+    Extras extra;
+    bool operator==(const RenderSettings&) const = default;
+};
+
+enum class OutputDepth { kAuto, k8, k16, kHalf, kFloat };
+
+/// Where the result goes.
+struct Output {
+    std::string path;  ///< Pattern of the numbered images.
+    OutputDepth depth =
+        OutputDepth::kAuto;  ///< kAuto: the plate's, or the nearest the format holds.
+    int jpeg_quality = 95;
+    std::string exr_compression = "zip";
+    std::string movie;  ///< Review movie (.mp4, .mkv); empty: none.
+    Extras extra;
+    bool operator==(const Output&) const = default;
+};
+
+/// A matte painted on one frame.
+struct MatteKeyframe {
+    std::string path;
+    Extras extra;
+    bool operator==(const MatteKeyframe&) const = default;
+};
+
+/// A matte over time: either a file for each frame, or painted keyframes to be propagated.
+struct MatteSource {
+    std::string files;                       ///< Pattern; empty: keyframes.
+    std::map<int, MatteKeyframe> keyframes;  ///< By frame number.
+    MatteSelect select;
+    Extras extra;
+    [[nodiscard]] bool empty() const { return files.empty() && keyframes.empty(); }
+    bool operator==(const MatteSource&) const = default;
+};
+
+/// What is put on the surface: a sample to grow a plane from, or a given plane.
+struct TextureSource {
+    std::string sample;
+    std::string plane;                  ///< Used as it is, without synthesis.
+    WrapMode wrap = WrapMode::kRepeat;  ///< What lies beyond the border of `plane`.
+    std::string space;                  ///< Empty: the project's texture space.
+    Extras extra;
+    bool operator==(const TextureSource&) const = default;
+};
+
+/// Where the texture lies on the plate of the reference frame.
+struct Placement {
+    double scale = 1;       ///< Plate pixels per sample pixel at the placement's origin.
+    double rotate_deg = 0;  ///< Counter-clockwise as seen on screen.
+    PlatePoint offset_px;
+    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, which replaces
+    /// scale, rotation and offset.
+    std::optional<std::array<PlatePoint, 4>> corners_px;
+    Extras extra;
+    bool operator==(const Placement&) const = default;
+};
+
+/// Where the surface's motion comes from.
+struct MotionSource {
+    std::string files;  ///< Pattern of true motion; empty: estimated from the plate.
+    MotionDirection direction = MotionDirection::kForward;
+    Extras extra;
+    bool operator==(const MotionSource&) const = default;
+};
+
+struct SynthesisParams {
+    SeamMethod seam = SeamMethod::kGraphCut;
+    int overlap_px = 36;
+    int feather_px = 0;
+    Extras extra;
+    bool operator==(const SynthesisParams&) const = default;
+};
+
+struct TemporalParams {
+    TemporalMode mode = TemporalMode::kLocked;
+    double blend = 0.2;  ///< The paper's α (eq. 6).
+    double weight = 1;   ///< The paper's λ_t (eq. 5).
+    Extras extra;
+    bool operator==(const TemporalParams&) const = default;
+};
+
+struct LightParams {
+    LightSource source = LightSource::kPlate;
+    std::string image;  ///< The illumination picture of kImage.
+    LightForm form = LightForm::kGain;
+    double strength = 1;  ///< λ
+    Extras extra;
+    bool operator==(const LightParams&) const = default;
+};
+
+/// One surface to be replaced.
+struct Region {
+    RegionId id = 0;  ///< 0: not in a project yet.
+    std::string name;
+    bool enabled = true;
+    int color = 0;                            ///< Index into the editor's palette.
+    Leaf<MatteSource> matte;                  ///< The extent: the surface, hidden parts included.
+    Leaf<std::vector<MatteSource>> holdouts;  ///< What passes in front of it.
+    TextureSource texture;
+    Placement placement;
+    std::vector<int> reference_frames;  ///< Ascending; empty: the first frame.
+    MotionSource motion;
+    SynthesisParams synthesis;
+    TemporalParams temporal;
+    LightParams light;
+    Extras extra;
+    bool operator==(const Region&) const = default;
+};
+
+/// A shot. Copies are cheap: regions are shared.
+struct Project {
+    std::string name;
+    Plate plate;
+    ColorSettings color;
+    RenderSettings settings;
+    Output output;
+    std::vector<Leaf<Region>> regions;  ///< Layers, later ones on top.
+    RegionId next_region_id = 1;        ///< Above every id that was ever given.
+    Extras extra;
+    bool operator==(const Project&) const = default;
+};
+
+/// Index of a region by its name or, failing that, by its id in digits. Errors: Usage when there is
+/// none (the message lists those there are) or the name stands for several.
+[[nodiscard]] Expected<std::size_t> find_region(const Project& project,
+                                                std::string_view name_or_id);
+/// The region of this id, or null.
+[[nodiscard]] const Region* region_by_id(const Project& project, RegionId id);
+
+/// Adds what a --matte or --holdout of the command line says: "12=a.png" is a painted keyframe, any
+/// other text a pattern. Errors: Usage when both are given, or two of one kind contradict each
+/// other.
+[[nodiscard]] Status add_matte_text(MatteSource& matte, std::string_view text);
+
+/// Calls `visit` with every path of the project (plate, mattes, textures, motion, light, output),
+/// in the file's order; what it returns becomes the path. Empty paths are skipped.
+[[nodiscard]] Project map_paths(const Project& project,
+                                const std::function<std::string(const std::string&)>& visit);
+
+/// Bytes of memory of a region and of what only it holds (its leaves excluded), and of a project
+/// without its regions: estimates for bounding the undo history.
+[[nodiscard]] std::size_t own_bytes(const Region& region);
+[[nodiscard]] std::size_t own_bytes(const MatteSource& matte);
+[[nodiscard]] std::size_t own_bytes(const Project& project);
+
+}  // namespace weft

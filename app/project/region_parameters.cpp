@@ -1,0 +1,204 @@
+#include <limits>
+
+#include "app/project/parameter_entry.h"
+
+namespace weft {
+namespace {
+
+using namespace parameter_entry;
+
+/// Path: to the MatteSource inside Owner; empty when Owner is one.
+template <class Owner, auto... Path>
+std::vector<Parameter<Owner>> matte_entries() {
+    return {
+        entry<Owner, Path..., &MatteSource::files>(
+            {.group = "matte",
+             .key = "files",
+             .help = "Pattern of a matte for every frame, instead of keyframes",
+             .is_path = true}),
+        entry<Owner, Path..., &MatteSource::select, &MatteSelect::value>(
+            {.group = "matte",
+             .key = "value",
+             .flag = "--matte-value",
+             .help = "Id matte: the matte is where the pixel equals this number",
+             .min = 0,
+             .max = std::numeric_limits<std::int32_t>::max(),
+             .optional = true}),
+        entry<Owner, Path..., &MatteSource::select, &MatteSelect::channel>(
+            {.group = "matte",
+             .key = "channel",
+             .flag = "--matte-channel",
+             .help = "Channel that holds the matte: R, G, B, A, Y (luma) or a name; default A when "
+                     "the file has a used alpha, else Y"}),
+        entry<Owner, Path..., &MatteSource::select, &MatteSelect::invert>(
+            {.group = "matte",
+             .key = "invert",
+             .flag = "--matte-invert",
+             .help = "The surface is where the matte is black"}),
+    };
+}
+
+std::vector<Parameter<Region>> make_region_table() {
+    using R = Region;
+    std::vector<Parameter<Region>> table{
+        entry<R, &R::name>({.key = "name", .flag = "--name", .help = "Name of the region"}),
+        entry<R, &R::enabled>({.key = "enabled",
+                               .flag = "--enabled",
+                               .help = "Whether the region is replaced at all"}),
+        entry<R, &R::color>(
+            {.key = "color", .help = "Index of its colour in the editor", .min = 0, .max = 255}),
+    };
+    for (Parameter<Region>& p : matte_entries<Region, &Region::matte>())
+        table.push_back(std::move(p));
+    const Parameter<Region> rest[] = {
+        entry<R, &R::texture, &TextureSource::sample>({.group = "texture",
+                                                       .key = "sample",
+                                                       .flag = "--texture",
+                                                       .help = "Picture to grow the texture from",
+                                                       .is_path = true}),
+        entry<R, &R::texture, &TextureSource::plane>(
+            {.group = "texture",
+             .key = "plane",
+             .flag = "--plane",
+             .help = "Picture used as the texture itself, without synthesis",
+             .is_path = true}),
+        entry<R, &R::texture, &TextureSource::wrap>(
+            {.group = "texture",
+             .key = "wrap",
+             .flag = "--plane-wrap",
+             .help = "What lies beyond the border of the plane"}),
+        entry<R, &R::texture, &TextureSource::space>(
+            {.group = "texture",
+             .key = "space",
+             .help = "Colour space of this texture; default the project's"}),
+        entry<R, &R::placement, &Placement::scale>(
+            {.group = "placement",
+             .key = "scale",
+             .flag = "--scale",
+             .unit = "plate px per sample px",
+             .help = "Size of the texture at the placement's origin on the reference frame",
+             .min = 0.001,
+             .max = 1000}),
+        entry<R, &R::placement, &Placement::rotate_deg>(
+            {.group = "placement",
+             .key = "rotate_deg",
+             .flag = "--rotate",
+             .unit = "deg",
+             .help = "Rotation of the texture, counter-clockwise",
+             .min = -3600,
+             .max = 3600}),
+        entry<R, &R::placement, &Placement::offset_px>(
+            {.group = "placement",
+             .key = "offset_px",
+             .flag = "--offset",
+             .unit = "px",
+             .help = "Shift of the texture, X,Y in full-resolution plate pixels",
+             .min = -kMaxPlatePx,
+             .max = kMaxPlatePx}),
+        entry<R, &R::placement, &Placement::corners_px>(
+            {.group = "placement",
+             .key = "corners_px",
+             .flag = "--corners",
+             .unit = "px",
+             .help = "Where the texture's corners go: top left, top right, bottom right, bottom "
+                     "left, each x,y",
+             .min = -kMaxPlatePx,
+             .max = kMaxPlatePx,
+             .optional = true}),
+        entry<R, &R::reference_frames>(
+            {.key = "reference_frames",
+             .flag = "--reference-frame",
+             .help = "Frame on which the texture is placed; default the first",
+             .min = -kMaxFrame,
+             .max = kMaxFrame,
+             .repeatable = true}),
+        entry<R, &R::motion, &MotionSource::files>(
+            {.group = "motion",
+             .key = "files",
+             .flag = "--motion",
+             .help = "Pattern of true motion (.flo, KITTI 16-bit PNG) instead of the estimate",
+             .is_path = true}),
+        entry<R, &R::motion, &MotionSource::direction>(
+            {.group = "motion",
+             .key = "direction",
+             .flag = "--motion-direction",
+             .help = "Whether a motion file points to the next frame or to the previous one"}),
+        entry<R, &R::synthesis, &SynthesisParams::seam>(
+            {.group = "synthesis",
+             .key = "seam",
+             .flag = "--seam",
+             .help = "How pieces of the sample are joined"}),
+        entry<R, &R::synthesis, &SynthesisParams::overlap_px>(
+            {.group = "synthesis",
+             .key = "overlap_px",
+             .flag = "--overlap",
+             .unit = "px",
+             .help = "Largest overlap of neighbouring pieces, in sample pixels",
+             .min = 12,
+             .max = 2048}),
+        entry<R, &R::synthesis, &SynthesisParams::feather_px>(
+            {.group = "synthesis",
+             .key = "feather_px",
+             .flag = "--feather",
+             .unit = "px",
+             .help = "Blend across the seams, in sample pixels",
+             .min = 0,
+             .max = 256}),
+        entry<R, &R::temporal, &TemporalParams::mode>(
+            {.group = "temporal",
+             .key = "mode",
+             .flag = "--temporal",
+             .help = "How the texture is carried through time: locked to the surface, as in the "
+                     "paper, or every frame anew"}),
+        entry<R, &R::temporal, &TemporalParams::blend>(
+            {.group = "temporal",
+             .key = "blend",
+             .flag = "--temporal-blend",
+             .help = "Paper mode: share of the new frame in the blend with the previous one (α)",
+             .min = 0,
+             .max = 1}),
+        entry<R, &R::temporal, &TemporalParams::weight>(
+            {.group = "temporal",
+             .key = "weight",
+             .flag = "--temporal-weight",
+             .help = "Weight of likeness to the previous frame when seams are chosen (λ_t)",
+             .min = 0,
+             .max = 100}),
+        entry<R, &R::light, &LightParams::source>(
+            {.group = "light",
+             .key = "source",
+             .flag = "--light",
+             .help = "Where the light on the new texture comes from",
+             .path_key = "image"}),
+        entry<R, &R::light, &LightParams::image>(
+            {.group = "light",
+             .key = "image",
+             .help = "Illumination picture of the light source 'image'",
+             .is_path = true}),
+        entry<R, &R::light, &LightParams::form>({.group = "light",
+                                                 .key = "form",
+                                                 .flag = "--light-form",
+                                                 .help = "How the light is put on the texture"}),
+        entry<R, &R::light, &LightParams::strength>({.group = "light",
+                                                     .key = "strength",
+                                                     .flag = "--light-strength",
+                                                     .help = "Strength of the light (λ)",
+                                                     .min = 0,
+                                                     .max = 1}),
+    };
+    table.insert(table.end(), std::begin(rest), std::end(rest));
+    return table;
+}
+
+}  // namespace
+
+std::span<const Parameter<Region>> region_parameters() {
+    static const std::vector<Parameter<Region>> table = make_region_table();
+    return table;
+}
+std::span<const Parameter<MatteSource>> matte_parameters() {
+    static const std::vector<Parameter<MatteSource>> table = matte_entries<MatteSource>();
+    return table;
+}
+
+}  // namespace weft

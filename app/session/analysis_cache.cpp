@@ -1,0 +1,266 @@
+#include "app/session/analysis_cache.h"
+
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/core/hash.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Raised whenever the analysis itself computes something else.
+constexpr int kAnalysisVersion = 1;
+
+void add_file(Hasher& hasher, const std::string& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    const auto time = fs::last_write_time(path, error).time_since_epoch().count();
+    hasher.text(path).value(static_cast<std::uint64_t>(error ? 0 : size)).value(static_cast<std::int64_t>(time));
+}
+
+Status add_pattern(Hasher& hasher, const std::string& text) {
+    hasher.text(text);
+    if (text.empty()) return {};
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    if (pattern.is_single()) {
+        add_file(hasher, text);
+        return {};
+    }
+    WEFT_TRY(frames, pattern.list_frames());
+    for (const int frame : frames) add_file(hasher, pattern.path_for(frame));
+    return {};
+}
+
+Status add_matte(Hasher& hasher, const MatteSource& matte) {
+    WEFT_CHECK_OK(add_pattern(hasher, matte.files));
+    for (const auto& [frame, key] : matte.keyframes) {
+        hasher.value(frame);
+        add_file(hasher, key.path);
+    }
+    hasher.value(matte.select.value.value_or(-1)).text(matte.select.channel).value(matte.select.invert);
+    return {};
+}
+
+// All that a region's analysis depends on.
+Expected<std::string> region_key(const Shot& shot, std::size_t index) {
+    const RegionPlan& plan = shot.plan.regions[index];
+    const Region& region = *shot.project.regions[shot.region_index[index]];
+    Hasher hasher;
+    hasher.value(kAnalysisVersion).text(shot.project.plate.layer).value(shot.project.plate.movie_start);
+    for (const int frame : shot.plate->frames()) {
+        WEFT_TRY(stamp, shot.plate->stamp(frame));
+        hasher.value(frame).value(stamp.high).value(stamp.low);
+    }
+    hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name);
+    hasher.value(static_cast<int>(shot.plan.quality));
+    WEFT_CHECK_OK(add_matte(hasher, *region.matte));
+    for (const MatteSource& holdout : *region.holdouts) WEFT_CHECK_OK(add_matte(hasher, holdout));
+    WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
+    hasher.value(plan.motion_forward);
+    for (const int frame : plan.reference_frames) hasher.value(frame);
+    hasher.value(static_cast<int>(plan.temporal));
+    if (plan.temporal == TemporalMode::kPaper && plan.texture) {
+        hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
+        hasher.value(plan.blend).value(plan.weight).value(plan.overlap_px).value(plan.feather_px);
+        hasher.value(static_cast<int>(plan.seam)).value(plan.placement.scale).value(plan.placement.rotate_deg);
+        hasher.value(plan.placement.offset_px.x).value(plan.placement.offset_px.y);
+        if (plan.placement.corners) {
+            for (const Vec2 c : *plan.placement.corners) hasher.value(c.x).value(c.y);
+        }
+    }
+    return hasher.finish().hex();
+}
+
+const char* kind_name(AnalysisKind kind) {
+    switch (kind) {
+        case AnalysisKind::kMatteForward: return "matte-forward";
+        case AnalysisKind::kMatte: return "matte";
+        case AnalysisKind::kCoords: return "coords";
+        case AnalysisKind::kShading: return "shading";
+        case AnalysisKind::kPaperTexture: return "paper";
+    }
+    return "";
+}
+
+// Before the compressed bytes.
+struct Header {
+    char magic[8] = {'w', 'e', 'f', 't', 'b', 'l', 'b', '1'};
+    std::uint64_t raw_bytes = 0;
+    std::uint64_t check_high = 0, check_low = 0;
+};
+
+Hash128 checksum(const Bytes& bytes) {
+    Hasher hasher;
+    hasher.bytes(bytes.data(), bytes.size());
+    return hasher.finish();
+}
+
+class DiskStore final : public AnalysisStore {
+  public:
+    DiskStore(std::vector<fs::path> folders, fs::path remove_at_end)
+        : folders_(std::move(folders)), remove_at_end_(std::move(remove_at_end)) {}
+    ~DiskStore() override {
+        std::error_code ignored;
+        if (!remove_at_end_.empty()) fs::remove_all(remove_at_end_, ignored);
+    }
+
+    // Whole and undamaged: a blob that is not counts as missing, so that it is made again.
+    [[nodiscard]] bool has(const AnalysisKey& key) const override { return get(key).has_value(); }
+
+    [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
+        uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+        Bytes packed(size);
+        compress2(packed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), 1);
+        const Hash128 check = checksum(bytes);
+        Header header;
+        header.raw_bytes = bytes.size();
+        header.check_high = check.high;
+        header.check_low = check.low;
+
+        const fs::path path = path_of(key);
+        const fs::path temporary =
+            path.string() + "." + std::to_string(getpid()) + "-" + std::to_string(counter_++);
+        std::ofstream file(temporary, std::ios::binary);
+        file.write(reinterpret_cast<const char*>(&header), sizeof header);
+        file.write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(size));
+        file.close();
+        std::error_code error;
+        if (file) fs::rename(temporary, path, error);
+        if (!file || error) {
+            std::error_code ignored;
+            fs::remove(temporary, ignored);
+            return fail(ErrorCode::kNoSpace, "The analysis cache " + path.parent_path().string() +
+                                                 " cannot be written. Free disk space, or choose "
+                                                 "another folder with --cache.");
+        }
+        return {};
+    }
+
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
+        std::ifstream file(path_of(key), std::ios::binary);
+        Header header;
+        const Header expected;
+        file.read(reinterpret_cast<char*>(&header), sizeof header);
+        constexpr std::uint64_t kLargest = 1ull << 32;
+        if (!file || std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0 ||
+            header.raw_bytes > kLargest) {
+            return missing(key);
+        }
+        const Bytes packed{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+        Bytes bytes(header.raw_bytes);
+        auto size = static_cast<uLongf>(bytes.size());
+        const bool unpacked = uncompress(bytes.data(), &size, packed.data(),
+                                         static_cast<uLong>(packed.size())) == Z_OK;
+        const Hash128 check = checksum(bytes);
+        if (!unpacked || size != bytes.size() || check.high != header.check_high ||
+            check.low != header.check_low) {
+            return missing(key);
+        }
+        return bytes;
+    }
+
+  private:
+    [[nodiscard]] fs::path path_of(const AnalysisKey& key) const {
+        return folders_[static_cast<std::size_t>(key.region)] /
+               (std::string(kind_name(key.kind)) + "." + std::to_string(key.frame));
+    }
+    static tl::unexpected<Error> missing(const AnalysisKey& key) {
+        return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " + std::to_string(key.frame) +
+                                                  " is missing or damaged. Render again.");
+    }
+
+    std::vector<fs::path> folders_;
+    fs::path remove_at_end_;
+    std::atomic<unsigned> counter_{0};
+};
+
+fs::path default_folder() {
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) return fs::path(xdg) / "weft";
+    if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "weft";
+    return {};
+}
+
+bool writable(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    return !error && access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+// Deletes the longest unused analyses until the rest fits the limit; those in use stay.
+void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint64_t limit_bytes) {
+    struct Entry {
+        fs::file_time_type used;
+        std::uint64_t bytes;
+        fs::path path;
+    };
+    std::vector<Entry> entries;
+    std::uint64_t total = 0;
+    std::error_code error;
+    for (const auto& folder : fs::directory_iterator(root, error)) {
+        Entry entry{fs::last_write_time(folder.path(), error), 0, folder.path()};
+        for (const auto& file : fs::directory_iterator(folder.path(), error)) {
+            entry.bytes += file.is_regular_file(error) ? file.file_size(error) : 0;
+        }
+        total += entry.bytes;
+        if (std::find(in_use.begin(), in_use.end(), entry.path) == in_use.end()) entries.push_back(entry);
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
+    for (const Entry& entry : entries) {
+        if (total <= limit_bytes) return;
+        fs::remove_all(entry.path, error);
+        total -= entry.bytes;
+    }
+}
+
+}  // namespace
+
+Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
+                                                             const AnalysisCacheOptions& options,
+                                                             std::vector<std::string>& warnings) {
+    fs::path root = options.folder.empty() ? default_folder() : fs::path(options.folder);
+    bool keep = options.keep;
+    if (keep && !root.empty()) root /= "analysis";
+    if (keep && (root.empty() || !writable(root))) {
+        if (!options.folder.empty()) {
+            return fail(ErrorCode::kUnreadable, "The cache folder " + options.folder +
+                                                    " cannot be written. Choose another with --cache.");
+        }
+        warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
+        keep = false;
+    }
+    if (!keep) {
+        std::error_code error;
+        std::string name = (fs::temp_directory_path(error) / "weft-XXXXXX").string();
+        if (error || !mkdtemp(name.data())) {
+            return fail(ErrorCode::kNoSpace, "No temporary folder can be made. Set TMPDIR or give --cache FOLDER.");
+        }
+        root = name;
+    }
+    std::vector<fs::path> folders;
+    for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
+        WEFT_TRY(key, region_key(shot, k));
+        folders.push_back(root / key);
+        std::error_code error;
+        fs::create_directories(folders.back(), error);
+        if (error) {
+            return fail(ErrorCode::kNoSpace, "The folder " + folders.back().string() + " cannot be made: " +
+                                                 error.message() + ".");
+        }
+        fs::last_write_time(folders.back(), fs::file_time_type::clock::now(), error);
+    }
+    if (keep) prune(root, folders, options.limit_bytes);
+    return std::make_shared<DiskStore>(std::move(folders), keep ? fs::path{} : root);
+}
+
+}  // namespace weft

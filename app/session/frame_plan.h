@@ -1,0 +1,27 @@
+#pragma once
+// Which frames a shot renders, and whether all their files are there.
+
+#include <string>
+#include <vector>
+
+#include "app/project/project.h"
+#include "engine/media/frame_reader.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/region_plan.h"
+
+namespace weft {
+
+/// The project's frames: its list, or all of the plate's. Errors: Usage for a list that cannot be
+/// read, MissingFrames when the plate has not all of them.
+[[nodiscard]] Expected<std::vector<int>> frames_to_render(const Project& project, const FrameReader& plate);
+
+/// Checks that the plate has every frame of a region's span and that mattes, holdouts and motion
+/// have a file for each frame for which they will be read. Errors: MissingFrames naming the pattern
+/// and the frames.
+[[nodiscard]] Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
+                                 const FrameReader& plate);
+
+/// "frames 4-9 and 12"; long lists are cut.
+[[nodiscard]] std::string frames_text(const std::vector<int>& frames);
+
+}  // namespace weft

@@ -1,0 +1,80 @@
+#include <filesystem>
+
+#include "app/session/render_job.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/matte_pass.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder is there and none of the files is, unless they may be replaced.
+Status prepare_output(const SequencePattern& pattern, const std::vector<int>& frames, ExistingFrames existing) {
+    if (pattern.is_single() && frames.size() > 1) {
+        return fail(ErrorCode::kUsage, "The output " + pattern.text() +
+                                           " has no frame number. Write it like 'mattes/####.png'.");
+    }
+    const fs::path folder = fs::path(pattern.path_for(frames.front())).parent_path();
+    std::error_code error;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (error) {
+        return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() + " cannot be made: " +
+                                                error.message() + ". Choose another with -o.");
+    }
+    for (const int frame : frames) {
+        const std::string path = pattern.path_for(frame);
+        if (existing == ExistingFrames::kRefuse && fs::exists(path, error)) {
+            return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another folder.");
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec, const std::string& pattern_text,
+                                                 const CancelToken& cancel, const ProgressFn& progress) {
+    use_threads(spec.threads);
+    WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
+    OpenShotOptions options;
+    options.textures = false;
+    WEFT_TRY(shot, open_shot(spec.project, options));
+    const ShotPlan& plan = shot->plan;
+    if (plan.regions.size() != 1) {
+        return fail(ErrorCode::kUsage, "Mattes are made for one region at a time.");
+    }
+    WEFT_CHECK_OK(prepare_output(pattern, plan.frames, spec.existing));
+
+    std::vector<std::string> warnings;
+    WEFT_TRY(store, open_analysis_cache(*shot, spec.cache, warnings));
+    ProgressEvent event{"analyse", 0, count_matte_steps(plan, *store), 0, 0};
+    const PassContext context{*shot->source, plan, cancel, [&](int frame, double seconds) {
+                                  ++event.done;
+                                  event.frame = frame;
+                                  event.seconds = seconds;
+                                  if (progress) progress(event);
+                              }};
+    WEFT_CHECK_OK(propagate_mattes(context, *store));
+
+    std::vector<MatteResult> results;
+    for (const int frame : plan.frames) {
+        if (cancel.cancelled()) return cancelled(cancel);
+        StoredMatte matte;
+        if (plan.regions[0].propagated()) {
+            WEFT_TRY(bytes, store->get({0, frame, AnalysisKind::kMatte}));
+            WEFT_TRY(stored, decode_matte(bytes));
+            matte = std::move(stored);
+        } else {
+            WEFT_TRY(read, shot->source->matte(0, frame));
+            matte.matte = std::move(read);
+        }
+        results.push_back({frame, pattern.path_for(frame), matte.confidence});
+        WEFT_CHECK_OK(write_matte(results.back().path, matte.matte));
+    }
+    return results;
+}
+
+}  // namespace weft

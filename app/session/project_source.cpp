@@ -1,0 +1,71 @@
+#include "app/session/project_source.h"
+
+#include <algorithm>
+
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+
+namespace weft {
+namespace {
+
+class ProjectSource final : public ShotSource {
+  public:
+    ProjectSource(std::shared_ptr<const CachedReader> plate, std::vector<Leaf<Region>> regions)
+        : plate_(std::move(plate)), regions_(std::move(regions)) {}
+
+    [[nodiscard]] Size size() const override { return plate_->size(); }
+
+    [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override {
+        WEFT_TRY(decoded, plate_->read_shared(frame));
+        return std::shared_ptr<const ImageF3>(decoded, &decoded->rgb);
+    }
+
+    [[nodiscard]] Expected<Matte> matte(int region, int frame) const override {
+        return read(*at(region).matte, frame);
+    }
+
+    [[nodiscard]] Expected<Matte> matte_key(int region, int frame) const override {
+        const MatteSource& matte = *at(region).matte;
+        return read_matte(matte.keyframes.at(frame).path, matte.select, size());
+    }
+
+    [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override {
+        std::optional<Matte> all;
+        for (const MatteSource& holdout : *at(region).holdouts) {
+            WEFT_TRY(one, read(holdout, frame));
+            if (!all) {
+                all = std::move(one);
+                continue;
+            }
+            std::transform(one.data(), one.data() + one.size_bytes(), all->data(), all->data(),
+                           [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+        }
+        return all;
+    }
+
+    [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
+        WEFT_TRY(pattern, SequencePattern::parse(at(region).motion.files));
+        return read_flow(pattern.path_for(frame), size());
+    }
+
+  private:
+    [[nodiscard]] const Region& at(int region) const {
+        return *regions_[static_cast<std::size_t>(region)];
+    }
+    [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
+        WEFT_TRY(pattern, SequencePattern::parse(source.files));
+        return read_matte(pattern.path_for(frame), source.select, size());
+    }
+
+    std::shared_ptr<const CachedReader> plate_;
+    std::vector<Leaf<Region>> regions_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ShotSource> make_project_source(std::shared_ptr<const CachedReader> plate,
+                                                      std::vector<Leaf<Region>> regions) {
+    return std::make_shared<ProjectSource>(std::move(plate), std::move(regions));
+}
+
+}  // namespace weft

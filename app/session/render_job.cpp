@@ -1,0 +1,306 @@
+#include "app/session/render_job.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+#include <opencv2/core/utility.hpp>
+
+#include "engine/compute/backend_registry.h"
+#include "engine/core/parallel.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/analyse.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/render_frame.h"
+#include "gpu/cuda_backend.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A frame that an earlier run left and that need not be made again.
+bool usable(const std::string& path, Size size) {
+    const auto image = read_image(path);
+    return image && image->rgb.size() == size;
+}
+
+class RenderJob {
+  public:
+    RenderJob(const JobSpec& spec, CancelToken cancel, const ProgressFn& progress)
+        : spec_(spec), cancel_(std::move(cancel)), progress_(progress) {}
+
+    Expected<JobResult> run() {
+        const auto start = Clock::now();
+        WEFT_CHECK_OK(open());
+        result_.seconds.open = seconds_since(start);
+        const auto work = Clock::now();
+        WEFT_CHECK_OK(timed(result_.seconds.analyse, [&]() -> Status {
+            if (to_render_.empty()) return {};
+            return analyse_shot(*shot_->source, plan_, *store_, cancel_, progress_);
+        }));
+        WEFT_CHECK_OK(timed(result_.seconds.synthesise, [&] { return make_scenes(); }));
+        WEFT_CHECK_OK(timed(result_.seconds.render, [&] { return render_all(); }));
+        result_.fps = static_cast<double>(to_render_.size()) / std::max(1e-9, seconds_since(work));
+        result_.seconds.total = seconds_since(start);
+        finish_warnings();
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        result_.peak_rss_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+        return std::move(result_);
+    }
+
+  private:
+    template <class F>
+    static Status timed(double& seconds, F&& work) {
+        const auto start = Clock::now();
+        Status status = work();
+        seconds = seconds_since(start);
+        return status;
+    }
+
+    Status open() {
+        use_threads(spec_.threads);
+        BackendRegistry registry;
+        register_cuda(registry);
+        WEFT_TRY(choice, registry.choose(spec_.backend));
+        backend_ = choice.backend;
+        result_.backend = backend_->name();
+        result_.backend_description = backend_->description();
+        result_.passed_over = choice.passed_over;
+
+        if (spec_.project.output.path.empty()) {
+            return fail(ErrorCode::kUsage, "No output is set. Give a pattern with -o, such as 'out/####.png'.");
+        }
+        WEFT_TRY(pattern, SequencePattern::parse(spec_.project.output.path));
+        pattern_ = pattern;
+        WEFT_TRY(shot, open_shot(spec_.project));
+        shot_ = shot;
+        plan_ = shot_->plan;
+        result_.warnings = shot_->warnings;
+        result_.spaces = shot_->spaces;
+        result_.textures = shot_->textures;
+        result_.size = shot_->plate->size();
+        if (plan_.regions.empty()) {
+            return fail(ErrorCode::kUsage, "There is no region to replace. Add one with a matte and a texture.");
+        }
+        if (pattern_->is_single() && plan_.frames.size() > 1) {
+            return fail(ErrorCode::kUsage, "The output " + pattern_->text() + " has no frame number for " +
+                                               std::to_string(plan_.frames.size()) +
+                                               " frames. Write it like 'out/####.png'.");
+        }
+        WEFT_CHECK_OK(choose_format());
+        WEFT_CHECK_OK(check_existing());
+        WEFT_TRY(store, open_analysis_cache(*shot_, spec_.cache, result_.warnings));
+        store_ = store;
+        return {};
+    }
+
+    Status choose_format() {
+        const Output& output = shot_->project.output;
+        switch (output.depth) {
+            case OutputDepth::kAuto: write_.depth = default_depth(output.path, shot_->plate->depth()); break;
+            case OutputDepth::k8: write_.depth = PixelDepth::kU8; break;
+            case OutputDepth::k16: write_.depth = PixelDepth::kU16; break;
+            case OutputDepth::kHalf: write_.depth = PixelDepth::kHalf; break;
+            case OutputDepth::kFloat: write_.depth = PixelDepth::kFloat; break;
+        }
+        write_.jpeg_quality = output.jpeg_quality;
+        write_.exr_compression = output.exr_compression;
+        return check_format(output.path, write_);
+    }
+
+    // Makes the folder, and decides about frames that are there already, before any work is done.
+    Status check_existing() {
+        const fs::path folder = fs::path(pattern_->path_for(plan_.frames.front())).parent_path();
+        std::error_code error;
+        if (!folder.empty()) fs::create_directories(folder, error);
+        if (error) {
+            return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() + " cannot be made: " +
+                                                    error.message() + ". Choose another with -o.");
+        }
+        remove_stale_temporaries(pattern_->path_for(plan_.frames.front()));
+        WEFT_TRY(probe, TemporaryFile::create(pattern_->path_for(plan_.frames.front())));
+        std::vector<int> present;
+        for (const int frame : plan_.frames) {
+            const std::string path = pattern_->path_for(frame);
+            if (path == shot_->plate->path_of(frame)) {
+                return fail(ErrorCode::kUsage, "The output " + path + " would overwrite the plate. Choose "
+                                               "another folder with -o.");
+            }
+            if (fs::exists(path, error)) present.push_back(frame);
+        }
+        if (!present.empty() && spec_.existing == ExistingFrames::kRefuse) {
+            return fail(ErrorCode::kUsage, pattern_->path_for(present.front()) + " exists already" +
+                                               (present.size() > 1 ? ", and " + std::to_string(present.size() - 1) +
+                                                                         " more"
+                                                                   : "") +
+                                               ". Use --overwrite, --skip-existing, or another folder.");
+        }
+        for (const int frame : plan_.frames) {
+            const bool skip = spec_.existing == ExistingFrames::kSkip &&
+                              std::binary_search(present.begin(), present.end(), frame) &&
+                              usable(pattern_->path_for(frame), shot_->plate->size());
+            result_.frames.push_back({frame, pattern_->path_for(frame), 0, skip, 0, 0});
+            if (!skip) to_render_.push_back(frame);
+        }
+        // Only what is still to be rendered has to be analysed.
+        plan_.frames = to_render_;
+        return {};
+    }
+
+    Status make_scenes() {
+        if (to_render_.empty()) return {};
+        for (std::size_t k = 0; k < plan_.regions.size(); ++k) {
+            if (const auto& texture = *plan_.regions[k].texture; !texture.is_plane) {
+                const auto warning = sample_warning(synthesis_sample8(k));
+                if (warning) result_.warnings.push_back(*warning);
+            }
+            auto scene = make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_, {});
+            if (!scene) {
+                const std::size_t at = shot_->region_index[k];
+                return fail_in(std::move(scene).error(), "Region '" + shot_->project.regions[at]->name + "'");
+            }
+            result_.planes.push_back(scene->stats);
+            scenes_.push_back(std::move(*scene));
+        }
+        return {};
+    }
+
+    [[nodiscard]] ImageU8x3 synthesis_sample8(std::size_t region) const {
+        const RegionPlan& plan = plan_.regions[region];
+        return make_views(plan.texture->pixels, *plan.display_from_texture).display;
+    }
+
+    Status render_all() {
+        std::unique_ptr<MovieWriter> movie;
+        if (!shot_->project.output.movie.empty()) {
+            WEFT_TRY(opened, open_review_movie());
+            movie = std::move(opened);
+        }
+        // A batch of frames at a time, so that the movie gets them in order and memory stays bounded.
+        const auto batch = static_cast<std::size_t>(2 * thread_count());
+        for (std::size_t first = 0; first < result_.frames.size(); first += batch) {
+            const std::size_t count = std::min(batch, result_.frames.size() - first);
+            std::vector<Status> status(count);
+            std::vector<ImageF3> display(movie ? count : 0);
+            parallel_for(count, [&](std::size_t k) {
+                status[k] = one_frame(result_.frames[first + k], movie ? &display[k] : nullptr);
+            });
+            for (std::size_t k = 0; k < count; ++k) {
+                if (!status[k]) {
+                    return fail_in(std::move(status[k]).error(),
+                                   "Frame " + std::to_string(result_.frames[first + k].frame));
+                }
+                if (movie) WEFT_CHECK_OK(movie->add(display[k]));
+            }
+        }
+        return movie ? movie->close() : Status{};
+    }
+
+    Expected<std::unique_ptr<MovieWriter>> open_review_movie() {
+        const std::string& path = shot_->project.output.movie;
+        std::error_code error;
+        if (fs::exists(path, error) && spec_.existing == ExistingFrames::kRefuse) {
+            return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.");
+        }
+        const double given = shot_->project.plate.fps, of_plate = shot_->plate->fps();
+        WEFT_TRY(display_from_out, make_color_transform(shot_->spaces.out, {"srgb"}));
+        display_from_out_ = display_from_out;
+        result_.movie = path;
+        return open_movie(path, shot_->plate->size(), given > 0 ? given : of_plate > 0 ? of_plate : 24.0);
+    }
+
+    Status one_frame(FrameResult& result, ImageF3* display) {
+        if (cancel_.cancelled()) return cancelled(cancel_);
+        const auto start = Clock::now();
+        ImageF3 pixels;
+        if (result.skipped) {
+            if (display) {
+                WEFT_TRY(written, read_image(result.path));
+                pixels = std::move(written.rgb);
+            }
+        } else {
+            WEFT_TRY(rendered, render_frame(*shot_->source, plan_, scenes_, *store_, *backend_, result.frame));
+            WEFT_TRY(decoded, shot_->plate->read_shared(result.frame));
+            WEFT_CHECK_OK(write_image(result.path, rendered.pixels, decoded->alpha, write_));
+            result.above_one = rendered.above_one;
+            result.filled = rendered.filled;
+            pixels = std::move(rendered.pixels);
+        }
+        if (display) {
+            display_from_out_->apply(pixels);
+            *display = std::move(pixels);
+        }
+        result.seconds = seconds_since(start);
+        const std::lock_guard lock(progress_mutex_);
+        ++done_;
+        if (progress_) {
+            progress_({"render", done_, static_cast<std::int64_t>(result_.frames.size()), result.frame,
+                       result.seconds});
+        }
+        return {};
+    }
+
+    // What exceeded the output's range and what was filled, in one line each.
+    void finish_warnings() {
+        std::int64_t above = 0, filled = 0;
+        int above_frames = 0, filled_frames = 0, first_filled = 0;
+        for (const FrameResult& f : result_.frames) {
+            above += f.above_one;
+            above_frames += f.above_one > 0;
+            if (f.filled > 0 && filled_frames++ == 0) first_filled = f.frame;
+            filled += f.filled;
+        }
+        if (above > 0) {
+            result_.warnings.push_back(std::to_string(above) + " pixels on " + std::to_string(above_frames) +
+                                       " frames were brighter than the output can hold; their highlights "
+                                       "were rolled off.");
+        }
+        if (filled > 0) {
+            result_.warnings.push_back("The plate has NaN or infinity inside a matte on " +
+                                       std::to_string(filled_frames) + " frames, first on " +
+                                       std::to_string(first_filled) + " (" + std::to_string(filled) +
+                                       " pixels in all); they were filled with the texture.");
+        }
+    }
+
+    const JobSpec& spec_;
+    CancelToken cancel_;
+    const ProgressFn& progress_;
+    JobResult result_;
+    std::shared_ptr<const Backend> backend_;
+    std::optional<SequencePattern> pattern_;
+    std::shared_ptr<const Shot> shot_;
+    ShotPlan plan_;                        // the shot's, less the frames that are there already
+    std::vector<int> to_render_;
+    WriteOptions write_;
+    std::shared_ptr<AnalysisStore> store_;
+    std::vector<RegionScene> scenes_;
+    std::shared_ptr<const ColorTransform> display_from_out_;
+    std::mutex progress_mutex_;
+    std::int64_t done_ = 0;
+};
+
+}  // namespace
+
+void use_threads(int threads) {
+    set_thread_count(threads);
+    cv::setNumThreads(thread_count());
+}
+
+Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel, const ProgressFn& progress) {
+    return RenderJob(spec, cancel, progress).run();
+}
+
+}  // namespace weft

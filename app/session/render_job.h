@@ -1,0 +1,79 @@
+#pragma once
+// The one way in which a shot becomes files: the command line runs it inline, the editor in a child
+// process, a farm in pieces.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/session/analysis_cache.h"
+#include "app/session/shot.h"
+#include "engine/core/cancel.h"
+#include "engine/core/progress.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+enum class ExistingFrames {
+    kRefuse,      ///< Stop before the first frame.
+    kOverwrite,
+    kSkip         ///< Keep those that can be read and have the plate's size; render the others.
+};
+
+/// Sets how many threads this process uses, OpenCV's included; 0 is one a processor.
+void use_threads(int threads);
+
+/// A snapshot of everything that a render needs.
+struct JobSpec {
+    Project project;                       ///< With absolute paths.
+    std::string backend = "auto";
+    int threads = 0;                       ///< 0: one a processor.
+    ExistingFrames existing = ExistingFrames::kRefuse;
+    AnalysisCacheOptions cache;
+};
+
+struct FrameResult {
+    int frame = 0;
+    std::string path;
+    double seconds = 0;
+    bool skipped = false;
+    std::int64_t above_one = 0, filled = 0;
+};
+
+struct StageSeconds {
+    double open = 0, analyse = 0, synthesise = 0, render = 0, total = 0;
+};
+
+struct JobResult {
+    std::vector<FrameResult> frames;
+    StageSeconds seconds;
+    double fps = 0;                        ///< Frames a second over analysis and rendering.
+    std::int64_t peak_rss_bytes = 0;
+    std::string backend, backend_description;
+    std::vector<std::string> passed_over;  ///< Better backends that could not be had.
+    std::vector<std::string> warnings;
+    std::vector<std::optional<PlaneStats>> planes;
+    ShotSpaces spaces;
+    std::vector<ShotTexture> textures;
+    std::string movie;
+    Size size;
+};
+
+/// Analyses, synthesises, renders and writes. Frames appear whole or not at all; what was written
+/// before an error or a cancellation stays. The bytes do not depend on the number of threads. Errors:
+/// those of opening, the backend, the disk, and cancellation. Sets the process's thread count.
+[[nodiscard]] Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel,
+                                          const ProgressFn& progress);
+
+/// Only the mattes: propagated (or read) and written to `pattern`, with the confidence of each frame.
+struct MatteResult {
+    int frame = 0;
+    std::string path;
+    float confidence = 1;
+};
+[[nodiscard]] Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
+                                                               const std::string& pattern,
+                                                               const CancelToken& cancel,
+                                                               const ProgressFn& progress);
+
+}  // namespace weft

@@ -1,0 +1,237 @@
+#include "app/session/shot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/session/frame_plan.h"
+#include "app/session/project_source.h"
+#include "engine/core/hash.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+namespace {
+
+constexpr const char* kSrgb = "srgb";
+constexpr const char* kLinear = "linear";
+
+bool float_depth(PixelDepth depth) { return depth == PixelDepth::kHalf || depth == PixelDepth::kFloat; }
+
+PlanePlacement plane_placement(const Placement& p) {
+    PlanePlacement out;
+    out.scale = static_cast<float>(p.scale);
+    out.rotate_deg = static_cast<float>(p.rotate_deg);
+    out.offset_px = {p.offset_px.x, p.offset_px.y};
+    if (p.corners_px) {
+        out.corners.emplace();
+        for (std::size_t k = 0; k < 4; ++k) (*out.corners)[k] = {(*p.corners_px)[k].x, (*p.corners_px)[k].y};
+    }
+    return out;
+}
+
+// The depth that the output will have: what the user chose, or what the plate and format suggest.
+PixelDepth out_depth(const Output& output, PixelDepth plate) {
+    switch (output.depth) {
+        case OutputDepth::k8: return PixelDepth::kU8;
+        case OutputDepth::k16: return PixelDepth::kU16;
+        case OutputDepth::kHalf: return PixelDepth::kHalf;
+        case OutputDepth::kFloat: return PixelDepth::kFloat;
+        case OutputDepth::kAuto: break;
+    }
+    return output.path.empty() ? plate : default_depth(output.path, plate);
+}
+
+// Opens a project step by step; each step leaves something in `shot_`.
+class ShotOpener {
+  public:
+    ShotOpener(const Project& project, const OpenShotOptions& options) : options_(options) {
+        shot_.project = project;
+    }
+
+    Expected<std::shared_ptr<const Shot>> open() {
+        WEFT_CHECK_OK(open_plate_reader());
+        WEFT_CHECK_OK(choose_spaces());
+        WEFT_CHECK_OK(add_regions());
+        return std::make_shared<const Shot>(std::move(shot_));
+    }
+
+  private:
+    Status open_plate_reader() {
+        const Plate& plate = shot_.project.plate;
+        if (plate.path.empty()) return fail(ErrorCode::kUsage, "No plate is set. Give one with --plate.");
+        WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
+        for (const std::string& w : reader->warnings()) shot_.warnings.push_back(w);
+        shot_.plate = cached(reader, options_.cache_bytes);
+        WEFT_TRY(frames, frames_to_render(shot_.project, *shot_.plate));
+        shot_.plan.frames = std::move(frames);
+        shot_.plan.first_plate = shot_.plate->frames().front();
+        shot_.plan.last_plate = shot_.plate->frames().back();
+        shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft ? FlowQuality::kDraft
+                                                                              : FlowQuality::kFinal;
+        shot_.plan.seed = static_cast<std::uint64_t>(shot_.project.settings.seed);
+        return {};
+    }
+
+    static Expected<ColorSpace> space(const std::string& given, const char* by_file_type) {
+        return parse_color_space(given.empty() ? by_file_type : given);
+    }
+
+    Status choose_spaces() {
+        const Project& p = shot_.project;
+        WEFT_TRY(plate, space(p.plate.space, shot_.plate->display_encoded() ? kSrgb : kLinear));
+        WEFT_TRY(working, space(p.color.working_space, kLinear));
+        // Output of the plate's own kind keeps the plate's space, so that the plate passes through
+        // untouched; another kind has its usual one.
+        const bool float_out = float_depth(out_depth(p.output, shot_.plate->depth()));
+        const bool same_kind = float_out == !shot_.plate->display_encoded();
+        WEFT_TRY(out, same_kind && p.color.out_space.empty()
+                          ? Expected<ColorSpace>(plate)
+                          : space(p.color.out_space, float_out ? kLinear : kSrgb));
+        shot_.spaces = {plate, working, out, {}};
+        ShotPlan& plan = shot_.plan;
+        plan.display_referred = !float_out;
+        WEFT_TRY(working_from_plate, make_color_transform(plate, working));
+        WEFT_TRY(display_from_plate, make_color_transform(plate, {kSrgb}));
+        WEFT_TRY(out_from_working, make_color_transform(working, out));
+        WEFT_TRY(out_from_plate, make_color_transform(plate, out));
+        WEFT_TRY(working_from_display, make_color_transform({kSrgb}, working));
+        plan.working_from_plate = working_from_plate;
+        plan.display_from_plate = display_from_plate;
+        plan.out_from_working = out_from_working;
+        plan.out_from_plate = out_from_plate;
+        working_from_display_ = working_from_display;
+        return {};
+    }
+
+    Status add_regions() {
+        std::vector<Leaf<Region>> planned;
+        for (std::size_t k = 0; k < shot_.project.regions.size(); ++k) {
+            const Region& region = *shot_.project.regions[k];
+            if (!region.enabled) continue;
+            auto added = add_region(region);
+            if (!added) return fail_in(std::move(added).error(), "Region '" + region.name + "'");
+            shot_.region_index.push_back(k);
+            planned.push_back(shot_.project.regions[k]);
+        }
+        shot_.source = make_project_source(shot_.plate, std::move(planned));
+        return {};
+    }
+
+    Status add_region(const Region& region) {
+        RegionPlan plan;
+        plan.id = std::to_string(region.id);
+        plan.random_key = region.id;
+        if (region.matte->empty()) {
+            return fail(ErrorCode::kUsage, "It has no matte. Give files or painted keyframes (--matte).");
+        }
+        for (const auto& [frame, key] : region.matte->keyframes) plan.matte_keys.push_back(frame);
+        plan.has_holdout = !region.holdouts->empty();
+        for (const MatteSource& holdout : *region.holdouts) {
+            if (holdout.files.empty()) {
+                return fail(ErrorCode::kUsage,
+                            "A holdout needs a file for every frame: propagate its painted frames "
+                            "with 'weft matte' and give the result.");
+            }
+        }
+        plan.reference_frames = region.reference_frames;
+        if (plan.reference_frames.empty()) {
+            WEFT_TRY(first, default_reference(region, plan));
+            plan.reference_frames = {first};
+        }
+        plan.true_motion = !region.motion.files.empty();
+        plan.motion_forward = region.motion.direction == MotionDirection::kForward;
+        plan.placement = plane_placement(region.placement);
+        WEFT_CHECK_OK(plane_from_plate(plan.placement));
+        plan.seam = region.synthesis.seam;
+        plan.overlap_px = region.synthesis.overlap_px;
+        plan.feather_px = region.synthesis.feather_px;
+        plan.temporal = region.temporal.mode;
+        plan.blend = static_cast<float>(region.temporal.blend);
+        plan.weight = static_cast<float>(region.temporal.weight);
+        plan.light_source = region.light.source;
+        plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        if (options_.textures) {
+            WEFT_CHECK_OK(add_texture(region, plan));
+            WEFT_CHECK_OK(add_light_picture(region, plan));
+        }
+        WEFT_CHECK_OK(check_files(region, plan, shot_.plan, *shot_.plate));
+        shot_.plan.regions.push_back(std::move(plan));
+        return {};
+    }
+
+    // The first painted frame where mattes are propagated, since there the artist has looked; else the
+    // first frame that the plate and the matte have, whatever part of it is rendered: every part of a
+    // shot, on every machine, has the same reference.
+    [[nodiscard]] Expected<int> default_reference(const Region& region, const RegionPlan& plan) const {
+        if (plan.propagated()) return plan.matte_keys.front();
+        WEFT_TRY(pattern, SequencePattern::parse(region.matte->files));
+        if (pattern.is_single()) return shot_.plan.first_plate;
+        WEFT_TRY(mattes, pattern.list_frames());
+        for (const int frame : shot_.plate->frames()) {
+            if (std::binary_search(mattes.begin(), mattes.end(), frame)) return frame;
+        }
+        return fail(ErrorCode::kMissingFrames,
+                    "The matte " + region.matte->files + " has no file for any frame of the plate, which has " +
+                        frames_text(shot_.plate->frames()) + ". Check the pattern and its numbers.");
+    }
+
+    Status add_texture(const Region& region, RegionPlan& plan) {
+        const bool is_plane = !region.texture.plane.empty();
+        const std::string& path = is_plane ? region.texture.plane : region.texture.sample;
+        if (path.empty()) {
+            return fail(ErrorCode::kUsage, "It has no texture. Give a sample (--texture) or a plane (--plane).");
+        }
+        WEFT_TRY(picture, read_image(path));
+        const std::string& given =
+            region.texture.space.empty() ? shot_.project.color.texture_space : region.texture.space;
+        WEFT_TRY(texture_space, space(given, float_depth(picture.depth) ? kLinear : kSrgb));
+        WEFT_TRY(working_from_texture, make_color_transform(texture_space, shot_.spaces.working));
+        WEFT_TRY(display_from_texture, make_color_transform(texture_space, {kSrgb}));
+        if (picture.nonfinite > 0) {
+            shot_.warnings.push_back("The texture " + path + " has " + std::to_string(picture.nonfinite) +
+                                     " pixels of NaN or infinity; they are taken as black.");
+        }
+        auto texture = std::make_shared<TexturePicture>();
+        texture->pixels = std::move(picture.rgb);
+        texture->is_plane = is_plane;
+        texture->wrap = region.texture.wrap;
+        for (int k = 0; k < texture->pixels.height(); ++k) {
+            float* row = texture->pixels.row(k);
+            std::replace_if(row, row + texture->pixels.stride(), [](float v) { return !std::isfinite(v); }, 0.0f);
+        }
+        Hasher hasher;
+        hasher.image(texture->pixels);
+        shot_.textures.push_back({region.name, path, hasher.finish().hex(), texture->pixels.size(), is_plane});
+        shot_.spaces.textures.push_back(texture_space);
+        plan.texture = std::move(texture);
+        plan.working_from_texture = working_from_texture;
+        plan.display_from_texture = display_from_texture;
+        plan.working_from_display = working_from_display_;
+        return {};
+    }
+
+    Status add_light_picture(const Region& region, RegionPlan& plan) {
+        if (plan.light_source != LightSource::kImage) return {};
+        if (region.light.image.empty()) {
+            return fail(ErrorCode::kUsage, "The light source 'image' needs a picture. Give one with --light PICTURE.");
+        }
+        WEFT_TRY(picture, read_image(region.light.image));
+        WEFT_TRY(to_linear, make_color_transform({float_depth(picture.depth) ? kLinear : kSrgb}, {kLinear}));
+        to_linear->apply(picture.rgb);
+        plan.light_picture = std::make_shared<const ImageF3>(std::move(picture.rgb));
+        return {};
+    }
+
+    OpenShotOptions options_;
+    Shot shot_;
+    std::shared_ptr<const ColorTransform> working_from_display_;
+};
+
+}  // namespace
+
+Expected<std::shared_ptr<const Shot>> open_shot(const Project& project, const OpenShotOptions& options) {
+    return ShotOpener(project, options).open();
+}
+
+}  // namespace weft

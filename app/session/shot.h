@@ -1,0 +1,51 @@
+#pragma once
+// A project opened for work: its files found, its spaces and textures read.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/project/project.h"
+#include "engine/media/frame_cache.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+
+namespace weft {
+
+/// The colour spaces that a shot works in, given or by the file types.
+struct ShotSpaces {
+    ColorSpace plate, working, out;
+    std::vector<ColorSpace> textures;          ///< One a region.
+};
+
+/// A texture as the report names it.
+struct ShotTexture {
+    std::string region, path, id;              ///< id: hash of the decoded pixels.
+    Size size;
+    bool is_plane = false;
+};
+
+/// Everything that analysing and rendering need. Shared and immutable once made; thread-safe.
+struct Shot {
+    Project project;                           ///< With absolute paths.
+    std::vector<std::size_t> region_index;     ///< Of each planned region in the project.
+    std::shared_ptr<const CachedReader> plate;
+    std::shared_ptr<const ShotSource> source;
+    ShotPlan plan;
+    ShotSpaces spaces;
+    std::vector<ShotTexture> textures;
+    std::vector<std::string> warnings;
+};
+
+struct OpenShotOptions {
+    std::size_t cache_bytes = 256u << 20;      ///< For decoded plates.
+    bool textures = true;                      ///< Without: enough to propagate mattes.
+};
+
+/// Opens the plate, resolves the frames, spaces and textures, and checks that every file that the
+/// render will want is there. `project` has its paths resolved. Errors: Usage (contradictory
+/// settings, frames that the plate has not), Unreadable, MissingFrames (with the numbers).
+[[nodiscard]] Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
+                                                              const OpenShotOptions& options = {});
+
+}  // namespace weft

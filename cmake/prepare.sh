@@ -1,0 +1,72 @@
+# shellcheck shell=bash
+# What ./run and ./test have in common. Sourced by them; everything it says goes to stderr, because
+# stdout belongs to the program.
+
+say() { printf 'weft: %s\n' "$*" >&2; }
+die() {
+    say "$*"
+    exit 1
+}
+
+# packages_in FILE…: the names in package lists, without comments.
+packages_in() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$@"; }
+
+# missing_packages NAME…: those of them that are not installed, one a line.
+missing_packages() {
+    local name installed
+    installed=$(LC_ALL=C dpkg-query -W -f='${Package} ${db:Status-Status}\n' "$@" 2>/dev/null |
+        awk '$2 == "installed" { print $1 }' | sort -u) || true
+    for name in "$@"; do
+        grep -qxF -- "$name" <<<"$installed" || printf '%s\n' "$name"
+    done
+}
+
+# install_packages LIST…: installs what is missing of the package lists; does nothing when all is there.
+install_packages() {
+    local -a wanted missing as_root=()
+    mapfile -t wanted < <(packages_in "$@")
+    if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+        say "This is not a Debian system, so nothing is installed. Weft needs the equivalents of:"
+        say "  ${wanted[*]}"
+        for tool in cmake ninja c++ pkg-config; do
+            command -v "$tool" >/dev/null || die "$tool is missing; install it and start again"
+        done
+        return
+    fi
+    mapfile -t missing < <(missing_packages "${wanted[@]}")
+    ((${#missing[@]})) || return 0
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null ||
+            die "Packages are missing and there is no sudo. As root: apt-get install ${missing[*]}"
+        as_root=(sudo)
+    fi
+    say "Installing ${#missing[@]} packages: ${missing[*]}"
+    "${as_root[@]}" apt-get update -q >&2 || say "apt-get update failed; trying with the lists that are there"
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
+        "${missing[@]}" >&2 || die "The packages could not be installed; see apt-get's message above"
+}
+
+# build_jobs: how many compilers fit, one a core and one for each 1.5 GB of free memory.
+build_jobs() {
+    local cores memory_mb jobs
+    cores=$(nproc 2>/dev/null || echo 1)
+    memory_mb=$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo 2>/dev/null || true)
+    jobs=$cores
+    if [[ -n $memory_mb ]] && ((memory_mb / 1500 < jobs)); then jobs=$((memory_mb / 1500)); fi
+    echo $((jobs > 0 ? jobs : 1))
+}
+
+# build ROOT PRESET TARGET: configures where needed and builds; says nothing when all is up to date.
+build() {
+    local root=$1 preset=$2 target=$3 tree=$1/build/$2
+    if [[ ! -f $tree/build.ninja || $root/CMakePresets.json -nt $tree/build.ninja ]]; then
+        say "Configuring $tree"
+        # A preset is found from the current folder.
+        (cd "$root" && cmake --preset "$preset") >&2 || die "CMake failed; see its message above"
+    fi
+    if LC_ALL=C ninja -C "$tree" -n "$target" 2>/dev/null | grep -q 'no work to do'; then return; fi
+    local jobs
+    jobs=$(build_jobs)
+    say "Building with $jobs jobs"
+    ninja -C "$tree" -j "$jobs" "$target" >&2 || die "The build failed; see the compiler's messages above"
+}

@@ -1,0 +1,169 @@
+#include "engine/color/ocio_bridge.h"
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+namespace ocio = OCIO_NAMESPACE;
+
+constexpr int kBandRows = 16;
+
+// Names under which configs in use carry scene-linear Rec.709/sRGB: ACES 2.x and 1.x studio and CG
+// configs and their aliases, ACES 1.0-1.2, Blender's filmic, and the OpenColorIO samples.
+constexpr std::array kLinearNames{"Linear Rec.709 (sRGB)",
+                                  "lin_rec709_srgb",
+                                  "lin_srgb",
+                                  "lin_rec709",
+                                  "lin_rec709_scene",
+                                  "Utility - Linear - sRGB",
+                                  "Utility - Linear - Rec.709",
+                                  "Linear Rec.709",
+                                  "Linear sRGB",
+                                  "Linear BT.709",
+                                  "linear_srgb",
+                                  "linear_rec709",
+                                  "Linear (sRGB)"};
+constexpr std::array kEncodedNames{"sRGB - Texture",
+                                   "sRGB Encoded Rec.709 (sRGB)",
+                                   "srgb_tx",
+                                   "srgb_texture",
+                                   "srgb_rec709_scene",
+                                   "Utility - sRGB - Texture",
+                                   "Input - Generic - sRGB - Texture",
+                                   "sRGB"};
+
+bool same_name(const std::string& a, const char* b) {
+    const std::string other(b);
+    return std::equal(a.begin(), a.end(), other.begin(), other.end(), [](char x, char y) {
+        return std::tolower(static_cast<unsigned char>(x)) ==
+               std::tolower(static_cast<unsigned char>(y));
+    });
+}
+
+// OpenColorIO's tables turn NaN and infinity into numbers; these components keep their values.
+struct Nonfinite {
+    float* where;
+    float value;
+};
+
+void collect_nonfinite(ImageView<float, 3> rgb, int y0, int y1, std::vector<Nonfinite>& found) {
+    for (int y = y0; y < y1; ++y) {
+        float* const row = rgb.row(y);
+        for (int i = 0; i < 3 * rgb.width(); ++i) {
+            if (!std::isfinite(row[i])) found.push_back({row + i, row[i]});
+        }
+    }
+}
+
+class OcioTransform final : public ColorTransform {
+  public:
+    OcioTransform(ocio::ConstCPUProcessorRcPtr processor, bool identity)
+        : processor_(std::move(processor)), identity_(identity) {}
+
+    void apply(ImageView<float, 3> rgb) const override {
+        if (identity_ || rgb.empty()) return;
+        parallel_rows(rgb.height(), kBandRows, [&](int y0, int y1) {
+            std::vector<Nonfinite> nonfinite;
+            collect_nonfinite(rgb, y0, y1, nonfinite);
+            ocio::PackedImageDesc band(rgb.row(y0), rgb.width(), y1 - y0, 3, ocio::BIT_DEPTH_F32,
+                                       sizeof(float), 3 * sizeof(float),
+                                       rgb.stride() * static_cast<std::ptrdiff_t>(sizeof(float)));
+            processor_->apply(band);
+            for (const Nonfinite& n : nonfinite)
+                *n.where = n.value;
+        });
+    }
+    bool identity() const override { return identity_; }
+
+  private:
+    ocio::ConstCPUProcessorRcPtr processor_;
+    bool identity_;
+};
+
+class Config final : public OcioConfig {
+  public:
+    explicit Config(ocio::ConstConfigRcPtr config) : config_(std::move(config)) {}
+
+    bool knows(const std::string& name) const override {
+        return config_->getColorSpace(name.c_str()) != nullptr;
+    }
+
+    std::string some_names() const override {
+        constexpr int kShown = 12;
+        std::string list;
+        const int count = config_->getNumColorSpaces();
+        for (int i = 0; i < std::min(count, kShown); ++i) {
+            list += (list.empty() ? "" : ", ") + std::string(config_->getColorSpaceNameByIndex(i));
+        }
+        return count > kShown ? list + ", …" : list;
+    }
+
+    std::optional<Meeting> rec709() const override {
+        for (const char* name : kLinearNames) {
+            if (knows(name)) return Meeting{name, false};
+        }
+        // By long custom a config whose scene_linear is called just "linear" means these primaries.
+        if (const auto scene = config_->getColorSpace(ocio::ROLE_SCENE_LINEAR)) {
+            if (same_name(scene->getName(), "linear")) return Meeting{scene->getName(), false};
+        }
+        for (const char* name : kEncodedNames) {
+            if (knows(name)) return Meeting{name, true};
+        }
+        return std::nullopt;
+    }
+
+    Expected<std::shared_ptr<const ColorTransform>> transform(
+        const std::string& from, const std::string& to) const override {
+        try {
+            const auto processor = config_->getProcessor(from.c_str(), to.c_str());
+            // The faster settings replace pow() by approximations too coarse for 16-bit codes.
+            const auto cpu = processor->getOptimizedCPUProcessor(
+                ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_LOSSLESS);
+            return std::make_shared<OcioTransform>(cpu, cpu->isNoOp());
+        } catch (const ocio::Exception& e) {
+            return fail(ErrorCode::kUsage, "OpenColorIO cannot convert '" + from + "' to '" + to +
+                                               "': " + e.what() + " Choose other spaces.");
+        }
+    }
+
+  private:
+    ocio::ConstConfigRcPtr config_;
+};
+
+}  // namespace
+
+Expected<std::shared_ptr<const OcioConfig>> load_ocio_config() {
+    static std::mutex mutex;
+    static std::string loaded_path;
+    static std::shared_ptr<const OcioConfig> loaded;
+    const char* const variable = std::getenv("OCIO");
+    if (!variable || !*variable) return std::shared_ptr<const OcioConfig>();
+    const std::lock_guard lock(mutex);
+    // Large configs take a good part of a second to load; a process uses one.
+    if (loaded && loaded_path == variable) return loaded;
+    try {
+        ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
+        loaded = std::make_shared<Config>(ocio::Config::CreateFromFile(variable));
+        loaded_path = variable;
+        return loaded;
+    } catch (const ocio::Exception& e) {
+        loaded.reset();
+        return fail(ErrorCode::kUnreadable, std::string("The OpenColorIO config ") + variable +
+                                                " (from $OCIO) cannot be read: " + e.what() +
+                                                " Correct $OCIO or unset it.");
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,36 @@
+#pragma once
+// Internal: OpenColorIO behind names. The only place that includes it.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/color/color_space.h"
+#include "engine/core/error.h"
+
+namespace weft {
+
+/// Where a built-in space meets the config: `space` is linear, or encoded by the sRGB curve.
+struct Meeting {
+    std::string space;
+    bool encoded = false;
+};
+
+/// The config of $OCIO. Immutable; used from several threads.
+class OcioConfig {
+  public:
+    virtual ~OcioConfig() = default;
+    /// Whether it has a space, role or alias of this name.
+    [[nodiscard]] virtual bool knows(const std::string& name) const = 0;
+    /// Some names, joined by commas.
+    [[nodiscard]] virtual std::string some_names() const = 0;
+    /// Where linear or sRGB-encoded Rec.709 lies under a usual name; nothing when there is none.
+    [[nodiscard]] virtual std::optional<Meeting> rec709() const = 0;
+    [[nodiscard]] virtual Expected<std::shared_ptr<const ColorTransform>> transform(
+        const std::string& from, const std::string& to) const = 0;
+};
+
+/// Null when $OCIO is not set. Errors: Unreadable, with the path and OpenColorIO's reason.
+[[nodiscard]] Expected<std::shared_ptr<const OcioConfig>> load_ocio_config();
+
+}  // namespace weft

@@ -1,0 +1,54 @@
+#pragma once
+// What colours the surface and its surroundings have near a pixel, from pixels that are wholly one
+// or the other.
+
+#include <array>
+#include <vector>
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// Sums over pixels: weight, colour, squared colour; padded to eight floats for SIMD.
+struct ColourSums {
+    std::array<float, 8> v{};
+    [[nodiscard]] float weight() const { return v[0]; }
+    [[nodiscard]] float mean(int c) const { return v[static_cast<std::size_t>(1 + c)] / v[0]; }
+    /// Weighted variance, ≥ 0.
+    [[nodiscard]] float variance(int c) const {
+        const float m = mean(c);
+        const float var = v[static_cast<std::size_t>(4 + c)] / v[0] - m * m;
+        return var > 0 ? var : 0.0f;
+    }
+};
+
+/// Both sides of the matte near one pixel. Weight 0: none in the whole box.
+struct NearColours {
+    ColourSums surface;       ///< Where the matte is 255.
+    ColourSums surroundings;  ///< Where it is 0.
+};
+
+/// Pyramid of sums over blocks of 2, 4, 8 … pixels. Building runs in parallel; asking is const and
+/// safe from several threads.
+class ColourPyramid {
+  public:
+    /// `box` bounds what is looked at, in plate pixels.
+    ColourPyramid(ViewF3 plate, ViewU8x1 matte, const Recti& box);
+
+    /// Sums around the centre of pixel (x, y), a quarter of the weight at twice the distance and
+    /// less.
+    [[nodiscard]] NearColours near(int x, int y) const;
+
+  private:
+    struct Level {
+        int width = 0, height = 0;
+        std::vector<NearColours> cells;
+    };
+    void build_first(ViewF3 plate, ViewU8x1 matte);
+    void build_next();
+
+    Recti box_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace weft

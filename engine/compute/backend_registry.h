@@ -1,0 +1,43 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/compute/backend.h"
+#include "engine/core/error.h"
+
+namespace weft {
+
+/// A backend that may or may not be usable on this machine.
+struct BackendEntry {
+    std::string name;
+    int score = 0;                     ///< `auto` takes the highest that can be made.
+    /// Makes it, or says in an Error (NoBackend) why it cannot be had here.
+    std::function<Expected<std::shared_ptr<const Backend>>()> make;
+};
+
+/// What a choice led to: the backend, and one line for each better one that was passed over.
+struct BackendChoice {
+    std::shared_ptr<const Backend> backend;
+    std::vector<std::string> passed_over;
+};
+
+/// The backends of a build. Filled once at start (the CPU is always in it), then only read; reading
+/// is thread-safe.
+class BackendRegistry {
+  public:
+    BackendRegistry();                 ///< Holds "cpu".
+    void add(BackendEntry entry);
+    /// "auto" or a name. Errors: Usage for a name that no build knows (the message lists the known
+    /// ones), NoBackend when the named one cannot be had here (the message says why, and what there is).
+    [[nodiscard]] Expected<BackendChoice> choose(const std::string& name) const;
+    [[nodiscard]] std::vector<std::string> names() const;
+
+  private:
+    std::vector<BackendEntry> entries_;   // best first
+};
+
+[[nodiscard]] std::shared_ptr<const Backend> make_cpu_backend();
+
+}  // namespace weft

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/bilateral_grid.h"
+#include "engine/lighting/fast_math.h"
+#include "engine/lighting/masked_filters.h"
+#include "engine/lighting/median.h"
+#include "engine/lighting/reflectance.h"
+#include "engine/lighting/shading.h"
+#include "engine/lighting/surface_sample.h"
+
+namespace weft {
+namespace {
+
+constexpr float kKnownWeight = 1e-3f;  // of a window: less is not an estimate
+constexpr int kChromaWindow = 2;       // times pattern_px
+
+// Scales, measured on clips whose true shading is known.
+constexpr float kPatternSigma = 0.5f;  // of pattern_px: stripes of that period fall to 1%
+constexpr float kRollingSigma = 2.5f;  // times the blur's; edges are safe there, so it may be wide
+constexpr float kRangeOfResidue = 2.5f;  // deviations of what the blur leaves of the pattern
+constexpr float kMinRange = 0.06f, kMaxRange = 0.3f;  // ln units
+constexpr int kRollings = 3;
+constexpr float kStepRange = 0.4f;  // steps below are smooth shading that rolling has terraced
+constexpr float kStepSigma = 0.6f;  // times the blur's
+
+// A surface whose lightness varies by less than the first (a deviation, ln units) has no pattern,
+// and what varies is its own shading: wrinkles, facets. From the second on all of it is pattern.
+constexpr float kPlain = 0.08f, kPatterned = 0.16f;
+constexpr float kPlainSigma = 0.25f;  // times the blur's of a patterned surface
+
+// The blurred luma and where it is an estimate.
+struct Guide {
+    ImageF1 value;
+    Matte known;
+};
+
+Guide blurred(const ImageF1& weighted_luma, const ImageF1& weight, float sigma) {
+    Guide g{weighted_luma, Matte(weight.size())};
+    ImageF1 total = weight;
+    gaussian_blur(g.value, sigma);
+    gaussian_blur(total, sigma);
+    parallel_rows(weight.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < weight.width(); ++x) {
+                const bool known = total.row(y)[x] > kKnownWeight;
+                g.known.row(y)[x] = known ? 255 : 0;
+                g.value.row(y)[x] = known ? g.value.row(y)[x] / total.row(y)[x] : 0.0f;
+            }
+        }
+    });
+    fill_unknown(g.value, g.known);
+    return g;
+}
+
+// Median absolute difference of two planes as a deviation. Being a median, it is not raised by the
+// edges of shadows, which are few.
+float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weight) {
+    std::vector<float> differences;
+    for (int y = 0; y < a.height(); y += 2) {
+        for (int x = 0; x < a.width(); x += 2) {
+            if (weight.row(y)[x] > 0) differences.push_back(std::abs(a.row(y)[x] - b.row(y)[x]));
+        }
+    }
+    return kDeviationOfMedian * median_of(differences, 0.0f);
+}
+
+float pattern_presence(float deviation) {
+    const float t = std::clamp((deviation - kPlain) / (kPatterned - kPlain), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// Rolling guidance (Zhang et al. 2014, eq. 5): the blur takes the pattern away, filtering the
+// unblurred luma under the guidance of the result brings back the edges of what is wider.
+ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
+    float sigma = kPatternSigma * pattern_px;
+    const ImageF1 weighted_luma = weighted(s.luma, s.weight);
+    ImageF1 guide = blurred(weighted_luma, s.weight, sigma).value;
+    const float presence = pattern_presence(deviation_between(guide, s.luma, s.weight));
+    if (presence < 1) {
+        sigma *= kPlainSigma + (1.0f - kPlainSigma) * presence;
+        guide = blurred(weighted_luma, s.weight, sigma).value;
+    }
+    const ImageF1 wide = blurred(weighted(guide, s.weight), s.weight, 2.0f * sigma).value;
+    const float residue = deviation_between(guide, wide, s.weight);
+    const BilateralScale rolling{kRollingSigma * sigma,
+                                 std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
+    for (int i = 0; i < kRollings; ++i)
+        guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
+    return joint_bilateral(weighted(guide, s.weight), s.weight, guide,
+                           {kStepSigma * sigma, kStepRange});
+}
+
+}  // namespace
+
+Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
+    const int d = std::clamp(options.downscale, 1, 16);
+    Shading shading{ImageF1(reduced_size(linear.size(), d), 1.0f), d, linear.size()};
+    SurfaceSample sample = sample_surface(linear, visible, d);
+    if (sample.box.empty()) return shading;
+    const float pattern_px = std::max(1.0f, options.pattern_px / static_cast<float>(d));
+    if (options.chromaticity)
+        remove_chromatic_reflectance(sample, static_cast<int>(kChromaWindow * pattern_px) + 1);
+    const ImageF1 luma = without_pattern(sample, pattern_px);
+
+    shading.inside = Matte(shading.value.size());
+    Matte known(shading.value.size());
+    parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < sample.box.width(); ++x) {
+                if (sample.weight.row(y)[x] == 0) continue;
+                const int u = x + sample.box.x0, v = y + sample.box.y0;
+                shading.value.row(v)[u] = luma.row(y)[x];
+                shading.inside.row(v)[u] = 255;
+                known.row(v)[u] = 255;
+            }
+        }
+    });
+    fill_unknown(shading.value, known);
+    parallel_rows(shading.value.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            float* row = shading.value.row(y);
+            for (int x = 0; x < shading.value.width(); ++x)
+                row[x] = std::max(fast_exp(row[x]) - sample.floor, 0.05f * sample.floor);
+        }
+    });
+    return shading;
+}
+
+}  // namespace weft

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace weft {
+
+/// Where the light on a new texture comes from.
+enum class LightSource { kPlate, kNone, kImage };
+
+}  // namespace weft

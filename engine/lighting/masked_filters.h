@@ -1,0 +1,22 @@
+#pragma once
+// Filters for pictures that are known only in part: sums over windows, to be divided by the same
+// sums of the weights (normalised convolution, Knutsson & Westin 1993), and a fill for the rest.
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// Mean over (2 radius + 1)² pixels, counting what lies beyond the border as 0; in place.
+void box_blur(ImageF1& plane, int radius_px);
+
+/// A Gaussian of `sigma_px` as three boxes, with 0 beyond the border; in place.
+void gaussian_blur(ImageF1& plane, float sigma_px);
+
+/// `plane` × `weight`.
+[[nodiscard]] ImageF1 weighted(const ImageF1& plane, const ImageF1& weight);
+
+/// Fills the pixels whose `known` is 0 smoothly from the others (push and pull over a pyramid,
+/// Gortler et al. 1996). Leaves known pixels as they are; all 0 if nothing is known.
+void fill_unknown(ImageF1& plane, const Matte& known);
+
+}  // namespace weft

@@ -1,0 +1,216 @@
+#include "engine/lighting/reflectance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/masked_filters.h"
+
+namespace weft {
+namespace {
+
+constexpr int kTerms = 5;
+constexpr float kMaxDeviations = 3.0f;  // chromaticities beyond are held there
+constexpr double kRidge = 0.02;         // of the terms' variance: flat colours explain nothing
+// Chromaticities (ln) that vary less than this are noise, or the floor's doing, not paint.
+constexpr float kMinDeviation = 0.15f;
+constexpr float kMinWeight = 1e-3f;
+// Share of the differences' energy that colour must explain: below the first the relation is chance
+// or the bluish tint of shadows and is left alone, from the second on it is taken whole.
+constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
+
+struct Standard {
+    float mean = 0;
+    float inverse_deviation = 0;
+};
+
+// Weighted mean and deviation; sums by row, in order, so that threads do not matter.
+Standard standard_of(const ImageF1& plane, const ImageF1& weight) {
+    struct Sums {
+        double w = 0, v = 0, v2 = 0;
+    };
+    std::vector<Sums> rows(static_cast<std::size_t>(plane.height()));
+    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            Sums s;
+            for (int x = 0; x < plane.width(); ++x) {
+                const double w = weight.row(y)[x], v = plane.row(y)[x];
+                s.w += w, s.v += w * v, s.v2 += w * v * v;
+            }
+            rows[static_cast<std::size_t>(y)] = s;
+        }
+    });
+    Sums all;
+    for (const Sums& s : rows)
+        all.w += s.w, all.v += s.v, all.v2 += s.v2;
+    if (all.w <= 0) return {};
+    const double mean = all.v / all.w;
+    const double deviation = std::sqrt(std::max(0.0, all.v2 / all.w - mean * mean));
+    return {static_cast<float>(mean),
+            1.0f / std::max(kMinDeviation, static_cast<float>(deviation))};
+}
+
+using Terms = std::array<ImageF1, kTerms>;
+
+// u, v, u², uv, v² of the standardised chromaticity.
+Terms terms_of(const SurfaceSample& s) {
+    const Standard rg = standard_of(s.red_green, s.weight);
+    const Standard bg = standard_of(s.blue_green, s.weight);
+    Terms terms;
+    terms.fill(ImageF1(s.box.size()));
+    parallel_rows(s.box.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < s.box.width(); ++x) {
+                if (s.weight.row(y)[x] == 0) continue;
+                const auto at = [&](const ImageF1& plane, const Standard& standard) {
+                    return std::clamp(
+                        (plane.row(y)[x] - standard.mean) * standard.inverse_deviation,
+                        -kMaxDeviations, kMaxDeviations);
+                };
+                const float u = at(s.red_green, rg), v = at(s.blue_green, bg);
+                const std::array<float, kTerms> values{u, v, u * u, u * v, v * v};
+                for (int k = 0; k < kTerms; ++k)
+                    terms[static_cast<std::size_t>(k)].row(y)[x] =
+                        values[static_cast<std::size_t>(k)];
+            }
+        }
+    });
+    return terms;
+}
+
+// plane − its mean over the window, from known pixels only.
+ImageF1 high_pass(const ImageF1& plane, const ImageF1& weight, const ImageF1& weight_mean,
+                  int window) {
+    ImageF1 mean = weighted(plane, weight);
+    box_blur(mean, window);
+    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            float* m = mean.row(y);
+            const float* total = weight_mean.row(y);
+            for (int x = 0; x < plane.width(); ++x)
+                m[x] = plane.row(y)[x] - m[x] / std::max(total[x], kMinWeight);
+        }
+    });
+    return mean;
+}
+
+using Normal = std::array<std::array<double, kTerms + 1>, kTerms>;
+
+Normal normal_equations(const Terms& terms, const ImageF1& target, const ImageF1& weight) {
+    std::vector<Normal> rows(static_cast<std::size_t>(target.height()), Normal{});
+    parallel_rows(target.height(), 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            Normal& n = rows[static_cast<std::size_t>(y)];
+            for (int x = 0; x < target.width(); ++x) {
+                const double w = weight.row(y)[x];
+                if (w == 0) continue;
+                std::array<double, kTerms + 1> v;
+                for (std::size_t k = 0; k < kTerms; ++k)
+                    v[k] = terms[k].row(y)[x];
+                v[kTerms] = target.row(y)[x];
+                for (std::size_t i = 0; i < kTerms; ++i) {
+                    for (std::size_t j = i; j <= kTerms; ++j)
+                        n[i][j] += w * v[i] * v[j];
+                }
+            }
+        }
+    });
+    Normal all{};
+    for (const Normal& n : rows) {
+        for (std::size_t i = 0; i < kTerms; ++i) {
+            for (std::size_t j = i; j <= kTerms; ++j)
+                all[i][j] += n[i][j];
+        }
+    }
+    double total = 0;
+    for (int y = 0; y < weight.height(); ++y) {
+        for (int x = 0; x < weight.width(); ++x)
+            total += weight.row(y)[x];
+    }
+    // Terms are in standard deviations of the chromaticity, so the ridge is in those too.
+    for (std::size_t i = 0; i < kTerms; ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            all[i][j] = all[j][i];
+        all[i][i] += kRidge * std::max(total, 1.0);
+    }
+    return all;
+}
+
+// Gaussian elimination; the ridge keeps the matrix positive definite, so no pivot is needed.
+std::array<double, kTerms> solve(Normal m) {
+    for (std::size_t k = 0; k < kTerms; ++k) {
+        for (std::size_t i = k + 1; i < kTerms; ++i) {
+            const double f = m[i][k] / m[k][k];
+            for (std::size_t j = k; j <= kTerms; ++j)
+                m[i][j] -= f * m[k][j];
+        }
+    }
+    std::array<double, kTerms> x{};
+    for (std::size_t k = kTerms; k-- > 0;) {
+        double rest = m[k][kTerms];
+        for (std::size_t j = k + 1; j < kTerms; ++j)
+            rest -= m[k][j] * x[j];
+        x[k] = rest / m[k][k];
+    }
+    return x;
+}
+
+double energy(const ImageF1& plane, const ImageF1& weight) {
+    double sum = 0;
+    for (std::size_t i = 0; i < plane.size_bytes() / sizeof(float); ++i) {
+        const double v = plane.data()[i];
+        sum += weight.data()[i] * v * v;
+    }
+    return sum;
+}
+
+// The coefficients, held back as far as they explain little.
+std::array<double, kTerms> trusted_coefficients(const Terms& differences, const ImageF1& target,
+                                                const ImageF1& weight) {
+    const Normal normal = normal_equations(differences, target, weight);
+    std::array<double, kTerms> coefficients = solve(normal);
+    double explained = 0;
+    for (std::size_t k = 0; k < kTerms; ++k)
+        explained += coefficients[k] * normal[k][kTerms];
+    const double share = explained / std::max(1e-12, energy(target, weight));
+    const double t =
+        std::clamp((share - kExplainsNothing) / (kExplains - kExplainsNothing), 0.0, 1.0);
+    for (double& c : coefficients)
+        c *= t * t * (3.0 - 2.0 * t);
+    return coefficients;
+}
+
+}  // namespace
+
+void remove_chromatic_reflectance(SurfaceSample& sample, int window_px) {
+    if (sample.box.empty()) return;
+    const Terms terms = terms_of(sample);
+    ImageF1 weight_mean = sample.weight;
+    box_blur(weight_mean, window_px);
+    Terms differences;
+    for (std::size_t k = 0; k < kTerms; ++k)
+        differences[k] = high_pass(terms[k], sample.weight, weight_mean, window_px);
+    const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
+    const auto coefficients = trusted_coefficients(differences, target, sample.weight);
+
+    ImageF1 explained(sample.box.size());
+    parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            float* e = explained.row(y);
+            for (std::size_t k = 0; k < kTerms; ++k) {
+                const float c = static_cast<float>(coefficients[k]);
+                const float* t = terms[k].row(y);
+                for (int x = 0; x < sample.box.width(); ++x)
+                    e[x] += c * t[x];
+            }
+        }
+    });
+    const float mean = standard_of(explained, sample.weight).mean;
+    for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
+        if (sample.weight.data()[i] > 0) sample.luma.data()[i] -= explained.data()[i] - mean;
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/masked_filters.h"
+#include "engine/lighting/median.h"
+#include "engine/lighting/shading.h"
+
+namespace weft {
+namespace {
+
+constexpr int kPictureDownscale = 2;
+constexpr float kDarkest = 1e-5f;  // a shading is above 0
+
+// Mean luminance of the finite pixels of [x0, x1) × [y0, y1) of the picture, at least one pixel;
+// negative if none is finite.
+float mean_luminance(ViewF3 picture, float x0, float y0, float x1, float y1) {
+    const int a = std::clamp(static_cast<int>(x0), 0, picture.width() - 1);
+    const int b = std::clamp(static_cast<int>(std::ceil(x1)), a + 1, picture.width());
+    const int c = std::clamp(static_cast<int>(y0), 0, picture.height() - 1);
+    const int e = std::clamp(static_cast<int>(std::ceil(y1)), c + 1, picture.height());
+    float sum = 0, count = 0;
+    for (int y = c; y < e; ++y) {
+        for (int x = a; x < b; ++x) {
+            const float* p = picture.pixel(x, y);
+            const float light = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+            if (!std::isfinite(light)) continue;
+            sum += light, count += 1;
+        }
+    }
+    return count > 0 ? sum / count : -1.0f;
+}
+
+bool any_visible(ViewU8x1 visible, int x0, int y0, int d) {
+    for (int y = y0; y < std::min(visible.height(), y0 + d); ++y) {
+        for (int x = x0; x < std::min(visible.width(), x0 + d); ++x) {
+            if (visible.row(y)[x] >= 128) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+float median_shading(const Shading& shading, ViewU8x1 visible) {
+    std::vector<float> values;
+    for (int y = 0; y < shading.value.height(); ++y) {
+        for (int x = 0; x < shading.value.width(); ++x) {
+            if (any_visible(visible, x * shading.downscale, y * shading.downscale,
+                            shading.downscale))
+                values.push_back(shading.value.row(y)[x]);
+        }
+    }
+    return median_of(values, 1.0f);
+}
+
+Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full) {
+    constexpr int d = kPictureDownscale;
+    const Size small{(full.width + d - 1) / d, (full.height + d - 1) / d};
+    Shading shading{ImageF1(small, 1.0f), d, full};
+    if (linear_picture.empty() || box.empty() || small.empty()) return shading;
+    const float step_x =
+        static_cast<float>(linear_picture.width()) / static_cast<float>(box.width());
+    const float step_y =
+        static_cast<float>(linear_picture.height()) / static_cast<float>(box.height());
+    Matte known(small);
+    parallel_rows(small.height, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < small.width; ++x) {
+                const float left = static_cast<float>(x * d - box.x0) * step_x;
+                const float top = static_cast<float>(y * d - box.y0) * step_y;
+                const float light =
+                    mean_luminance(linear_picture, left, top, left + d * step_x, top + d * step_y);
+                if (light < 0) continue;
+                shading.value.row(y)[x] = light;
+                known.row(y)[x] = 255;
+            }
+        }
+    });
+    fill_unknown(shading.value, known);
+    for (std::size_t i = 0; i < shading.value.size_bytes() / sizeof(float); ++i)
+        shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
+    return shading;
+}
+
+}  // namespace weft

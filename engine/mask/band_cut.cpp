@@ -1,0 +1,142 @@
+#include "engine/mask/band_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc/detail/gcgraph.hpp>
+#include <utility>
+#include <vector>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+// Capacities are integers, so that sums do not depend on their order.
+constexpr float kUnits = 64;
+constexpr float kMaxLogOdds = 12;
+
+struct Step {
+    int dx, dy;
+    float inverse_length;
+};
+constexpr std::array<Step, 4> kSteps{
+    {{1, 0, 1.0f}, {0, 1, 1.0f}, {1, 1, 0.70710678f}, {-1, 1, 0.70710678f}}};
+
+int color_distance(ViewU8x3 frame, int x0, int y0, int x1, int y1) {
+    const std::uint8_t* a = frame.pixel(x0, y0);
+    const std::uint8_t* b = frame.pixel(x1, y1);
+    const int r = a[0] - b[0], g = a[1] - b[1], c = a[2] - b[2];
+    return r * r + g * g + c * c;
+}
+
+// 1 / (2 mean ‖ΔI‖²) over the band (Rother et al. 2004, eq. 5).
+float contrast_scale(ViewU8x3 frame, ViewF1 phi, float band_px) {
+    std::int64_t sum = 0, n = 0;
+    for (int y = 0; y + 1 < frame.height(); ++y) {
+        for (int x = 0; x + 1 < frame.width(); ++x) {
+            if (std::abs(phi.row(y)[x]) >= band_px) continue;
+            sum += color_distance(frame, x, y, x + 1, y) + color_distance(frame, x, y, x, y + 1);
+            n += 2;
+        }
+    }
+    const double mean = n > 0 ? static_cast<double>(sum) / static_cast<double>(n) : 0;
+    return static_cast<float>(1 / (2 * std::max(mean, 20.0)));
+}
+
+}  // namespace
+
+Image<std::uint8_t, 1> cut_band(ViewU8x3 frame, ViewF1 log_odds, ViewF1 prior_phi, float band_px,
+                                float smoothness) {
+    const int w = frame.width(), h = frame.height();
+    Image<std::uint8_t, 1> labels(frame.size());
+    Image<std::int32_t, 1> node(frame.size(), -1);
+    int nodes = 0;
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            const float phi = prior_phi.row(y)[x];
+            labels.row(y)[x] = phi > 0 ? 1 : 0;
+            if (std::abs(phi) < band_px) node.row(y)[x] = nodes++;
+        }
+    }
+    if (nodes == 0) return labels;
+    const float beta = contrast_scale(frame, prior_phi, band_px);
+    cv::detail::GCGraph<int> graph(static_cast<unsigned>(nodes), static_cast<unsigned>(8 * nodes));
+    std::vector<std::pair<int, int>> terminal(static_cast<std::size_t>(nodes));
+    for (int i = 0; i < nodes; ++i) graph.addVtx();
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            const int p = node.row(y)[x];
+            if (p >= 0) {
+                const float odds = std::clamp(log_odds.row(y)[x], -kMaxLogOdds, kMaxLogOdds);
+                auto& t = terminal[static_cast<std::size_t>(p)];
+                const int units = static_cast<int>(std::lround(odds * kUnits));
+                (units > 0 ? t.first : t.second) += std::abs(units);
+            }
+            for (const Step& s : kSteps) {
+                const int qx = x + s.dx, qy = y + s.dy;
+                if (qx < 0 || qx >= w || qy >= h) continue;
+                const int q = node.row(qy)[qx];
+                if (p < 0 && q < 0) continue;
+                const auto contrast = static_cast<float>(color_distance(frame, x, y, qx, qy));
+                const int cap = 1 + static_cast<int>(std::lround(
+                                        kUnits * smoothness * s.inverse_length *
+                                        (0.02f + std::exp(-beta * contrast))));
+                if (p >= 0 && q >= 0) {
+                    graph.addEdges(p, q, cap, cap);
+                } else {  // the neighbour is decided: its link becomes evidence
+                    const bool inside = labels.row(p >= 0 ? qy : y)[p >= 0 ? qx : x] != 0;
+                    auto& t = terminal[static_cast<std::size_t>(p >= 0 ? p : q)];
+                    (inside ? t.first : t.second) += cap;
+                }
+            }
+        }
+    }
+    for (int i = 0; i < nodes; ++i) {
+        const auto& t = terminal[static_cast<std::size_t>(i)];
+        graph.addTermWeights(i, t.first, t.second);
+    }
+    graph.maxFlow();
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            const int p = node.row(y)[x];
+            if (p >= 0) labels.row(y)[x] = graph.inSourceSegment(p) ? 1 : 0;
+        }
+    }
+    return labels;
+}
+
+void remove_islands(Image<std::uint8_t, 1>& labels, ViewF1 prior_phi, float core_px,
+                    int max_area_px) {
+    const int w = labels.width(), h = labels.height();
+    Image<std::uint8_t, 1> seen(labels.size());
+    std::vector<Vec2i> part;
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            if (seen.row(y)[x] != 0) continue;
+            const std::uint8_t value = labels.row(y)[x];
+            bool anchored = false;
+            part.assign(1, Vec2i(x, y));
+            seen.row(y)[x] = 1;
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                const Vec2i p = part[i];
+                const float phi = prior_phi.row(p.y)[p.x];
+                anchored |= value != 0 ? phi >= core_px : phi <= -core_px;
+                for (const Vec2i d : {Vec2i(1, 0), Vec2i(-1, 0), Vec2i(0, 1), Vec2i(0, -1)}) {
+                    const Vec2i q = p + d;
+                    if (q.x < 0 || q.y < 0 || q.x >= w || q.y >= h) continue;
+                    if (seen.row(q.y)[q.x] != 0 || labels.row(q.y)[q.x] != value) continue;
+                    seen.row(q.y)[q.x] = 1;
+                    part.push_back(q);
+                }
+            }
+            if (anchored || static_cast<int>(part.size()) > max_area_px) continue;
+            for (const Vec2i p : part) {
+                labels.row(p.y)[p.x] = static_cast<std::uint8_t>(value != 0 ? 0 : 1);
+            }
+        }
+    }
+}
+
+}  // namespace weft

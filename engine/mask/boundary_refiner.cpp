@@ -1,0 +1,128 @@
+#include "engine/mask/boundary_refiner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/parallel.h"
+#include "engine/mask/band_cut.h"
+#include "engine/mask/edge_alpha.h"
+#include "engine/mask/signed_distance.h"
+#include "engine/mask/tuning.h"
+
+namespace weft {
+namespace {
+
+constexpr float kEdgeWidthPx = 1.5f;
+
+// Evidence for inside at every pixel of the band: the colours' where they separate, and the shape's,
+// which holds the more firmly the less the colours say (SnapCut eq. 3–5, as a sum of log odds).
+struct Evidence {
+    ImageF1 log_odds;
+    ImageF1 separability;
+};
+
+Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colors,
+                         ViewF1 further_odds, float band_px) {
+    Evidence e{ImageF1(frame.size()), ImageF1(frame.size())};
+    parallel_rows(frame.height(), 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < frame.width(); ++x) {
+                const float d = phi.row(y)[x];
+                if (std::abs(d) >= band_px) continue;
+                const std::uint8_t* c = frame.pixel(x, y);
+                const ColorProbability p = colors.at(x, y, Vec3(c[0], c[1], c[2]));
+                const float q = std::clamp(p.inside, 0.01f, 0.99f);
+                const float trust = std::clamp((p.separability - T(0)) / T(1), 0.0f, 1.0f);
+                e.log_odds.row(y)[x] =
+                    T(2) * trust * std::log(q / (1 - q)) + d / (T(3) + T(4) * trust);
+                if (!further_odds.empty()) e.log_odds.row(y)[x] += further_odds.row(y)[x];
+                e.separability.row(y)[x] = p.separability;
+            }
+        }
+    });
+    return e;
+}
+
+BoundaryEvidence weigh(ViewF1 expected, ViewF1 found, const Evidence& e, float band_px) {
+    double separability = 0, certainty = 0, moved = 0;
+    double beside_expected = 0, beside_found = 0, contour = 0;
+    for (int y = 0; y < expected.height(); ++y) {
+        for (int x = 0; x < expected.width(); ++x) {
+            const float a = expected.row(y)[x], b = found.row(y)[x];
+            if (std::abs(a) < 1) {
+                separability += static_cast<double>(e.separability.row(y)[x]);
+                beside_expected += 1;
+            }
+            if (std::abs(a) < band_px && std::abs(b) >= 1 && std::abs(b) < 3) {
+                const float odds = e.log_odds.row(y)[x];
+                certainty += static_cast<double>(1 / (1 + std::exp(b > 0 ? -odds : odds)));
+                beside_found += 1;
+            }
+            if (std::abs(b) < 0.75f) contour += 1;
+            if ((a > 0) != (b > 0)) moved += 1;
+        }
+    }
+    BoundaryEvidence result;
+    if (beside_expected > 0) {
+        result.separability = static_cast<float>(separability / beside_expected);
+    }
+    if (beside_found > 0) result.certainty = static_cast<float>(certainty / beside_found);
+    // Pixels that changed sides per pixel of boundary: the mean displacement.
+    result.steadiness = static_cast<float>(std::exp(-moved / std::max(1.0, 1.5 * contour)));
+    return result;
+}
+
+}  // namespace
+
+RefineScale::RefineScale(Size frame) {
+    const double area = static_cast<double>(frame.width) * static_cast<double>(frame.height);
+    const auto s = static_cast<float>(std::clamp(std::sqrt(area / (854.0 * 480.0)), 0.5, 8.0));
+    band_px = std::max(6.0f, T(5) * s);
+    window_half_px = static_cast<int>(std::lround(T(6) * s));
+    window_step_px = static_cast<int>(std::lround(T(7) * s));
+    sample_stride = std::max(1, static_cast<int>(std::lround(T(8) * s)));
+    limit_px = 4 * band_px;
+}
+
+std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px) {
+    std::vector<ColorWindow> windows;
+    Image<std::uint8_t, 1> taken(phi.size());
+    for (int y = 0; y < phi.height(); ++y) {
+        for (int x = 0; x < phi.width(); ++x) {
+            if (std::abs(phi.row(y)[x]) >= 1 || taken.row(y)[x] != 0) continue;
+            ColorWindow window;
+            window.center = Vec2i(x, y);
+            windows.push_back(std::move(window));
+            const int x0 = std::max(0, x - step_px), x1 = std::min(phi.width(), x + step_px + 1);
+            for (int v = y; v < std::min(phi.height(), y + step_px + 1); ++v) {
+                std::fill(taken.row(v) + x0, taken.row(v) + x1, std::uint8_t{1});
+            }
+        }
+    }
+    return windows;
+}
+
+RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const LocalColorField& colors,
+                                ViewF1 further_odds, const RefineScale& scale) {
+    const Evidence evidence = gather_evidence(frame, expected_phi, colors, further_odds, scale.band_px);
+    auto labels = cut_band(frame, evidence.log_odds, expected_phi, scale.band_px, T(9));
+    remove_islands(labels, expected_phi, scale.band_px, static_cast<int>(T(10)*scale.band_px * scale.band_px));
+    RefinedBoundary result;
+    result.phi = smooth_distance(signed_distance(labels, scale.limit_px), 2);
+    result.matte = edge_alpha(frame, result.phi, kEdgeWidthPx);
+    result.evidence = weigh(expected_phi, result.phi, evidence, scale.band_px);
+    // The soft edge tells the boundary's place to a fraction of a pixel; carried on, slow motion is not
+    // lost to rounding.
+    for (int y = 0; y < frame.height(); ++y) {
+        float* phi = result.phi.row(y);
+        const std::uint8_t* m = result.matte.row(y);
+        for (int x = 0; x < frame.width(); ++x) {
+            if (m[x] == 0 || m[x] == 255) continue;
+            const float place = (static_cast<float>(m[x]) / 255 - 0.5f) * kEdgeWidthPx;
+            phi[x] = std::clamp(place, phi[x] - 0.75f, phi[x] + 0.75f);
+        }
+    }
+    return result;
+}
+
+}  // namespace weft

@@ -1,0 +1,44 @@
+#pragma once
+// Finds a boundary near where it is expected: local colour classifiers, a shape prior, a minimum cut
+// in a narrow band, and the soft edge. Shared by the walker and by the merge of two walks.
+
+#include <vector>
+
+#include "engine/core/image.h"
+#include "engine/mask/local_color.h"
+
+namespace weft {
+
+/// Lengths in pixels at the frame's size.
+struct RefineScale {
+    explicit RefineScale(Size frame);
+    float band_px;         ///< How far the boundary may lie from where it is expected.
+    int window_half_px;    ///< Half a colour window's side.
+    int window_step_px;    ///< Distance between windows along the boundary.
+    int sample_stride;     ///< Colour samples are taken from every such pixel.
+    float limit_px;        ///< Signed distances are clamped to this.
+};
+
+/// How well the evidence at the boundary agreed; each in 0–1, 1 is best.
+struct BoundaryEvidence {
+    float separability = 1;  ///< Of the colours inside and outside, along the expected boundary.
+    float certainty = 1;     ///< How clearly the pixels beside the found boundary take its sides.
+    float steadiness = 1;    ///< How little the found shape differs from the expected one.
+};
+
+struct RefinedBoundary {
+    Matte matte;
+    ImageF1 phi;             ///< Signed distance of the found boundary, pixels.
+    BoundaryEvidence evidence;
+};
+
+/// Places windows along the zero line of `phi`, about `step_px` apart, in scan order.
+[[nodiscard]] std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px);
+
+/// `frame`, `expected_phi` and `further_odds` (more log odds for inside, 0: none; may be empty) are of one size. Deterministic for any number of threads.
+[[nodiscard]] RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi,
+                                              const LocalColorField& colors,
+                                              ViewF1 further_odds,
+                                              const RefineScale& scale);
+
+}  // namespace weft

@@ -1,0 +1,90 @@
+#include "engine/mask/edge_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+constexpr int kReachPx = 4;  // how far the sure colours are looked for
+
+struct ColorSum {
+    Vec3 sum{0}, squares{0};
+    float n = 0;
+
+    void add(Vec3 c, float w) {
+        sum += w * c;
+        squares += w * c * c;
+        n += w;
+    }
+    [[nodiscard]] Vec3 mean() const { return sum / n; }
+    [[nodiscard]] float variance() const {
+        const Vec3 m = mean();
+        const Vec3 v = squares / n - m * m;
+        return std::max(0.0f, v.x + v.y + v.z);
+    }
+};
+
+}  // namespace
+
+MixEstimate estimate_mix(Vec3 c, Vec3 inside, float inside_variance, Vec3 outside,
+                         float outside_variance) {
+    constexpr float kNoise = 30;  // levels², three channels: grain and compression
+    const Vec3 axis = inside - outside;
+    const float length2 = glm::dot(axis, axis);
+    MixEstimate mix;
+    if (length2 < 1) return mix;
+    const float t = glm::dot(c - outside, axis) / length2;
+    mix.coverage = std::clamp(t, 0.0f, 1.0f);
+    const Vec3 off = c - (outside + axis * mix.coverage);
+    const float spread = inside_variance + outside_variance + kNoise;
+    // Far apart compared with their own spread, and the pixel near the line between them.
+    const float apart = length2 / (length2 + 4 * spread);
+    const float fits = spread / (spread + glm::dot(off, off));
+    mix.reliability = std::clamp(2 * apart - 1, 0.0f, 1.0f) * std::min(1.0f, 2 * fits);
+    return mix;
+}
+
+Matte edge_alpha(ViewU8x3 frame, ViewF1 phi, float width_px) {
+    const int w = frame.width(), h = frame.height();
+    const float reach = 0.5f + width_px;  // beyond it a pixel is sure
+    Matte alpha(frame.size());
+    parallel_rows(h, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                const float d = phi.row(y)[x];
+                if (std::abs(d) >= reach) {
+                    alpha.row(y)[x] = d > 0 ? 255 : 0;
+                    continue;
+                }
+                ColorSum in, out;
+                for (int v = std::max(0, y - kReachPx); v <= std::min(h - 1, y + kReachPx); ++v) {
+                    for (int u = std::max(0, x - kReachPx); u <= std::min(w - 1, x + kReachPx);
+                         ++u) {
+                        const float e = phi.row(v)[u];
+                        if (std::abs(e) < 1.5f) continue;
+                        const auto r2 = static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));
+                        const std::uint8_t* p = frame.pixel(u, v);
+                        (e > 0 ? in : out).add(Vec3(p[0], p[1], p[2]), 1 / (1 + r2));
+                    }
+                }
+                float value = std::clamp(0.5f + d / width_px, 0.0f, 1.0f);
+                if (in.n > 0 && out.n > 0) {
+                    const std::uint8_t* p = frame.pixel(x, y);
+                    const MixEstimate mix = estimate_mix(Vec3(p[0], p[1], p[2]), in.mean(),
+                                                         in.variance(), out.mean(), out.variance());
+                    // The colour may move the edge by a pixel, not more: the cut has placed it.
+                    const float low = std::clamp(0.5f + (d - 1) / width_px, 0.0f, 1.0f);
+                    const float high = std::clamp(0.5f + (d + 1) / width_px, 0.0f, 1.0f);
+                    value += mix.reliability * (std::clamp(mix.coverage, low, high) - value);
+                }
+                alpha.row(y)[x] = static_cast<std::uint8_t>(value * 255 + 0.5f);
+            }
+        }
+    });
+    return alpha;
+}
+
+}  // namespace weft

@@ -1,0 +1,125 @@
+#include "engine/mask/shape_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/mask/signed_distance.h"
+#include "engine/mask/tuning.h"
+
+namespace weft {
+namespace {
+
+float nearest_phi(ViewF1 phi, float x, float y) {
+    const int u = std::clamp(static_cast<int>(std::lround(x)), 0, phi.width() - 1);
+    const int v = std::clamp(static_cast<int>(std::lround(y)), 0, phi.height() - 1);
+    return phi.row(v)[u];
+}
+
+// Normalised convolution (Knutsson & Westin 1993) of the motion with the shape as its certainty, at
+// growing radii; a wider one only speaks where the narrower ones have nothing.
+ImageF2 surface_motion(const cv::Mat& weighted, Vec2 fallback, float unit_px) {
+    const int w = weighted.cols, h = weighted.rows;
+    ImageF2 motion(w, h);
+    std::vector<cv::Mat> blurred;
+    for (const float radius : {T(14), T(15), T(16)}) {
+        const int r = std::max(1, static_cast<int>(std::lround(radius * unit_px)));
+        cv::Mat b;
+        cv::boxFilter(weighted, b, CV_32F, cv::Size(2 * r + 1, 2 * r + 1), cv::Point(-1, -1), true,
+                      cv::BORDER_REPLICATE);
+        blurred.push_back(b);
+    }
+    const std::array<float, 3> say = {1.0f, T(17), T(17)*T(17)};
+    parallel_rows(h, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                Vec2 sum = fallback * 1e-7f;
+                float weight = 1e-7f;
+                for (std::size_t i = 0; i < blurred.size(); ++i) {
+                    const auto& v = blurred[i].at<cv::Vec3f>(y, x);
+                    sum += say[i] * Vec2(v[1], v[2]);
+                    weight += say[i] * v[0];
+                }
+                motion.pixel(x, y)[0] = sum.x / weight;
+                motion.pixel(x, y)[1] = sum.y / weight;
+            }
+        }
+    });
+    return motion;
+}
+
+}  // namespace
+
+Recti transported_bounds(ViewF1 prev_phi, const FlowField& prev_from_cur) {
+    Recti box;
+    for (int y = 0; y < prev_phi.height(); ++y) {
+        const float* d = prev_from_cur.d.row(y);
+        for (int x = 0; x < prev_phi.width(); ++x) {
+            const float at_x = static_cast<float>(x) + d[2 * x], at_y = static_cast<float>(y) + d[2 * x + 1];
+            if (nearest_phi(prev_phi, at_x, at_y) > 0) box = box.united({x, y, x + 1, y + 1});
+        }
+    }
+    return box;
+}
+
+TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur, const Recti& area,
+                                 const RefineScale& scale) {
+    const int w = area.width(), h = area.height();
+    cv::Mat weighted(h, w, CV_32FC3), around(h, w, CV_32FC3);
+    Vec2 mean(0);
+    float total = 0, beside = 0, trusted = 0;
+    for (int y = 0; y < h; ++y) {
+        auto* out = weighted.ptr<cv::Vec3f>(y);
+        auto* outside = around.ptr<cv::Vec3f>(y);
+        for (int x = 0; x < w; ++x) {
+            const float* d = prev_from_cur.d.pixel(area.x0 + x, area.y0 + y);
+            const bool valid = prev_from_cur.valid.row(area.y0 + y)[area.x0 + x] != 0;
+            const float phi = nearest_phi(prev_phi, static_cast<float>(area.x0 + x) + d[0],
+                                          static_cast<float>(area.y0 + y) + d[1]);
+            const float trust = valid ? 1.0f : T(18);
+            const float weight = phi <= 0 ? 0.0f : trust;
+            const float other = phi <= 0 ? trust : 0.0f;
+            out[x] = cv::Vec3f(weight, weight * d[0], weight * d[1]);
+            outside[x] = cv::Vec3f(other, other * d[0], other * d[1]);
+            mean += weight * Vec2(d[0], d[1]);
+            total += weight;
+            if (phi > 0 && phi < scale.band_px) {
+                beside += 1;
+                trusted += valid ? 1.0f : 0.0f;
+            }
+        }
+    }
+    TransportedShape shape;
+    shape.consistency = beside > 0 ? trusted / beside : 0.0f;
+    shape.prev_from_cur = surface_motion(weighted, total > 0 ? mean / total : Vec2(0),
+                                         scale.band_px / 10);
+    shape.outside_motion = surface_motion(around, Vec2(0), scale.band_px / 10);
+    ImageF1 moved(area.size());
+    Image<std::uint8_t, 1> inside(area.size());
+    parallel_rows(h, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                const float* d = shape.prev_from_cur.pixel(x, y);
+                moved.row(y)[x] = sample_bilinear(prev_phi, static_cast<float>(area.x0 + x) + d[0],
+                                                  static_cast<float>(area.y0 + y) + d[1]);
+                inside.row(y)[x] = moved.row(y)[x] > 0 ? 1 : 0;
+            }
+        }
+    });
+    // Motion that stretches leaves no true distances: measure anew, and keep the sub-pixel place.
+    shape.phi = signed_distance(inside, scale.limit_px);
+    for (int y = 0; y < h; ++y) {
+        float* phi = shape.phi.row(y);
+        const float* m = moved.row(y);
+        for (int x = 0; x < w; ++x) {
+            if (std::abs(phi[x]) < 3) phi[x] = std::clamp(m[x], phi[x] - 0.5f, phi[x] + 0.5f);
+        }
+    }
+    return shape;
+}
+
+}  // namespace weft

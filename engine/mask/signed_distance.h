@@ -1,0 +1,32 @@
+#pragma once
+// Signed distances of a matte's boundary, the form in which a matte's shape is carried in time: it
+// can be resampled every frame without the edge getting softer.
+
+#include "engine/core/geometry.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// Distance in pixels from every pixel centre of `inside` (H×W, non-zero inside) to the boundary,
+/// positive inside, clamped to ±`limit_px`. The frame's border is no boundary. Thread-safe.
+[[nodiscard]] ImageF1 signed_distance(ViewU8x1 inside, float limit_px);
+
+/// The distances blurred by a small binomial kernel: the staircase of a binary label turns into a
+/// line at sub-pixel places, while distances away from corners stay.
+[[nodiscard]] ImageF1 smooth_distance(ViewF1 phi, int passes);
+
+/// Bilinear sample of a field at pixel-centre coordinates, clamped to the border.
+[[nodiscard]] inline float sample_bilinear(ViewF1 f, float x, float y) {
+    x = std::clamp(x, 0.0f, static_cast<float>(f.width() - 1));
+    y = std::clamp(y, 0.0f, static_cast<float>(f.height() - 1));
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const int x1 = std::min(x0 + 1, f.width() - 1), y1 = std::min(y0 + 1, f.height() - 1);
+    const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);
+    const float* a = f.row(y0);
+    const float* b = f.row(y1);
+    const float top = a[x0] + u * (a[x1] - a[x0]);
+    const float bottom = b[x0] + u * (b[x1] - b[x0]);
+    return top + v * (bottom - top);
+}
+
+}  // namespace weft

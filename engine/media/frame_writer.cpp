@@ -1,0 +1,227 @@
+#include "engine/media/frame_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/media/encode.h"
+
+namespace weft {
+namespace {
+
+enum class Format { kPng, kJpeg, kTiff, kExr, kDpx, kUnknown };
+
+constexpr int kBandRows = 32;
+constexpr float kLargestHalf = 65504.0f;
+
+Format format_of(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".png") return Format::kPng;
+    if (extension == ".jpg" || extension == ".jpeg") return Format::kJpeg;
+    if (extension == ".tif" || extension == ".tiff") return Format::kTiff;
+    if (extension == ".exr") return Format::kExr;
+    if (extension == ".dpx") return Format::kDpx;
+    return Format::kUnknown;
+}
+
+struct FormatFacts {
+    const char* name;
+    const char* depths;  // in words, for messages
+    bool u8, u16, half, full;
+};
+
+FormatFacts facts_of(Format format) {
+    switch (format) {
+        case Format::kPng:
+            return {"PNG", "8 or 16 bits", true, true, false, false};
+        case Format::kJpeg:
+            return {"JPEG", "8 bits", true, false, false, false};
+        case Format::kTiff:
+            return {"TIFF", "8 or 16 bits or float", true, true, false, true};
+        case Format::kExr:
+            return {"EXR", "half or float", false, false, true, true};
+        case Format::kDpx:
+            return {"DPX", "8 or 16 bits", true, true, false, false};
+        case Format::kUnknown:
+            break;
+    }
+    return {"", "", false, false, false, false};
+}
+
+bool holds(const FormatFacts& facts, PixelDepth depth) {
+    switch (depth) {
+        case PixelDepth::kU8:
+            return facts.u8;
+        case PixelDepth::kU16:
+            return facts.u16;
+        case PixelDepth::kHalf:
+            return facts.half;
+        case PixelDepth::kFloat:
+            return facts.full;
+    }
+    return false;
+}
+
+const char* words(PixelDepth depth) {
+    switch (depth) {
+        case PixelDepth::kU8:
+            return "8 bits";
+        case PixelDepth::kU16:
+            return "16 bits";
+        case PixelDepth::kHalf:
+            return "half";
+        case PixelDepth::kFloat:
+            return "float";
+    }
+    return "";
+}
+
+Error unknown_extension(const std::string& path) {
+    return {ErrorCode::kUsage,
+            path + ": unknown kind of file. Use .png, .jpg, .tif, .exr or .dpx.",
+            {}};
+}
+
+Status check_numbers(const std::string& path, const WriteOptions& options) {
+    static constexpr std::array kCompressions{"none",  "rle", "zip",  "zips", "piz",
+                                              "pxr24", "b44", "b44a", "dwaa", "dwab"};
+    const Format format = format_of(path);
+    if (format == Format::kJpeg && (options.jpeg_quality < 1 || options.jpeg_quality > 100)) {
+        return fail(ErrorCode::kUsage, path + ": JPEG quality must lie between 1 and 100.");
+    }
+    if (format == Format::kDpx && options.dpx_bits != 10 && options.dpx_bits != 12 &&
+        options.dpx_bits != 16) {
+        return fail(ErrorCode::kUsage, path + ": a DPX has 10, 12 or 16 bits.");
+    }
+    if (format == Format::kExr && std::find(kCompressions.begin(), kCompressions.end(),
+                                            options.exr_compression) == kCompressions.end()) {
+        return fail(ErrorCode::kUsage, path + ": there is no EXR compression '" +
+                                           options.exr_compression +
+                                           "'. Use none, rle, zip, zips, piz, pxr24, b44, b44a, "
+                                           "dwaa or dwab.");
+    }
+    return {};
+}
+
+// Half up, once. NaN becomes 0.
+template <class T>
+T code_of(float v) {
+    constexpr float kMax = static_cast<float>(std::numeric_limits<T>::max());
+    const float scaled = v * kMax + 0.5f;
+    if (!(scaled >= 0.0f)) return 0;
+    return scaled >= kMax ? std::numeric_limits<T>::max() : static_cast<T>(scaled);
+}
+
+float stored_as_half(float v) {
+    return std::isfinite(v) ? std::clamp(v, -kLargestHalf, kLargestHalf) : v;
+}
+
+// Interleaves colour and alpha; `convert` makes one sample of a float.
+template <class T, class Convert>
+std::vector<T> pack(ViewF3 rgb, ViewF1 alpha, Convert convert) {
+    const auto channels = static_cast<std::size_t>(alpha.empty() ? 3 : 4);
+    const auto width = static_cast<std::size_t>(rgb.width());
+    std::vector<T> out(width * static_cast<std::size_t>(rgb.height()) * channels);
+    parallel_rows(rgb.height(), kBandRows, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            const float* in = rgb.row(y);
+            const float* a = alpha.empty() ? nullptr : alpha.row(y);
+            T* to = out.data() + static_cast<std::size_t>(y) * width * channels;
+            for (std::size_t x = 0; x < width; ++x, in += 3) {
+                for (int c = 0; c < 3; ++c)
+                    *to++ = convert(in[c]);
+                if (a) *to++ = convert(a[x]);
+            }
+        }
+    });
+    return out;
+}
+
+template <class T, class Convert>
+Status pack_and_write(const std::string& path, ViewF3 rgb, ViewF1 alpha, SampleKind kind,
+                      const WriteOptions& options, Convert convert) {
+    const std::vector<T> samples = pack<T>(rgb, alpha, convert);
+    return write_samples(path, {rgb.size(), alpha.empty() ? 3 : 4, kind, samples.data()}, options);
+}
+
+}  // namespace
+
+PixelDepth default_depth(const std::string& path, PixelDepth plate) {
+    const FormatFacts facts = facts_of(format_of(path));
+    if (holds(facts, plate)) return plate;
+    switch (format_of(path)) {
+        case Format::kPng:
+        case Format::kDpx:
+            return PixelDepth::kU16;
+        case Format::kTiff:
+            return PixelDepth::kFloat;
+        case Format::kExr:
+            return plate == PixelDepth::kU8 ? PixelDepth::kHalf : PixelDepth::kFloat;
+        case Format::kJpeg:
+        case Format::kUnknown:
+            break;
+    }
+    return PixelDepth::kU8;
+}
+
+Status check_format(const std::string& path, const WriteOptions& options) {
+    const Format format = format_of(path);
+    if (format == Format::kUnknown) return tl::unexpected(unknown_extension(path));
+    const FormatFacts facts = facts_of(format);
+    if (!holds(facts, options.depth)) {
+        return fail(ErrorCode::kUsage, path + ": " + facts.name + " cannot hold " +
+                                           words(options.depth) + ". It holds " + facts.depths +
+                                           ".");
+    }
+    return check_numbers(path, options);
+}
+
+Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha, const WriteOptions& options) {
+    WEFT_CHECK_OK(check_format(path, options));
+    if (rgb.empty() || (!alpha.empty() && alpha.size() != rgb.size())) {
+        return fail(ErrorCode::kUsage,
+                    path + ": the picture is empty or its alpha has another size.");
+    }
+    if (format_of(path) == Format::kJpeg) alpha = {};
+    switch (options.depth) {
+        case PixelDepth::kU8:
+            return pack_and_write<std::uint8_t>(path, rgb, alpha, SampleKind::kU8, options,
+                                                code_of<std::uint8_t>);
+        case PixelDepth::kU16:
+            return pack_and_write<std::uint16_t>(path, rgb, alpha, SampleKind::kU16, options,
+                                                 code_of<std::uint16_t>);
+        case PixelDepth::kHalf:
+            return pack_and_write<float>(path, rgb, alpha, SampleKind::kHalf, options,
+                                         stored_as_half);
+        case PixelDepth::kFloat:
+            break;
+    }
+    return pack_and_write<float>(path, rgb, alpha, SampleKind::kFloat, options,
+                                 [](float v) { return v; });
+}
+
+Status write_matte(const std::string& path, ViewU8x1 matte) {
+    const Format format = format_of(path);
+    if (format == Format::kUnknown) return tl::unexpected(unknown_extension(path));
+    if (format != Format::kPng && format != Format::kTiff) {
+        return fail(ErrorCode::kUsage, path + ": mattes are written as .png or .tif.");
+    }
+    if (matte.empty()) return fail(ErrorCode::kUsage, path + ": the matte is empty (0 pixels).");
+    std::vector<std::uint8_t> codes;
+    codes.reserve(static_cast<std::size_t>(matte.width()) *
+                  static_cast<std::size_t>(matte.height()));
+    for (int y = 0; y < matte.height(); ++y) {
+        codes.insert(codes.end(), matte.row(y), matte.row(y) + matte.width());
+    }
+    return write_samples(path, {matte.size(), 1, SampleKind::kU8, codes.data()}, {});
+}
+
+}  // namespace weft

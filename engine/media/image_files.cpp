@@ -1,0 +1,175 @@
+#include "engine/media/image_files.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "engine/media/plate_decode.h"
+#include "engine/media/raster.h"
+#include "engine/media/raster_errors.h"
+
+namespace weft {
+namespace {
+
+std::string text_of(Size size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+Status check_exists(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) return {};
+    return fail(ErrorCode::kMissingFrames,
+                "There is no file " + path + ". Supply it, or correct the name.");
+}
+
+Status check_size(const std::string& path, Size have, Size expected) {
+    if (expected.empty() || have == expected) return {};
+    return fail(ErrorCode::kUnreadable, path + " is " + text_of(have) + " but the plate is " +
+                                            text_of(expected) +
+                                            ". Both must have one size: scale or crop it.");
+}
+
+std::uint8_t quantise(float v) {
+    if (!(v > 0.0f)) return 0;  // NaN too
+    return v >= 1.0f ? std::uint8_t{255} : static_cast<std::uint8_t>(v * 255.0f + 0.5f);
+}
+
+// Where the matte's samples lie among a raster's channels. Luma reads three.
+struct Source {
+    bool luma = false;
+    int channel = 0;
+};
+
+bool has_transparency(const Raster& raster) {
+    if (!raster.has_alpha) return false;
+    return std::visit(
+        [&](const auto& samples) {
+            using T = typename std::decay_t<decltype(samples)>::value_type;
+            const T opaque = std::is_floating_point_v<T> ? T{1} : std::numeric_limits<T>::max();
+            const auto step = static_cast<std::size_t>(raster.channels);
+            for (std::size_t i = step - 1; i < samples.size(); i += step) {
+                if (samples[i] != opaque) return true;
+            }
+            return false;
+        },
+        raster.samples);
+}
+
+// "R", "G", "B", "A", "Y" and the default, among the colour channels. Nothing: no such channel.
+std::optional<Source> find_source(const Raster& raster, const std::string& channel) {
+    const bool grey = raster.colors() < 3;
+    const int alpha = raster.channels - 1;
+    if (channel == "R") return Source{false, 0};
+    if (channel == "G") return Source{false, grey ? 0 : 1};
+    if (channel == "B") return Source{false, grey ? 0 : 2};
+    if (channel == "A")
+        return raster.has_alpha ? std::optional(Source{false, alpha}) : std::nullopt;
+    if (channel.empty() && has_transparency(raster)) return Source{false, alpha};
+    return Source{!grey, 0};
+}
+
+bool is_color_name(const std::string& channel) {
+    return channel.empty() || channel == "R" || channel == "G" || channel == "B" ||
+           channel == "A" || channel == "Y";
+}
+
+template <class T>
+float unit(T v) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return v;
+    } else {
+        return static_cast<float>(static_cast<double>(v) / std::numeric_limits<T>::max());
+    }
+}
+
+Matte coverage(const Raster& raster, Source source) {
+    Matte matte(raster.info.size);
+    const auto step = static_cast<std::size_t>(raster.channels);
+    const auto channel = static_cast<std::size_t>(source.channel);
+    std::uint8_t* const out = matte.data();
+    std::visit(
+        [&](const auto& samples) {
+            for (std::size_t i = 0, at = 0; at < samples.size(); ++i, at += step) {
+                const auto* p = samples.data() + at;
+                // Rec. 709 luma (ITU-R BT.709-6, 3.2).
+                out[i] = quantise(source.luma ? 0.2126f * unit(p[0]) + 0.7152f * unit(p[1]) +
+                                                    0.0722f * unit(p[2])
+                                              : unit(p[channel]));
+            }
+        },
+        raster.samples);
+    return matte;
+}
+
+Matte equal_to(const Raster& raster, int channel, int value) {
+    Matte matte(raster.info.size);
+    const auto step = static_cast<std::size_t>(raster.channels);
+    std::uint8_t* const out = matte.data();
+    std::visit(
+        [&](const auto& samples) {
+            std::size_t at = static_cast<std::size_t>(channel);
+            for (std::size_t i = 0; at < samples.size(); ++i, at += step) {
+                out[i] = static_cast<std::int64_t>(samples[at]) == value ? 255 : 0;
+            }
+        },
+        raster.samples);
+    return matte;
+}
+
+Error no_channel(const std::string& path, const Raster& raster, const std::string& channel) {
+    const std::string have = raster.colors() < 3 ? "grey only" : "R, G and B only";
+    return unreadable(path, "it has no channel '" + channel + "'", "It has " + have + ".");
+}
+
+}  // namespace
+
+Expected<PlateFrame> read_image(const std::string& path, const std::string& layer) {
+    WEFT_TRY(raster, read_raster(path, {layer, {}, false}));
+    return to_plate(raster);
+}
+
+Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, Size expected) {
+    WEFT_CHECK_OK(check_exists(path));
+    const bool by_color = is_color_name(select.channel);
+    RasterRequest request;
+    request.raw_codes = select.value.has_value();
+    if (!by_color) request.channel = select.channel;
+    WEFT_TRY(raster, read_raster(path, request));
+    WEFT_CHECK_OK(check_size(path, raster.info.size, expected));
+
+    Source source;
+    if (by_color && !raster.palette_indices) {
+        const auto found = find_source(raster, select.channel);
+        if (!found) return tl::unexpected(no_channel(path, raster, select.channel));
+        source = *found;
+    }
+    Matte matte;
+    if (select.value) {
+        if (std::holds_alternative<std::vector<float>>(raster.samples)) {
+            return fail(ErrorCode::kUsage,
+                        path +
+                            " has no integer ids (its samples are floating point), so no value "
+                            "can be picked. Leave the matte value out.");
+        }
+        // Without a channel the ids are in the first one: luma would mix them, and an id matte's
+        // alpha says where there is any object.
+        matte = equal_to(raster, select.channel.empty() ? 0 : source.channel, *select.value);
+    } else {
+        matte = coverage(raster, source);
+    }
+    if (select.invert) {
+        std::uint8_t* const p = matte.data();
+        for (std::size_t i = 0; i < matte.size_bytes(); ++i)
+            p[i] = static_cast<std::uint8_t>(255 - p[i]);
+    }
+    return matte;
+}
+
+}  // namespace weft

@@ -1,0 +1,52 @@
+#pragma once
+// Internal: the samples of an image file as they stand in it, before they become a plate, a matte
+// or a motion field. The only door to OpenImageIO and libpng for reading.
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/core/geometry.h"
+
+namespace weft {
+
+/// How the samples stand in the file. kOther is any other integer or double, read as float.
+enum class SampleKind { kU8, kU16, kU32, kHalf, kFloat, kOther };
+
+struct RasterInfo {
+    Size size;                          ///< The display window.
+    SampleKind kind = SampleKind::kU8;  ///< Of the channels that were asked for; mixed: the widest.
+    double fps = 0;                     ///< 0 when the file does not say.
+};
+
+/// Interleaved samples, `channels` per pixel, row by row without gaps. Half, float and other kinds
+/// are held as float, integers as their own codes.
+struct Raster {
+    RasterInfo info;
+    int channels = 0;  ///< Colour channels (1 or 3), then alpha when there is one.
+    bool has_alpha = false;
+    bool palette_indices = false;  ///< The samples of a palette file are indices, not colours.
+    std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::uint32_t>,
+                 std::vector<float>>
+        samples;
+    [[nodiscard]] int colors() const { return channels - (has_alpha ? 1 : 0); }
+};
+
+struct RasterRequest {
+    std::string layer;  ///< "beauty" takes beauty.R, .G, .B, .A; empty: R, G, B, A or the grey one.
+    std::string channel;  ///< One channel by its full name, instead of a layer.
+    /// Integer codes as they stand: palette indices instead of colours, and 1, 2 and 4 bits without
+    /// scaling them to 8.
+    bool raw_codes = false;
+};
+
+/// Reads the header only. Errors: Unreadable with the path; `RasterRequest` names nothing there.
+[[nodiscard]] Expected<RasterInfo> probe_raster(const std::string& path,
+                                                const RasterRequest& request);
+/// Errors: Unreadable (not an image, truncated, damaged, no such layer or channel: the message
+/// lists those there are), NoSpace when the picture is larger than the machine's memory.
+[[nodiscard]] Expected<Raster> read_raster(const std::string& path, const RasterRequest& request);
+
+}  // namespace weft

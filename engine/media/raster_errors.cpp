@@ -1,0 +1,33 @@
+#include "engine/media/raster_errors.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace weft {
+
+Error unreadable(const std::string& path, const std::string& reason, const std::string& advice) {
+    return {ErrorCode::kUnreadable, path + " cannot be read: " + reason + ". " + advice, {}};
+}
+
+Error damaged(const std::string& path, const std::string& reason) {
+    std::string one_line = reason.empty() ? "the file ends early" : reason;
+    std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+    while (!one_line.empty() && (one_line.back() == '.' || one_line.back() == ' ')) {
+        one_line.pop_back();
+    }
+    return unreadable(path, "it is truncated, damaged or not a picture (" + one_line + ")",
+                      "Write or copy it again.");
+}
+
+Status check_memory(const std::string& path, Size size, int channels) {
+    const double bytes = static_cast<double>(size.width) * size.height * channels * sizeof(float);
+    const double memory =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (bytes <= 0.75 * memory) return {};
+    return fail(ErrorCode::kNoSpace, path + " does not fit into memory: it has " +
+                                         std::to_string(size.width) + "x" +
+                                         std::to_string(size.height) + " pixels. Scale it down.");
+}
+
+}  // namespace weft

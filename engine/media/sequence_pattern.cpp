@@ -1,0 +1,141 @@
+#include "engine/media/sequence_pattern.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+
+namespace weft {
+namespace {
+
+struct Placeholder {
+    std::size_t begin = 0;
+    std::size_t length = 0;
+    int padding = 1;
+};
+
+constexpr int kMaxPadding = 12;
+
+/// A run of # or of @, or %d, %04d, that starts at `i`; length 0 when there is none.
+Placeholder placeholder_at(std::string_view s, std::size_t i) {
+    if (s[i] == '#' || s[i] == '@') {
+        std::size_t end = i;
+        while (end < s.size() && s[end] == s[i])
+            ++end;
+        return {i, end - i, static_cast<int>(std::min<std::size_t>(end - i, kMaxPadding + 1))};
+    }
+    if (s[i] != '%') return {};
+    std::size_t end = i + 1;
+    const bool zero = end < s.size() && s[end] == '0';
+    int width = 0;
+    while (end < s.size() && std::isdigit(static_cast<unsigned char>(s[end])) && width < 1000) {
+        width = width * 10 + (s[end++] - '0');
+    }
+    // Without the zero, %4d would pad with blanks, which no renderer writes: not a placeholder.
+    if (end >= s.size() || s[end] != 'd' || (width > 0 && !zero)) return {};
+    return {i, end + 1 - i, std::max(1, std::min(width, kMaxPadding + 1))};
+}
+
+std::vector<Placeholder> placeholders_in(std::string_view s) {
+    std::vector<Placeholder> found;
+    for (std::size_t i = 0; i < s.size();) {
+        const Placeholder p = placeholder_at(s, i);
+        if (p.length > 0) found.push_back(p);
+        i += std::max<std::size_t>(1, p.length);
+    }
+    return found;
+}
+
+std::string padded(int frame, int padding) {
+    const std::int64_t magnitude = frame < 0 ? -static_cast<std::int64_t>(frame) : frame;
+    std::string digits = std::to_string(magnitude);
+    if (static_cast<int>(digits.size()) < padding) {
+        digits.insert(0, static_cast<std::size_t>(padding) - digits.size(), '0');
+    }
+    return frame < 0 ? "-" + digits : digits;
+}
+
+}  // namespace
+
+Expected<SequencePattern> SequencePattern::parse(std::string_view text) {
+    const std::size_t slash = text.rfind('/');
+    const std::size_t name_at = slash == std::string_view::npos ? 0 : slash + 1;
+    const std::string whole(text);
+    if (name_at == text.size()) {
+        return fail(ErrorCode::kUsage,
+                    "'" + whole + "' has no file name. Write a name such as plate.####.exr.");
+    }
+    for (const Placeholder& p : placeholders_in(text.substr(0, name_at))) {
+        if (p.length == 1) continue;
+        return fail(ErrorCode::kUsage, "'" + whole +
+                                           "' has a frame number in its folder part. Only the file "
+                                           "name can carry one, such as plate.####.exr.");
+    }
+    const auto found = placeholders_in(text.substr(name_at));
+    if (found.size() > 1) {
+        return fail(ErrorCode::kUsage, "'" + whole +
+                                           "' has more than one frame number. Leave one of them, "
+                                           "such as plate.####.exr.");
+    }
+    SequencePattern pattern;
+    pattern.text_ = whole;
+    if (found.empty()) return pattern;
+    if (found[0].padding > kMaxPadding) {
+        return fail(ErrorCode::kUsage, "'" + whole + "' asks for more than 12 digits. Use fewer.");
+    }
+    const std::size_t begin = name_at + found[0].begin;
+    pattern.numbered_ = true;
+    pattern.padding_ = found[0].padding;
+    pattern.prefix_ = whole.substr(0, begin);
+    pattern.suffix_ = whole.substr(begin + found[0].length);
+    return pattern;
+}
+
+SequencePattern SequencePattern::single(std::string_view path) {
+    SequencePattern pattern;
+    pattern.text_ = std::string(path);
+    return pattern;
+}
+
+std::string SequencePattern::path_for(int frame) const {
+    return numbered_ ? prefix_ + padded(frame, padding_) + suffix_ : text_;
+}
+
+std::optional<int> SequencePattern::frame_of(std::string_view path) const {
+    if (!numbered_ || path.size() <= prefix_.size() + suffix_.size()) return std::nullopt;
+    if (!path.starts_with(prefix_) || !path.ends_with(suffix_)) return std::nullopt;
+    const std::string_view number =
+        path.substr(prefix_.size(), path.size() - prefix_.size() - suffix_.size());
+    int frame = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), frame);
+    if (error != std::errc() || end != number.data() + number.size()) return std::nullopt;
+    // 00012 is not a name that #### would write, nor is -0: one file for each number, one number
+    // for each file.
+    if (padded(frame, padding_) != number) return std::nullopt;
+    return frame;
+}
+
+Expected<std::vector<int>> SequencePattern::list_frames() const {
+    std::vector<int> frames;
+    if (!numbered_) return frames;
+    const std::size_t slash = prefix_.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : prefix_.substr(0, slash + 1);
+    std::error_code error;
+    std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
+    for (const std::filesystem::directory_iterator end; !error && entry != end;
+         entry.increment(error)) {
+        if (const auto frame = frame_of(folder + entry->path().filename().string())) {
+            frames.push_back(*frame);
+        }
+    }
+    if (error) {
+        return fail(ErrorCode::kUnreadable, "The folder " + (folder.empty() ? "." : folder) +
+                                                " cannot be read: " + error.message() +
+                                                ". Check the path and its permissions.");
+    }
+    std::sort(frames.begin(), frames.end());
+    return frames;
+}
+
+}  // namespace weft

@@ -1,0 +1,33 @@
+#pragma once
+// Temporal Difference Error (method.md, 7): how much a result changes along the motion of the
+// surface.
+
+#include <cstdint>
+
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// The pixels of a field that may be judged: inside `source_matte` eroded by `erode_px`, motion
+/// valid and landing alone (landing_is_single()), and landing inside `target_matte` eroded
+/// likewise. 255 or 0.
+[[nodiscard]] Matte visible_in_both(const FlowField& target_from_source, ViewU8x1 source_matte,
+                                    ViewU8x1 target_matte, int erode_px = 2);
+
+struct TemporalError {
+    double tde = 0;           ///< Mean |Y_source(p) − Y_target(p + d(p))|, 8-bit units.
+    std::int64_t pixels = 0;  ///< How many were visible in both; 0 means that `tde` says nothing.
+};
+
+/// The error along `target_from_source`, measured in the source frame's pixels: for a forward field
+/// the source is the earlier frame, for a backward one the later. The lookup at p + d(p) is a
+/// Catmull-Rom cubic on clamped borders, not clipped. Both lumas in 8-bit units. `visible` from
+/// visible_in_both(). Pixels whose luma is not finite on either side are left out.
+[[nodiscard]] TemporalError measure_tde(ViewF1 source_luma, ViewF1 target_luma,
+                                        const FlowField& target_from_source, ViewU8x1 visible);
+
+/// Moves a picture: out(p) = image(p + d(p)) with the same lookup, 0 where the field is not valid.
+[[nodiscard]] ImageF1 moved(ViewF1 image, const FlowField& image_from_out);
+
+}  // namespace weft

@@ -1,0 +1,148 @@
+#include "engine/motion/lattice_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+// Catmull–Rom weights of the nodes −1, 0, 1, 2 at the fraction f in [0, 1).
+std::array<float, 4> catmull_rom(float f) {
+    const float f2 = f * f, f3 = f2 * f;
+    return {0.5f * (-f3 + 2 * f2 - f), 0.5f * (3 * f3 - 5 * f2 + 2), 0.5f * (-3 * f3 + 4 * f2 + f),
+            0.5f * (f3 - f2)};
+}
+
+struct Tap {
+    int first;                    // node index of weight[0]
+    std::array<float, 4> weight;
+};
+
+// Where a frame coordinate falls among `count` nodes; the coordinate must lie inside the inner ones.
+Tap tap_at(float coordinate, int spacing, int count) {
+    const float g = coordinate / static_cast<float>(spacing) + LatticeField::kMargin;
+    const int cell = std::clamp(static_cast<int>(std::floor(g)), 1, count - 3);
+    return {cell - 1, catmull_rom(g - static_cast<float>(cell))};
+}
+
+Vec2 interpolate(const ImageF2& nodes, const Tap& tx, const Tap& ty) {
+    Vec2 sum(0);
+    for (int r = 0; r < 4; ++r) {
+        const float* n = nodes.pixel(tx.first, ty.first + r);
+        Vec2 line(0);
+        for (int c = 0; c < 4; ++c) {
+            line += tx.weight[static_cast<std::size_t>(c)] * Vec2(n[2 * c], n[2 * c + 1]);
+        }
+        sum += ty.weight[static_cast<std::size_t>(r)] * line;
+    }
+    return sum;
+}
+
+int node_count(int extent, int spacing) {
+    return (extent + spacing - 1) / spacing + 1 + 2 * LatticeField::kMargin;
+}
+
+}  // namespace
+
+LatticeField::LatticeField(Size full, int spacing)
+    : full_(full), spacing_(spacing),
+      nodes_(node_count(full.width, spacing), node_count(full.height, spacing)) {
+    assert(spacing >= 1);
+}
+
+Vec2 LatticeField::at(Vec2 p) const {
+    // Inside the inner nodes all four taps exist; outside, the field goes on with the gradient that
+    // it has at the nearest inner place.
+    const float step = static_cast<float>(spacing_);
+    const Vec2 low(-step), high = node_position(nodes_.width() - 2, nodes_.height() - 2);
+    const Vec2 q(std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y));
+    const Tap tx = tap_at(q.x, spacing_, nodes_.width());
+    const Tap ty = tap_at(q.y, spacing_, nodes_.height());
+    Vec2 d = interpolate(nodes_, tx, ty);
+    if (p.x != q.x) {
+        const float inward = p.x < q.x ? q.x + step : q.x - step;
+        const Vec2 slope = (interpolate(nodes_, tap_at(inward, spacing_, nodes_.width()), ty) - d) /
+                           (inward - q.x);
+        d += slope * (p.x - q.x);
+    }
+    if (p.y != q.y) {
+        const float inward = p.y < q.y ? q.y + step : q.y - step;
+        const Vec2 slope = (interpolate(nodes_, tx, tap_at(inward, spacing_, nodes_.height())) -
+                            interpolate(nodes_, tx, ty)) /
+                           (inward - q.y);
+        d += slope * (p.y - q.y);
+    }
+    return d;
+}
+
+ImageF2 LatticeField::dense(const Recti& area) const {
+    assert(area.intersected(rect_of(full_)) == area);
+    ImageF2 out(area.width(), area.height());
+    std::vector<Tap> columns;
+    columns.reserve(static_cast<std::size_t>(area.width()));
+    for (int x = area.x0; x < area.x1; ++x) {
+        columns.push_back(tap_at(static_cast<float>(x) + 0.5f, spacing_, nodes_.width()));
+    }
+    parallel_rows(area.height(), 32, [&](int y0, int y1) {
+        std::vector<float> line(static_cast<std::size_t>(nodes_.stride()));
+        for (int y = y0; y < y1; ++y) {
+            const Tap ty =
+                tap_at(static_cast<float>(area.y0 + y) + 0.5f, spacing_, nodes_.height());
+            for (std::size_t k = 0; k < line.size(); ++k) {
+                float sum = 0;
+                for (int r = 0; r < 4; ++r) {
+                    sum += ty.weight[static_cast<std::size_t>(r)] * nodes_.row(ty.first + r)[k];
+                }
+                line[k] = sum;
+            }
+            float* o = out.row(y);
+            for (const Tap& tx : columns) {
+                const float* n = line.data() + 2 * tx.first;
+                const auto& w = tx.weight;
+                *o++ = w[0] * n[0] + w[1] * n[2] + w[2] * n[4] + w[3] * n[6];
+                *o++ = w[0] * n[1] + w[1] * n[3] + w[2] * n[5] + w[3] * n[7];
+            }
+        }
+    });
+    return out;
+}
+
+LatticeField LatticeField::resampled(int spacing) const {
+    LatticeField out(full_, spacing);
+    for (int j = 0; j < out.nodes_.height(); ++j) {
+        for (int i = 0; i < out.nodes_.width(); ++i) {
+            out.set_node(i, j, at(out.node_position(i, j)));
+        }
+    }
+    return out;
+}
+
+LatticeField compose(const LatticeField& inner, const LatticeField& outer) {
+    assert(inner.full_size() == outer.full_size());
+    LatticeField out = inner;
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i) {
+            const Vec2 d = inner.node(i, j);
+            out.set_node(i, j, d + outer.at(inner.node_position(i, j) + d));
+        }
+    }
+    return out;
+}
+
+LatticeField mix(const LatticeField& a, const LatticeField& b, float weight) {
+    assert(a.full_size() == b.full_size() && a.spacing() == b.spacing());
+    LatticeField out = a;
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i) {
+            out.set_node(i, j, a.node(i, j) + weight * (b.node(i, j) - a.node(i, j)));
+        }
+    }
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,181 @@
+#include "engine/pipeline/analysis_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+namespace weft {
+namespace {
+
+constexpr int kLargestSide = 1 << 16;
+
+// Plain values one after the other, in the machine's (little-endian) order.
+class Writer {
+  public:
+    template <class T>
+        requires std::is_trivially_copyable_v<T>
+    Writer& value(const T& v) {
+        return raw(&v, sizeof v);
+    }
+    Writer& raw(const void* data, std::size_t size) {
+        const auto* p = static_cast<const std::uint8_t*>(data);
+        bytes_.insert(bytes_.end(), p, p + size);
+        return *this;
+    }
+    Bytes take() { return std::move(bytes_); }
+
+  private:
+    Bytes bytes_;
+};
+
+class Reader {
+  public:
+    explicit Reader(const Bytes& bytes) : bytes_(bytes) {}
+    template <class T>
+    Reader& value(T& v) {
+        return raw(&v, sizeof v);
+    }
+    Reader& raw(void* data, std::size_t size) {
+        if (size > bytes_.size() - position_) {
+            ok_ = false;
+        } else if (ok_) {
+            std::memcpy(data, bytes_.data() + position_, size);
+            position_ += size;
+        }
+        return *this;
+    }
+    // Everything was read, and nothing is left over.
+    [[nodiscard]] bool complete() const { return ok_ && position_ == bytes_.size(); }
+    [[nodiscard]] bool ok() const { return ok_; }
+
+  private:
+    const Bytes& bytes_;
+    std::size_t position_ = 0;
+    bool ok_ = true;
+};
+
+bool sane(Size s) { return s.width >= 0 && s.height >= 0 && s.width <= kLargestSide && s.height <= kLargestSide; }
+
+tl::unexpected<Error> damaged(const char* what) {
+    return fail(ErrorCode::kRenderFailed, std::string("The cached ") + what +
+                                              " is damaged. Delete the cache folder and render again.");
+}
+
+// Shading is kept as round(log2(v) · 2048) + 32768: from 2^-16 to 2^16.
+constexpr float kLogSteps = 2048.0f;
+
+std::uint16_t log_code(float v) {
+    const float code = std::log2(std::max(v, 1e-9f)) * kLogSteps + 32768.5f;
+    return static_cast<std::uint16_t>(std::clamp(code, 0.0f, 65535.0f));
+}
+
+float from_log_code(std::uint16_t code) {
+    return std::exp2((static_cast<float>(code) - 32768.0f) / kLogSteps);
+}
+
+}  // namespace
+
+bool MemoryAnalysisStore::has(const AnalysisKey& key) const {
+    const std::lock_guard lock(mutex_);
+    return blobs_.contains(key);
+}
+
+Status MemoryAnalysisStore::put(const AnalysisKey& key, const Bytes& bytes) {
+    const std::lock_guard lock(mutex_);
+    blobs_[key] = bytes;
+    return {};
+}
+
+Expected<Bytes> MemoryAnalysisStore::get(const AnalysisKey& key) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = blobs_.find(key);
+    if (found == blobs_.end()) {
+        return fail(ErrorCode::kRenderFailed,
+                    "Frame " + std::to_string(key.frame) + " has not been analysed.");
+    }
+    return found->second;
+}
+
+Bytes encode(const StoredMatte& m) {
+    return Writer()
+        .value(m.matte.size())
+        .value(m.confidence)
+        .raw(m.matte.data(), m.matte.size_bytes())
+        .take();
+}
+
+Bytes encode(const LatticeField& field) {
+    return Writer()
+        .value(field.full_size())
+        .value(field.spacing())
+        .raw(field.nodes().data(), field.nodes().size_bytes())
+        .take();
+}
+
+Bytes encode(const Shading& shading) {
+    std::vector<std::uint16_t> codes;
+    codes.reserve(shading.value.size_bytes() / sizeof(float));
+    for (int y = 0; y < shading.value.height(); ++y) {
+        const float* row = shading.value.row(y);
+        std::transform(row, row + shading.value.width(), std::back_inserter(codes), log_code);
+    }
+    return Writer()
+        .value(shading.full)
+        .value(shading.downscale)
+        .value(shading.value.size())
+        .raw(codes.data(), codes.size() * sizeof codes[0])
+        .take();
+}
+
+Bytes encode(const ImageU8x3& picture) {
+    return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
+}
+
+Expected<StoredMatte> decode_matte(const Bytes& bytes) {
+    Reader reader(bytes);
+    Size size;
+    StoredMatte out;
+    reader.value(size).value(out.confidence);
+    if (!reader.ok() || !sane(size)) return damaged("matte");
+    out.matte = Matte(size);
+    if (!reader.raw(out.matte.data(), out.matte.size_bytes()).complete()) return damaged("matte");
+    return out;
+}
+
+Expected<LatticeField> decode_lattice(const Bytes& bytes) {
+    Reader reader(bytes);
+    Size full;
+    int spacing = 0;
+    reader.value(full).value(spacing);
+    if (!reader.ok() || !sane(full) || spacing < 1 || spacing > 4096) return damaged("motion");
+    LatticeField out(full, spacing);
+    if (!reader.raw(out.nodes().data(), out.nodes().size_bytes()).complete()) return damaged("motion");
+    return out;
+}
+
+Expected<Shading> decode_shading(const Bytes& bytes) {
+    Reader reader(bytes);
+    Shading out;
+    Size size;
+    reader.value(out.full).value(out.downscale).value(size);
+    if (!reader.ok() || !sane(size) || !sane(out.full)) return damaged("light");
+    std::vector<std::uint16_t> codes(static_cast<std::size_t>(size.width) *
+                                     static_cast<std::size_t>(size.height));
+    if (!reader.raw(codes.data(), codes.size() * sizeof codes[0]).complete()) return damaged("light");
+    out.value = ImageF1(size);
+    std::transform(codes.begin(), codes.end(), out.value.data(), from_log_code);
+    return out;
+}
+
+Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
+    Reader reader(bytes);
+    Size size;
+    reader.value(size);
+    if (!reader.ok() || !sane(size)) return damaged("texture");
+    ImageU8x3 out(size);
+    if (!reader.raw(out.data(), out.size_bytes()).complete()) return damaged("texture");
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,73 @@
+#pragma once
+// A shot's analysis: what has to be worked out in the frames' order, kept so that rendering a frame
+// is a pure function afterwards.
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/core/image.h"
+#include "engine/lighting/shading.h"
+#include "engine/motion/lattice_field.h"
+
+namespace weft {
+
+enum class AnalysisKind : std::uint8_t {
+    kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made).
+    kMatte,          ///< Propagated and merged, with its confidence.
+    kCoords,         ///< ref_from_cur
+    kShading,
+    kPaperTexture    ///< The paper mode's synthesised picture.
+};
+
+struct AnalysisKey {
+    int region = 0;
+    int frame = 0;
+    AnalysisKind kind = AnalysisKind::kCoords;
+    auto operator<=>(const AnalysisKey&) const = default;
+};
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Keeps blobs by key. Thread-safe.
+class AnalysisStore {
+  public:
+    virtual ~AnalysisStore() = default;
+    [[nodiscard]] virtual bool has(const AnalysisKey& key) const = 0;
+    [[nodiscard]] virtual Status put(const AnalysisKey& key, const Bytes& bytes) = 0;
+    /// Error: RenderFailed when there is none or it is damaged.
+    [[nodiscard]] virtual Expected<Bytes> get(const AnalysisKey& key) const = 0;
+};
+
+/// Keeps everything in memory: tests and single frames.
+class MemoryAnalysisStore final : public AnalysisStore {
+  public:
+    [[nodiscard]] bool has(const AnalysisKey& key) const override;
+    [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override;
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override;
+
+  private:
+    mutable std::mutex mutex_;
+    std::map<AnalysisKey, Bytes> blobs_;
+};
+
+/// A matte with its confidence, as the walkers gave it.
+struct StoredMatte {
+    Matte matte;
+    float confidence = 1;
+};
+
+[[nodiscard]] Bytes encode(const StoredMatte& matte);
+[[nodiscard]] Bytes encode(const LatticeField& field);
+[[nodiscard]] Bytes encode(const Shading& shading);   ///< 16 bit, logarithmic: steps of 0.03%.
+[[nodiscard]] Bytes encode(const ImageU8x3& picture);
+/// Errors: RenderFailed when the bytes are not what the encoder wrote.
+[[nodiscard]] Expected<StoredMatte> decode_matte(const Bytes& bytes);
+[[nodiscard]] Expected<LatticeField> decode_lattice(const Bytes& bytes);
+[[nodiscard]] Expected<Shading> decode_shading(const Bytes& bytes);
+[[nodiscard]] Expected<ImageU8x3> decode_picture(const Bytes& bytes);
+
+}  // namespace weft

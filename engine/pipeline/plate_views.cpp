@@ -1,0 +1,92 @@
+#include "engine/pipeline/plate_views.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+constexpr int kBand = 32;
+
+std::uint8_t code(float v) {
+    // NaN fails both comparisons and becomes 0.
+    return v >= 1.0f ? 255 : v > 0.0f ? static_cast<std::uint8_t>(v * 255.0f + 0.5f) : 0;
+}
+
+}  // namespace
+
+PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate) {
+    PlateViews views{ImageU8x3(plate.size()), Matte(plate.size()), Matte(plate.size(), 255)};
+    std::atomic<bool> all_finite{true};
+    const bool convert = !display_from_plate.identity();
+    parallel_rows(plate.height(), kBand, [&](int y0, int y1) {
+        ImageF3 band(plate.width(), convert ? 1 : 0);
+        for (int y = y0; y < y1; ++y) {
+            const float* in = plate.row(y);
+            for (int x = 0; x < plate.width(); ++x) {
+                const float* p = in + 3 * x;
+                if (!std::isfinite(p[0] + p[1] + p[2])) {
+                    views.finite.at(x, y) = 0;
+                    all_finite = false;
+                }
+            }
+            if (convert) {
+                std::copy(in, in + plate.stride(), band.data());
+                display_from_plate.apply(band);
+                in = band.data();
+            }
+            std::uint8_t* out = views.display.row(y);
+            std::uint8_t* luma = views.luma.row(y);
+            for (int x = 0; x < plate.width(); ++x, in += 3, out += 3) {
+                for (int c = 0; c < 3; ++c) out[c] = code(in[c]);
+                luma[x] = static_cast<std::uint8_t>(
+                    (out[0] * 6966 + out[1] * 23436 + out[2] * 2366 + 16384) >> 15);
+            }
+        }
+    });
+    if (all_finite) views.finite = {};
+    return views;
+}
+
+ImageF3 transformed(const ImageF3& image, const ColorTransform& transform) {
+    ImageF3 out = image;
+    if (transform.identity()) return out;
+    parallel_rows(out.height(), kBand, [&](int y0, int y1) {
+        transform.apply(out.view().crop({0, y0, out.width(), y1}));
+    });
+    return out;
+}
+
+Matte without_holdout(const Matte& extent, const Matte& holdout) {
+    if (holdout.empty()) return extent;
+    Matte out(extent.size());
+    const std::uint8_t *e = extent.data(), *h = holdout.data();
+    std::transform(e, e + extent.size_bytes(), h, out.data(), [](int a, int b) {
+        return static_cast<std::uint8_t>((a * (255 - b) + 127) / 255);
+    });
+    return out;
+}
+
+void drop_nonfinite(Matte& mask, const Matte& finite) {
+    if (finite.empty()) return;
+    std::transform(mask.data(), mask.data() + mask.size_bytes(), finite.data(), mask.data(),
+                   [](std::uint8_t m, std::uint8_t f) { return f ? m : std::uint8_t{0}; });
+}
+
+Recti matte_bounds(ViewU8x1 matte) {
+    Recti box;
+    for (int y = 0; y < matte.height(); ++y) {
+        const std::uint8_t* row = matte.row(y);
+        const std::uint8_t* end = row + matte.width();
+        const auto* first = std::find_if(row, end, [](std::uint8_t m) { return m > 0; });
+        if (first == end) continue;
+        while (end[-1] == 0) --end;
+        box = box.united({static_cast<int>(first - row), y, static_cast<int>(end - row), y + 1});
+    }
+    return box;
+}
+
+}  // namespace weft

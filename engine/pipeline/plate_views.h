@@ -1,0 +1,28 @@
+#pragma once
+// What the analysis looks at: the plate in 8 bit, as the display shows it.
+
+#include "engine/color/color_space.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+struct PlateViews {
+    ImageU8x3 display;        ///< sRGB codes; NaN as 0, values outside [0, 1] clipped.
+    Matte luma;               ///< Rec. 709 luma of it.
+    Matte finite;             ///< 255 where all components are finite, else 0; empty: everywhere.
+};
+
+[[nodiscard]] PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate);
+
+/// The plate in the working space.
+[[nodiscard]] ImageF3 transformed(const ImageF3& image, const ColorTransform& transform);
+
+/// extent · (1 − holdout), rounded; the holdout may be empty.
+[[nodiscard]] Matte without_holdout(const Matte& extent, const Matte& holdout);
+/// Sets `mask` to 0 where `finite` is 0; an empty `finite` changes nothing.
+void drop_nonfinite(Matte& mask, const Matte& finite);
+
+/// The smallest rectangle around the pixels above 0.
+[[nodiscard]] Recti matte_bounds(ViewU8x1 matte);
+
+}  // namespace weft

@@ -1,0 +1,21 @@
+#pragma once
+#include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+
+namespace weft {
+
+/// A region's extent on a frame: from its files, or as it was propagated (which must be done).
+[[nodiscard]] Expected<Matte> extent_matte(const ShotSource& source, const ShotPlan& plan,
+                                           const AnalysisStore& store, int region, int frame);
+/// The region's holdout on a frame; an empty image when it has none.
+[[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan, int region,
+                                            int frame);
+
+/// The frames that a region's analysis spans: its frames to render, references and matte keyframes.
+struct FrameSpan {
+    int first = 0, last = 0;
+};
+[[nodiscard]] FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region);
+
+}  // namespace weft

@@ -1,0 +1,112 @@
+#include "engine/pipeline/region_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/parallel.h"
+#include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSmallestPlane = 512, kLargestPlane = 2048;
+
+int plane_side(int plate_px, float scale) {
+    const float texels = 1.25f * static_cast<float>(plate_px) / scale;
+    const int rounded = static_cast<int>(std::ceil(std::min(texels, 1e6f) / 64.0f)) * 64;
+    return std::clamp(rounded, kSmallestPlane, kLargestPlane);
+}
+
+Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
+                                  std::optional<PlaneStats>& stats, const CancelToken& cancel,
+                                  const ProgressFn& progress) {
+    const TexturePicture& texture = *region.texture;
+    if (texture.is_plane) {
+        return PlanePyramid(transformed(texture.pixels, *region.working_from_texture), texture.wrap);
+    }
+    PlaneOptions options;
+    options.size = plane_size(region.placement, plate);
+    options.seam = region.seam;
+    options.overlap_px = region.overlap_px;
+    options.feather_px = region.feather_px;
+    options.seed = plan.seed;
+    options.region = region.random_key;
+    options.tileable = true;
+    WEFT_TRY(plane, grow_plane(synthesis_sample(region), options, cancel, progress));
+    stats = plane.stats;
+    return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
+}
+
+// S₀: the plate's median shading inside the matte, on the reference frame.
+Expected<float> reference_shading(const ShotSource& source, const ShotPlan& plan,
+                                  const AnalysisStore& store, int region, int frame) {
+    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kShading}));
+    WEFT_TRY(shading, decode_shading(bytes));
+    WEFT_TRY(extent, extent_matte(source, plan, store, region, frame));
+    WEFT_TRY(holdout, holdout_matte(source, plan, region, frame));
+    return median_shading(shading, without_holdout(extent, holdout));
+}
+
+}  // namespace
+
+Size plane_size(const PlanePlacement& placement, Size plate) {
+    return {plane_side(plate.width, placement.scale), plane_side(plate.height, placement.scale)};
+}
+
+ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& plane) {
+    const ImageF3 sample = transformed(region.texture->pixels, *region.working_from_texture);
+    const ImageU8x3 sample8 = synthesis_sample(region);
+    ImageF3 out(plane.pixels.size());
+    parallel_rows(out.height(), 32, [&](int y0, int y1) {
+        ImageF3 before(out.width(), 1), after(out.width(), 1);
+        for (int y = y0; y < y1; ++y) {
+            bool feathered = false;
+            for (int x = 0; x < out.width(); ++x) {
+                const std::int32_t* from = plane.source.pixel(x, y);
+                for (int c = 0; c < 3; ++c) {
+                    const std::uint8_t was = sample8.pixel(from[0], from[1])[c];
+                    const std::uint8_t is = plane.pixels.pixel(x, y)[c];
+                    out.pixel(x, y)[c] = sample.pixel(from[0], from[1])[c];
+                    before.pixel(x, 0)[c] = static_cast<float>(was) / 255.0f;
+                    after.pixel(x, 0)[c] = static_cast<float>(is) / 255.0f;
+                    feathered |= was != is;
+                }
+            }
+            if (!feathered) continue;
+            region.working_from_display->apply(before);
+            region.working_from_display->apply(after);
+            for (int k = 0; k < 3 * out.width(); ++k) {
+                out.row(y)[k] = std::max(0.0f, out.row(y)[k] + after.data()[k] - before.data()[k]);
+            }
+        }
+    });
+    return out;
+}
+
+Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
+                                 const AnalysisStore& store, int region_index,
+                                 const CancelToken& cancel, const ProgressFn& progress) {
+    const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
+    RegionScene scene;
+    WEFT_TRY(plane_from, plane_from_plate(region.placement));
+    scene.plane_from_plate = plane_from;
+    if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
+        WEFT_TRY(plane, make_plane(plan, region, source.size(), scene.stats, cancel, progress));
+        scene.plane = std::move(plane);
+    }
+    const int reference = region.reference_frames.front();
+    if (region.light_source == LightSource::kPlate && region.light.strength > 0) {
+        WEFT_TRY(median, reference_shading(source, plan, store, region_index, reference));
+        scene.reference_shading = median;
+    } else if (region.light_source == LightSource::kImage) {
+        WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
+        scene.picture_light =
+            shading_from_image(*region.light_picture, matte_bounds(extent), source.size());
+        scene.reference_shading = median_shading(*scene.picture_light, extent);
+    }
+    return scene;
+}
+
+}  // namespace weft

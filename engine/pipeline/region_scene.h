@@ -1,0 +1,38 @@
+#pragma once
+// A region made ready to be rendered: its texture plane, its placement, the light it is relative to.
+
+#include <optional>
+
+#include "engine/compute/plane_pyramid.h"
+#include "engine/core/cancel.h"
+#include "engine/core/progress.h"
+#include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+struct RegionScene {
+    PlanePyramid plane;                  ///< Empty in the modes that make one for every frame.
+    Mat3 plane_from_plate{1};
+    float reference_shading = 1;         ///< S₀
+    std::optional<Shading> picture_light;
+    std::optional<PlaneStats> stats;     ///< Of a grown plane.
+};
+
+/// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
+/// placement's scale, between 512 and 2048 texels a side. It joins at its borders and repeats. It
+/// depends on the plate and the placement only, so that every part of a shot gets the same plane.
+[[nodiscard]] Size plane_size(const PlanePlacement& placement, Size plate);
+
+/// Grows a region's plane and takes S₀ from the analysis of its (first) reference frame.
+[[nodiscard]] Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
+                                               const AnalysisStore& store, int region,
+                                               const CancelToken& cancel, const ProgressFn& progress);
+
+/// A plane's pixels in the working space: each texel takes the sample's pixel that its source map
+/// names, at the sample's full precision; what feathering changed in 8 bit is added.
+[[nodiscard]] ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& plane);
+
+}  // namespace weft

@@ -1,0 +1,191 @@
+#include "engine/pipeline/render_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/composite/composite.h"
+#include "engine/core/parallel.h"
+#include "engine/mask/edge_softening.h"
+#include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+// The renderer of one frame, with what its regions share.
+class FrameRenderer {
+  public:
+    FrameRenderer(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
+                  const Backend& backend, int frame, std::shared_ptr<const ImageF3> plate)
+        : source_(source), plan_(plan), store_(store), backend_(backend), frame_(frame),
+          plate_(std::move(plate)), canvas_(transformed(*plate_, *plan.working_from_plate)),
+          touched_(plate_->size()) {}
+
+    Status add(int index, const RegionScene& scene);
+    RenderedFrame finish();
+
+  private:
+    [[nodiscard]] Expected<Matte> composite_matte(int index);
+    // The texture as the region shows it, in the working space and before light, H×W of `box`.
+    [[nodiscard]] Expected<ImageF3> texture(int index, const RegionScene& scene, const Recti& box,
+                                            const Matte& matte) const;
+    [[nodiscard]] Expected<TextureCoords> coords(int index, const RegionScene& scene,
+                                                 const Recti& box) const;
+    Status light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
+                 ImageF3& texture);
+
+    const ShotSource& source_;
+    const ShotPlan& plan_;
+    const AnalysisStore& store_;
+    const Backend& backend_;
+    int frame_;
+    std::shared_ptr<const ImageF3> plate_;
+    ImageF3 canvas_;                        // working space; layers go over it
+    Matte touched_;
+    std::optional<PlateViews> views_;
+    bool lit_ = false;
+};
+
+const RegionPlan& region_of(const ShotPlan& plan, int index) {
+    return plan.regions[static_cast<std::size_t>(index)];
+}
+
+Expected<Matte> FrameRenderer::composite_matte(int index) {
+    WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame_));
+    WEFT_TRY(holdout, holdout_matte(source_, plan_, index, frame_));
+    if (is_hard(extent)) {
+        if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
+        extent = soften_hard_edge(views_->display, extent);
+    }
+    return without_holdout(extent, holdout);
+}
+
+Expected<TextureCoords> FrameRenderer::coords(int index, const RegionScene& scene,
+                                              const Recti& box) const {
+    if (region_of(plan_, index).temporal != TemporalMode::kLocked) {
+        constexpr int kCoarse = 64;
+        return texture_coords(LatticeField(plate_->size(), kCoarse), scene.plane_from_plate, box);
+    }
+    WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kCoords}));
+    WEFT_TRY(ref_from_cur, decode_lattice(bytes));
+    return texture_coords(ref_from_cur, scene.plane_from_plate, box);
+}
+
+Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, const Recti& box,
+                                         const Matte& matte) const {
+    const RegionPlan& region = region_of(plan_, index);
+    WEFT_TRY(at, coords(index, scene, box));
+    ImageF3 out(box.size());
+    SampleRequest request;
+    request.coords = at.uv;
+    request.matte = matte;
+    request.quality = plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
+    if (!scene.plane.empty()) {
+        request.plane = &scene.plane;
+        backend_.sample_plane(request, out);
+        return out;
+    }
+
+    // A plane of this frame alone, which begins at a texel of its own.
+    WEFT_TRY(frame_area, frame_plane(region.placement, plate_->size()));
+    ImageF3 picture;
+    if (region.temporal == TemporalMode::kPaper) {
+        WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kPaperTexture}));
+        WEFT_TRY(codes, decode_picture(bytes));
+        picture = ImageF3(codes.size());
+        std::transform(codes.data(), codes.data() + codes.size_bytes(), picture.data(),
+                       [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
+        region.working_from_display->apply(picture);
+    } else {
+        PlaneOptions options;
+        options.size = frame_area.size;
+        options.seam = region.seam;
+        options.overlap_px = region.overlap_px;
+        options.feather_px = region.feather_px;
+        options.seed = plan_.seed;
+        options.region = region.random_key;
+        options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
+        WEFT_TRY(plane, grow_plane(synthesis_sample(region), options));
+        picture = plane_in_working_space(region, plane);
+    }
+    const PlanePyramid pyramid(picture, WrapMode::kMirror);
+    for (int y = 0; y < at.uv.height(); ++y) {
+        for (int x = 0; x < at.uv.width(); ++x) {
+            at.uv.pixel(x, y)[0] -= static_cast<float>(frame_area.origin.x);
+            at.uv.pixel(x, y)[1] -= static_cast<float>(frame_area.origin.y);
+        }
+    }
+    request.plane = &pyramid;
+    backend_.sample_plane(request, out);
+    return out;
+}
+
+Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
+                            ImageF3& texture) {
+    const RegionPlan& region = region_of(plan_, index);
+    if (region.light_source == LightSource::kNone || region.light.strength <= 0) return {};
+    lit_ = true;
+    const Vec2i origin(box.x0, box.y0);
+    if (scene.picture_light) {
+        apply_light(texture, origin, matte, *scene.picture_light, scene.reference_shading, region.light);
+        return {};
+    }
+    WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kShading}));
+    WEFT_TRY(shading, decode_shading(bytes));
+    apply_light(texture, origin, matte, shading, scene.reference_shading, region.light);
+    return {};
+}
+
+Status FrameRenderer::add(int index, const RegionScene& scene) {
+    WEFT_TRY(matte, composite_matte(index));
+    const Recti box = matte_bounds(matte);
+    if (box.empty()) return {};
+    Matte inside(box.size());
+    for (int y = 0; y < box.height(); ++y) {
+        const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
+        std::copy(row, row + box.width(), inside.row(y));
+    }
+    WEFT_TRY(surface, texture(index, scene, box, inside));
+    WEFT_CHECK_OK(light(index, scene, box, inside, surface));
+
+    const ImageView<float, 3> area = canvas_.view().crop(box);
+    const ImageF3 old_surface = unmix_surface(area, inside);
+    composite_over(area, area, old_surface, inside, surface);
+    std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(), touched_.data(),
+                   [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+    return {};
+}
+
+RenderedFrame FrameRenderer::finish() {
+    RenderedFrame out;
+    if (lit_ && plan_.display_referred) out.above_one = roll_off(canvas_, touched_);
+    plan_.out_from_working->apply(canvas_);
+    out.pixels = transformed(*plate_, *plan_.out_from_plate);
+    for (int y = 0; y < touched_.height(); ++y) {
+        for (int x = 0; x < touched_.width(); ++x) {
+            if (touched_.at(x, y) == 0) continue;
+            const float* p = plate_->pixel(x, y);
+            if (!std::isfinite(p[0] + p[1] + p[2])) ++out.filled;
+            std::copy_n(canvas_.pixel(x, y), 3, out.pixels.pixel(x, y));
+        }
+    }
+    out.touched = std::move(touched_);
+    return out;
+}
+
+}  // namespace
+
+Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& plan,
+                                     const std::vector<RegionScene>& scenes,
+                                     const AnalysisStore& store, const Backend& backend, int frame) {
+    WEFT_TRY(plate, source.plate(frame));
+    FrameRenderer renderer(source, plan, store, backend, frame, std::move(plate));
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        WEFT_CHECK_OK(renderer.add(static_cast<int>(k), scenes[k]));
+    }
+    return renderer.finish();
+}
+
+}  // namespace weft

@@ -1,0 +1,32 @@
+#pragma once
+// Where the pipeline gets pictures from. The pipeline itself opens no file.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// The pictures of a shot. All functions may be called from several threads.
+class ShotSource {
+  public:
+    virtual ~ShotSource() = default;
+    [[nodiscard]] virtual Size size() const = 0;
+    /// The decoded plate, H×W×3, in the plate's own space; NaN and infinity as they stand.
+    [[nodiscard]] virtual Expected<std::shared_ptr<const ImageF3>> plate(int frame) const = 0;
+    /// The extent matte of a region, where mattes are given frame by frame.
+    [[nodiscard]] virtual Expected<Matte> matte(int region, int frame) const = 0;
+    /// A painted matte keyframe (RegionPlan::matte_keys names the frames).
+    [[nodiscard]] virtual Expected<Matte> matte_key(int region, int frame) const = 0;
+    /// What passes in front of the region: the maximum of its holdouts; nothing when it has none.
+    [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
+    /// The file of true motion of this frame, to the next or the previous one as
+    /// RegionPlan::motion_forward says.
+    [[nodiscard]] virtual Expected<FlowField> motion(int region, int frame) const = 0;
+};
+
+}  // namespace weft

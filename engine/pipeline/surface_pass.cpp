@@ -1,0 +1,275 @@
+#include "engine/pipeline/surface_pass.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/region_mattes.h"
+#include "engine/temporal/surface_walker.h"
+
+namespace weft {
+namespace {
+
+// One region on its way through the sweeps.
+struct Job {
+    int region = 0;
+    const RegionPlan* plan = nullptr;
+    FrameSpan span;
+    std::vector<int> references;     // ascending
+    int primary = 0;                 // the reference that holds the placement
+    bool coords = false, shading = false, paper = false;
+
+    std::optional<SurfaceWalker> walker;
+    std::optional<Shading> last_shading;
+    std::optional<PaperWalker> painter;
+    Matte last_visible;
+
+    [[nodiscard]] bool is_reference(int frame) const {
+        return std::binary_search(references.begin(), references.end(), frame);
+    }
+    [[nodiscard]] bool complete(const AnalysisStore& store) const {
+        for (int f = span.first; f <= span.last; ++f) {
+            if (coords && !store.has({region, f, AnalysisKind::kCoords})) return false;
+            if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
+            if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
+        }
+        return true;
+    }
+};
+
+std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
+    std::vector<Job> jobs;
+    for (std::size_t k = 0; k < plan.regions.size(); ++k) {
+        const RegionPlan& region = plan.regions[k];
+        Job job;
+        job.region = static_cast<int>(k);
+        job.plan = &region;
+        job.span = analysed_span(plan, region);
+        job.references = region.reference_frames;
+        job.primary = job.references.front();
+        std::sort(job.references.begin(), job.references.end());
+        job.coords = region.temporal == TemporalMode::kLocked;
+        job.paper = region.temporal == TemporalMode::kPaper;
+        job.shading = region.light_source == LightSource::kPlate && region.light.strength > 0;
+        if ((job.coords || job.paper || job.shading) && !job.complete(store)) {
+            jobs.push_back(std::move(job));
+        }
+    }
+    return jobs;
+}
+
+// The three sweeps over all jobs. An empty one has first == last with nothing to do.
+struct Legs {
+    std::optional<SweepOptions> forward;    // from the primary references to the ends
+    std::optional<SweepOptions> backward;   // from the last references to the begins
+    std::optional<SweepOptions> again;      // from references before a primary up to it
+};
+
+Legs legs_of(const std::vector<Job>& jobs) {
+    Legs legs;
+    const auto widen = [](std::optional<SweepOptions>& leg, int first, int last, bool motion) {
+        if (!leg) {
+            leg = SweepOptions{first, last, motion};
+            return;
+        }
+        const bool up = last >= first;
+        leg->first = up ? std::min(leg->first, first) : std::max(leg->first, first);
+        leg->last = up ? std::max(leg->last, last) : std::min(leg->last, last);
+        leg->motion |= motion;
+    };
+    for (const Job& job : jobs) {
+        const bool motion = !job.plan->true_motion;
+        widen(legs.forward, job.primary, job.span.last, motion);
+        if (job.span.first < job.primary || job.references.back() > job.primary) {
+            widen(legs.backward, job.references.back(), job.span.first, motion);
+        }
+        if (job.references.front() < job.primary) {
+            widen(legs.again, job.references.front(), job.primary, motion);
+        }
+    }
+    return legs;
+}
+
+int length(const std::optional<SweepOptions>& leg) {
+    return leg ? std::abs(leg->last - leg->first) + 1 : 0;
+}
+
+// What all three legs do at a stop.
+class Follower {
+  public:
+    Follower(const PassContext& context, AnalysisStore& store) : context_(context), store_(store) {}
+
+    void begin_leg(const SweepOptions& leg) { walking_back_ = leg.last < leg.first; }
+
+    // Leg 1: out of the primary reference.
+    Status forward(Job& job, const SweepFrame& at) {
+        if (at.frame < job.primary || at.frame > job.span.last) return {};
+        WEFT_TRY(visible, visible_at(job, at));
+        WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
+                                              : advance(job, at, visible));
+        return keep_all(job, at, visible);
+    }
+
+    // Leg 2: down from the references after the primary one, through it, to the begin.
+    Status backward(Job& job, const SweepFrame& at) {
+        if (at.frame > job.references.back() || at.frame < job.span.first) return {};
+        WEFT_TRY(visible, visible_at(job, at));
+        if (at.frame >= job.primary && job.is_reference(at.frame)) {
+            WEFT_CHECK_OK(restart(job, at, visible));
+            // What the first leg left at the primary reference is where the past begins.
+            if (at.frame == job.primary && job.shading) {
+                WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kShading}));
+                WEFT_TRY(shading, decode_shading(bytes));
+                job.last_shading = std::move(shading);
+            }
+            return {};
+        }
+        WEFT_CHECK_OK(advance(job, at, visible));
+        return at.frame > job.primary ? blend(job, at.frame) : keep_all(job, at, visible);
+    }
+
+    // Leg 3: up from the references before the primary one.
+    Status again(Job& job, const SweepFrame& at) {
+        if (at.frame < job.references.front() || at.frame >= job.primary) return {};
+        WEFT_TRY(visible, visible_at(job, at));
+        if (job.is_reference(at.frame)) return restart(job, at, visible);
+        WEFT_CHECK_OK(advance(job, at, visible));
+        return blend(job, at.frame);
+    }
+
+  private:
+    [[nodiscard]] Expected<Matte> visible_at(const Job& job, const SweepFrame& at) const {
+        WEFT_TRY(extent, extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
+        WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, at.frame));
+        Matte visible = without_holdout(extent, holdout);
+        drop_nonfinite(visible, at.views->finite);
+        return visible;
+    }
+
+    Status start(Job& job, const SweepFrame& at, const Matte& visible, const LatticeField* base) {
+        SurfaceWalkerOptions options;
+        options.quality = context_.plan.quality;
+        options.exact_motion = job.plan->true_motion;
+        options.spacing_px = std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
+        job.walker.emplace(at.views->luma, visible, options, base);
+        job.last_shading.reset();
+        job.last_visible = visible;
+        if (job.paper && !base) {
+            job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size());
+            WEFT_TRY(picture, job.painter->start(at.frame, context_.cancel));
+            return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
+        }
+        return {};
+    }
+
+    // At a reference frame whose coordinates an earlier leg found.
+    Status restart(Job& job, const SweepFrame& at, const Matte& visible) {
+        if (!job.coords || at.frame == job.primary) return start(job, at, visible, nullptr);
+        WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kCoords}));
+        WEFT_TRY(base, decode_lattice(bytes));
+        return start(job, at, visible, &base);
+    }
+
+    Status advance(Job& job, const SweepFrame& at, const Matte& visible) {
+        if (job.plan->true_motion) {
+            WEFT_TRY(motion, true_motion(job, at.frame));
+            job.walker->advance(at.views->luma, visible, motion);
+        } else {
+            job.walker->advance(at.views->luma, visible, *at.prev_from_cur);
+        }
+        job.last_visible = visible;
+        if (job.is_reference(at.frame)) job.walker->anchor_here(at.views->luma, visible);
+        if (job.painter) {
+            WEFT_TRY(picture, job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
+            return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
+        }
+        return {};
+    }
+
+    // prev_from_cur from the files, which point one way in time: the other way is inverted, by what
+    // was visible of the surface in the frame before, or an occluder's motion would land on it.
+    [[nodiscard]] Expected<FlowField> true_motion(const Job& job, int frame) const {
+        const bool direct = job.plan->motion_forward == walking_back_;
+        if (direct) return context_.source.motion(job.region, frame);
+        WEFT_TRY(cur_from_prev, context_.source.motion(job.region, frame + (walking_back_ ? 1 : -1)));
+        drop_nonfinite(cur_from_prev.valid, job.last_visible);
+        return invert_flow(cur_from_prev);
+    }
+
+    Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
+        if (job.coords) {
+            WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kCoords, encode(job.walker->ref_from_cur())));
+        }
+        if (!job.shading) return {};
+        const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
+        const Size size = working.size();
+        Shading shading = estimate_shading(working, visible, shading_options(context_.plan, size));
+        if (job.last_shading) {
+            shading = steady_shading(shading, *job.last_shading,
+                                     job.walker->prev_from_cur().dense(rect_of(size)));
+        }
+        WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kShading, encode(shading)));
+        job.last_shading = std::move(shading);
+        return {};
+    }
+
+    // Between two references the histories from both are carried and their difference is spread
+    // over the interval.
+    Status blend(Job& job, int frame) {
+        if (!job.coords) return {};
+        const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
+        const float s = static_cast<float>(frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
+        const float smooth = s * s * (3 - 2 * s);
+        WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoords}));
+        WEFT_TRY(other, decode_lattice(bytes));
+        const LatticeField& mine = job.walker->ref_from_cur();
+        // Walking back, the walker comes from the reference after.
+        return keep(job, frame, AnalysisKind::kCoords,
+                    encode(walking_back_ ? mix(other, mine, smooth) : mix(mine, other, smooth)));
+    }
+
+    Status keep(const Job& job, int frame, AnalysisKind kind, const Bytes& bytes) {
+        return store_.put({job.region, frame, kind}, bytes);
+    }
+
+    const PassContext& context_;
+    AnalysisStore& store_;
+    bool walking_back_ = false;
+};
+
+}  // namespace
+
+ShadingOptions shading_options(const ShotPlan& plan, Size plate) {
+    ShadingOptions options;
+    options.pattern_px *= static_cast<float>(plate.width) / 854.0f;
+    options.downscale = plan.quality == FlowQuality::kDraft ? 4 : 2;
+    return options;
+}
+
+int count_surface_steps(const ShotPlan& plan, const AnalysisStore& store) {
+    const std::vector<Job> jobs = jobs_of(plan, store);
+    if (jobs.empty()) return 0;
+    const Legs legs = legs_of(jobs);
+    return length(legs.forward) + length(legs.backward) + length(legs.again);
+}
+
+Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
+    std::vector<Job> jobs = jobs_of(context.plan, store);
+    if (jobs.empty()) return {};
+    const Legs legs = legs_of(jobs);
+    Follower follower(context, store);
+    using Stop = Status (Follower::*)(Job&, const SweepFrame&);
+    const auto run = [&](const std::optional<SweepOptions>& leg, Stop stop) -> Status {
+        if (!leg) return {};
+        follower.begin_leg(*leg);
+        return sweep(context, *leg, [&](const SweepFrame& at) -> Status {
+            for (Job& job : jobs) WEFT_CHECK_OK((follower.*stop)(job, at));
+            return {};
+        });
+    };
+    WEFT_CHECK_OK(run(legs.forward, &Follower::forward));
+    WEFT_CHECK_OK(run(legs.backward, &Follower::backward));
+    return run(legs.again, &Follower::again);
+}
+
+}  // namespace weft

@@ -1,0 +1,49 @@
+#pragma once
+// Going through a shot's frames in order, with the motion between neighbours.
+
+#include <functional>
+
+#include "engine/core/cancel.h"
+#include "engine/core/fields.h"
+#include "engine/core/progress.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+
+namespace weft {
+
+/// One stop of a sweep.
+struct SweepFrame {
+    int frame = 0;
+    std::shared_ptr<const ImageF3> plate;
+    const PlateViews* views = nullptr;
+    /// Estimated motion to the frame before (of the sweep) with its consistency; empty on the first
+    /// frame and when the sweep does without motion.
+    const FlowField* prev_from_cur = nullptr;
+};
+
+/// From frame `first` to `last`, both inclusive, forwards or backwards as they lie.
+struct SweepOptions {
+    int first = 0, last = 0;
+    bool motion = true;
+};
+
+/// What a pass needs of its surroundings.
+struct PassContext {
+    const ShotSource& source;
+    const ShotPlan& plan;
+    CancelToken cancel;
+    std::function<void(int frame, double seconds)> step;   ///< Called after every frame.
+};
+
+using SweepVisitor = std::function<Status(const SweepFrame&)>;
+
+/// Visits the frames in order; the next plate is read while the present one is worked on. Errors:
+/// those of the source and of the visitor, and cancellation.
+[[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
+                           const SweepVisitor& visit);
+
+/// The error of a cancelled work.
+[[nodiscard]] tl::unexpected<Error> cancelled(const CancelToken& cancel);
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+#pragma once
+// The costs of a seam between two pictures.
+
+#include <cstdint>
+
+#include "engine/core/image.h"
+#include "engine/seam/seam.h"
+
+namespace weft {
+
+/// A seam cost of 1 (see fill_seam_costs()) in the integers of a SeamProblem.
+inline constexpr std::int32_t kSeamCostScale = 1 << 14;
+/// ε of the seam cost, 8-bit units: keeps costs finite where both pictures are flat.
+inline constexpr float kGradientFloor = 8.0f;
+
+/// Fills `problem.right` and `problem.down` from the old picture A and the new picture B (each as
+/// large as `problem.cells`, 8-bit RGB) with Kwatra et al. 2003, eq. 1 and section 3.2:
+///   V_pq = (‖A(p)−B(p)‖ + ‖A(q)−B(q)‖) / (‖A(p)−A(q)‖ + ‖B(p)−B(q)‖ + ε) · kSeamCostScale,
+/// rounded to the nearest integer, so that a seam prefers places where both pictures have an edge.
+/// Pixels that take no part may hold anything. Pure; thread-safe.
+void fill_seam_costs(ViewU8x3 a, ViewU8x3 b, SeamProblem& problem);
+
+/// Fills `problem.old_cost` and `problem.new_cost` from a picture that the result should resemble:
+///   D_p = weight · ‖L(p)−target(p)‖² / 255² · kSeamCostScale, L the old or the new picture,
+/// and 0 where `known` is 0 (the paper, eq. 5). Weights are in [0, 1000].
+void fill_data_costs(ViewU8x3 a, ViewU8x3 b, ViewU8x3 target, ViewU8x1 known, float weight,
+                     SeamProblem& problem);
+
+}  // namespace weft

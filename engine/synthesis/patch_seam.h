@@ -1,0 +1,30 @@
+#pragma once
+// Laying one patch over the canvas: the overlap as a seam problem, its solution, and the result put
+// into the canvas.
+
+#include <optional>
+
+#include "engine/synthesis/canvas.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+/// A patch to lay: sample pixel p − origin shows at canvas position p, for p in `rect`, which lies
+/// inside `block` and, but for a torus, inside the canvas.
+struct Patch {
+    Recti rect;
+    Vec2i origin{0, 0};
+};
+
+/// The overlap of a patch with what the canvas shows. Overlap pixels with a filled neighbour
+/// outside of the patch are tied to the old side, others with an unfilled one inside it to the new
+/// side.
+[[nodiscard]] SeamProblem overlap_problem(const Canvas& canvas, const Block& block, ViewU8x3 sample,
+                                          const Patch& patch, const PlaneGuide* guide);
+
+/// Finds the seam by `method` and puts the patch's side of it into the canvas. Returns the bytes
+/// that the solver took.
+std::size_t lay_patch(Canvas& canvas, const Block& block, ViewU8x3 sample, const Patch& patch,
+                      SeamMethod method, const PlaneGuide* guide);
+
+}  // namespace weft

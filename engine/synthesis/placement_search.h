@@ -1,0 +1,56 @@
+#pragma once
+// Where to place the sample next: the exact winner over all admissible translations, and those that
+// are nearly as good.
+
+#include <memory>
+#include <vector>
+
+#include "engine/core/image.h"
+#include "engine/synthesis/overlap_cost.h"
+
+namespace weft {
+
+class FftCorrelation;
+
+enum class SearchMethod { kFastest, kFft, kDirect };  ///< All give the same result.
+
+/// The good placements: every translation whose cost is at most `kGoodFactor` of the best one's, in
+/// index order (row by row), and the best (of equal ones the lower index).
+struct Shortlist {
+    std::vector<Vec2i> good;
+    Vec2i best{0, 0};
+    OverlapCost best_cost;
+};
+
+/// How much worse than the best a good placement may be, in mean squared difference.
+inline constexpr std::uint32_t kGoodNumerator = 110, kGoodDenominator = 100;
+
+/// Searches one sample (or one window of it) over blocks of one size, with the translations
+/// t ∈ [lo, hi], t being where the sample's origin lies in the block. Transforms of the sample are
+/// made once, at the first search by FFT. Not thread-safe.
+class PlacementSearch {
+  public:
+    PlacementSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi);
+    ~PlacementSearch();
+    PlacementSearch(PlacementSearch&&) noexcept;
+
+    /// `forbidden` translations do not take part, unless all are.
+    [[nodiscard]] Shortlist find(const MatchTarget& target, const std::vector<Vec2i>& forbidden,
+                                 SearchMethod method = SearchMethod::kFastest);
+
+  private:
+    [[nodiscard]] std::size_t count() const;
+    [[nodiscard]] Vec2i translation(std::size_t index) const;
+    [[nodiscard]] std::vector<std::uint8_t> allowed(const std::vector<Vec2i>& forbidden) const;
+    [[nodiscard]] Shortlist find_direct(const OverlapScorer& scorer,
+                                        const std::vector<std::uint8_t>& allowed) const;
+    [[nodiscard]] Shortlist find_fft(const OverlapScorer& scorer, const MatchTarget& target,
+                                     const std::vector<std::uint8_t>& allowed);
+
+    ViewU8x3 sample_;
+    Size block_;
+    Vec2i lo_, hi_;
+    std::unique_ptr<FftCorrelation> fft_;
+};
+
+}  // namespace weft

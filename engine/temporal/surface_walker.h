@@ -1,0 +1,55 @@
+#pragma once
+// Following a surface from its reference frame through the shot, without drift.
+
+#include <memory>
+
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+#include "engine/motion/lattice_field.h"
+#include "engine/motion/optical_flow.h"
+
+namespace weft {
+
+struct SurfaceWalkerOptions {
+    FlowQuality quality = FlowQuality::kFinal;
+    bool exact_motion = false;   ///< The motion is true: follow it closely, do not register.
+    int spacing_px = 8;          ///< Of the lattices.
+};
+
+/// Walks away from a reference frame, forwards or backwards in time, and holds where every pixel was
+/// on it (method: "Temporal consistency", surface-locked mode).
+///
+/// Motion from frame to frame is fitted (fit_surface_motion) and chained. A chain drifts, so each
+/// frame is also registered against an *anchor*, at first the reference frame itself: the anchor's
+/// picture is moved by the chain's prediction, what motion is left is estimated and a part of it is
+/// put right. When the anchor has become too different to compare, the present frame becomes the
+/// next one. Not thread-safe; several walkers may run in several threads.
+class SurfaceWalker {
+  public:
+    /// `luma`: the frame to start from, 8 bit. `visible`: extent matte without holdouts, the same
+    /// size. `ref_from_start`: where the start's pixels were on the reference frame; the walk starts
+    /// on the reference frame itself without it.
+    SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
+                  const LatticeField* ref_from_start = nullptr);
+    ~SurfaceWalker();
+    SurfaceWalker(SurfaceWalker&&) noexcept;
+    SurfaceWalker& operator=(SurfaceWalker&&) noexcept;
+
+    /// Goes on to the next frame of the walk. `prev_from_cur`: raw motion, for each of its pixels
+    /// where it was in the frame before (of the walk); its `valid` says where that can be trusted.
+    /// Returns ref_from_cur, which is defined everywhere: behind holdouts and outside the matte the
+    /// surface's motion is continued.
+    const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur);
+    /// Makes the present frame, whose pictures these are, the anchor: further reference frames.
+    void anchor_here(ViewU8x1 luma, ViewU8x1 visible);
+
+    [[nodiscard]] const LatticeField& ref_from_cur() const;
+    /// The surface's motion of the last step, defined everywhere.
+    [[nodiscard]] const LatticeField& prev_from_cur() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace weft

@@ -1,0 +1,31 @@
+#pragma once
+// The rules on includes (docs/ARCHITECTURE.md), as a checker that works on text.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::architecture {
+
+/// A folder of ours and all that it may include besides itself: folders, or single headers.
+struct Floor {
+    std::string_view folder;
+    std::vector<std::string_view> may_use;
+};
+
+/// A library, by the beginnings of its includes, and the only places that may include it.
+struct Library {
+    std::string_view name;
+    std::vector<std::string_view> includes;  ///< "opencv2/"; beginnings of what stands in <…>.
+    std::vector<std::string_view> places;    ///< Folders or single files.
+    bool in_headers = false;                 ///< Also in headers, not only in sources.
+};
+
+/// What `contents`, the text of the file `path` (relative to the root), breaks; one line each.
+[[nodiscard]] std::vector<std::string> broken_rules(std::string_view path,
+                                                    std::string_view contents,
+                                                    std::span<const Floor> floors,
+                                                    std::span<const Library> libraries);
+
+}  // namespace weft::architecture

@@ -1,0 +1,171 @@
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <png.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "engine/media/image_files.h"
+#include "tests/media/media_fixture.h"
+
+namespace weft {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class MatteFile : public MediaTest {
+  protected:
+    template <class T>
+    void put(const std::string& name, int channels, const std::vector<T>& samples,
+             OIIO::TypeDesc type, std::vector<std::string> channel_names = {}) {
+        OIIO::ImageSpec spec(static_cast<int>(samples.size()) / channels, 1, channels, type);
+        if (!channel_names.empty()) spec.channelnames = channel_names;
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(type, samples.data()));
+        ASSERT_TRUE(output->close());
+    }
+
+    std::vector<int> read(const std::string& name, MatteSelect select, int width) {
+        const auto matte = read_matte(in(name), select, {width, 1});
+        EXPECT_TRUE(matte) << matte.error().text();
+        if (!matte) return {};
+        return {matte->data(), matte->data() + width};
+    }
+};
+
+MatteSelect value(int v) {
+    return {v, "", false};
+}
+MatteSelect channel(const char* c) {
+    return {std::nullopt, c, false};
+}
+
+TEST_F(MatteFile, GreyIsCoverage) {
+    put<std::uint8_t>("a.png", 1, {0, 1, 128, 255}, OIIO::TypeUInt8);
+    EXPECT_THAT(read("a.png", {}, 4), ElementsAre(0, 1, 128, 255));
+    EXPECT_THAT(read("a.png", {std::nullopt, "", true}, 4), ElementsAre(255, 254, 127, 0));
+}
+
+TEST_F(MatteFile, DeeperSamplesAreRounded) {
+    put<std::uint16_t>("a.png", 1, {0, 128, 129, 32896, 65535}, OIIO::TypeUInt16);
+    EXPECT_THAT(read("a.png", {}, 5), ElementsAre(0, 0, 1, 128, 255));
+    put<float>("a.exr", 1, {-1.0f, 0.5f, 1.5f, NAN, 0.002f}, OIIO::TypeFloat, {"Y"});
+    EXPECT_THAT(read("a.exr", {}, 5), ElementsAre(0, 128, 255, 0, 1));
+}
+
+TEST_F(MatteFile, ChannelsAreChosen) {
+    put<std::uint8_t>("a.png", 4, {10, 20, 30, 40, 50, 60, 70, 255}, OIIO::TypeUInt8);
+    EXPECT_THAT(read("a.png", channel("R"), 2), ElementsAre(10, 50));
+    EXPECT_THAT(read("a.png", channel("G"), 2), ElementsAre(20, 60));
+    EXPECT_THAT(read("a.png", channel("B"), 2), ElementsAre(30, 70));
+    EXPECT_THAT(read("a.png", channel("A"), 2), ElementsAre(40, 255));
+    EXPECT_THAT(read("a.png", channel("Y"), 2),
+                ElementsAre(19, 59));                         // 0.2126 R + 0.7152 G + 0.0722 B
+    EXPECT_THAT(read("a.png", {}, 2), ElementsAre(40, 255));  // an alpha with something to say
+}
+
+TEST_F(MatteFile, OpaqueAlphaIsNoMatte) {
+    put<std::uint8_t>("a.png", 4, {10, 10, 10, 255, 50, 50, 50, 255}, OIIO::TypeUInt8);
+    EXPECT_THAT(read("a.png", {}, 2), ElementsAre(10, 50));
+}
+
+TEST_F(MatteFile, NamedExrChannel) {
+    put<float>("a.exr", 4, {0, 0, 0, 1, 0, 0, 0, 0.2f}, OIIO::TypeFloat,
+               {"R", "G", "B", "mask.fox"});
+    EXPECT_THAT(read("a.exr", channel("mask.fox"), 2), ElementsAre(255, 51));
+    const auto other = read_matte(in("a.exr"), channel("mask.dog"), {2, 1});
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(other.error().message, HasSubstr("mask.fox"));
+}
+
+TEST_F(MatteFile, MissingChannelIsUnreadable) {
+    put<std::uint8_t>("a.png", 3, {10, 20, 30}, OIIO::TypeUInt8);
+    EXPECT_EQ(read_matte(in("a.png"), channel("A"), {1, 1}).error().code, ErrorCode::kUnreadable);
+    EXPECT_EQ(read_matte(in("a.png"), channel("fox"), {1, 1}).error().code, ErrorCode::kUnreadable);
+}
+
+TEST_F(MatteFile, IdsAreComparedExactly) {
+    put<std::uint8_t>("a.png", 1, {0, 1, 2, 1, 255}, OIIO::TypeUInt8);
+    EXPECT_THAT(read("a.png", value(1), 5), ElementsAre(0, 255, 0, 255, 0));
+    EXPECT_THAT(read("a.png", {1, "", true}, 5), ElementsAre(255, 0, 255, 0, 255));
+    put<std::uint16_t>("b.png", 1, {300, 301, 44}, OIIO::TypeUInt16);
+    EXPECT_THAT(read("b.png", value(300), 3), ElementsAre(255, 0, 0));
+    put<std::uint8_t>("c.png", 3, {5, 7, 9, 6, 5, 5}, OIIO::TypeUInt8);
+    EXPECT_THAT(read("c.png", value(5), 2), ElementsAre(255, 0));
+    EXPECT_THAT(read("c.png", {5, "G", false}, 2), ElementsAre(0, 255));
+    put<std::uint32_t>("d.exr", 1, {70000, 4}, OIIO::TypeUInt32, {"id"});
+    EXPECT_THAT(read("d.exr", {70000, "id", false}, 2), ElementsAre(255, 0));
+}
+
+TEST_F(MatteFile, PaletteIdsAreIndices) {
+    std::FILE* file = std::fopen(in("a.png").c_str(), "wb");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, file);
+    png_set_IHDR(png, info, 4, 1, 2, PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    const png_color palette[4] = {{0, 0, 0}, {128, 0, 0}, {0, 128, 0}, {255, 255, 255}};
+    png_set_PLTE(png, info, palette, 4);
+    png_write_info(png, info);
+    png_byte row[1] = {0b00'01'10'11};
+    png_write_row(png, row);
+    png_write_end(png, nullptr);
+    png_destroy_write_struct(&png, &info);
+    std::fclose(file);
+
+    EXPECT_THAT(read("a.png", value(2), 4), ElementsAre(0, 0, 255, 0));
+    EXPECT_THAT(read("a.png", channel("R"), 4),
+                ElementsAre(0, 128, 0, 255));  // colours without a value
+}
+
+TEST_F(MatteFile, FloatFilesHaveNoIds) {
+    put<float>("a.exr", 1, {1, 2}, OIIO::TypeFloat, {"Y"});
+    EXPECT_EQ(read_matte(in("a.exr"), value(1), {2, 1}).error().code, ErrorCode::kUsage);
+}
+
+TEST_F(MatteFile, WrongSizeGivesBothSizes) {
+    put<std::uint8_t>("a.png", 1, {0, 1, 128, 255}, OIIO::TypeUInt8);
+    const auto matte = read_matte(in("a.png"), {}, {640, 360});
+    ASSERT_FALSE(matte);
+    EXPECT_EQ(matte.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(matte.error().message, HasSubstr("4x1"));
+    EXPECT_THAT(matte.error().message, HasSubstr("640x360"));
+}
+
+TEST_F(MatteFile, AbsentFileIsMissing) {
+    const auto matte = read_matte(in("none.png"), {}, {4, 1});
+    ASSERT_FALSE(matte);
+    EXPECT_EQ(matte.error().code, ErrorCode::kMissingFrames);
+    EXPECT_THAT(matte.error().message, HasSubstr("none.png"));
+}
+
+TEST_F(MatteFile, WrittenMatteComesBack) {
+    Matte matte(61, 43);
+    for (int i = 0; i < 61 * 43; ++i)
+        matte.data()[i] = static_cast<std::uint8_t>(i * 7);
+    for (const char* name : {"m.png", "m.tif"}) {
+        ASSERT_TRUE(write_matte(in(name), matte));
+        EXPECT_EQ(read_matte(in(name), {}, {61, 43}).value(), matte);
+    }
+    EXPECT_EQ(write_matte(in("m.jpg"), matte).error().code, ErrorCode::kUsage);
+}
+
+TEST(MatteData, IdsOfTheRenderedClip) {
+    const std::string ids =
+        std::string(WEFT_SHARED_DATA_DIR) + "/sequences/blender_fox_gt/masks_ids/00000.png";
+    if (!std::filesystem::exists(ids)) GTEST_SKIP() << "no evaluation data";
+    std::int64_t covered = 0;
+    for (int id = 0; id <= 5; ++id) {
+        const Matte matte = read_matte(ids, value(id), {854, 480}).value();
+        for (std::size_t i = 0; i < matte.size_bytes(); ++i)
+            covered += matte.data()[i] == 255;
+    }
+    EXPECT_EQ(covered, 854 * 480);  // every pixel is of exactly one object
+}
+
+}  // namespace
+}  // namespace weft

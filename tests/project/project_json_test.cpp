@@ -1,0 +1,156 @@
+#include "app/project/project_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <clocale>
+
+#include "app/project/parameters.h"
+#include "tests/project/sample_project.h"
+
+namespace weft {
+namespace {
+
+using test::full_project;
+using test::json_with_unknown_keys;
+using testing::HasSubstr;
+
+Project read(const std::string& text) {
+    auto project = project_from_json(text);
+    if (!project) throw std::runtime_error(project.error().text());
+    return *project;
+}
+std::string write(const Project& project) {
+    auto text = project_to_json(project);
+    if (!text) throw std::runtime_error(text.error().text());
+    return *text;
+}
+
+TEST(ProjectJson, SampleDiffersFromEveryDefault) {
+    // Guards the round trip below: a member that keeps its default would not be tested by it.
+    const Project project = full_project();
+    for (const auto& p : project_parameters())
+        EXPECT_NE(p.read(project), p.default_value) << p.full_key();
+    for (const auto& p : region_parameters())
+        if (p.full_key() != "matte.files") {
+            EXPECT_NE(p.read(*project.regions[0]), p.default_value) << p.full_key();
+        }
+}
+
+TEST(ProjectJson, EverythingSurvivesARoundTrip) {
+    const Project project = full_project();
+    EXPECT_EQ(read(write(project)), project);
+}
+
+TEST(ProjectJson, TheSameProjectGivesTheSameBytes) {
+    const std::string once = write(full_project());
+    EXPECT_EQ(write(read(once)), once);
+    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/1\",\n")) << once.substr(0, 60);
+    EXPECT_TRUE(once.ends_with("}\n"));
+    EXPECT_THAT(once, HasSubstr("\"scale\": 0.1,"));
+    EXPECT_THAT(once, HasSubstr("\"seed\": 9007199254740991"));
+}
+
+TEST(ProjectJson, TheLocaleDoesNotMatter) {
+    const std::string once = write(full_project());
+    const char* german = std::setlocale(LC_ALL, "de_DE.UTF-8");
+    if (!german) GTEST_SKIP() << "the locale de_DE.UTF-8 is not installed";
+    const std::string again = write(read(once));
+    std::setlocale(LC_ALL, "C");
+    EXPECT_EQ(again, once);
+}
+
+TEST(ProjectJson, UnknownKeysSurviveAtEveryLevel) {
+    const std::string text = write(read(json_with_unknown_keys()));
+    for (const char* key : {"future_top", "future_plate", "future_color", "future_settings",
+                            "future_output", "future_region", "future_matte", "future_key",
+                            "future_holdout", "future_texture", "future_placement", "future_motion",
+                            "future_synthesis", "future_temporal", "future_light"})
+        EXPECT_THAT(text, HasSubstr("\"" + std::string(key) + "\"")) << text;
+    EXPECT_THAT(text, HasSubstr("\"future_region\": \"ä\""));
+    EXPECT_THAT(text, HasSubstr("\"big\": 1e+300"));
+    EXPECT_EQ(write(read(text)), text);
+}
+
+TEST(ProjectJson, MissingKeysHaveTheirDefaults) {
+    const Project project =
+        read(R"({"schema": "weft.project/1", "regions": [{"name": "a"}, {"id": 5}, {}]})");
+    ASSERT_EQ(project.regions.size(), 3u);
+    Region expected;
+    expected.id = 6;  // after the largest that is given
+    expected.name = "a";
+    EXPECT_EQ(*project.regions[0], expected);
+    EXPECT_EQ(project.regions[2]->id, 7u);
+    EXPECT_EQ(project.next_region_id, 8u);
+    EXPECT_EQ(project.settings.quality, Quality::kFinal);
+}
+
+TEST(ProjectJson, AnEmptyTextDoesNotComeBackAsItsDefault) {
+    Project project;
+    project.output.exr_compression.clear();
+    EXPECT_EQ(read(write(project)), project);
+}
+
+TEST(ProjectJson, UpgradesThePreReleaseForm) {
+    const Project project = read(R"({
+        "schema": "weft.project/0",
+        "plate": "frames/####.png", "output": "out/####.png", "frames": "1-40", "seed": 3, "quality": "draft",
+        "kept": 1,
+        "regions": [
+          {"id": 1, "name": "wall", "matte": {"12": "a.png", "-4": "b.png"}, "texture": "brick.jpg", "scale": 1.5,
+           "rotate": 10, "offset": [3, 4], "seam": "dp", "overlap": 24, "temporal": "paper",
+           "light": "E.png", "light_form": "literal", "light_strength": 0.5, "kept_too": 2},
+          {"id": 2, "matte": "m/####.png", "plane": "p.png", "light": "none"}]})");
+    Project expected;
+    expected.plate.path = "frames/####.png";
+    expected.output.path = "out/####.png";
+    expected.settings = {Quality::kDraft, 3, "1-40", {}};
+    expected.extra = {{"kept", "1"}};
+    Region wall;
+    wall.id = 1;
+    wall.name = "wall";
+    MatteSource painted;
+    painted.keyframes = {{-4, {"b.png", {}}}, {12, {"a.png", {}}}};
+    wall.matte = painted;
+    wall.texture.sample = "brick.jpg";
+    wall.placement.scale = 1.5;
+    wall.placement.rotate_deg = 10;
+    wall.placement.offset_px = {3, 4};
+    wall.synthesis.seam = SeamMethod::kDynamicProgramming;
+    wall.synthesis.overlap_px = 24;
+    wall.temporal.mode = TemporalMode::kPaper;
+    wall.light = {LightSource::kImage, "E.png", LightForm::kLiteral, 0.5, {}};
+    wall.extra = {{"kept_too", "2"}};
+    Region second;
+    second.id = 2;
+    MatteSource files;
+    files.files = "m/####.png";
+    second.matte = files;
+    second.texture.plane = "p.png";
+    second.light.source = LightSource::kNone;
+    expected.regions = {Leaf(wall), Leaf(second)};
+    expected.next_region_id = 3;
+    EXPECT_EQ(project, expected);
+    EXPECT_THAT(write(project), HasSubstr("\"weft.project/1\""));
+}
+
+TEST(ProjectJson, ANewerVersionIsRefusedWithWhatToDo) {
+    const auto project = project_from_json(R"({"schema": "weft.project/2"})");
+    ASSERT_FALSE(project);
+    EXPECT_EQ(project.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(project.error().text(), HasSubstr("version 2"));
+    EXPECT_THAT(project.error().text(), HasSubstr("up to version 1"));
+    EXPECT_THAT(project.error().text(), HasSubstr("update Weft"));
+}
+
+TEST(ProjectJson, ANameThatIsNotUtf8IsRefusedNotMangled) {
+    Project project;
+    project.plate.path = "frames/\xff####.png";
+    const auto text = project_to_json(project);
+    ASSERT_FALSE(text);
+    EXPECT_EQ(text.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(text.error().text(), HasSubstr("UTF-8"));
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,73 @@
+#include "tests/project/sample_project.h"
+
+namespace weft::test {
+namespace {
+
+Region full_region() {
+    Region r;
+    r.id = 7;
+    r.name = "Wall „left“";
+    r.enabled = false;
+    r.color = 3;
+    MatteSource matte;
+    matte.keyframes = {
+        {-5, {"mattes/a.png", {}}}, {12, {"mattes/b.png", {}}}, {100, {"mattes/c.png", {}}}};
+    matte.select = {4, "R", true};
+    r.matte = matte;
+    MatteSource holdout;
+    holdout.files = "hold/####.png";
+    r.holdouts = std::vector<MatteSource>{holdout};
+    r.texture = {"brick.jpg", "plane.exr", WrapMode::kMirror, "linear", {}};
+    r.placement.scale = 0.1;
+    r.placement.rotate_deg = -12.5;
+    r.placement.offset_px = {3, -4.25};
+    r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
+    r.reference_frames = {12, 40};
+    r.motion = {"flow/####.flo", MotionDirection::kBackward, {}};
+    r.synthesis = {SeamMethod::kDynamicProgramming, 24, 3, {}};
+    r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};
+    r.light = {LightSource::kImage, "light.png", LightForm::kDetail, 0.75, {}};
+    return r;
+}
+
+}  // namespace
+
+Project full_project() {
+    Project p;
+    p.name = "Shot 010";
+    p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, {}};
+    p.color = {"linear", "srgb", "linear", {}};
+    p.settings = {Quality::kDraft, 9007199254740991, "1-40", {}};
+    p.output = {"out/####.exr", OutputDepth::kHalf, 80, "piz", "review.mp4", {}};
+    p.regions.emplace_back(full_region());
+    Region second;
+    second.id = 2;
+    second.name = "Floor";
+    p.regions.emplace_back(second);
+    p.next_region_id = 9;
+    return p;
+}
+
+std::string json_with_unknown_keys() {
+    return R"({
+  "schema": "weft.project/1",
+  "future_top": {"deep": [1, {"x": null}], "big": 1e300},
+  "plate": {"path": "frames/####.png", "future_plate": "p"},
+  "color": {"future_color": 0.1},
+  "settings": {"future_settings": true},
+  "output": {"future_output": []},
+  "regions": [{
+    "id": 1, "future_region": "ä",
+    "matte": {"keyframes": [{"frame": 12, "path": "a.png", "future_key": 1}], "future_matte": 2},
+    "holdouts": [{"files": "h/####.png", "future_holdout": 3}],
+    "texture": {"sample": "s.png", "future_texture": 4},
+    "placement": {"future_placement": 5},
+    "motion": {"future_motion": 6},
+    "synthesis": {"future_synthesis": 7},
+    "temporal": {"future_temporal": 8},
+    "light": {"future_light": 9}
+  }]
+})";
+}
+
+}  // namespace weft::test

@@ -1,0 +1,199 @@
+#include "engine/synthesis/placement_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/synthesis/fft_correlation.h"
+#include "tests/synthesis/samples.h"
+
+namespace weft::test {
+namespace {
+
+struct Scene {
+    ImageU8x3 sample, pixels, guide;
+    Image<std::uint8_t, 1> filled, known;
+    Vec2i lo{0, 0}, hi{0, 0};
+    MatchTarget target;
+};
+
+// A block with a ragged L of filled pixels; the sample may lie on it with `freedom` px to each
+// side.
+Scene make_scene(int sample_w, int sample_h, int block_w, int block_h, int freedom, bool guided,
+                 std::uint64_t seed) {
+    Scene s;
+    Rng rng(seed);
+    s.sample = blob_sample(sample_w, sample_h, seed);
+    s.pixels = blob_sample(block_w, block_h, seed + 1);
+    s.guide = blob_sample(block_w, block_h, seed + 2);
+    s.filled = s.known = Image<std::uint8_t, 1>(block_w, block_h, 0);
+    for (int x = 0; x < block_w; ++x) {
+        const auto top = block_h / 4 + static_cast<int>(rng.below(4));
+        for (int y = 0; y < block_h; ++y) {
+            s.filled.at(x, y) = y < top || x < block_w / 4;
+            s.known.at(x, y) = (x + y) % 3 != 0;
+        }
+    }
+    s.lo = {std::min(0, block_w - sample_w) - freedom, std::min(0, block_h - sample_h) - freedom};
+    s.hi = {freedom, freedom};
+    s.target = {s.pixels, s.filled, {}, {}, 1, 0};
+    if (guided) s.target = {s.pixels, s.filled, s.guide, s.known, 256, 100};
+    return s;
+}
+
+OverlapCost cost_by_definition(const Scene& s, Vec2i t) {
+    OverlapCost cost;
+    for (int y = 0; y < s.filled.height(); ++y) {
+        for (int x = 0; x < s.filled.width(); ++x) {
+            const int sx = x - t.x, sy = y - t.y;
+            if (sx < 0 || sy < 0 || sx >= s.sample.width() || sy >= s.sample.height()) continue;
+            const auto add = [&](const std::uint8_t* p, std::uint32_t weight) {
+                for (int c = 0; c < 3; ++c) {
+                    const int d = p[c] - s.sample.at(sx, sy, c);
+                    cost.ssd += static_cast<std::uint64_t>(d * d) * weight;
+                }
+                cost.weight += weight;
+            };
+            if (s.filled.at(x, y)) add(s.pixels.pixel(x, y), s.target.fill_weight);
+            if (!s.target.guide.empty() && s.known.at(x, y)) {
+                add(s.guide.pixel(x, y), s.target.guide_weight);
+            }
+        }
+    }
+    return cost;
+}
+
+TEST(OverlapCost, IsTheDefinition) {
+    for (const bool guided : {false, true}) {
+        const Scene s = make_scene(40, 31, 52, 44, 9, guided, 5);
+        const OverlapScorer scorer(s.target, s.sample);
+        for (int ty = s.lo.y; ty <= s.hi.y; ++ty) {
+            for (int tx = s.lo.x; tx <= s.hi.x; ++tx) {
+                const OverlapCost a = scorer.cost({tx, ty}), b = cost_by_definition(s, {tx, ty});
+                ASSERT_EQ(a.ssd, b.ssd);
+                ASSERT_EQ(a.weight, b.weight);
+            }
+        }
+    }
+}
+
+TEST(OverlapCost, LargestSumIsExact) {
+    const ImageU8x3 black(512, 512, 0), white(512, 512, 255);
+    const Image<std::uint8_t, 1> all(512, 512, 1);
+    const OverlapScorer scorer({black, all, {}, {}, 1, 0}, white);
+    EXPECT_EQ(scorer.cost({0, 0}).ssd, 512ull * 512 * 3 * 255 * 255);
+}
+
+TEST(OverlapCost, ComparesFractionsExactly) {
+    const std::uint64_t big = std::uint64_t{1} << 60;
+    EXPECT_TRUE(at_most({big, 3}, {big + 1, 3}));
+    EXPECT_FALSE(at_most({big + 1, 3}, {big, 3}));
+    EXPECT_TRUE(at_most({2, 4}, {1, 2}));
+    EXPECT_FALSE(at_most({11, 10}, {1, 1}));
+    EXPECT_TRUE(at_most({11, 10}, {1, 1}, 110, 100));
+    EXPECT_TRUE(at_most({0, 0}, {0, 5}));
+}
+
+TEST(FftCorrelation, EstimateStaysWithinItsErrorBound) {
+    double worst_share = 0;
+    for (const bool guided : {false, true}) {
+        const Scene s = make_scene(96, 96, 120, 120, 12, guided, 7);
+        const FftCorrelation fft(s.sample, s.filled.size(), s.lo, s.hi);
+        const auto estimate = fft.estimate(s.target);
+        const OverlapScorer scorer(s.target, s.sample);
+        std::size_t i = 0;
+        for (int ty = s.lo.y; ty <= s.hi.y; ++ty) {
+            for (int tx = s.lo.x; tx <= s.hi.x; ++tx, ++i) {
+                const OverlapCost exact = scorer.cost({tx, ty});
+                ASSERT_EQ(estimate.weight[i], exact.weight);
+                const double error = std::abs(estimate.ssd[i] - static_cast<double>(exact.ssd));
+                ASSERT_LE(error, estimate.error);
+                worst_share = std::max(worst_share, error / estimate.error);
+            }
+        }
+        // Useful, too: a thousandth of a typical cost.
+        EXPECT_LT(estimate.error, 3e-3 * static_cast<double>(scorer.cost(s.hi).ssd));
+    }
+    EXPECT_GT(worst_share, 1e-4);
+}
+
+void expect_same_lists(Scene& s, const std::vector<Vec2i>& forbidden) {
+    PlacementSearch search(s.sample, s.filled.size(), s.lo, s.hi);
+    const Shortlist fft = search.find(s.target, forbidden, SearchMethod::kFft);
+    const Shortlist direct = search.find(s.target, forbidden, SearchMethod::kDirect);
+    EXPECT_EQ(fft.best, direct.best);
+    EXPECT_EQ(fft.good, direct.good);
+    EXPECT_EQ(fft.best_cost.ssd, direct.best_cost.ssd);
+    // The best by the definition, of equal ones the first.
+    OverlapCost best{};
+    Vec2i where{0, 0};
+    bool any = false;
+    for (int ty = s.lo.y; ty <= s.hi.y; ++ty) {
+        for (int tx = s.lo.x; tx <= s.hi.x; ++tx) {
+            if (std::find(forbidden.begin(), forbidden.end(), Vec2i{tx, ty}) != forbidden.end()) {
+                continue;
+            }
+            const OverlapCost cost = cost_by_definition(s, {tx, ty});
+            if (any && at_most(best, cost)) continue;
+            best = cost, where = {tx, ty}, any = true;
+        }
+    }
+    EXPECT_EQ(fft.best, where);
+}
+
+TEST(PlacementSearch, FftAndDirectGiveTheSameList) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const bool guided = seed % 3 == 0;
+        Scene small = make_scene(33, 40, 41, 46, 6, guided, seed);
+        expect_same_lists(small, {});
+        Scene window = make_scene(70, 64, 30, 34, 4, guided, seed);
+        expect_same_lists(window, {});
+    }
+}
+
+TEST(PlacementSearch, ExactCopiesAndTiesAreFoundExactly) {
+    // The block shows the sample itself at one place: cost 0 there, which an estimate cannot tell
+    // from a small one.
+    Scene s = make_scene(48, 48, 60, 60, 12, false, 3);
+    for (int y = 0; y < 60; ++y) {
+        for (int x = 0; x < 60; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                s.pixels.at(x, y, c) =
+                    s.sample.at(std::clamp(x - 7, 0, 47), std::clamp(y - 5, 0, 47), c);
+            }
+        }
+    }
+    for (int y = 0; y < 60; ++y) {
+        for (int x = 0; x < 60; ++x) {
+            if (x < 7 || y < 5) s.filled.at(x, y) = 0;
+        }
+    }
+    PlacementSearch search(s.sample, s.filled.size(), s.lo, s.hi);
+    const Shortlist list = search.find(s.target, {}, SearchMethod::kFft);
+    EXPECT_EQ(list.best, (Vec2i{7, 5}));
+    EXPECT_EQ(list.good.size(), 1u);
+    const Shortlist without = search.find(s.target, {{7, 5}}, SearchMethod::kFft);
+    EXPECT_NE(without.best, (Vec2i{7, 5}));
+    expect_same_lists(s, {{7, 5}});
+
+    // Everything ties.
+    std::fill_n(s.sample.data(), 48 * 48 * 3, std::uint8_t{90});
+    std::fill_n(s.pixels.data(), 60 * 60 * 3, std::uint8_t{120});
+    expect_same_lists(s, {});
+    EXPECT_EQ(PlacementSearch(s.sample, s.filled.size(), s.lo, s.hi)
+                  .find(s.target, {}, SearchMethod::kFft)
+                  .good.size(),
+              25u * 25u);
+}
+
+TEST(PlacementSearch, WhenAllAreForbiddenAllTakePart) {
+    Scene s = make_scene(30, 30, 32, 32, 0, false, 4);
+    s.lo = {0, 0};
+    s.hi = {1, 0};
+    PlacementSearch search(s.sample, s.filled.size(), s.lo, s.hi);
+    EXPECT_FALSE(search.find(s.target, {{0, 0}, {1, 0}}).good.empty());
+}
+
+}  // namespace
+}  // namespace weft::test
