@@ -15,9 +15,11 @@ std::uint16_t quantised(float v) {
     return static_cast<std::uint16_t>(std::clamp(v + 0.5f, 0.0f, 65535.0f));
 }
 
-// Catmull–Rom at a quarter of the way between two texels: where the texels of a twice magnified
-// picture stand.
-constexpr std::array<float, 4> kQuarter{-0.0703125f, 0.8671875f, 0.2265625f, -0.0234375f};
+// Cubic convolution (Keys 1981) with a = −3/4 at a quarter of the way between two texels, which is
+// where the texels of a twice magnified picture stand. Catmull–Rom is a = −1/2; the steeper kernel
+// makes good what the bilinear lookups between the magnified texels take away, so that a pixel comes
+// out as sharp as the plane's own cubic averaged over the pixel's area (docs/METHOD.md, sampling).
+constexpr std::array<float, 4> kQuarter{-0.10546875f, 0.87890625f, 0.26171875f, -0.03515625f};
 
 // Sums the two directions of the separable cubic for one magnified texel.
 PlanePyramid::Level magnify_twice(const PlanePyramid::Level& in, WrapMode wrap) {

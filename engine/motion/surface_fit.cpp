@@ -243,6 +243,40 @@ Level fit_level(const std::vector<Sample>& samples, const std::vector<Vec2>& res
     return level;
 }
 
+// Holds a level back to what stands out of the noise: δ · τ² / (τ² + se²). se² is the local fit's own
+// variance; τ², how much this surface really deviates from the stiffer model at this level, is taken
+// from all nodes together (empirical Bayes), by a quantile: a rolling ball's shadow moves across the
+// ground as one, and only the rest of the ground tells that the ground does not move with it.
+void shrink(Level& level, float noise, float samples_per_independent) {
+    const auto variance_at = [&](int i, int j) {
+        // For Gaussian weights the effective number of samples is (Σg)²/Σg² = 2 Σg.
+        const float n = 2 * level.support.at(i, j) / samples_per_independent;
+        return noise * noise / std::max(n, 1e-4f);
+    };
+    std::vector<float> deviations;
+    for (int j = 0; j < level.support.height(); ++j) {
+        for (int i = 0; i < level.support.width(); ++i) {
+            const Vec2 delta = level.correction.node(i, j);
+            const float own = variance_at(i, j);
+            if (own > noise * noise) continue;
+            // The three-quarter quantile of |δ|² is 2.77 times the variance of a component.
+            deviations.push_back(glm::dot(delta, delta) / 2.77f - own);
+        }
+    }
+    float deviation = 0;
+    if (!deviations.empty()) {
+        const auto at = deviations.begin() + static_cast<std::ptrdiff_t>(3 * deviations.size() / 4);
+        std::nth_element(deviations.begin(), at, deviations.end());
+        deviation = std::max(0.0f, *at);
+    }
+    for (int j = 0; j < level.support.height(); ++j) {
+        for (int i = 0; i < level.support.width(); ++i) {
+            const float share = deviation / (deviation + variance_at(i, j) + 1e-12f);
+            level.correction.set_node(i, j, share * level.correction.node(i, j));
+        }
+    }
+}
+
 void subtract(const std::vector<Sample>& samples, const LatticeField& field, std::vector<Vec2>& residuals) {
     for (std::size_t i = 0; i < samples.size(); ++i) residuals[i] -= field.at(samples[i].p);
 }
@@ -297,17 +331,7 @@ LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitO
     for (int spacing = 8 * finest; spacing >= finest; spacing /= 2) {
         const float scale = 3 * std::max(noise, robust_scale(samples, residuals));
         Level level = fit_level(samples, residuals, full, spacing, scale);
-        for (int j = 0; j < level.support.height(); ++j) {
-            for (int i = 0; i < level.support.width(); ++i) {
-                // For Gaussian weights the effective number of samples is (Σg)²/Σg² = 2 Σg.
-                const float n = 2 * level.support.at(i, j) / samples_per_independent;
-                const Vec2 delta = level.correction.node(i, j);
-                const float signal = glm::dot(delta, delta);
-                constexpr float kKappa = 2;
-                const float error = kKappa * 2 * noise * noise / std::max(n, 1e-3f);
-                level.correction.set_node(i, j, delta * (signal / (signal + error + 1e-12f)));
-            }
-        }
+        shrink(level, noise, samples_per_independent);
         subtract(samples, level.correction, residuals);
         const LatticeField step = level.correction.resampled(options.spacing_px);
         for (int j = 0; j < field.nodes().height(); ++j) {

@@ -23,9 +23,10 @@ struct SurfaceFitOptions {
 /// The motion of a surface from raw motion and weights (both H×W, weights 0–255).
 ///
 /// A quadratic model is fitted robustly to the whole region; then local affine corrections of finer
-/// and finer support are added, each only as far as it stands out of the noise (it is shrunk by
-/// δ²/(δ² + κ·se²), James–Stein). Rigid surfaces so keep the stiff model and cloth gets its folds;
-/// where nothing is known (behind holdouts, outside the matte) the stiffer model goes on.
+/// and finer support are added, each only as far as the surface as a whole shows deviations that
+/// stand out of the noise (empirical Bayes). Rigid surfaces so keep the stiff model, even where a
+/// moving shadow pretends otherwise, and cloth gets its folds; where nothing is known (behind
+/// holdouts, outside the matte) the stiffer model goes on.
 /// Deterministic; pure. With no weight at all the result is zero motion.
 [[nodiscard]] LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights,
                                               const SurfaceFitOptions& options);

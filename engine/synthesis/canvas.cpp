@@ -1,5 +1,7 @@
 #include "engine/synthesis/canvas.h"
 
+#include <algorithm>
+
 namespace weft {
 
 std::optional<Vec2i> Canvas::first_unfilled() {
@@ -16,14 +18,14 @@ Block copy_block(const Canvas& canvas, const Recti& rect) {
     Block block{rect, ImageU8x3(rect.size()), Image<std::uint8_t, 1>(rect.size(), 0),
                 Image<std::uint8_t, 1>(rect.size(), 0)};
     for (int y = 0; y < rect.height(); ++y) {
-        for (int x = 0; x < rect.width(); ++x) {
+        // Runs that lie side by side in the canvas, too.
+        for (int x = 0, n = 1; x < rect.width(); x += n, n = 1) {
             const auto p = canvas.resolve(rect.x0 + x, rect.y0 + y);
             if (!p) continue;
-            block.inside.at(x, y) = 1;
-            block.filled.at(x, y) = canvas.filled(p->x, p->y) ? 1 : 0;
-            const std::uint8_t* from = canvas.pixels().pixel(p->x, p->y);
-            std::uint8_t* to = block.pixels.pixel(x, y);
-            to[0] = from[0], to[1] = from[1], to[2] = from[2];
+            n = std::min(rect.width() - x, canvas.size().width - p->x);
+            std::fill_n(block.inside.pixel(x, y), n, std::uint8_t{1});
+            std::copy_n(canvas.filled_row(p->y) + p->x, n, block.filled.pixel(x, y));
+            std::copy_n(canvas.pixels().pixel(p->x, p->y), 3 * n, block.pixels.pixel(x, y));
         }
     }
     return block;

@@ -30,6 +30,9 @@ class Canvas {
         return p && filled_.at(p->x, p->y) != 0;
     }
 
+    /// 1 where a stored row is filled, else 0.
+    [[nodiscard]] const std::uint8_t* filled_row(int y) const { return filled_.row(y); }
+
     /// The first unfilled pixel in scanline order; nothing when all are filled. Pixels never become
     /// unfilled, so the search goes on where it last ended.
     [[nodiscard]] std::optional<Vec2i> first_unfilled();

@@ -98,6 +98,13 @@ struct FftCorrelation::Plans {
     }
 };
 
+// A block's weighted channels and weights as floats, their Euclidean lengths, and the exact sums.
+struct FftCorrelation::Weighted {
+    std::vector<Spectrum> data;
+    std::array<double, 4> norms{};
+    Integral weights, lengths;
+};
+
 FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     : sample_size_(sample.size()), block_(block), lo_(lo), hi_(hi) {
     // Circular wrap must not bring a sample pixel over a block pixel that it does not reach.
@@ -144,15 +151,12 @@ FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
 
 FftCorrelation::~FftCorrelation() = default;
 
-FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) const {
-    // Weighted channels of the block and the weights themselves; exact sums beside.
-    std::vector<Floats> data;
+FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target) const {
+    Weighted out{{}, {}, Integral(block_), Integral(block_)};
     for (int c = 0; c < 4; ++c) {
-        data.push_back(make_floats(plans_->count));
-        std::fill_n(data.back().get(), plans_->count, 0.0f);
+        out.data.push_back(make_floats(plans_->count));
+        std::fill_n(out.data.back().get(), plans_->count, 0.0f);
     }
-    std::array<double, 4> norms{};
-    Integral weights(block_), lengths(block_);
     std::vector<std::uint64_t> weight_row(static_cast<std::size_t>(block_.width));
     std::vector<std::uint64_t> length_row(weight_row.size());
     const bool guided = !target.guide.empty();
@@ -160,10 +164,10 @@ FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) con
         const std::size_t base = static_cast<std::size_t>(y) * plans_->padded_row;
         for (int x = 0; x < block_.width; ++x) {
             const auto i = static_cast<std::size_t>(x);
-            std::array<std::int64_t, 3> v{};
-            std::uint64_t weight = 0, length = 0;
+            std::array<std::int64_t, 4> v{};  // Weighted channels, and the weight.
+            std::uint64_t length = 0;
             const auto add = [&](const std::uint8_t* p, std::uint32_t w) {
-                weight += w;
+                v[3] += w;
                 for (std::size_t c = 0; c < 3; ++c) {
                     const int d = p[c] - mean_[c];
                     v[c] += static_cast<std::int64_t>(w) * d;
@@ -174,24 +178,26 @@ FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) con
             if (guided && target.guide_known.at(x, y)) {
                 add(target.guide.pixel(x, y), target.guide_weight);
             }
-            weight_row[i] = weight;
+            weight_row[i] = static_cast<std::uint64_t>(v[3]);
             length_row[i] = length;
-            if (weight == 0) continue;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const auto f = static_cast<double>(v[c]);
-                data[c][base + i] = static_cast<float>(f);
-                norms[c] += f * f;
+            if (v[3] == 0) continue;
+            for (std::size_t c = 0; c < 4; ++c) {
+                out.data[c][base + i] = static_cast<float>(v[c]);
+                out.norms[c] += static_cast<double>(v[c]) * static_cast<double>(v[c]);
             }
-            data[3][base + i] = static_cast<float>(weight);
-            norms[3] += static_cast<double>(weight) * static_cast<double>(weight);
         }
-        weights.set_row(y, weight_row);
-        lengths.set_row(y, length_row);
+        out.weights.set_row(y, weight_row);
+        out.lengths.set_row(y, length_row);
     }
+    for (double& n : out.norms)
+        n = std::sqrt(n);
+    return out;
+}
+
+// F(w)·conj(F(|S|²)) − 2 Σ F(w·C)·conj(F(S)) and back, in data[0].
+void FftCorrelation::correlate(std::vector<Spectrum>& data) const {
     for (const Floats& d : data)
         plans_->run_forward(d.get());
-
-    // F(w)·conj(F(|S|²)) − 2 Σ F(w·C)·conj(F(S)), gathered in the first spectrum.
     for (std::size_t i = 0; i < plans_->count; i += 2) {
         float re = 0, im = 0;
         for (std::size_t c = 0; c < 4; ++c) {
@@ -205,6 +211,11 @@ FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) con
         data[0][i + 1] = im;
     }
     plans_->run_backward(data[0].get());
+}
+
+FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) const {
+    Weighted block = weigh(target);
+    correlate(block.data);
 
     Estimate out;
     // A convolution by FFT of size N is off by at most ‖a‖‖b‖·((1+u)^3n·(1+u√5)^(3n+1)·(1+μ)^3n −
@@ -212,21 +223,22 @@ FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) con
     // for μ ≤ u. That is for radix 2; the factor 4 covers FFTW's mixed radices, the rounding of
     // inputs and of the sum over four products.
     const double points = static_cast<double>(fft_.width) * fft_.height;
-    double size = std::sqrt(norms[3]) * norms_[3];
+    double size = block.norms[3] * norms_[3];
     for (std::size_t c = 0; c < 3; ++c)
-        size += 2 * std::sqrt(norms[c]) * norms_[c];
+        size += 2 * block.norms[c] * norms_[c];
     out.error = 4 * 14 * (std::log2(points) + 1) * 0x1.0p-24 * size + 1.0;
 
     const float scale = 1.0f / static_cast<float>(points);
     const Recti all = rect_of(block_);
     for (int ty = lo_.y; ty <= hi_.y; ++ty) {
         const int row = ty < 0 ? ty + fft_.height : ty;
-        const float* values = data[0].get() + static_cast<std::size_t>(row) * plans_->padded_row;
+        const float* values =
+            block.data[0].get() + static_cast<std::size_t>(row) * plans_->padded_row;
         for (int tx = lo_.x; tx <= hi_.x; ++tx) {
             const Recti reach =
                 all.intersected({tx, ty, tx + sample_size_.width, ty + sample_size_.height});
-            const double fixed = reach.empty() ? 0 : static_cast<double>(lengths.sum(reach));
-            out.weight.push_back(reach.empty() ? 0 : weights.sum(reach));
+            const double fixed = reach.empty() ? 0 : static_cast<double>(block.lengths.sum(reach));
+            out.weight.push_back(reach.empty() ? 0 : block.weights.sum(reach));
             out.ssd.push_back(fixed +
                               static_cast<double>(values[tx < 0 ? tx + fft_.width : tx] * scale));
         }

@@ -32,7 +32,11 @@ class FftCorrelation {
 
   private:
     struct Plans;
+    struct Weighted;
     using Spectrum = std::unique_ptr<float[], void (*)(void*)>;
+
+    [[nodiscard]] Weighted weigh(const MatchTarget& target) const;
+    void correlate(std::vector<Spectrum>& data) const;
 
     std::unique_ptr<Plans> plans_;
     Size sample_size_, block_, fft_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/synthesis/contact.h"
 #include "engine/synthesis/fft_correlation.h"
 #include "tests/synthesis/samples.h"
 
@@ -185,6 +186,54 @@ TEST(PlacementSearch, ExactCopiesAndTiesAreFoundExactly) {
                   .find(s.target, {}, SearchMethod::kFft)
                   .good.size(),
               25u * 25u);
+}
+
+TEST(ThinContacts, AreCountedByTheDefinition) {
+    Rng rng(9);
+    for (const bool torus : {false, true}) {
+        Canvas canvas({40, 40}, torus);
+        const std::uint8_t grey[3] = {1, 1, 1};
+        for (int n = 0; n < 12; ++n) {
+            const int x0 = static_cast<int>(rng.below(34)), y0 = static_cast<int>(rng.below(34));
+            for (int i = 0; i < 36; ++i)
+                canvas.set({x0 + i % 6, y0 + i / 6}, grey, {0, 0});
+        }
+        const Block block = copy_block(canvas, {8, 9, 30, 29});
+        const Vec2i lo{-3, -2}, hi{4, 6}, least{4, 5};
+        const Size window{17, 15};
+        const auto counts = thin_contacts(canvas, block, window, lo, hi, least);
+        std::size_t i = 0;
+        std::uint32_t largest = 0;
+        for (int ty = lo.y; ty <= hi.y; ++ty) {
+            for (int tx = lo.x; tx <= hi.x; ++tx, ++i) {
+                const Recti r = block.rect.intersected(
+                    {8 + tx, 9 + ty, 8 + tx + window.width, 9 + ty + window.height});
+                std::uint32_t expected = 0;
+                // From a pixel just outside inwards.
+                const auto look = [&](Vec2i outside, Vec2i in, int enough) {
+                    if (!canvas.filled(outside.x, outside.y)) return;
+                    int depth = 0;
+                    for (Vec2i p = outside + in; depth < enough && canvas.filled(p.x, p.y);
+                         p += in) {
+                        // What is filled beyond the block counts on.
+                        ++depth;
+                    }
+                    expected += depth < enough;
+                };
+                for (int y = r.y0; y < r.y1; ++y) {
+                    look({r.x0 - 1, y}, {1, 0}, least.x);
+                    look({r.x1, y}, {-1, 0}, least.x);
+                }
+                for (int x = r.x0; x < r.x1; ++x) {
+                    look({x, r.y0 - 1}, {0, 1}, least.y);
+                    look({x, r.y1}, {0, -1}, least.y);
+                }
+                EXPECT_EQ(counts[i], expected) << torus << " " << tx << " " << ty;
+                largest = std::max(largest, expected);
+            }
+        }
+        EXPECT_GT(largest, 0u);
+    }
 }
 
 TEST(PlacementSearch, WhenAllAreForbiddenAllTakePart) {
