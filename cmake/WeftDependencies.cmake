@@ -1,6 +1,6 @@
 # Every library comes from a Debian package; ./run installs them by name.
 find_package(Threads REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc video videoio ximgproc photo)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc video optflow)
 find_package(OpenImageIO REQUIRED)
 find_package(OpenColorIO REQUIRED PATHS /usr/share/cmake)
 find_package(glm REQUIRED)

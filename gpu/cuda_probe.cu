@@ -14,7 +14,8 @@ CudaProbe probe_cuda() {
         return probe;
     }
     cudaDeviceProp properties;
-    if (cudaGetDeviceProperties(&properties, 0) == cudaSuccess) probe.detail = properties.name;
+    const bool known = cudaGetDeviceProperties(&properties, 0) == cudaSuccess;
+    probe.detail = known ? properties.name : "a CUDA device";
     return probe;
 }
 

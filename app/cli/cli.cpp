@@ -1,5 +1,8 @@
 #include "app/cli/cli.h"
 
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
 
@@ -9,6 +12,33 @@
 namespace weft {
 namespace {
 
+// "weft region add" where that is what was asked for, else "weft".
+std::string command_of(const CLI::App& app) {
+    std::string name = "weft";
+    for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+        at = at->get_subcommands().front();
+        name += " " + at->get_name();
+    }
+    return name;
+}
+
+bool has_command(const CLI::App& app, const std::string& name) {
+    return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); }).empty();
+}
+
+// One line for what CLI11 found wrong with the arguments.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+    std::string what = error.what();
+    const std::string first = argc > 1 ? argv[1] : "";
+    if (argc < 2) {
+        what = "No command was given";
+    } else if (first[0] != '-' && !has_command(app, first)) {
+        what = "There is no command '" + first + "'";
+    }
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    return "weft: " + what + ". Run '" + command_of(app) + " --help'.\n";
+}
+
 // CLI11 answers help and version itself; everything else is wrong usage.
 int parse(CLI::App& app, int argc, char** argv, int& exit) {
     try {
@@ -17,7 +47,7 @@ int parse(CLI::App& app, int argc, char** argv, int& exit) {
     } catch (const CLI::Success& done) {
         return app.exit(done);
     } catch (const CLI::ParseError& error) {
-        print(stderr, std::string("weft: ") + error.what() + "\nRun 'weft --help' or 'weft COMMAND --help'.\n");
+        print(stderr, usage_message(app, error, argc, argv));
         return exit_code(ErrorCode::kUsage);
     }
 }
@@ -25,6 +55,8 @@ int parse(CLI::App& app, int argc, char** argv, int& exit) {
 }  // namespace
 
 int run_cli(int argc, char** argv) {
+    // A write beyond the limit on a file's size then fails as on a full disk, with our message.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Weft replaces textures in animation.", "weft");
     app.set_version_flag("--version", std::string("weft ") + kVersion);
     app.require_subcommand(1);
@@ -38,7 +70,14 @@ int run_cli(int argc, char** argv) {
     add_project_commands(app, exit);
     add_tool_commands(app, exit);
     try {
-        return parse(app, argc, argv, exit);
+        const int code = parse(app, argc, argv, exit);
+        if (code == 0 && std::ferror(stdout)) {
+            return report_error({ErrorCode::kNoSpace,
+                                 "What was to be printed could not be written. Free disk space, or send the "
+                                 "standard output elsewhere.",
+                                 {}});
+        }
+        return code;
     } catch (const std::bad_alloc&) {
         return report_error({ErrorCode::kNoSpace, "Out of memory. Use fewer --threads or smaller plates.", {}});
     } catch (const std::exception& error) {

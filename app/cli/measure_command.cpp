@@ -75,6 +75,7 @@ class Measurer {
         if (project.settings.frames.empty()) project.settings.frames = format_frame_list(result_->frames());
         WEFT_TRY(shot, open_shot(project, open));
         shot_ = shot;
+        outcome_.warnings = shot_->warnings;
         if (region().propagated()) {
             return fail(ErrorCode::kUsage, "Measuring needs a matte for every frame; 'weft matte' makes them.");
         }

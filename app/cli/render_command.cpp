@@ -44,6 +44,10 @@ int render_command(const Project& project, const RunOptions& run) {
         return report_error({ErrorCode::kUsage, "--overwrite and --skip-existing contradict each other.", {}});
     }
     if (run.dry_run) return dry_run(project);
+    if (!run.report.empty()) {
+        // Known before the work; the empty file is gone again at the end of this block.
+        if (const auto probe = TemporaryFile::create(run.report); !probe) return report_error(probe.error());
+    }
     const JobSpec spec = spec_of(project, run);
     const auto result = run_job(spec, cancel_on_signals(), progress_printer(run.progress, run.json));
     if (!result) return report_error(result.error());
@@ -60,8 +64,10 @@ int render_command(const Project& project, const RunOptions& run) {
 }
 
 int matte_command(const Project& project, const std::string& output, const RunOptions& run) {
+    std::vector<std::string> warnings;
     const auto mattes = run_matte_job(spec_of(project, run), output, cancel_on_signals(),
-                                      progress_printer(run.progress, run.json));
+                                      progress_printer(run.progress, run.json), warnings);
+    for (const std::string& warning : warnings) print_warning(warning);
     if (!mattes) return report_error(mattes.error());
     std::string text = run.json ? "{\"mattes\": [" : "";
     for (const MatteResult& m : *mattes) {

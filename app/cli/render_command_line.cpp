@@ -10,6 +10,10 @@ namespace {
 // The project with absolute meaning, or the exit code of what is wrong with it.
 int run_render(const Expected<Project>& project, const std::string& dir, const RunOptions& run) {
     if (!project) return report_error(project.error());
+    if (project->output.path.empty()) {
+        return report_error(
+            {ErrorCode::kUsage, "No output is set. Give a pattern with -o, such as 'out/####.png'.", {}});
+    }
     for (const Issue& issue : validate(*project)) {
         if (issue.severity == Severity::kError) return report_error({ErrorCode::kUsage, issue.text(), {}});
         print_warning(issue.text());

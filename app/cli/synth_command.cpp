@@ -55,10 +55,11 @@ Expected<TexturePlane> run(const SynthOptions& options) {
                                                                      : "srgb"));
     WEFT_TRY(display_from_texture, make_color_transform(space, {"srgb"}));
     const ImageU8x3 sample = make_views(picture.rgb, *display_from_texture).display;
-    if (const auto warning = sample_warning(sample)) print_warning(*warning);
-    WEFT_TRY(plane, grow_plane(sample, options.plane, cancel_on_signals()));
-    WEFT_CHECK_OK(write_plane(options.output, plane));
-    if (!options.source_map.empty()) WEFT_CHECK_OK(write_source_map(options.source_map, plane));
+    if (const auto warning = sample_warning(sample)) print_warning(options.sample + ": " + *warning);
+    auto plane = grow_plane(sample, options.plane, cancel_on_signals());
+    if (!plane) return fail_in(std::move(plane).error(), options.sample);
+    WEFT_CHECK_OK(write_plane(options.output, *plane));
+    if (!options.source_map.empty()) WEFT_CHECK_OK(write_source_map(options.source_map, *plane));
     return plane;
 }
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the analysis itself computes something else.
-constexpr int kAnalysisVersion = 1;
+constexpr int kAnalysisVersion = 2;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -87,6 +87,7 @@ const char* kind_name(AnalysisKind kind) {
         case AnalysisKind::kMatteForward: return "matte-forward";
         case AnalysisKind::kMatte: return "matte";
         case AnalysisKind::kCoords: return "coords";
+        case AnalysisKind::kCoordsOneWay: return "coords-one-way";
         case AnalysisKind::kShading: return "shading";
         case AnalysisKind::kPaperTexture: return "paper";
     }

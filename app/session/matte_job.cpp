@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "app/session/output_check.h"
 #include "app/session/render_job.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
@@ -12,7 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // The folder is there and none of the files is, unless they may be replaced.
-Status prepare_output(const SequencePattern& pattern, const std::vector<int>& frames, ExistingFrames existing) {
+Status prepare_output(const Shot& shot, const SequencePattern& pattern, ExistingFrames existing) {
+    const std::vector<int>& frames = shot.plan.frames;
     if (pattern.is_single() && frames.size() > 1) {
         return fail(ErrorCode::kUsage, "The output " + pattern.text() +
                                            " has no frame number. Write it like 'mattes/####.png'.");
@@ -26,6 +28,7 @@ Status prepare_output(const SequencePattern& pattern, const std::vector<int>& fr
     }
     for (const int frame : frames) {
         const std::string path = pattern.path_for(frame);
+        WEFT_CHECK_OK(check_no_input(shot, frame, path));
         if (existing == ExistingFrames::kRefuse && fs::exists(path, error)) {
             return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another folder.");
         }
@@ -36,7 +39,8 @@ Status prepare_output(const SequencePattern& pattern, const std::vector<int>& fr
 }  // namespace
 
 Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec, const std::string& pattern_text,
-                                                 const CancelToken& cancel, const ProgressFn& progress) {
+                                                 const CancelToken& cancel, const ProgressFn& progress,
+                                                 std::vector<std::string>& warnings) {
     use_threads(spec.threads);
     WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
     OpenShotOptions options;
@@ -46,9 +50,9 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec, const std:
     if (plan.regions.size() != 1) {
         return fail(ErrorCode::kUsage, "Mattes are made for one region at a time.");
     }
-    WEFT_CHECK_OK(prepare_output(pattern, plan.frames, spec.existing));
+    WEFT_CHECK_OK(prepare_output(*shot, pattern, spec.existing));
 
-    std::vector<std::string> warnings;
+    warnings.insert(warnings.end(), shot->warnings.begin(), shot->warnings.end());
     WEFT_TRY(store, open_analysis_cache(*shot, spec.cache, warnings));
     ProgressEvent event{"analyse", 0, count_matte_steps(plan, *store), 0, 0};
     const PassContext context{*shot->source, plan, cancel, [&](int frame, double seconds) {

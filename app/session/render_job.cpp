@@ -8,6 +8,8 @@
 #include <mutex>
 #include <opencv2/core/utility.hpp>
 
+#include "app/session/job_warnings.h"
+#include "app/session/output_check.h"
 #include "engine/compute/backend_registry.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
@@ -134,10 +136,7 @@ class RenderJob {
         std::vector<int> present;
         for (const int frame : plan_.frames) {
             const std::string path = pattern_->path_for(frame);
-            if (path == shot_->plate->path_of(frame)) {
-                return fail(ErrorCode::kUsage, "The output " + path + " would overwrite the plate. Choose "
-                                               "another folder with -o.");
-            }
+            WEFT_CHECK_OK(check_no_input(*shot_, frame, path));
             if (fs::exists(path, error)) present.push_back(frame);
         }
         if (!present.empty() && spec_.existing == ExistingFrames::kRefuse) {
@@ -147,6 +146,7 @@ class RenderJob {
                                                                    : "") +
                                                ". Use --overwrite, --skip-existing, or another folder.");
         }
+        WEFT_CHECK_OK(check_movie());
         for (const int frame : plan_.frames) {
             const bool skip = spec_.existing == ExistingFrames::kSkip &&
                               std::binary_search(present.begin(), present.end(), frame) &&
@@ -159,21 +159,41 @@ class RenderJob {
         return {};
     }
 
+    Status check_movie() const {
+        const std::string& path = shot_->project.output.movie;
+        std::error_code error;
+        if (path.empty() || !fs::exists(path, error)) return {};
+        WEFT_CHECK_OK(check_no_input(*shot_, plan_.frames.front(), path));
+        if (spec_.existing != ExistingFrames::kRefuse) return {};
+        return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.");
+    }
+
     Status make_scenes() {
         if (to_render_.empty()) return {};
         for (std::size_t k = 0; k < plan_.regions.size(); ++k) {
             if (const auto& texture = *plan_.regions[k].texture; !texture.is_plane) {
                 const auto warning = sample_warning(synthesis_sample8(k));
-                if (warning) result_.warnings.push_back(*warning);
+                if (warning) result_.warnings.push_back(shot_->textures[k].path + ": " + *warning);
             }
+            WEFT_CHECK_OK(check_reference(k));
             auto scene = make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_, {});
             if (!scene) {
                 const std::size_t at = shot_->region_index[k];
-                return fail_in(std::move(scene).error(), "Region '" + shot_->project.regions[at]->name + "'");
+                return fail_in(std::move(scene).error(), "Region '" + shot_->project.regions[at]->name + "' with " +
+                                                             shot_->textures[k].path);
             }
             result_.planes.push_back(scene->stats);
             scenes_.push_back(std::move(*scene));
         }
+        return {};
+    }
+
+    // Where the reference frame shows nothing of the surface, there is no light to compare with and
+    // nothing to follow from there.
+    Status check_reference(std::size_t region) {
+        const int frame = plan_.regions[region].reference_frames.front();
+        WEFT_TRY(extent, extent_matte(*shot_->source, plan_, *store_, static_cast<int>(region), frame));
+        if (matte_bounds(extent).empty()) empty_references_.emplace_back(region, frame);
         return {};
     }
 
@@ -210,10 +230,6 @@ class RenderJob {
 
     Expected<std::unique_ptr<MovieWriter>> open_review_movie() {
         const std::string& path = shot_->project.output.movie;
-        std::error_code error;
-        if (fs::exists(path, error) && spec_.existing == ExistingFrames::kRefuse) {
-            return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.");
-        }
         const double given = shot_->project.plate.fps, of_plate = shot_->plate->fps();
         WEFT_TRY(display_from_out, make_color_transform(shot_->spaces.out, {"srgb"}));
         display_from_out_ = display_from_out;
@@ -236,6 +252,8 @@ class RenderJob {
             WEFT_CHECK_OK(write_image(result.path, rendered.pixels, decoded->alpha, write_));
             result.above_one = rendered.above_one;
             result.filled = rendered.filled;
+            result.nonfinite = decoded->nonfinite;
+            result.untouched = matte_bounds(rendered.touched).empty();
             pixels = std::move(rendered.pixels);
         }
         if (display) {
@@ -252,27 +270,17 @@ class RenderJob {
         return {};
     }
 
-    // What exceeded the output's range and what was filled, in one line each.
     void finish_warnings() {
-        std::int64_t above = 0, filled = 0;
-        int above_frames = 0, filled_frames = 0, first_filled = 0;
-        for (const FrameResult& f : result_.frames) {
-            above += f.above_one;
-            above_frames += f.above_one > 0;
-            if (f.filled > 0 && filled_frames++ == 0) first_filled = f.frame;
-            filled += f.filled;
+        const bool some_touched = std::any_of(result_.frames.begin(), result_.frames.end(),
+                                              [](const FrameResult& f) { return !f.untouched && !f.skipped; });
+        for (const auto& [region, frame] : empty_references_) {
+            if (!some_touched) break;
+            result_.warnings.push_back("Region '" + shot_->project.regions[shot_->region_index[region]]->name +
+                                       "': its matte is empty on the reference frame " + std::to_string(frame) +
+                                       ". Place the texture on a frame that shows the surface (--reference-frame).");
         }
-        if (above > 0) {
-            result_.warnings.push_back(std::to_string(above) + " pixels on " + std::to_string(above_frames) +
-                                       " frames were brighter than the output can hold; their highlights "
-                                       "were rolled off.");
-        }
-        if (filled > 0) {
-            result_.warnings.push_back("The plate has NaN or infinity inside a matte on " +
-                                       std::to_string(filled_frames) + " frames, first on " +
-                                       std::to_string(first_filled) + " (" + std::to_string(filled) +
-                                       " pixels in all); they were filled with the texture.");
-        }
+        const std::vector<std::string> of_frames = warnings_of(result_.frames);
+        result_.warnings.insert(result_.warnings.end(), of_frames.begin(), of_frames.end());
     }
 
     const JobSpec& spec_;
@@ -287,6 +295,7 @@ class RenderJob {
     WriteOptions write_;
     std::shared_ptr<AnalysisStore> store_;
     std::vector<RegionScene> scenes_;
+    std::vector<std::pair<std::size_t, int>> empty_references_;   // region, frame
     std::shared_ptr<const ColorTransform> display_from_out_;
     std::mutex progress_mutex_;
     std::int64_t done_ = 0;

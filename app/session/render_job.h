@@ -38,6 +38,8 @@ struct FrameResult {
     double seconds = 0;
     bool skipped = false;
     std::int64_t above_one = 0, filled = 0;
+    std::int64_t nonfinite = 0;            ///< Pixels of NaN or infinity in the whole plate.
+    bool untouched = false;                ///< No matte reaches this frame.
 };
 
 struct StageSeconds {
@@ -71,9 +73,11 @@ struct MatteResult {
     std::string path;
     float confidence = 1;
 };
+/// What is odd but no error is added to `warnings`.
 [[nodiscard]] Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
                                                                const std::string& pattern,
                                                                const CancelToken& cancel,
-                                                               const ProgressFn& progress);
+                                                               const ProgressFn& progress,
+                                                               std::vector<std::string>& warnings);
 
 }  // namespace weft

@@ -60,6 +60,7 @@ Json frames_json(const JobResult& result) {
         Json entry{{"frame", f.frame}, {"path", f.path}, {"seconds", f.seconds}};
         if (f.skipped) entry["skipped"] = true;
         if (f.above_one > 0) entry["rolled_off_px"] = f.above_one;
+        if (f.nonfinite > 0) entry["nonfinite_px"] = f.nonfinite;
         if (f.filled > 0) entry["filled_px"] = f.filled;
         out.push_back(std::move(entry));
     }

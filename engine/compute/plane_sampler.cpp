@@ -1,6 +1,7 @@
 #include "engine/compute/plane_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -10,12 +11,11 @@ namespace weft {
 namespace {
 
 using F4 = float __attribute__((vector_size(16)));
-using U4 = std::uint16_t __attribute__((vector_size(8)));
 
-F4 load(const std::uint16_t* p) {
-    U4 v;
+F4 load(const float* p) {
+    F4 v;
     std::memcpy(&v, p, sizeof v);
-    return __builtin_convertvector(v, F4);
+    return v;
 }
 
 F4 spread(float v) { return F4{v, v, v, v}; }
@@ -38,33 +38,52 @@ struct LevelView {
     float scale_x, scale_y;
 };
 
-// Bilinear lookup at level coordinates that may lie a little outside; W is the wrap mode.
-template <WrapMode W>
-F4 bilinear(const PlanePyramid::Level& level, float u, float v) {
-    const float gx = u - 0.5f, gy = v - 0.5f;
-    const float bx = std::floor(gx), by = std::floor(gy);
-    const int x0 = wrapped_index(static_cast<int>(bx), level.width(), W);
-    const int y0 = wrapped_index(static_cast<int>(by), level.height(), W);
-    const int x1 = wrapped_index(static_cast<int>(bx) + 1, level.width(), W);
-    const int y1 = wrapped_index(static_cast<int>(by) + 1, level.height(), W);
-    const F4 fx = spread(gx - bx), fy = spread(gy - by);
-    const std::uint16_t *top = level.row(y0), *low = level.row(y1);
-    const F4 a = load(top + 4 * x0), b = load(top + 4 * x1);
-    const F4 c = load(low + 4 * x0), d = load(low + 4 * x1);
-    const F4 t = a + fx * (b - a), l = c + fx * (d - c);
-    return t + fy * (l - t);
+// Cubic convolution (Keys 1981). Catmull–Rom is a = −0.5 and OpenCV's cubic a = −0.75; between them
+// the mean over a pixel comes out within a few percent of either's own (docs/decisions/0005).
+constexpr float kA = -0.6f;
+
+F4 cubic_weights(float f) {
+    const float g = 1 - f;
+    const float near = ((kA + 2) * f - (kA + 3)) * f * f + 1;
+    const float far = ((kA + 2) * g - (kA + 3)) * g * g + 1;
+    // a (d³ − 5d² + 8d − 4) at d = 1 + f and at d = 1 + g.
+    return F4{kA * f * g * g, near, far, kA * g * f * f};
 }
 
-// The same where all four texels are known to lie inside: no wrapping.
-F4 bilinear_inside(const PlanePyramid::Level& level, float u, float v) {
+F4 row_sum(const float* t0, const float* t1, const float* t2, const float* t3, F4 w) {
+    return spread(w[0]) * load(t0) + spread(w[1]) * load(t1) + spread(w[2]) * load(t2) + spread(w[3]) * load(t3);
+}
+
+// Cubic lookup at level coordinates anywhere; W is the wrap mode.
+template <WrapMode W>
+F4 lookup(const PlanePyramid::Level& level, float u, float v) {
+    const float gx = u - 0.5f, gy = v - 0.5f;
+    const float bx = std::floor(gx), by = std::floor(gy);
+    const F4 wx = cubic_weights(gx - bx), wy = cubic_weights(gy - by);
+    std::array<int, 4> column{};
+    for (int k = 0; k < 4; ++k) {
+        column[static_cast<std::size_t>(k)] = 4 * wrapped_index(static_cast<int>(bx) + k - 1, level.width(), W);
+    }
+    F4 sum{};
+    for (int k = 0; k < 4; ++k) {
+        const float* row = level.row(wrapped_index(static_cast<int>(by) + k - 1, level.height(), W));
+        sum += spread(wy[k]) *
+               row_sum(row + column[0], row + column[1], row + column[2], row + column[3], wx);
+    }
+    return sum;
+}
+
+// The same where all sixteen texels are known to lie inside: no wrapping.
+F4 lookup_inside(const PlanePyramid::Level& level, float u, float v) {
     const float gx = u - 0.5f, gy = v - 0.5f;
     const int x = static_cast<int>(gx), y = static_cast<int>(gy);
-    const F4 fx = spread(gx - static_cast<float>(x)), fy = spread(gy - static_cast<float>(y));
-    const std::uint16_t* top = level.pixel(x, y);
-    const std::uint16_t* low = top + level.stride();
-    const F4 a = load(top), b = load(top + 4), c = load(low), d = load(low + 4);
-    const F4 t = a + fx * (b - a), l = c + fx * (d - c);
-    return t + fy * (l - t);
+    const F4 wx = cubic_weights(gx - static_cast<float>(x)), wy = cubic_weights(gy - static_cast<float>(y));
+    const float* row = level.pixel(x - 1, y - 1);
+    F4 sum{};
+    for (int k = 0; k < 4; ++k, row += level.stride()) {
+        sum += spread(wy[k]) * row_sum(row, row + 4, row + 8, row + 12, wx);
+    }
+    return sum;
 }
 
 // The coordinate folded to within one period of the plane, so that it keeps its precision.
@@ -78,8 +97,7 @@ template <WrapMode W>
 class Sampler {
   public:
     Sampler(const SampleRequest& request, ImageView<float, 3> out)
-        : request_(request), out_(out), density_(density(request.quality)),
-          unit_(request.plane->range() / 65535.0f) {
+        : request_(request), out_(out), density_(density(request.quality)) {
         for (const auto& level : request.plane->levels()) {
             levels_.push_back(
                 {&level,
@@ -95,7 +113,8 @@ class Sampler {
             if (matte.at(x, y) == 0) continue;
             const F4 colour = pixel(x, y);
             float* o = out_.pixel(x, y);
-            for (int c = 0; c < 3; ++c) o[c] = colour[c] * unit_;
+            // The cubic may undershoot beside a highlight.
+            for (int c = 0; c < 3; ++c) o[c] = std::max(0.0f, colour[c]);
         }
     }
 
@@ -113,10 +132,13 @@ class Sampler {
         const Vec2 jy = slope(x, std::max(0, y - 1), x, std::min(uv.height() - 1, y + 1));
         const float lx = std::sqrt(jx.x * jx.x + jx.y * jx.y);
         const float ly = std::sqrt(jy.x * jy.x + jy.y * jy.y);
-        if (!(lx < 1e6f && ly < 1e6f)) return F4{};
+        const float* centre = uv.pixel(x, y);
+        // Where the coordinates are not known, or so far away that they mean nothing.
+        const bool known = std::abs(centre[0]) < 1e9f && std::abs(centre[1]) < 1e9f;
+        if (!(known && lx < 1e6f && ly < 1e6f)) return F4{};
         const int nx = density_.cells(lx), ny = density_.cells(ly);
-        // A level's texel spans 2^(level−1) texels of the plane; a cell shall not span more than
-        // about one of them.
+        // A level's texel spans 2^level texels of the plane; a cell shall not span more than about
+        // one of them.
         const float cell = std::max(lx / static_cast<float>(nx), ly / static_cast<float>(ny));
         std::size_t level = 0;
         for (float span = 1.0f; cell > span && level + 1 < levels_.size(); span *= 2) ++level;
@@ -124,7 +146,6 @@ class Sampler {
 
         const Vec2 scale(view.scale_x, view.scale_y);
         const Size size = request_.plane->size();
-        const float* centre = uv.pixel(x, y);
         const Vec2 at = Vec2(folded(centre[0], size.width, W), folded(centre[1], size.height, W)) * scale;
         const Vec2 step_x = jx * scale / static_cast<float>(nx);
         const Vec2 step_y = jy * scale / static_cast<float>(ny);
@@ -136,17 +157,17 @@ class Sampler {
     [[nodiscard]] static F4 sum(const PlanePyramid::Level& level, Vec2 at, Vec2 first, Vec2 step_x,
                                 Vec2 step_y, int nx, int ny) {
         const float reach_x = std::abs(at.x - first.x) + std::abs(step_x.x) * static_cast<float>(nx) +
-                              std::abs(step_y.x) * static_cast<float>(ny) + 1;
+                              std::abs(step_y.x) * static_cast<float>(ny) + 2;
         const float reach_y = std::abs(at.y - first.y) + std::abs(step_x.y) * static_cast<float>(nx) +
-                              std::abs(step_y.y) * static_cast<float>(ny) + 1;
+                              std::abs(step_y.y) * static_cast<float>(ny) + 2;
         const bool inside = at.x - reach_x >= 0 && at.y - reach_y >= 0 &&
-                            at.x + reach_x < static_cast<float>(level.width() - 1) &&
-                            at.y + reach_y < static_cast<float>(level.height() - 1);
+                            at.x + reach_x < static_cast<float>(level.width()) &&
+                            at.y + reach_y < static_cast<float>(level.height());
         F4 total{};
         for (int j = 0; j < ny; ++j) {
             Vec2 p = first + step_y * static_cast<float>(j);
             for (int i = 0; i < nx; ++i, p += step_x) {
-                total += inside ? bilinear_inside(level, p.x, p.y) : bilinear<W>(level, p.x, p.y);
+                total += inside ? lookup_inside(level, p.x, p.y) : lookup<W>(level, p.x, p.y);
             }
         }
         return total;
@@ -155,7 +176,6 @@ class Sampler {
     SampleRequest request_;
     ImageView<float, 3> out_;
     Density density_;
-    float unit_;
     std::vector<LevelView> levels_;
 };
 

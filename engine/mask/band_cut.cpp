@@ -8,14 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/parallel.h"
-
 namespace weft {
 namespace {
 
 // Capacities are integers, so that sums do not depend on their order.
 constexpr float kUnits = 64;
 constexpr float kMaxLogOdds = 12;
+constexpr float kLeastContrast = 0.02f;  // a boundary costs a little even on the strongest edge
 
 struct Step {
     int dx, dy;
@@ -45,66 +44,86 @@ float contrast_scale(ViewU8x3 frame, ViewF1 phi, float band_px) {
     return static_cast<float>(1 / (2 * std::max(mean, 20.0)));
 }
 
+// The pixels to be decided, numbered in scan order (−1: decided by the prior).
+struct Band {
+    Band(ViewF1 prior_phi, float band_px) : labels(prior_phi.size()), node(prior_phi.size(), -1) {
+        for (int y = 0; y < prior_phi.height(); ++y) {
+            for (int x = 0; x < prior_phi.width(); ++x) {
+                const float phi = prior_phi.row(y)[x];
+                labels.row(y)[x] = phi > 0 ? 1 : 0;
+                if (std::abs(phi) < band_px) node.row(y)[x] = nodes++;
+            }
+        }
+    }
+    Image<std::uint8_t, 1> labels;
+    Image<std::int32_t, 1> node;
+    int nodes = 0;
+};
+
+struct Terminal {
+    int inside = 0, outside = 0;
+};
+
+// Links of one pixel to its later neighbours; a link to a decided pixel becomes evidence.
+void link_pixel(cv::detail::GCGraph<int>& graph, std::vector<Terminal>& terminals, const Band& band,
+                ViewU8x3 frame, Vec2i at, float beta, float smoothness) {
+    const int p = band.node.row(at.y)[at.x];
+    for (const Step& s : kSteps) {
+        const Vec2i to = at + Vec2i(s.dx, s.dy);
+        if (to.x < 0 || to.x >= frame.width() || to.y >= frame.height()) continue;
+        const int q = band.node.row(to.y)[to.x];
+        if (p < 0 && q < 0) continue;
+        const float contrast =
+            beta * static_cast<float>(color_distance(frame, at.x, at.y, to.x, to.y));
+        const float likeness = contrast < 12 ? std::exp(-contrast) : 0.0f;
+        const float weight = smoothness * s.inverse_length * (kLeastContrast + likeness);
+        const int capacity = 1 + static_cast<int>(std::lround(kUnits * weight));
+        if (p >= 0 && q >= 0) {
+            graph.addEdges(p, q, capacity, capacity);
+            continue;
+        }
+        const Vec2i decided = p >= 0 ? to : at;
+        Terminal& t = terminals[static_cast<std::size_t>(p >= 0 ? p : q)];
+        (band.labels.row(decided.y)[decided.x] != 0 ? t.inside : t.outside) += capacity;
+    }
+}
+
 }  // namespace
 
 Image<std::uint8_t, 1> cut_band(ViewU8x3 frame, ViewF1 log_odds, ViewF1 prior_phi, float band_px,
                                 float smoothness) {
     const int w = frame.width(), h = frame.height();
-    Image<std::uint8_t, 1> labels(frame.size());
-    Image<std::int32_t, 1> node(frame.size(), -1);
-    int nodes = 0;
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) {
-            const float phi = prior_phi.row(y)[x];
-            labels.row(y)[x] = phi > 0 ? 1 : 0;
-            if (std::abs(phi) < band_px) node.row(y)[x] = nodes++;
-        }
-    }
-    if (nodes == 0) return labels;
+    Band band(prior_phi, band_px);
+    if (band.nodes == 0) return std::move(band.labels);
     const float beta = contrast_scale(frame, prior_phi, band_px);
-    cv::detail::GCGraph<int> graph(static_cast<unsigned>(nodes), static_cast<unsigned>(8 * nodes));
-    std::vector<std::pair<int, int>> terminal(static_cast<std::size_t>(nodes));
-    for (int i = 0; i < nodes; ++i) graph.addVtx();
+    const auto nodes = static_cast<unsigned>(band.nodes);
+    cv::detail::GCGraph<int> graph(nodes, 8 * nodes);
+    for (unsigned i = 0; i < nodes; ++i)
+        graph.addVtx();
+    std::vector<Terminal> terminals(nodes);
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x) {
-            const int p = node.row(y)[x];
+            const int p = band.node.row(y)[x];
             if (p >= 0) {
                 const float odds = std::clamp(log_odds.row(y)[x], -kMaxLogOdds, kMaxLogOdds);
-                auto& t = terminal[static_cast<std::size_t>(p)];
                 const int units = static_cast<int>(std::lround(odds * kUnits));
-                (units > 0 ? t.first : t.second) += std::abs(units);
+                Terminal& t = terminals[static_cast<std::size_t>(p)];
+                (units > 0 ? t.inside : t.outside) += std::abs(units);
             }
-            for (const Step& s : kSteps) {
-                const int qx = x + s.dx, qy = y + s.dy;
-                if (qx < 0 || qx >= w || qy >= h) continue;
-                const int q = node.row(qy)[qx];
-                if (p < 0 && q < 0) continue;
-                const auto contrast = static_cast<float>(color_distance(frame, x, y, qx, qy));
-                const int cap = 1 + static_cast<int>(std::lround(
-                                        kUnits * smoothness * s.inverse_length *
-                                        (0.02f + std::exp(-beta * contrast))));
-                if (p >= 0 && q >= 0) {
-                    graph.addEdges(p, q, cap, cap);
-                } else {  // the neighbour is decided: its link becomes evidence
-                    const bool inside = labels.row(p >= 0 ? qy : y)[p >= 0 ? qx : x] != 0;
-                    auto& t = terminal[static_cast<std::size_t>(p >= 0 ? p : q)];
-                    (inside ? t.first : t.second) += cap;
-                }
-            }
+            link_pixel(graph, terminals, band, frame, Vec2i(x, y), beta, smoothness);
         }
     }
-    for (int i = 0; i < nodes; ++i) {
-        const auto& t = terminal[static_cast<std::size_t>(i)];
-        graph.addTermWeights(i, t.first, t.second);
+    for (unsigned i = 0; i < nodes; ++i) {
+        graph.addTermWeights(static_cast<int>(i), terminals[i].inside, terminals[i].outside);
     }
     graph.maxFlow();
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x) {
-            const int p = node.row(y)[x];
-            if (p >= 0) labels.row(y)[x] = graph.inSourceSegment(p) ? 1 : 0;
+            const int p = band.node.row(y)[x];
+            if (p >= 0) band.labels.row(y)[x] = graph.inSourceSegment(p) ? 1 : 0;
         }
     }
-    return labels;
+    return std::move(band.labels);
 }
 
 void remove_islands(Image<std::uint8_t, 1>& labels, ViewF1 prior_phi, float core_px,

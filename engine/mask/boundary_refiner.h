@@ -1,6 +1,6 @@
 #pragma once
-// Finds a boundary near where it is expected: local colour classifiers, a shape prior, a minimum cut
-// in a narrow band, and the soft edge. Shared by the walker and by the merge of two walks.
+// Finds a boundary near where it is expected: local colour classifiers, a shape prior, a minimum
+// cut in a narrow band, and the soft edge. Shared by the walker and by the merge of two walks.
 
 #include <vector>
 
@@ -12,11 +12,11 @@ namespace weft {
 /// Lengths in pixels at the frame's size.
 struct RefineScale {
     explicit RefineScale(Size frame);
-    float band_px;         ///< How far the boundary may lie from where it is expected.
-    int window_half_px;    ///< Half a colour window's side.
-    int window_step_px;    ///< Distance between windows along the boundary.
-    int sample_stride;     ///< Colour samples are taken from every such pixel.
-    float limit_px;        ///< Signed distances are clamped to this.
+    float band_px;       ///< How far the boundary may lie from where it is expected.
+    int window_half_px;  ///< Half a colour window's side.
+    int window_step_px;  ///< Distance between windows along the boundary.
+    int sample_stride;   ///< Colour samples are taken from every such pixel.
+    float limit_px;      ///< Signed distances are clamped to this.
 };
 
 /// How well the evidence at the boundary agreed; each in 0–1, 1 is best.
@@ -28,17 +28,17 @@ struct BoundaryEvidence {
 
 struct RefinedBoundary {
     Matte matte;
-    ImageF1 phi;             ///< Signed distance of the found boundary, pixels.
+    ImageF1 phi;  ///< Signed distance of the found boundary, pixels.
     BoundaryEvidence evidence;
 };
 
 /// Places windows along the zero line of `phi`, about `step_px` apart, in scan order.
 [[nodiscard]] std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px);
 
-/// `frame`, `expected_phi` and `further_odds` (more log odds for inside, 0: none; may be empty) are of one size. Deterministic for any number of threads.
+/// `frame`, `expected_phi` and `further_odds` (more log odds for inside, 0: none; may be empty) are
+/// of one size. Deterministic for any number of threads.
 [[nodiscard]] RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi,
-                                              const LocalColorField& colors,
-                                              ViewF1 further_odds,
+                                              const LocalColorField& colors, ViewF1 further_odds,
                                               const RefineScale& scale);
 
 }  // namespace weft

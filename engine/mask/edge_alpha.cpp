@@ -10,23 +10,6 @@ namespace {
 
 constexpr int kReachPx = 4;  // how far the sure colours are looked for
 
-struct ColorSum {
-    Vec3 sum{0}, squares{0};
-    float n = 0;
-
-    void add(Vec3 c, float w) {
-        sum += w * c;
-        squares += w * c * c;
-        n += w;
-    }
-    [[nodiscard]] Vec3 mean() const { return sum / n; }
-    [[nodiscard]] float variance() const {
-        const Vec3 m = mean();
-        const Vec3 v = squares / n - m * m;
-        return std::max(0.0f, v.x + v.y + v.z);
-    }
-};
-
 }  // namespace
 
 MixEstimate estimate_mix(Vec3 c, Vec3 inside, float inside_variance, Vec3 outside,
@@ -66,8 +49,7 @@ Matte edge_alpha(ViewU8x3 frame, ViewF1 phi, float width_px) {
                         const float e = phi.row(v)[u];
                         if (std::abs(e) < 1.5f) continue;
                         const auto r2 = static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));
-                        const std::uint8_t* p = frame.pixel(u, v);
-                        (e > 0 ? in : out).add(Vec3(p[0], p[1], p[2]), 1 / (1 + r2));
+                        (e > 0 ? in : out).add(frame.pixel(u, v), 1 / (1 + r2));
                     }
                 }
                 float value = std::clamp(0.5f + d / width_px, 0.0f, 1.0f);

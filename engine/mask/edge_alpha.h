@@ -1,15 +1,38 @@
 #pragma once
 // The soft edge of a boundary whose place is known, estimated from one frame.
 
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/core/geometry.h"
 #include "engine/core/image.h"
 
 namespace weft {
 
-/// Coverage of a shape with signed distance `phi` (pixels, H×W). Off the edge 0 or 255; within about
-/// `width_px` of it the pixel's colour is projected on the line between the colours of the sure
-/// inside and the sure outside nearby, and where those are alike, or the pixel fits neither, the
-/// shape alone decides (a ramp of `width_px`).
+/// Coverage of a shape with signed distance `phi` (pixels, H×W). Off the edge 0 or 255; within
+/// about `width_px` of it the pixel's colour is projected on the line between the colours of the
+/// sure inside and the sure outside nearby, and where those are alike, or the pixel fits neither,
+/// the shape alone decides (a ramp of `width_px`).
 [[nodiscard]] Matte edge_alpha(ViewU8x3 frame, ViewF1 phi, float width_px);
+
+/// Weighted mean and spread of colours.
+struct ColorSum {
+    Vec3 sum{0}, squares{0};
+    float n = 0;
+
+    void add(const std::uint8_t* rgb, float weight) {
+        const Vec3 c(rgb[0], rgb[1], rgb[2]);
+        sum += weight * c;
+        squares += weight * c * c;
+        n += weight;
+    }
+    [[nodiscard]] Vec3 mean() const { return sum / n; }
+    /// Per-channel variances, summed.
+    [[nodiscard]] float variance() const {
+        const Vec3 v = squares / n - mean() * mean();
+        return std::max(0.0f, v.x + v.y + v.z);
+    }
+};
 
 /// How far a pixel of colour `c` has gone from `outside` to `inside`, and how much that can be
 /// believed (0–1), the spread of both colours (per-channel variance summed) being known.

@@ -14,9 +14,8 @@ namespace {
 constexpr int kReachPx = 4;         // how far the sure colours are looked for
 constexpr float kOutsideClear = 1;  // mixed pixels lie on both sides of a hard edge
 
-// Distance from every pixel near the boundary to it, positive inside: to the nearest pixel centre of the
-// other side, less half a pixel; ±(kReachPx + 1) farther away. A two-pass 3-4 style sweep would do
-// for large distances; here four pixels are enough, so rows and columns are searched directly.
+// Distance from every pixel near the boundary to it, positive inside: to the nearest pixel centre
+// of the other side, less half a pixel; kReachPx + 0.5 farther away.
 ImageF1 near_distance(ViewU8x1 matte) {
     const int w = matte.width(), h = matte.height();
     constexpr int kFar = kReachPx + 1;
@@ -61,23 +60,6 @@ ImageF1 near_distance(ViewU8x1 matte) {
     return phi;
 }
 
-struct LocalColors {
-    Vec3 sum{0}, squares{0};
-    float n = 0;
-
-    void add(const std::uint8_t* p, float weight) {
-        const Vec3 c(p[0], p[1], p[2]);
-        sum += weight * c;
-        squares += weight * c * c;
-        n += weight;
-    }
-    [[nodiscard]] Vec3 mean() const { return sum / n; }
-    [[nodiscard]] float variance() const {
-        const Vec3 v = squares / n - mean() * mean();
-        return std::max(0.0f, v.x + v.y + v.z);
-    }
-};
-
 // Coverage by the boundary's shape alone: what a binomial 3×3 window sees of the inside.
 float shape_coverage(ViewU8x1 matte, int x, int y) {
     constexpr int kWeights[3] = {1, 2, 1};
@@ -93,7 +75,7 @@ float shape_coverage(ViewU8x1 matte, int x, int y) {
 }
 
 float softened(ViewU8x3 plate, ViewU8x1 matte, ViewF1 phi, int x, int y, float width_px) {
-    LocalColors inside, outside;
+    ColorSum inside, outside;
     for (int v = std::max(0, y - kReachPx); v <= std::min(plate.height() - 1, y + kReachPx); ++v) {
         for (int u = std::max(0, x - kReachPx); u <= std::min(plate.width() - 1, x + kReachPx);
              ++u) {
@@ -114,8 +96,8 @@ float softened(ViewU8x3 plate, ViewU8x1 matte, ViewF1 phi, int x, int y, float w
 }  // namespace
 
 bool is_hard(ViewU8x1 matte) {
-    // A soft outline has about one partial pixel for each step of boundary; a hard one may carry a few
-    // from compression or from a stray stroke.
+    // A soft outline has about one partial pixel for each step of boundary; a hard one may carry a
+    // few from compression or from a stray stroke.
     std::int64_t partial = 0, steps = 0;
     for (int y = 0; y < matte.height(); ++y) {
         const std::uint8_t* row = matte.row(y);

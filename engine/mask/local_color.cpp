@@ -12,12 +12,15 @@ namespace {
 constexpr float kNoiseVariance = 9;  // 8-bit levels²: keeps a flat area's Gaussian from a needle
 constexpr std::size_t kMinSamples = 12;
 
-float squared(Vec3 v) { return glm::dot(v, v); }
+float squared(Vec3 v) {
+    return glm::dot(v, v);
+}
 
 // Seeds far from each other: the mean first, then always the sample that is worst covered.
 std::vector<Vec3> spread_seeds(const std::vector<Vec3>& samples, int count) {
     Vec3 mean(0);
-    for (const Vec3& s : samples) mean += s;
+    for (const Vec3& s : samples)
+        mean += s;
     std::vector<Vec3> seeds{mean / static_cast<float>(samples.size())};
     std::vector<float> cover(samples.size(), std::numeric_limits<float>::max());
     while (static_cast<int>(seeds.size()) < count) {
@@ -113,7 +116,7 @@ float ColorMixture::density(Vec3 color) const {
 namespace {
 
 // A floor under both densities: a colour that neither side has ever shown decides nothing.
-constexpr float kOutlierDensity = 2e-7f;
+constexpr float kOutlierDensity = 5e-8f;
 
 float inside_probability(const ColorWindow& w, Vec3 color) {
     if (w.inside.empty() || w.outside.empty()) return 0.5f;
@@ -146,14 +149,17 @@ void fit_window(ColorWindow& window, const std::vector<ColorSource>& sources, in
     Samples s;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         visit_window(sources[i], window.source_centers[i], half, stride, [&](Vec3 c, float phi) {
+            const float weight = phi > 0 ? sources[i].inside_weight : sources[i].outside_weight;
+            if (weight <= 0) return;
             (phi > 0 ? s.inside : s.outside).push_back(c);
-            (phi > 0 ? s.inside_weight : s.outside_weight).push_back(sources[i].weight);
+            (phi > 0 ? s.inside_weight : s.outside_weight).push_back(weight);
         });
     }
     window.inside.fit(s.inside, s.inside_weight);
     window.outside.fit(s.outside, s.outside_weight);
     if (window.inside.empty() || window.outside.empty()) return;
-    // SnapCut eq. 2: the error of the classifier where the answer is known, the boundary counting most.
+    // SnapCut eq. 2: the error of the classifier where the answer is known, the boundary counting
+    // most.
     double error = 0, total = 0;
     const float sigma = 0.5f * static_cast<float>(half);
     visit_window(sources[0], window.source_centers[0], half, 2 * stride, [&](Vec3 c, float phi) {
@@ -184,7 +190,8 @@ void LocalColorField::index_windows(Size size) {
     std::vector<std::array<int, 4>> distance(cells, {0, 0, 0, 0});
     for (std::size_t i = 0; i < windows_.size(); ++i) {
         const Vec2i c = windows_[i].center;
-        const int x0 = std::max(0, (c.x - half_px_) / kCell), y0 = std::max(0, (c.y - half_px_) / kCell);
+        const int x0 = std::max(0, (c.x - half_px_) / kCell),
+                  y0 = std::max(0, (c.y - half_px_) / kCell);
         const int x1 = std::min(cells_wide_ - 1, (c.x + half_px_) / kCell);
         const int y1 = std::min(cells_high - 1, (c.y + half_px_) / kCell);
         for (int cy = y0; cy <= y1; ++cy) {
@@ -194,14 +201,16 @@ void LocalColorField::index_windows(Size size) {
                 const auto cell = static_cast<std::size_t>(cy * cells_wide_ + cx);
                 auto& ids = nearest_[cell];
                 auto& ds = distance[cell];
-                int at = 4;  // insertion into the four nearest; a tie keeps the lower index in front
+                int at =
+                    4;  // insertion into the four nearest; a tie keeps the lower index in front
                 while (at > 0 && (ids[static_cast<std::size_t>(at - 1)] < 0 ||
                                   ds[static_cast<std::size_t>(at - 1)] > d)) {
                     --at;
                 }
                 if (at == 4) continue;
                 const auto place = static_cast<std::size_t>(at);
-                for (std::size_t j = 3; j > place; --j) ids[j] = ids[j - 1], ds[j] = ds[j - 1];
+                for (std::size_t j = 3; j > place; --j)
+                    ids[j] = ids[j - 1], ds[j] = ds[j - 1];
                 ids[place] = static_cast<int>(i);
                 ds[place] = d;
             }
@@ -215,7 +224,8 @@ ColorProbability LocalColorField::at(int x, int y, Vec3 color) const {
     for (const int id : ids) {
         if (id < 0) break;
         const ColorWindow& w = windows_[static_cast<std::size_t>(id)];
-        const float dx = static_cast<float>(x - w.center.x), dy = static_cast<float>(y - w.center.y);
+        const float dx = static_cast<float>(x - w.center.x),
+                    dy = static_cast<float>(y - w.center.y);
         const float weight = 1 / (std::sqrt(dx * dx + dy * dy) + 1);
         p += weight * inside_probability(w, color);
         s += weight * w.separability;

@@ -30,12 +30,14 @@ class ColorMixture {
     int count_ = 0;
 };
 
-/// Where a window takes its samples from: a frame with the signed distance of its matte (same size).
+/// Where a window takes its samples from: a frame with the signed distance of its matte (same
+/// size).
 struct ColorSource {
     ViewU8x3 frame;
     ViewF1 phi;
     float clearance_px = 1.5f;  ///< Pixels nearer to the boundary are left out: mixed colours.
-    float weight = 1;
+    float inside_weight = 1;
+    float outside_weight = 1;
 };
 
 /// One window: a square around `center`, with one centre per source (where the surface lay there).
@@ -53,13 +55,13 @@ struct ColorProbability {
 
 class LocalColorField {
   public:
-    /// Fits all windows. `half_px` is half a window's side, `stride` skips pixels in both directions.
+    /// Fits all windows. `half_px` is half a window's side, `stride` skips pixels in both
+    /// directions.
     LocalColorField(std::vector<ColorWindow> windows, const std::vector<ColorSource>& sources,
                     int half_px, int stride, Size size);
 
     /// Blend of the nearest windows that cover (x, y), by inverse distance (SnapCut eq. 6).
     [[nodiscard]] ColorProbability at(int x, int y, Vec3 color) const;
-    [[nodiscard]] const std::vector<ColorWindow>& windows() const { return windows_; }
 
   private:
     static constexpr int kCell = 8;
@@ -68,7 +70,8 @@ class LocalColorField {
     std::vector<ColorWindow> windows_;
     int half_px_;
     int cells_wide_ = 0;
-    std::vector<std::array<int, 4>> nearest_;  ///< Per cell of 8×8 px: the nearest windows, −1: none.
+    std::vector<std::array<int, 4>>
+        nearest_;  ///< Per cell of 8×8 px: the nearest windows, −1: none.
 };
 
 }  // namespace weft

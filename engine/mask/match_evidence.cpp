@@ -7,21 +7,25 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
-#include "engine/mask/tuning.h"
 
 namespace weft {
 namespace {
 
 constexpr int kRadius = 2;  // 5×5 patches
+constexpr float kNoiseLevels =
+    3;  // mean difference of a patch and itself a frame later, 8-bit levels
+constexpr float kMatchWeight = 2;
 constexpr int kPatchValues = 3 * (2 * kRadius + 1) * (2 * kRadius + 1);
 
+// Sum of absolute differences, left early once it cannot be the best any more.
 int patch_difference(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
-                     std::ptrdiff_t b_stride) {
+                     std::ptrdiff_t b_stride, int best) {
     int sum = 0;
-    for (int v = -kRadius; v <= kRadius; ++v) {
+    for (int v = -kRadius; v <= kRadius && sum < best; ++v) {
         const std::uint8_t* p = a + v * a_stride - 3 * kRadius;
         const std::uint8_t* q = b + v * b_stride - 3 * kRadius;
-        for (int i = 0; i < 3 * (2 * kRadius + 1); ++i) sum += std::abs(p[i] - q[i]);
+        for (int i = 0; i < 3 * (2 * kRadius + 1); ++i)
+            sum += std::abs(p[i] - q[i]);
     }
     return sum;
 }
@@ -32,19 +36,35 @@ struct BestMatches {
 };
 
 // The best patches of both sides around one guess of where the pixel was.
-void search_around(const MatchInput& in, int x, int y, Vec2 motion, BestMatches& best) {
+void search_around(const MatchInput& in, Vec2i at, Vec2i guess, BestMatches& best) {
     const int w = in.prev_frame.width(), h = in.prev_frame.height();
-    const int cx = in.origin.x + x + static_cast<int>(std::lround(motion.x));
-    const int cy = in.origin.y + y + static_cast<int>(std::lround(motion.y));
-    const std::uint8_t* here = in.frame.pixel(x, y);
-    for (int v = std::max(kRadius, cy - 1); v <= std::min(h - 1 - kRadius, cy + 1); ++v) {
-        for (int u = std::max(kRadius, cx - 1); u <= std::min(w - 1 - kRadius, cx + 1); ++u) {
-            const int d = patch_difference(here, in.frame.stride(), in.prev_frame.pixel(u, v),
-                                           in.prev_frame.stride());
+    const std::uint8_t* here = in.frame.pixel(at.x, at.y);
+    const int u0 = std::max(kRadius, guess.x - 1), u1 = std::min(w - 1 - kRadius, guess.x + 1);
+    for (int v = std::max(kRadius, guess.y - 1); v <= std::min(h - 1 - kRadius, guess.y + 1); ++v) {
+        for (int u = u0; u <= u1; ++u) {
             int& side = in.prev_phi.row(v)[u] > 0 ? best.inside : best.outside;
-            side = std::min(side, d);
+            side =
+                std::min(side, patch_difference(here, in.frame.stride(), in.prev_frame.pixel(u, v),
+                                                in.prev_frame.stride(), side));
         }
     }
+}
+
+// Three guesses: the surface's motion, its surroundings', and the measured one.
+BestMatches best_matches(const MatchInput& in, int x, int y) {
+    const Vec2i here = in.origin + Vec2i(x, y);
+    const auto guess = [&](const float* d) {
+        return here +
+               Vec2i(static_cast<int>(std::lround(d[0])), static_cast<int>(std::lround(d[1])));
+    };
+    const Vec2i a = guess(in.inside_motion.pixel(x, y));
+    const Vec2i b = guess(in.outside_motion.pixel(x, y));
+    const Vec2i c = guess(in.flow.pixel(here.x, here.y));
+    BestMatches best;
+    search_around(in, Vec2i(x, y), a, best);
+    if (b != a) search_around(in, Vec2i(x, y), b, best);
+    if (c != a && c != b) search_around(in, Vec2i(x, y), c, best);
+    return best;
 }
 
 }  // namespace
@@ -56,19 +76,12 @@ ImageF1 match_evidence(const MatchInput& in, float band_px) {
         for (int y = std::max(y0, kRadius); y < std::min(y1, h - kRadius); ++y) {
             for (int x = kRadius; x < w - kRadius; ++x) {
                 if (std::abs(in.expected_phi.row(y)[x]) >= band_px) continue;
-                const float* a = in.inside_motion.pixel(x, y);
-                const float* b = in.outside_motion.pixel(x, y);
-                const float* c = in.flow.pixel(in.origin.x + x, in.origin.y + y);
-                BestMatches best;
-                search_around(in, x, y, Vec2(a[0], a[1]), best);
-                search_around(in, x, y, Vec2(b[0], b[1]), best);
-                search_around(in, x, y, Vec2(c[0], c[1]), best);
+                const BestMatches best = best_matches(in, x, y);
                 constexpr int kNone = std::numeric_limits<int>::max();
                 if (best.inside == kNone || best.outside == kNone) continue;
-                const float e = T(21);
-                const float f = static_cast<float>(best.inside) / kPatchValues + e;
-                const float g = static_cast<float>(best.outside) / kPatchValues + e;
-                odds.row(y)[x] = std::log(g / f);
+                const float f = static_cast<float>(best.inside) / kPatchValues + kNoiseLevels;
+                const float g = static_cast<float>(best.outside) / kPatchValues + kNoiseLevels;
+                odds.row(y)[x] = kMatchWeight * std::log(g / f);
             }
         }
     });

@@ -1,15 +1,15 @@
 #pragma once
-// Which side a pixel was on in the frame before: its neighbourhood is looked for among the pixels that
-// were inside and among those that were outside, and the better match tells (the split nearest-
-// neighbour idea of JumpCut, Fan et al. 2015, with the motion as the only guess).
+// Which side a pixel was on in the frame before: its neighbourhood is looked for among the pixels
+// that were inside and among those that were outside, and the better match tells (the split
+// nearest- neighbour idea of JumpCut, Fan et al. 2015, with the motion as the only guess).
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 
 namespace weft {
 
-/// What is known when two neighbouring frames are matched. The views of the area (`frame`, `expected_phi`,
-/// both motions) are of one size and lie at `origin` in the full-size ones.
+/// What is known when two neighbouring frames are matched. The views of the area (`frame`,
+/// `expected_phi`, both motions) are of one size and lie at `origin` in the full-size ones.
 struct MatchInput {
     ViewU8x3 frame;
     ViewF1 expected_phi;
@@ -18,11 +18,11 @@ struct MatchInput {
     Vec2i origin{0, 0};
     ViewU8x3 prev_frame;
     ViewF1 prev_phi;
-    ViewF2 flow;            ///< prev_from_cur as measured.
+    ViewF2 flow;  ///< prev_from_cur as measured.
 };
 
-/// Log odds for inside at every pixel nearer than `band_px` to the expected boundary, 0 elsewhere and
-/// where only one side is in reach. Pure; thread-safe; runs in parallel over rows.
+/// Log odds for inside at every pixel nearer than `band_px` to the expected boundary, 0 elsewhere
+/// and where only one side is in reach. Pure; thread-safe; runs in parallel over rows.
 [[nodiscard]] ImageF1 match_evidence(const MatchInput& in, float band_px);
 
 }  // namespace weft

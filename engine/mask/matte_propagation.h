@@ -10,7 +10,7 @@ namespace weft {
 
 struct MatteEstimate {
     Matte matte;
-    float confidence = 1;    ///< 0–1: how sure the boundary is, 1 on the keyframe itself.
+    float confidence = 1;  ///< 0–1: how sure the boundary is, 1 on the keyframe itself.
 };
 
 /// Walks away from one keyframe, forwards or backwards in time, one frame at a time. The keyframe's
@@ -24,7 +24,8 @@ class MatteWalker {
     MatteWalker& operator=(MatteWalker&&) noexcept;
 
     /// The matte of the next frame of the walk. `prev_from_cur`: for each pixel of `frame` where it
-    /// was in the frame before (of the walk), pixels; its `valid` says where that can be trusted.
+    /// was in the frame before (of the walk), pixels; its `valid` says where that can be trusted,
+    /// `d` is finite everywhere. Both have the keyframe's size.
     [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur);
 
   private:

@@ -9,15 +9,18 @@
 
 #include "engine/core/parallel.h"
 #include "engine/mask/signed_distance.h"
-#include "engine/mask/tuning.h"
 
 namespace weft {
 namespace {
 
+constexpr std::array<float, 3> kRadiiPx = {4, 12, 40};  // at 854×480
+constexpr float kWiderSay = 0.03f;       // of each wider radius against the one before
+constexpr float kDoubtfulTrust = 0.04f;  // of motion that failed the consistency check
+
 float nearest_phi(ViewF1 phi, float x, float y) {
-    const int u = std::clamp(static_cast<int>(std::lround(x)), 0, phi.width() - 1);
-    const int v = std::clamp(static_cast<int>(std::lround(y)), 0, phi.height() - 1);
-    return phi.row(v)[u];
+    const float u = std::clamp(x + 0.5f, 0.0f, static_cast<float>(phi.width()) - 0.5f);
+    const float v = std::clamp(y + 0.5f, 0.0f, static_cast<float>(phi.height()) - 0.5f);
+    return phi.row(static_cast<int>(v))[static_cast<int>(u)];
 }
 
 // Normalised convolution (Knutsson & Westin 1993) of the motion with the shape as its certainty, at
@@ -26,14 +29,14 @@ ImageF2 surface_motion(const cv::Mat& weighted, Vec2 fallback, float unit_px) {
     const int w = weighted.cols, h = weighted.rows;
     ImageF2 motion(w, h);
     std::vector<cv::Mat> blurred;
-    for (const float radius : {T(14), T(15), T(16)}) {
+    for (const float radius : kRadiiPx) {
         const int r = std::max(1, static_cast<int>(std::lround(radius * unit_px)));
         cv::Mat b;
         cv::boxFilter(weighted, b, CV_32F, cv::Size(2 * r + 1, 2 * r + 1), cv::Point(-1, -1), true,
                       cv::BORDER_REPLICATE);
         blurred.push_back(b);
     }
-    const std::array<float, 3> say = {1.0f, T(17), T(17)*T(17)};
+    const std::array<float, 3> say = {1.0f, kWiderSay, kWiderSay * kWiderSay};
     parallel_rows(h, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < w; ++x) {
@@ -55,15 +58,25 @@ ImageF2 surface_motion(const cv::Mat& weighted, Vec2 fallback, float unit_px) {
 }  // namespace
 
 Recti transported_bounds(ViewF1 prev_phi, const FlowField& prev_from_cur) {
-    Recti box;
-    for (int y = 0; y < prev_phi.height(); ++y) {
-        const float* d = prev_from_cur.d.row(y);
-        for (int x = 0; x < prev_phi.width(); ++x) {
-            const float at_x = static_cast<float>(x) + d[2 * x], at_y = static_cast<float>(y) + d[2 * x + 1];
-            if (nearest_phi(prev_phi, at_x, at_y) > 0) box = box.united({x, y, x + 1, y + 1});
+    constexpr int kRows = 16;
+    std::vector<Recti> boxes(static_cast<std::size_t>(prev_phi.height() / kRows + 1));
+    parallel_rows(prev_phi.height(), kRows, [&](int y0, int y1) {
+        Recti box;
+        for (int y = y0; y < y1; ++y) {
+            const float* d = prev_from_cur.d.row(y);
+            for (int x = 0; x < prev_phi.width(); ++x) {
+                const float was_x = static_cast<float>(x) + d[2 * x];
+                const float was_y = static_cast<float>(y) + d[2 * x + 1];
+                if (nearest_phi(prev_phi, was_x, was_y) <= 0) continue;
+                box = box.united({x, y, x + 1, y + 1});
+            }
         }
-    }
-    return box;
+        boxes[static_cast<std::size_t>(y0 / kRows)] = box;
+    });
+    Recti all;
+    for (const Recti& box : boxes)
+        all = all.united(box);
+    return all;
 }
 
 TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur, const Recti& area,
@@ -80,7 +93,7 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
             const bool valid = prev_from_cur.valid.row(area.y0 + y)[area.x0 + x] != 0;
             const float phi = nearest_phi(prev_phi, static_cast<float>(area.x0 + x) + d[0],
                                           static_cast<float>(area.y0 + y) + d[1]);
-            const float trust = valid ? 1.0f : T(18);
+            const float trust = valid ? 1.0f : kDoubtfulTrust;
             const float weight = phi <= 0 ? 0.0f : trust;
             const float other = phi <= 0 ? trust : 0.0f;
             out[x] = cv::Vec3f(weight, weight * d[0], weight * d[1]);
@@ -95,8 +108,8 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
     }
     TransportedShape shape;
     shape.consistency = beside > 0 ? trusted / beside : 0.0f;
-    shape.prev_from_cur = surface_motion(weighted, total > 0 ? mean / total : Vec2(0),
-                                         scale.band_px / 10);
+    shape.prev_from_cur =
+        surface_motion(weighted, total > 0 ? mean / total : Vec2(0), scale.band_px / 10);
     shape.outside_motion = surface_motion(around, Vec2(0), scale.band_px / 10);
     ImageF1 moved(area.size());
     Image<std::uint8_t, 1> inside(area.size());

@@ -1,6 +1,6 @@
 #pragma once
-// Where a shape is expected in the next frame: its signed distance moved along the motion of its own
-// surface, taken from inside it, so that the motion of what lies behind does not tear its edge.
+// Where a shape is expected in the next frame: its signed distance moved along the motion of its
+// own surface, taken from inside it, so that the motion of what lies behind does not tear its edge.
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -9,10 +9,10 @@
 namespace weft {
 
 struct TransportedShape {
-    ImageF1 phi;            ///< Expected signed distance, pixels, at the area's size.
-    ImageF2 prev_from_cur;  ///< The surface's motion, extended outwards, pixels.
-    ImageF2 outside_motion; ///< The same of what surrounds the surface, extended inwards.
-    float consistency = 1;  ///< Share of the boundary's surroundings whose motion can be trusted.
+    ImageF1 phi;             ///< Expected signed distance, pixels, at the area's size.
+    ImageF2 prev_from_cur;   ///< The surface's motion, extended outwards, pixels.
+    ImageF2 outside_motion;  ///< The same of what surrounds the surface, extended inwards.
+    float consistency = 1;   ///< Share of the boundary's surroundings whose motion can be trusted.
 };
 
 /// Bounds of the pixels whose motion leads inside the shape; empty when there are none.

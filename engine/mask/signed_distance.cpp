@@ -7,6 +7,15 @@
 
 namespace weft {
 
+Image<std::uint8_t, 1> inside_of(ViewU8x1 matte) {
+    Image<std::uint8_t, 1> inside(matte.size());
+    for (int y = 0; y < matte.height(); ++y) {
+        for (int x = 0; x < matte.width(); ++x)
+            inside.row(y)[x] = matte.row(y)[x] >= 128 ? 1 : 0;
+    }
+    return inside;
+}
+
 ImageF1 signed_distance(ViewU8x1 inside, float limit_px) {
     ImageF1 phi(inside.size());
     if (phi.empty()) return phi;
@@ -20,8 +29,10 @@ ImageF1 signed_distance(ViewU8x1 inside, float limit_px) {
         }
     }
     cv::Mat to_outside, to_inside;
-    cv::distanceTransform(in, to_outside, cv::DIST_L2, 5, CV_32F);
-    cv::distanceTransform(out, to_inside, cv::DIST_L2, 5, CV_32F);
+    parallel_for(2, [&](std::size_t side) {
+        cv::distanceTransform(side == 0 ? in : out, side == 0 ? to_outside : to_inside, cv::DIST_L2,
+                              5, CV_32F);
+    });
     for (int y = 0; y < inside.height(); ++y) {
         const auto* a = to_outside.ptr<float>(y);
         const auto* b = to_inside.ptr<float>(y);
@@ -59,7 +70,8 @@ ImageF1 smooth_distance(ViewF1 phi, int passes) {
                 const float* b = across.row(y);
                 const float* c = across.row(std::min(h - 1, y + 1));
                 float* d = result.row(y);
-                for (int x = 0; x < w; ++x) d[x] = 0.25f * (a[x] + c[x]) + 0.5f * b[x];
+                for (int x = 0; x < w; ++x)
+                    d[x] = 0.25f * (a[x] + c[x]) + 0.5f * b[x];
             }
         });
     }

@@ -40,18 +40,23 @@ struct WriteOptions {
 /// Coverage as 8-bit grey: PNG or TIFF (JPEG would blur it: Usage).
 [[nodiscard]] Status write_matte(const std::string& path, ViewU8x1 matte);
 
-/// A review movie: .mp4 (H.264 where the build has it, else MPEG-4) or .mkv (FFV1, lossless 8 bit).
-/// Frames go to a temporary name; close() renames it. Destroyed without close(): nothing remains.
-/// Movies have even sizes: the last column or row is repeated where one is missing. One thread.
+/// A review movie: .mp4 (H.264 where the machine has x264, else MPEG-4; BT.709 matrix, limited range,
+/// 4:2:0, tagged, index in front) or .mkv (FFV1, lossless 8-bit RGB of any size). An .mp4 has even
+/// sizes: the last column or row is repeated where one is missing. Frames go to a temporary name;
+/// close() renames it. Destroyed without close(), or after an error: nothing remains. The same
+/// frames give the same bytes, whatever the number of threads. One thread calls.
 class MovieWriter {
   public:
     virtual ~MovieWriter() = default;
-    /// sRGB-encoded [0, 1]. Errors: Usage for another size; NoSpace.
+    /// sRGB-encoded, clamped to [0, 1]. Errors: Usage for another size; NoSpace when the disk is
+    /// full, then or a few frames later, and at the latest from close().
     [[nodiscard]] virtual Status add(ViewF3 display_rgb) = 0;
     /// Errors: NoSpace, RenderFailed when no frame was added or the encoder wrote nothing.
     [[nodiscard]] virtual Status close() = 0;
 };
-/// Errors: Usage (another extension, an empty size, fps not above 0), Unreadable (the folder).
+/// `fps` from 0.01 to 1000; 23.976, 29.97 and their multiples are taken as 24000/1001 and so on.
+/// Errors: Usage (another extension, an empty size, such an fps), Unreadable (the folder, or no
+/// encoder for this size), NoSpace.
 [[nodiscard]] Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size,
                                                                 double fps);
 

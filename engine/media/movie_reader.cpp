@@ -1,13 +1,13 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <mutex>
-#include <opencv2/core/mat.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <utility>
 
+#include "engine/media/movie_decoder.h"
+#include "engine/media/movie_pixels.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
 #include "engine/media/raster_errors.h"
@@ -18,111 +18,80 @@ namespace {
 
 constexpr std::size_t kRecentBudget_bytes = std::size_t{48} << 20;
 
-// The frames of one movie in order. Seeking inside a container lands on the wrong frame in some
-// files, so going back means decoding again from the start; on the way the frames before the wanted
-// one are kept, because whoever goes back one frame will go back another.
-class Decoder {
-  public:
-    explicit Decoder(std::string path) : path_(std::move(path)) {}
+std::size_t bytes_of(const Raster& raster) {
+    return std::visit([](const auto& samples) { return samples.size() * sizeof(samples[0]); },
+                      raster.samples);
+}
 
-    /// Starts again before the first frame. False when the file is no movie.
+// The frames of one movie by number. Going back means decoding again from the start; on the way the
+// frames before the wanted one are kept, because whoever goes back one frame will go back another.
+class MovieFrames {
+  public:
+    explicit MovieFrames(const std::string& path) : decoder_(path) {}
+
+    /// Frame `index`, counted from 0; null when it cannot be decoded.
+    std::shared_ptr<const Raster> frame(int index) {
+        for (const auto& [i, raster] : recent_) {
+            if (i == index) return raster;
+        }
+        const bool backwards = index < next_;
+        if ((backwards || !open_) && !rewind()) return nullptr;
+        const int keep_from = backwards ? index - kept_frames_ + 1 : index;
+        while (true) {
+            const AVFrame* decoded = decoder_.next();
+            if (!decoded) return nullptr;
+            const int number = next_++;
+            if (number < keep_from) continue;
+            auto raster = converter_.convert(*decoded, decoder_.rotation_deg());
+            if (raster) keep(number, raster);
+            if (number == index) return raster;
+        }
+    }
+
+  private:
     bool rewind() {
         recent_.clear();
         next_ = 0;
-        try {
-            return capture_.open(path_, cv::CAP_FFMPEG);
-        } catch (const cv::Exception&) {
-            return false;
-        }
+        open_ = decoder_.rewind();
+        return open_;
     }
 
-    /// Decodes the next frame without fetching it.
-    bool grab() {
-        try {
-            if (!capture_.grab()) return false;
-        } catch (const cv::Exception&) {
-            return false;
-        }
-        ++next_;
-        return true;
-    }
-
-    /// The frame just grabbed, as 8-bit BGR; empty when it cannot be had.
-    cv::Mat retrieve() {
-        cv::Mat bgr;
-        try {
-            if (!capture_.retrieve(bgr) || bgr.type() != CV_8UC3) return {};
-        } catch (const cv::Exception&) {
-            return {};
-        }
-        bgr = bgr.clone();  // the capture reuses its own buffer
-        keep(next_ - 1, bgr);
-        return bgr;
-    }
-
-    /// Frame `index`, counted from 0; empty when it cannot be decoded.
-    cv::Mat frame(int index) {
-        for (const auto& [i, bgr] : recent_) {
-            if (i == index) return bgr;
-        }
-        const bool backwards = index < next_;
-        if (backwards && !rewind()) return {};
-        const int keep_from = backwards ? index - kept_frames_ + 1 : index;
-        while (next_ < index) {
-            if (!grab()) return {};
-            if (next_ - 1 >= keep_from) retrieve();
-        }
-        return grab() ? retrieve() : cv::Mat();
-    }
-
-    double property(int id) const { return capture_.get(id); }
-
-  private:
-    void keep(int index, const cv::Mat& bgr) {
-        const std::size_t bytes = std::max<std::size_t>(1, bgr.total() * bgr.elemSize());
+    void keep(int index, const std::shared_ptr<const Raster>& raster) {
+        const std::size_t bytes = std::max<std::size_t>(1, bytes_of(*raster));
         kept_frames_ =
             static_cast<int>(std::clamp<std::size_t>(kRecentBudget_bytes / bytes, 1, 64));
-        recent_.emplace_back(index, bgr);
+        recent_.emplace_back(index, raster);
         while (static_cast<int>(recent_.size()) > kept_frames_)
             recent_.pop_front();
     }
 
-    std::string path_;
-    cv::VideoCapture capture_;
-    int next_ = 0;  // the frame that grab() would decode
+    MovieDecoder decoder_;
+    MovieConverter converter_;
+    bool open_ = false;
+    int next_ = 0;  // the frame that the decoder gives next
     int kept_frames_ = 1;
-    std::deque<std::pair<int, cv::Mat>> recent_;
+    std::deque<std::pair<int, std::shared_ptr<const Raster>>> recent_;
 };
-
-Raster to_raster(const cv::Mat& bgr) {
-    Raster raster;
-    raster.info = {{bgr.cols, bgr.rows}, SampleKind::kU8, 0.0};
-    raster.channels = 3;
-    std::vector<std::uint8_t> rgb(bgr.total() * 3);
-    auto out = rgb.begin();
-    for (int y = 0; y < bgr.rows; ++y) {
-        const std::uint8_t* in = bgr.ptr<std::uint8_t>(y);
-        for (int x = 0; x < bgr.cols; ++x, in += 3) {
-            *out++ = in[2];
-            *out++ = in[1];
-            *out++ = in[0];
-        }
-    }
-    raster.samples = std::move(rgb);
-    return raster;
-}
 
 struct MovieFacts {
     Size size;
+    PixelDepth depth = PixelDepth::kU8;
     double fps = 0;
-    int frames = 0;   ///< That can be decoded.
-    int claimed = 0;  ///< What the container says; 0 when it does not.
+    int frames = 0;         ///< That can be decoded.
+    int claimed = 0;        ///< What the container says; 0 when it does not.
+    int damaged = 0;        ///< Frames that were decoded with errors.
+    int first_damaged = 0;  ///< Counted from 0.
+    bool high_dynamic_range = false;
 };
+
+bool is_damaged(const AVFrame& frame) {
+    return (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
+}
 
 class MoviePlate final : public FrameReader {
   public:
     MoviePlate(std::string path, int start, MovieFacts facts)
-        : path_(std::move(path)), facts_(facts), decoder_(path_) {
+        : path_(std::move(path)), facts_(facts), decoded_(path_) {
         for (int i = 0; i < facts.frames; ++i)
             frames_.push_back(start + i);
     }
@@ -130,29 +99,26 @@ class MoviePlate final : public FrameReader {
     const std::vector<int>& frames() const override { return frames_; }
     Size size() const override { return facts_.size; }
     double fps() const override { return facts_.fps; }
-    PixelDepth depth() const override { return PixelDepth::kU8; }
+    PixelDepth depth() const override { return facts_.depth; }
     bool display_encoded() const override { return true; }
     std::string path_of(int /*frame*/) const override { return path_; }
 
     Expected<PlateFrame> read(int frame) const override {
         WEFT_CHECK_OK(check_range(frame));
-        cv::Mat bgr;
+        std::shared_ptr<const Raster> raster;
         {
             const std::lock_guard lock(mutex_);
-            if (!open_ && !(open_ = decoder_.rewind())) {
-                return tl::unexpected(damaged(path_, "it could be opened before"));
-            }
-            bgr = decoder_.frame(frame - frames_.front());
+            raster = decoded_.frame(frame - frames_.front());
         }
-        if (bgr.empty()) {
+        if (!raster) {
             return tl::unexpected(
                 damaged(path_, "frame " + std::to_string(frame) + " cannot be decoded any more"));
         }
-        if (Size{bgr.cols, bgr.rows} != facts_.size) {
+        if (raster->info.size != facts_.size) {
             return tl::unexpected(damaged(
                 path_, "frame " + std::to_string(frame) + " has another size than the first"));
         }
-        return to_plate(to_raster(bgr));
+        return to_plate(*raster);
     }
 
     Expected<Hash128> stamp(int frame) const override {
@@ -161,10 +127,24 @@ class MoviePlate final : public FrameReader {
     }
 
     std::vector<std::string> warnings() const override {
-        if (facts_.claimed <= facts_.frames) return {};
-        return {path_ + " says it has " + std::to_string(facts_.claimed) + " frames, but only " +
-                std::to_string(facts_.frames) +
-                " can be decoded. It may be cut off: compare it with its source."};
+        std::vector<std::string> found;
+        if (facts_.claimed > facts_.frames) {
+            found.push_back(path_ + " says it has " + std::to_string(facts_.claimed) +
+                            " frames, but only " + std::to_string(facts_.frames) +
+                            " can be decoded. It may be cut off: compare it with its source.");
+        }
+        if (facts_.damaged > 0) {
+            found.push_back(path_ + " is damaged in " + std::to_string(facts_.damaged) +
+                            " frames, first in " +
+                            std::to_string(frames_.front() + facts_.first_damaged) +
+                            ". Look at them, or copy the movie again.");
+        }
+        if (facts_.high_dynamic_range) {
+            found.push_back(path_ +
+                            " is an HDR movie (PQ or HLG), whose values are taken as they stand. "
+                            "Convert it to numbered EXR frames to keep its colours.");
+        }
+        return found;
     }
 
   private:
@@ -180,8 +160,7 @@ class MoviePlate final : public FrameReader {
     MovieFacts facts_;
     std::vector<int> frames_;
     mutable std::mutex mutex_;
-    mutable Decoder decoder_;
-    mutable bool open_ = false;
+    mutable MovieFrames decoded_;
 };
 
 }  // namespace
@@ -190,27 +169,29 @@ Expected<std::shared_ptr<const FrameReader>> open_movie_plate(const std::string&
                                                               const ReadOptions& options) {
     silence_video_library();
     WEFT_CHECK_OK(stamp_file(path, 0));
-    Decoder decoder(path);
+    MovieDecoder decoder(path);
     if (!decoder.rewind()) {
         return tl::unexpected(unreadable(path, "it is not a movie, or is cut off before its index",
                                          "Copy or export it again."));
     }
-    MovieFacts facts;
-    const double fps = decoder.property(cv::CAP_PROP_FPS);
-    const double claimed = decoder.property(cv::CAP_PROP_FRAME_COUNT);
-    facts.fps = std::isfinite(fps) && fps > 0 && fps < 10000 ? fps : 0;
-    facts.claimed =
-        std::isfinite(claimed) && claimed > 0 && claimed < 1e8 ? static_cast<int>(claimed) : 0;
-    const cv::Mat first = decoder.grab() ? decoder.retrieve() : cv::Mat();
-    if (first.empty()) {
+    const AVFrame* frame = decoder.next();
+    const auto first = frame ? MovieConverter().convert(*frame, decoder.rotation_deg()) : nullptr;
+    if (!first) {
         return tl::unexpected(unreadable(path, "it is a movie without frames that can be decoded",
                                          "Copy or export it again."));
     }
-    facts.size = {first.cols, first.rows};
+    MovieFacts facts;
+    facts.size = first->info.size;
+    facts.depth = depth_of(first->info.kind);
+    facts.fps = decoder.fps();
+    facts.high_dynamic_range =
+        frame->color_trc == AVCOL_TRC_SMPTE2084 || frame->color_trc == AVCOL_TRC_ARIB_STD_B67;
     // Containers lie about their number of frames, so they are counted.
-    facts.frames = 1;
-    while (decoder.grab())
-        ++facts.frames;
+    for (; frame; frame = decoder.next(), ++facts.frames) {
+        if (!is_damaged(*frame)) continue;
+        if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
+    }
+    facts.claimed = decoder.claimed_frames();
     return std::make_shared<MoviePlate>(path, options.movie_start, facts);
 }
 

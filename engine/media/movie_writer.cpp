@@ -1,121 +1,238 @@
+extern "C" {
+#include <libavutil/dict.h>
+#include <libavutil/mathematics.h>
+}
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <opencv2/core/mat.hpp>
-#include <opencv2/videoio.hpp>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "engine/media/frame_writer.h"
+#include "engine/media/movie_pixels.h"
 #include "engine/media/video_library.h"
 
 namespace weft {
 namespace {
 
+// Part of the result: x264's bytes depend on the number of threads, so it is the same everywhere.
+constexpr int kEncoderThreads = 4;
+// FFV1 of FFmpeg 5.1 turns smaller pictures black.
+constexpr int kMinLossless_px = 3;
+// H.264's largest level and x264 end here; asked for more, FFmpeg 5.1 refuses but leaks.
+constexpr int kMaxLossy_px = 16384;
+constexpr int kSlices = 4;
+constexpr double kMinFps = 0.01, kMaxFps = 1000;
+
+struct Dictionary {
+    AVDictionary* entries = nullptr;
+    ~Dictionary() { av_dict_free(&entries); }
+    void set(const char* key, const char* value) { av_dict_set(&entries, key, value, 0); }
+};
+
+struct CloseOutput {
+    void operator()(AVFormatContext* output) const {
+        if (output->pb) avio_closep(&output->pb);
+        avformat_free_context(output);
+    }
+};
+using AvOutput = std::unique_ptr<AVFormatContext, CloseOutput>;
+
 int round_up_to_even(int n) {
     return n + (n & 1);
 }
 
-std::uint8_t code_of(float v) {
-    const float scaled = v * 255.0f + 0.5f;
-    if (!(scaled >= 0.0f)) return 0;  // NaN too
-    return scaled >= 255.0f ? std::uint8_t{255} : static_cast<std::uint8_t>(scaled);
+AVRational frame_rate(double fps) {
+    constexpr double kTwoDecimals = 0.005;
+    constexpr int kLargestTerm = 65535;  // MPEG-4's
+    const AVRational standard = standard_rate(fps, kTwoDecimals);
+    return standard.num > 0 ? standard : av_d2q(fps, kLargestTerm);
 }
 
-Error cannot_encode(const std::string& path) {
-    return {ErrorCode::kUnreadable,
-            path +
-                " cannot be written: this machine has no encoder for it. Write numbered frames "
-                "or the other kind of movie (.mp4, .mkv).",
-            {}};
+// What is encoded, before the codec's own settings. The frames are sRGB, so that is the transfer
+// curve in the tags: players that manage colours (QuickTime, Safari) then show what the PNG frames
+// show, where a BT.709 tag would make them lift the shadows, and the others look at the matrix and
+// the range only.
+void describe(AVCodecContext& codec, Size coded, AVRational fps, bool lossless) {
+    codec.width = coded.width;
+    codec.height = coded.height;
+    codec.sample_aspect_ratio = {1, 1};
+    codec.framerate = fps;
+    codec.time_base = av_inv_q(fps);
+    codec.color_primaries = AVCOL_PRI_BT709;
+    codec.color_trc = AVCOL_TRC_IEC61966_2_1;
+    codec.pix_fmt = lossless ? AV_PIX_FMT_BGR0 : AV_PIX_FMT_YUV420P;
+    codec.colorspace = lossless ? AVCOL_SPC_RGB : AVCOL_SPC_BT709;
+    codec.color_range = lossless ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+    if (!lossless) codec.chroma_sample_location = AVCHROMA_LOC_LEFT;
+    codec.thread_count = kEncoderThreads;
+    codec.flags |= AV_CODEC_FLAG_BITEXACT;
+}
+
+void choose_quality(AVCodecContext& codec, AVRational fps, bool lossless, Dictionary& options) {
+    if (lossless) {
+        codec.level = 3;
+        codec.gop_size = 1;
+        codec.slices = kSlices;
+        options.set("slicecrc", "1");
+        return;
+    }
+    // A key frame a second: reviewers step back and forth.
+    codec.gop_size = std::max(1, static_cast<int>(std::lround(av_q2d(fps))));
+    if (codec.codec_id == AV_CODEC_ID_H264) {
+        options.set("preset", "fast");
+        options.set("crf", "14");
+        options.set("x264-params", "cpu-independent=1");
+    } else {
+        codec.flags |= AV_CODEC_FLAG_QSCALE;
+        codec.global_quality = 2 * FF_QP2LAMBDA;
+    }
+}
+
+const AVCodec* find_encoder(bool lossless) {
+    if (lossless) return avcodec_find_encoder(AV_CODEC_ID_FFV1);
+    const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
+    return h264 ? h264 : avcodec_find_encoder(AV_CODEC_ID_MPEG4);
 }
 
 class VideoFile final : public MovieWriter {
   public:
-    VideoFile(std::string path, TemporaryFile temporary, cv::VideoWriter writer, Size size,
-              Size coded)
+    VideoFile(std::string path, TemporaryFile temporary, Size size, bool lossless)
         : path_(std::move(path)),
           temporary_(std::move(temporary)),
-          writer_(std::move(writer)),
           size_(size),
-          bgr_(coded.height, coded.width, CV_8UC3) {}
+          lossless_(lossless) {}
+
+    Status open(double fps) {
+        if (!open_codec(frame_rate(fps))) {
+            return fail(ErrorCode::kUnreadable,
+                        path_ + " cannot be written: this machine has no encoder for a movie of " +
+                            std::to_string(size_.width) + "x" + std::to_string(size_.height) +
+                            " pixels. Write numbered frames or the other kind of movie (.mp4, "
+                            ".mkv).");
+        }
+        return open_file();
+    }
 
     Status add(ViewF3 display_rgb) override {
         if (closed_) return fail(ErrorCode::kUsage, path_ + " is closed already.");
         if (display_rgb.size() != size_) {
             return fail(ErrorCode::kUsage, path_ + ": all frames of a movie must have one size.");
         }
-        for (int y = 0; y < bgr_.rows; ++y) {
-            // Rows and columns beyond the picture repeat its last one.
-            const float* in = display_rgb.row(std::min(y, size_.height - 1));
-            auto* out = bgr_.ptr<std::uint8_t>(y);
-            for (int x = 0; x < bgr_.cols; ++x, out += 3) {
-                const float* p = in + static_cast<std::ptrdiff_t>(std::min(x, size_.width - 1)) * 3;
-                for (int c = 0; c < 3; ++c)
-                    out[c] = code_of(p[2 - c]);
-            }
+        if (failure_) return tl::unexpected(*failure_);
+        // The encoder may still look at the frame before.
+        WEFT_CHECK_OK(check(av_frame_make_writable(frame_.get())));
+        if (lossless_) {
+            fill_bgr0(display_rgb, *frame_);
+        } else {
+            fill_yuv420_bt709(display_rgb, *frame_);
         }
-        try {
-            writer_.write(bgr_);
-        } catch (const cv::Exception& e) {
-            return fail(ErrorCode::kRenderFailed, path_ + " cannot be written: " + e.err + ".");
-        }
-        ++frames_;
-        return {};
+        frame_->pts = frames_++;
+        return encode(frame_.get());
     }
 
     Status close() override {
         if (closed_) return fail(ErrorCode::kUsage, path_ + " is closed already.");
         closed_ = true;
-        writer_.release();
+        if (failure_) return tl::unexpected(*failure_);
         if (frames_ == 0) {
             return fail(ErrorCode::kRenderFailed, path_ + " was not written: it got no frames.");
         }
-        WEFT_CHECK_OK(check_written());
+        WEFT_CHECK_OK(encode(nullptr));
+        WEFT_CHECK_OK(check(av_write_trailer(output_.get())));
+        WEFT_CHECK_OK(check(avio_closep(&output_->pb)));
         return temporary_.commit();
     }
 
   private:
-    // The encoder does not report a full disk, but what it wrote cannot be read back then.
-    Status check_written() const {
-        cv::VideoCapture check;
-        int frames = 0;
-        try {
-            if (check.open(temporary_.name(), cv::CAP_FFMPEG)) {
-                while (check.grab())
-                    ++frames;
-            }
-        } catch (const cv::Exception&) {
-            frames = 0;
+    bool open_codec(AVRational fps) {
+        const AVCodec* encoder = find_encoder(lossless_);
+        codec_.reset(avcodec_alloc_context3(encoder));
+        frame_.reset(av_frame_alloc());
+        packet_.reset(av_packet_alloc());
+        if (lossless_ && std::min(size_.width, size_.height) < kMinLossless_px) return false;
+        if (!lossless_ && std::max(size_.width, size_.height) > kMaxLossy_px) return false;
+        if (!encoder || !codec_ || !frame_ || !packet_) return false;
+        // 4:2:0 has half as many columns and rows of chroma.
+        const Size coded =
+            lossless_ ? size_ : Size{round_up_to_even(size_.width), round_up_to_even(size_.height)};
+        describe(*codec_, coded, fps, lossless_);
+        codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;  // both containers want it
+        Dictionary options;
+        choose_quality(*codec_, fps, lossless_, options);
+        if (avcodec_open2(codec_.get(), encoder, &options.entries) < 0) return false;
+        frame_->format = codec_->pix_fmt;
+        frame_->width = coded.width;
+        frame_->height = coded.height;
+        frame_->color_primaries = codec_->color_primaries;
+        frame_->color_trc = codec_->color_trc;
+        frame_->colorspace = codec_->colorspace;
+        frame_->color_range = codec_->color_range;
+        frame_->chroma_location = codec_->chroma_sample_location;
+        return av_frame_get_buffer(frame_.get(), 0) >= 0;
+    }
+
+    Status open_file() {
+        const std::string url = file_url(temporary_.name());
+        AVFormatContext* output = nullptr;
+        WEFT_CHECK_OK(check(avformat_alloc_output_context2(
+            &output, nullptr, lossless_ ? "matroska" : "mp4", url.c_str())));
+        output_.reset(output);
+        // Else Matroska numbers its segments at random, and both name the library's version.
+        output->flags |= AVFMT_FLAG_BITEXACT;
+        stream_ = avformat_new_stream(output, nullptr);
+        if (!stream_) return check(AVERROR(ENOMEM));
+        WEFT_CHECK_OK(check(avcodec_parameters_from_context(stream_->codecpar, codec_.get())));
+        stream_->time_base = codec_->time_base;
+        stream_->avg_frame_rate = codec_->framerate;
+        stream_->sample_aspect_ratio = codec_->sample_aspect_ratio;
+        WEFT_CHECK_OK(check(avio_open(&output->pb, url.c_str(), AVIO_FLAG_WRITE)));
+        Dictionary options;
+        // The index in front lets a player start while the file is still being copied.
+        if (!lossless_) options.set("movflags", "+faststart");
+        return check(avformat_write_header(output, &options.entries));
+    }
+
+    /// A null frame flushes the encoder.
+    Status encode(const AVFrame* frame) {
+        WEFT_CHECK_OK(check(avcodec_send_frame(codec_.get(), frame)));
+        while (true) {
+            const int result = avcodec_receive_packet(codec_.get(), packet_.get());
+            if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return {};
+            WEFT_CHECK_OK(check(result));
+            packet_->stream_index = stream_->index;
+            packet_->duration = 1;
+            av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
+            WEFT_CHECK_OK(check(av_interleaved_write_frame(output_.get(), packet_.get())));
         }
-        if (frames == frames_) return {};
-        return fail(ErrorCode::kNoSpace,
-                    path_ + " cannot be written: only " + std::to_string(frames) + " of " +
-                        std::to_string(frames_) +
-                        " frames reached the disk, which is probably full. Free some space.");
+    }
+
+    /// Turns FFmpeg's result into ours and keeps the first failure. Containers pass over what the
+    /// disk said while they write, so that is asked for as well.
+    Status check(int result) {
+        const bool disk_failed = output_ && output_->pb && output_->pb->error < 0;
+        if (disk_failed) result = output_->pb->error;
+        if (result >= 0) return {};
+        failure_ = video_write_error(path_, result);
+        return tl::unexpected(*failure_);
     }
 
     std::string path_;
     TemporaryFile temporary_;
-    cv::VideoWriter writer_;
     Size size_;
-    cv::Mat bgr_;
-    int frames_ = 0;
+    bool lossless_;
+    AvCodec codec_;
+    AvOutput output_;
+    AvFrame frame_;
+    AvPacket packet_;
+    AVStream* stream_ = nullptr;
+    std::optional<Error> failure_;
+    std::int64_t frames_ = 0;
     bool closed_ = false;
 };
-
-bool open_writer(cv::VideoWriter& writer, const std::string& name, const char* code, Size size,
-                 double fps) {
-    try {
-        return writer.open(name, cv::CAP_FFMPEG,
-                           cv::VideoWriter::fourcc(code[0], code[1], code[2], code[3]), fps,
-                           cv::Size(size.width, size.height), true);
-    } catch (const cv::Exception&) {
-        return false;
-    }
-}
 
 }  // namespace
 
@@ -126,20 +243,14 @@ Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size 
     if (!lossless && extension != ".mp4") {
         return fail(ErrorCode::kUsage, path + ": unknown kind of movie. Use .mp4 or .mkv.");
     }
-    if (size.empty() || !(fps > 0) || !std::isfinite(fps)) {
-        return fail(ErrorCode::kUsage, path + ": a movie needs a size and a frame rate above 0.");
+    if (size.empty() || !(fps >= kMinFps && fps <= kMaxFps)) {
+        return fail(ErrorCode::kUsage,
+                    path + ": a movie needs a size and a frame rate between 0.01 and 1000.");
     }
-    // OpenCV would cut odd sizes down to even ones, whatever the codec.
-    const Size coded{round_up_to_even(size.width), round_up_to_even(size.height)};
     WEFT_TRY(temporary, TemporaryFile::create(path));
-    cv::VideoWriter writer;
-    const std::vector<const char*> codes =
-        lossless ? std::vector<const char*>{"FFV1"} : std::vector<const char*>{"avc1", "mp4v"};
-    const bool opened = std::any_of(codes.begin(), codes.end(), [&](const char* code) {
-        return open_writer(writer, temporary.name(), code, coded, fps);
-    });
-    if (!opened) return tl::unexpected(cannot_encode(path));
-    return std::make_unique<VideoFile>(path, std::move(temporary), std::move(writer), size, coded);
+    auto file = std::make_unique<VideoFile>(path, std::move(temporary), size, lossless);
+    WEFT_CHECK_OK(file->open(fps));
+    return file;
 }
 
 }  // namespace weft

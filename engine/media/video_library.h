@@ -1,10 +1,44 @@
 #pragma once
-// Internal: one place for what must be done before OpenCV touches a movie.
+// Internal: the door to FFmpeg's libraries: kept quiet, owned by smart pointers, errors in words.
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+}
+
+#include <memory>
+#include <string>
+
+#include "engine/core/error.h"
 
 namespace weft {
 
-/// Keeps OpenCV and FFmpeg from writing to stderr: what went wrong is said by our errors. Called
-/// before every use; acts once.
+/// Keeps FFmpeg from writing to stderr: what went wrong is said by our errors. Called before every
+/// use; acts once.
 void silence_video_library();
+
+template <auto Free>
+struct AvFree {
+    template <class T>
+    void operator()(T* object) const {
+        Free(&object);
+    }
+};
+using AvFrame = std::unique_ptr<AVFrame, AvFree<av_frame_free>>;
+using AvPacket = std::unique_ptr<AVPacket, AvFree<av_packet_free>>;
+using AvCodec = std::unique_ptr<AVCodecContext, AvFree<avcodec_free_context>>;
+using AvInput = std::unique_ptr<AVFormatContext, AvFree<avformat_close_input>>;
+
+/// The name under which FFmpeg opens this file and nothing else: "a:b.mp4" would be a protocol.
+[[nodiscard]] std::string file_url(const std::string& path);
+
+/// The whole rate at `fps`, or the NTSC rate (24000/1001 and its kin) within `tolerance` frames per
+/// second of it, else {0, 1}: people write NTSC's rates with two or three decimals, and Matroska in
+/// nanoseconds.
+[[nodiscard]] AVRational standard_rate(double fps, double tolerance);
+
+/// The error for an FFmpeg call that failed while `path` was written. NoSpace when the disk or the
+/// memory is full, Unreadable for other troubles of the system, else RenderFailed.
+[[nodiscard]] Error video_write_error(const std::string& path, int av_error);
 
 }  // namespace weft

@@ -34,14 +34,14 @@ bool lookup(const ImageF2& d, float px, float py, Vec2& out) {
           gy <= static_cast<float>(d.height() - 1))) {
         return false;
     }
-    const int x = std::min(static_cast<int>(gx), d.width() - 2);
-    const int y = std::min(static_cast<int>(gy), d.height() - 2);
+    const int x = static_cast<int>(gx), y = static_cast<int>(gy);
     const float fx = gx - static_cast<float>(x), fy = gy - static_cast<float>(y);
     const float* a = d.pixel(x, y);
-    const float* b = d.pixel(x, y + 1);
+    const float* b = d.pixel(x, std::min(y + 1, d.height() - 1));
+    const int right = x + 1 < d.width() ? 2 : 0;
     for (int c = 0; c < 2; ++c) {
-        const float top = a[c] + fx * (a[c + 2] - a[c]);
-        const float low = b[c] + fx * (b[c + 2] - b[c]);
+        const float top = a[c] + fx * (a[c + right] - a[c]);
+        const float low = b[c] + fx * (b[c + right] - b[c]);
         out[c] = top + fy * (low - top);
     }
     return true;
@@ -111,7 +111,11 @@ FlowField invert_flow(const FlowField& target_from_source) {
             if (!target_from_source.valid.at(x, y)) continue;
             const float* d = target_from_source.d.pixel(x, y);
             const float gx = static_cast<float>(x) + d[0], gy = static_cast<float>(y) + d[1];
-            if (!std::isfinite(gx) || !std::isfinite(gy)) continue;
+            // Also what is not a number lands nowhere.
+            if (!(gx > -1 && gy > -1 && gx < static_cast<float>(size.width) &&
+                  gy < static_cast<float>(size.height))) {
+                continue;
+            }
             const int tx = static_cast<int>(std::floor(gx)), ty = static_cast<int>(std::floor(gy));
             const float fx = gx - static_cast<float>(tx), fy = gy - static_cast<float>(ty);
             for (int k = 0; k < 4; ++k) {

@@ -39,7 +39,7 @@ class Reader {
     Reader& raw(void* data, std::size_t size) {
         if (size > bytes_.size() - position_) {
             ok_ = false;
-        } else if (ok_) {
+        } else if (ok_ && size > 0) {
             std::memcpy(data, bytes_.data() + position_, size);
             position_ += size;
         }
@@ -48,12 +48,18 @@ class Reader {
     // Everything was read, and nothing is left over.
     [[nodiscard]] bool complete() const { return ok_ && position_ == bytes_.size(); }
     [[nodiscard]] bool ok() const { return ok_; }
+    // Whether as much is still to come: to be asked before room is made for it.
+    [[nodiscard]] bool holds(double count, std::size_t element_bytes) const {
+        return count * static_cast<double>(element_bytes) <= static_cast<double>(bytes_.size() - position_);
+    }
 
   private:
     const Bytes& bytes_;
     std::size_t position_ = 0;
     bool ok_ = true;
 };
+
+double area(Size s) { return static_cast<double>(s.width) * s.height; }
 
 bool sane(Size s) { return s.width >= 0 && s.height >= 0 && s.width <= kLargestSide && s.height <= kLargestSide; }
 
@@ -137,7 +143,7 @@ Expected<StoredMatte> decode_matte(const Bytes& bytes) {
     Size size;
     StoredMatte out;
     reader.value(size).value(out.confidence);
-    if (!reader.ok() || !sane(size)) return damaged("matte");
+    if (!reader.ok() || !sane(size) || !reader.holds(area(size), 1)) return damaged("matte");
     out.matte = Matte(size);
     if (!reader.raw(out.matte.data(), out.matte.size_bytes()).complete()) return damaged("matte");
     return out;
@@ -149,6 +155,8 @@ Expected<LatticeField> decode_lattice(const Bytes& bytes) {
     int spacing = 0;
     reader.value(full).value(spacing);
     if (!reader.ok() || !sane(full) || spacing < 1 || spacing > 4096) return damaged("motion");
+    const double cells = area({full.width / spacing, full.height / spacing});
+    if (!reader.holds(cells, 2 * sizeof(float))) return damaged("motion");
     LatticeField out(full, spacing);
     if (!reader.raw(out.nodes().data(), out.nodes().size_bytes()).complete()) return damaged("motion");
     return out;
@@ -159,7 +167,12 @@ Expected<Shading> decode_shading(const Bytes& bytes) {
     Shading out;
     Size size;
     reader.value(out.full).value(out.downscale).value(size);
-    if (!reader.ok() || !sane(size) || !sane(out.full)) return damaged("light");
+    const int d = out.downscale;
+    if (!reader.ok() || !sane(out.full) || d < 1 || d > kLargestSide) return damaged("light");
+    if (size != Size{(out.full.width + d - 1) / d, (out.full.height + d - 1) / d} ||
+        !reader.holds(area(size), sizeof(std::uint16_t))) {
+        return damaged("light");
+    }
     std::vector<std::uint16_t> codes(static_cast<std::size_t>(size.width) *
                                      static_cast<std::size_t>(size.height));
     if (!reader.raw(codes.data(), codes.size() * sizeof codes[0]).complete()) return damaged("light");
@@ -172,7 +185,7 @@ Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
     Reader reader(bytes);
     Size size;
     reader.value(size);
-    if (!reader.ok() || !sane(size)) return damaged("texture");
+    if (!reader.ok() || !sane(size) || !reader.holds(area(size), 3)) return damaged("texture");
     ImageU8x3 out(size);
     if (!reader.raw(out.data(), out.size_bytes()).complete()) return damaged("texture");
     return out;

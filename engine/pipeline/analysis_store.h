@@ -19,6 +19,7 @@ enum class AnalysisKind : std::uint8_t {
     kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made).
     kMatte,          ///< Propagated and merged, with its confidence.
     kCoords,         ///< ref_from_cur
+    kCoordsOneWay,   ///< The same between two references, as the first of them found it.
     kShading,
     kPaperTexture    ///< The paper mode's synthesised picture.
 };

@@ -27,6 +27,11 @@ struct Job {
     [[nodiscard]] bool is_reference(int frame) const {
         return std::binary_search(references.begin(), references.end(), frame);
     }
+    // Between two references what the first leg finds is not final: blend() makes it so.
+    [[nodiscard]] AnalysisKind coords_kind(int frame) const {
+        const bool between = frame > references.front() && frame < references.back() && !is_reference(frame);
+        return between ? AnalysisKind::kCoordsOneWay : AnalysisKind::kCoords;
+    }
     [[nodiscard]] bool complete(const AnalysisStore& store) const {
         for (int f = span.first; f <= span.last; ++f) {
             if (coords && !store.has({region, f, AnalysisKind::kCoords})) return false;
@@ -49,6 +54,8 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
         job.primary = job.references.front();
         std::sort(job.references.begin(), job.references.end());
         job.coords = region.temporal == TemporalMode::kLocked;
+        // Further references anchor coordinates; nothing else is carried from them.
+        if (!job.coords) job.references = {job.primary};
         job.paper = region.temporal == TemporalMode::kPaper;
         job.shading = region.light_source == LightSource::kPlate && region.light.strength > 0;
         if ((job.coords || job.paper || job.shading) && !job.complete(store)) {
@@ -198,7 +205,7 @@ class Follower {
 
     Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
         if (job.coords) {
-            WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kCoords, encode(job.walker->ref_from_cur())));
+            WEFT_CHECK_OK(keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
         }
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
@@ -220,7 +227,7 @@ class Follower {
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
         const float s = static_cast<float>(frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
         const float smooth = s * s * (3 - 2 * s);
-        WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoords}));
+        WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
         const LatticeField& mine = job.walker->ref_from_cur();
         // Walking back, the walker comes from the reference after.

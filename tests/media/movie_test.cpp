@@ -53,21 +53,22 @@ TEST_F(Movie, LosslessComesBackBitForBit) {
     }
 }
 
-TEST_F(Movie, OddSizesRepeatTheLastRowAndColumn) {
-    write("a.mkv", {97, 63}, 2);
-    const auto plate = open_plate(in("a.mkv"), {}).value();
-    ASSERT_EQ(plate->size(), (Size{98, 64}));
-    const ImageF3 have = plate->read(1002).value().rgb;
-    const ImageF3 want = picture({97, 63}, 1);
-    int wrong = 0;
-    for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 98; ++x) {
-            for (int c = 0; c < 3; ++c) {
-                wrong += have.at(x, y, c) != want.at(std::min(x, 96), std::min(y, 62), c);
-            }
-        }
+TEST_F(Movie, LosslessKeepsEverySize) {
+    for (const Size size : {Size{97, 63}, Size{3, 3}, Size{4, 5}, Size{855, 481}}) {
+        const std::string name = std::to_string(size.width) + ".mkv";
+        auto movie = open_movie(in(name), size, 24);
+        ASSERT_TRUE(movie) << movie.error().text();
+        const ImageF3 codes[] = {random_codes(size, 255, 1), random_codes(size, 255, 2)};
+        for (const ImageF3& frame : codes)
+            ASSERT_TRUE((*movie)->add(frame));
+        const Status closed = (*movie)->close();
+        ASSERT_TRUE(closed) << name << closed.error().text();
+        const auto plate = open_plate(in(name), {}).value();
+        EXPECT_EQ(plate->size(), size);
+        EXPECT_EQ(plate->depth(), PixelDepth::kU8);
+        for (int f = 0; f < 2; ++f)
+            EXPECT_TRUE(plate->read(1001 + f).value().rgb == codes[f]) << name << " frame " << f;
     }
-    EXPECT_EQ(wrong, 0);
 }
 
 TEST_F(Movie, FramesInAnyOrder) {
@@ -104,7 +105,7 @@ TEST_F(Movie, ThreadsShareOneMovie) {
 
 TEST_F(Movie, Mp4KeepsEveryFrameAndPadsOddSizes) {
     // Flat frames, each 0.04 brighter: a lost, doubled or shifted frame is off by more than the
-    // codec and its conversion from RGB, which darkens by up to 0.015.
+    // codec and its conversion from RGB.
     const Size size{97, 63};
     auto movie = open_movie(in("a.mp4"), size, 25);
     ASSERT_TRUE(movie) << movie.error().text();
@@ -118,7 +119,8 @@ TEST_F(Movie, Mp4KeepsEveryFrameAndPadsOddSizes) {
     EXPECT_EQ(plate->size(), (Size{98, 64}));
     for (const int f : {0, 1, 10, 18, 19}) {
         const PlateFrame frame = plate->read(1001 + f).value();
-        EXPECT_LT(mean_difference(frame.rgb, ImageF3({98, 64}, level(f)), {98, 64}), 0.018) << f;
+        EXPECT_LT(mean_difference(frame.rgb, ImageF3({98, 64}, level(f)), {98, 64}), 1.01 / 255)
+            << f;
     }
 }
 
@@ -145,6 +147,13 @@ TEST_F(Movie, TruncatedMovieHasTheFramesThatDecode) {
     write("whole.mp4", {96, 64}, 30);
     const auto mp4 = bytes_of(in("whole.mp4"));
     put_bytes(in("a.mp4"), mp4, mp4.size() / 2);
+    const auto half = open_plate(in("a.mp4"), {});
+    ASSERT_TRUE(half) << half.error().text();
+    EXPECT_GT((*half)->frames().size(), 5u);
+    EXPECT_LT((*half)->frames().size(), 30u);
+    ASSERT_FALSE((*half)->warnings().empty());
+    EXPECT_THAT((*half)->warnings()[0], HasSubstr("30 frames"));
+    put_bytes(in("a.mp4"), mp4, 300);  // cut inside its index, which stands in front
     EXPECT_EQ(open_plate(in("a.mp4"), {}).error().code, ErrorCode::kUnreadable);
 }
 
@@ -192,6 +201,9 @@ TEST_F(Movie, BadRequests) {
     EXPECT_EQ(open_movie(in("a.gif"), {64, 48}, 24).error().code, ErrorCode::kUsage);
     EXPECT_EQ(open_movie(in("a.mp4"), {0, 48}, 24).error().code, ErrorCode::kUsage);
     EXPECT_EQ(open_movie(in("a.mp4"), {64, 48}, 0).error().code, ErrorCode::kUsage);
+    EXPECT_EQ(open_movie(in("a.mp4"), {64, 48}, 2000).error().code, ErrorCode::kUsage);
+    // FFV1 does not keep the colours of so few rows.
+    EXPECT_EQ(open_movie(in("a.mkv"), {64, 2}, 24).error().code, ErrorCode::kUnreadable);
     EXPECT_EQ(open_movie(in("none/a.mp4"), {64, 48}, 24).error().code, ErrorCode::kUnreadable);
     auto movie = open_movie(in("a.mp4"), {64, 48}, 24);
     EXPECT_EQ((*movie)->add(picture({65, 48}, 0)).error().code, ErrorCode::kUsage);

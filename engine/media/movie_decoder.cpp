@@ -1,0 +1,118 @@
+#include "engine/media/movie_decoder.h"
+
+extern "C" {
+#include <libavutil/display.h>
+}
+
+#include <cmath>
+#include <cstdint>
+
+namespace weft {
+namespace {
+
+double as_double(AVRational r) {
+    return r.den != 0 ? static_cast<double>(r.num) / r.den : 0.0;
+}
+
+}  // namespace
+
+bool MovieDecoder::rewind() {
+    codec_.reset();
+    input_.reset();
+    stream_ = nullptr;
+    discarded_ = 0;
+    draining_ = false;
+    frame_.reset(av_frame_alloc());
+    packet_.reset(av_packet_alloc());
+    if (!frame_ || !packet_) return false;
+
+    // A movie is one local file: a play list inside it must not reach for others or for the
+    // network.
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "protocol_whitelist", "file", 0);
+    AVFormatContext* opened = nullptr;
+    const int result = avformat_open_input(&opened, file_url(path_).c_str(), nullptr, &options);
+    av_dict_free(&options);
+    if (result < 0) return false;
+    input_.reset(opened);
+    if (avformat_find_stream_info(input_.get(), nullptr) < 0) return false;
+    const AVCodec* codec = nullptr;
+    const int best = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+    if (best < 0) return false;
+    for (unsigned i = 0; i < input_->nb_streams; ++i) {
+        if (static_cast<int>(i) != best) input_->streams[i]->discard = AVDISCARD_ALL;
+    }
+    stream_ = input_->streams[best];
+    return open_codec(codec);
+}
+
+bool MovieDecoder::open_codec(const AVCodec* codec) {
+    codec_.reset(avcodec_alloc_context3(codec));
+    if (!codec_ || avcodec_parameters_to_context(codec_.get(), stream_->codecpar) < 0) return false;
+    codec_->pkt_timebase = stream_->time_base;
+    codec_->thread_count = 0;  // one a processor; the pictures do not depend on it
+    return avcodec_open2(codec_.get(), codec, nullptr) >= 0;
+}
+
+// Gives the decoder one more packet of its stream, or tells it that there are no more.
+void MovieDecoder::feed() {
+    while (av_read_frame(input_.get(), packet_.get()) >= 0) {
+        const bool ours = packet_->stream_index == stream_->index;
+        if (ours) {
+            discarded_ += (packet_->flags & AV_PKT_FLAG_DISCARD) != 0;
+            // A damaged packet costs its frame, not the movie.
+            static_cast<void>(avcodec_send_packet(codec_.get(), packet_.get()));
+        }
+        av_packet_unref(packet_.get());
+        if (ours) return;
+    }
+    draining_ = true;
+    static_cast<void>(avcodec_send_packet(codec_.get(), nullptr));
+}
+
+const AVFrame* MovieDecoder::next() {
+    if (!codec_) return nullptr;
+    // While draining, each damaged frame that was still inside gives one error.
+    int errors_left = 256;
+    while (true) {
+        const int result = avcodec_receive_frame(codec_.get(), frame_.get());
+        if (result == 0) return frame_.get();
+        if (result == AVERROR_EOF) return nullptr;
+        if (!draining_) {
+            feed();
+        } else if (--errors_left == 0) {
+            return nullptr;
+        }
+    }
+}
+
+double MovieDecoder::fps() const {
+    const double stored = as_double(av_guess_frame_rate(input_.get(), stream_, nullptr));
+    if (!(stored > 0 && stored < 10000)) return 0;
+    const AVRational standard = standard_rate(stored, 1e-4);
+    return standard.num > 0 ? as_double(standard) : stored;
+}
+
+int MovieDecoder::claimed_frames() const {
+    double frames = static_cast<double>(stream_->nb_frames);
+    if (!(frames > 0) && stream_->duration != AV_NOPTS_VALUE) {
+        frames = static_cast<double>(stream_->duration) * as_double(stream_->time_base) * fps();
+    } else if (!(frames > 0) && input_->duration != AV_NOPTS_VALUE && input_->nb_streams == 1) {
+        frames = static_cast<double>(input_->duration) / AV_TIME_BASE * fps();
+    }
+    frames = std::round(frames) - discarded_;
+    return frames > 0 && frames < 1e8 ? static_cast<int>(frames) : 0;
+}
+
+int MovieDecoder::rotation_deg() const {
+    const std::uint8_t* matrix =
+        av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    if (!matrix) return 0;
+    const double counter_clockwise =
+        av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+    if (!std::isfinite(counter_clockwise)) return 0;
+    const int quarters = static_cast<int>(std::lround(-counter_clockwise / 90.0));
+    return ((quarters % 4) + 4) % 4 * 90;
+}
+
+}  // namespace weft

@@ -1,0 +1,43 @@
+#pragma once
+// Internal: the pictures of one movie file, in the order in which they are shown.
+
+#include <string>
+
+#include "engine/media/video_library.h"
+
+namespace weft {
+
+/// Decodes the best video stream from its start to its end. It never seeks: seeking inside a
+/// container lands on the wrong frame in some files. One thread.
+class MovieDecoder {
+  public:
+    explicit MovieDecoder(std::string path) : path_(std::move(path)) {}
+
+    /// Starts again before the first frame. False when the file is no movie.
+    [[nodiscard]] bool rewind();
+    /// The next frame, valid until the next call; null after the last. What cannot be decoded is
+    /// passed over.
+    [[nodiscard]] const AVFrame* next();
+
+    // After rewind():
+    [[nodiscard]] double fps() const;  ///< 0 when the file does not say.
+    /// How many frames the container says it shows; 0 when it does not.
+    [[nodiscard]] int claimed_frames() const;
+    /// By how much the picture is to be turned clockwise for display: 0, 90, 180 or 270.
+    [[nodiscard]] int rotation_deg() const;
+
+  private:
+    bool open_codec(const AVCodec* codec);
+    void feed();
+
+    std::string path_;
+    AvInput input_;
+    AvCodec codec_;
+    AvFrame frame_;
+    AvPacket packet_;
+    AVStream* stream_ = nullptr;
+    int discarded_ = 0;  // packets that the container's edit list leaves out
+    bool draining_ = false;
+};
+
+}  // namespace weft

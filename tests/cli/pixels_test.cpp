@@ -1,0 +1,160 @@
+// What stands in the files: the plate outside the matte bit for bit, NaN, values above 1.
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <ostream>
+
+#include "tests/cli/cli_fixture.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct Format {
+    const char* extension;
+    PixelDepth depth;
+};
+
+// For the name of the test.
+void PrintTo(const Format& format, std::ostream* out) {
+    *out << format.extension << " depth " << static_cast<int>(format.depth);
+}
+
+// Values that use the whole depth, so that a loss of a few bits shows.
+void refine(ImageF3& plate, PixelDepth depth) {
+    for (std::size_t i = 0; i < plate.size_bytes() / sizeof(float); ++i) {
+        float& v = plate.data()[i];
+        const auto place = static_cast<float>(i % 251);
+        if (depth == PixelDepth::kU16) v = std::round(v * 65535.0f - place) / 65535.0f;
+        if (depth == PixelDepth::kFloat) v = v * 4.0f + place * 1e-6f - 0.3f;
+        if (depth == PixelDepth::kHalf) v = v * 4.0f;
+    }
+}
+
+std::int64_t differing(const ImageF3& a, const ImageF3& b, const Matte& matte, bool inside) {
+    std::int64_t count = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x)
+            count += (matte.at(x, y) > 0) == inside &&
+                     std::memcmp(a.pixel(x, y), b.pixel(x, y), 3 * sizeof(float)) != 0;
+    return count;
+}
+
+class OutsideTheMatte : public CliTest, public ::testing::WithParamInterface<Format> {};
+
+TEST_P(OutsideTheMatte, NotABitOfThePlateChanges) {
+    const Format format = GetParam();
+    const std::string extension = format.extension;
+    make_shot(3, 1, extension, format.depth,
+              [&](int, ImageF3& plate) { refine(plate, format.depth); });
+    expect_success(
+        run_replace({"--plate", "frames/####" + extension, "-o", "out/####" + extension}));
+    for (int step = 0; step < 3; ++step) {
+        const std::string name = "000" + std::to_string(step + 1) + extension;
+        const PlateFrame plate = picture("frames/" + name), result = picture("out/" + name);
+        EXPECT_EQ(result.depth, format.depth);
+        EXPECT_EQ(differing(plate.rgb, result.rgb, card_matte(step), false), 0) << name;
+        EXPECT_GT(differing(plate.rgb, result.rgb, card_matte(step), true), 4000) << name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, OutsideTheMatte,
+                         ::testing::Values(Format{".png", PixelDepth::kU8},
+                                           Format{".png", PixelDepth::kU16},
+                                           Format{".tif", PixelDepth::kU16},
+                                           Format{".exr", PixelDepth::kHalf},
+                                           Format{".exr", PixelDepth::kFloat}));
+
+class NonFinite : public CliTest {
+  protected:
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    void make_damaged_shot() {
+        make_shot(3, 1, ".exr", PixelDepth::kFloat, [](int frame, ImageF3& plate) {
+            if (frame != 2) return;
+            plate.at(5, 6, 1) = std::bit_cast<float>(0x7fc12345u);  // a NaN with a message
+            plate.at(150, 100, 0) = -kInfinity;
+            for (int x = 60; x < 64; ++x)
+                plate.at(x, 50, 2) = kInfinity;
+            plate.at(70, 60, 0) = std::nanf("");
+        });
+    }
+    Outcome render(const Words& more = {}) {
+        Words words{"--plate", "frames/####.exr", "-o", "out/####.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_replace(words);
+    }
+};
+
+TEST_F(NonFinite, WarnsWithFrameAndCountFillsInsideAndPassesThroughOutside) {
+    make_damaged_shot();
+    const Outcome outcome = render();
+    expect_success(outcome);
+    expect_one_line(outcome.err,
+                    {"warning", "NaN", "frame 2 (7 pixels)", "5 in a matte", "2 outside"});
+    const PlateFrame plate = picture("frames/0002.exr"), result = picture("out/0002.exr");
+    EXPECT_EQ(differing(plate.rgb, result.rgb, card_matte(1), false), 0);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(result.rgb.at(5, 6, 1)), 0x7fc12345u);
+    EXPECT_EQ(result.nonfinite, 2);
+    // Nothing of it reaches the neighbours or the other frames.
+    EXPECT_EQ(picture("out/0001.exr").nonfinite + picture("out/0003.exr").nonfinite, 0);
+    for (int x = 58; x < 66; ++x)
+        EXPECT_LT(result.rgb.at(x, 50, 2), 2.0f) << x;
+}
+
+TEST_F(NonFinite, OutsideOfAnyMatteIsReportedToo) {
+    make_shot(2, 1, ".exr", PixelDepth::kHalf, [](int frame, ImageF3& plate) {
+        if (frame == 1) plate.at(2, 3, 0) = std::nanf("");
+    });
+    const Outcome outcome = render();
+    expect_success(outcome);
+    expect_one_line(outcome.err, {"warning", "frame 1 (1 pixel)", "0 in a matte", "1 outside"});
+}
+
+TEST_F(NonFinite, DoesNotDisturbTheRestOfTheSurface) {
+    make_damaged_shot();
+    render();
+    const PlateFrame damaged = picture("out/0002.exr");
+    std::filesystem::remove_all(folder_ / "frames");
+    make_shot(3, 1, ".exr", PixelDepth::kFloat);
+    expect_success(render({"--overwrite"}));
+    const PlateFrame sound = picture("out/0002.exr");
+    // Motion and light are estimates; a few lost pixels may move them a little, not break them.
+    double worst = 0;
+    for (int y = 30; y < 80; ++y)
+        for (int x = 36; x < 108; ++x)
+            for (int c = 0; c < 3; ++c)
+                worst = std::max<double>(worst,
+                                         std::abs(damaged.rgb.at(x, y, c) - sound.rgb.at(x, y, c)));
+    EXPECT_LT(worst, 0.15);
+}
+
+TEST_F(CliTest, SceneLinearValuesAboveOneSurvive) {
+    make_shot(2, 1, ".exr", PixelDepth::kFloat, [](int, ImageF3& plate) {
+        for (std::size_t i = 0; i < plate.size_bytes() / sizeof(float); ++i)
+            plate.data()[i] *= 6;
+    });
+    ImageF3 bright = pattern_picture({64, 64}, 3);
+    for (std::size_t i = 0; i < bright.size_bytes() / sizeof(float); ++i)
+        bright.data()[i] *= 5;
+    put_picture("bright.exr", bright, PixelDepth::kFloat);
+    const Outcome outcome = run_replace({"--plate", "frames/####.exr", "-o", "out/####.exr",
+                                         "--plane", "bright.exr", "--light", "none"});
+    expect_success(outcome);
+    EXPECT_THAT(outcome.err, IsEmpty());  // nothing was rolled off
+    const PlateFrame result = picture("out/0001.exr");
+    const Matte matte = card_matte(0);
+    float outside = 0, inside = 0;
+    for (int y = 0; y < matte.height(); ++y)
+        for (int x = 0; x < matte.width(); ++x) {
+            float& most = matte.at(x, y) > 0 ? inside : outside;
+            most = std::max(most, result.rgb.at(x, y, 0));
+        }
+    EXPECT_GT(outside, 4.0f);
+    EXPECT_GT(inside, 3.0f);
+}
+
+}  // namespace
+}  // namespace weft::test

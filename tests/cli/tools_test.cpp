@@ -1,0 +1,163 @@
+// weft synth, measure, diff, matte, and movies.
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/media/image_files.h"
+#include "tests/cli/cli_fixture.h"
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using Tools = CliTest;
+
+TEST_F(Tools, SynthJsonHasEveryKeyOfTheContract) {
+    const Outcome outcome = run({"synth", "sample.png", "-o", "plane.png", "--size", "200x150",
+                                 "--source-map", "map.exr", "--seed", "7", "--json"});
+    expect_success(outcome);
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["size"], (Json{200, 150}));
+    EXPECT_EQ(json["seed"], 7);
+    EXPECT_EQ(json["backend"], "cpu");
+    for (const char* key :
+         {"seam_energy", "seam_length_px", "seam_energy_per_area", "peak_graph_bytes", "threads"})
+        EXPECT_TRUE(json[key].is_number()) << key;
+    double parts = 0;
+    for (const char* key : {"search", "seam", "other"})
+        parts += json["seconds"][key].get<double>();
+    EXPECT_NEAR(json["seconds"]["total"].get<double>(), parts, 0.02);
+
+    // Each texel is the sample's pixel that the source map names.
+    const ImageF3 sample = picture("sample.png").rgb, plane = picture("plane.png").rgb,
+                  map = picture("map.exr").rgb;
+    ASSERT_EQ(plane.size(), (Size{200, 150}));
+    int wrong = 0;
+    for (int y = 0; y < 150; ++y)
+        for (int x = 0; x < 200; ++x) {
+            const int sx = static_cast<int>(map.at(x, y, 0)),
+                      sy = static_cast<int>(map.at(x, y, 1));
+            wrong += std::memcmp(plane.pixel(x, y), sample.pixel(sx, sy), 3 * sizeof(float)) != 0;
+        }
+    EXPECT_EQ(wrong, 0);
+
+    expect_failure(run({"synth", "sample.png", "-o", "plane.png"}), 2,
+                   {"plane.png", "--overwrite"});
+    expect_failure(run({"synth", "sample.png", "-o", "other.png", "--size", "0x9"}), 2, {"0x9"});
+}
+
+TEST_F(Tools, SynthGivesTheSameBytesForTheSameSeed) {
+    const auto grow = [&](const std::string& out, const std::string& seed, const char* threads) {
+        expect_success(run({"synth", "sample.png", "-o", out, "--size", "160x160", "--seed", seed,
+                            "--threads", threads}));
+        return bytes(out);
+    };
+    const std::string first = grow("a.png", "1", "1");
+    EXPECT_EQ(grow("b.png", "1", "2"), first);
+    EXPECT_NE(grow("c.png", "2", "2"), first);
+}
+
+TEST_F(Tools, MeasureJsonHasItsKeys) {
+    make_shot(3);
+    fs::create_directory(folder_ / "flow");
+    FlowField flow(Card::kPlate);
+    for (int i = 0; i < Card::kPlate.width * Card::kPlate.height; ++i) {
+        flow.d.data()[2 * i] = static_cast<float>(Card::kStepX);
+        flow.d.data()[2 * i + 1] = static_cast<float>(Card::kStepY);
+    }
+    for (const char* name : {"flow/0001.png", "flow/0002.png", "flow/0003.png"})
+        ASSERT_TRUE(write_flow_kitti(in(name), flow));
+    expect_success(run_replace({"--light", "none", "--quality", "final"}));
+    const Outcome outcome =
+        run({"measure", "--result", "out/####.png", "--plate", "frames/####.png", "--matte",
+             "masks/####.png", "--motion", "flow/####.png", "--plane", "tile.png", "--json"});
+    expect_success(outcome);
+    const Json json = Json::parse(outcome.out);
+    for (const char* key : {"motion", "tde", "source_tde", "tde_floor", "sharpness_kept",
+                            "drift_px", "tiv", "tiv_relative", "per_frame"})
+        EXPECT_FALSE(json[key].is_null()) << key;
+    EXPECT_EQ(json["frames"], 3);
+    EXPECT_EQ(json["per_frame"].size(), 3u);
+    EXPECT_EQ(json["outside_differing_px"], 0);
+    // The card moves by whole pixels, so the source itself is perfectly steady.
+    EXPECT_LT(json["source_tde"]["mean"].get<double>(), 0.5);
+
+    const Outcome estimated = run({"measure", "--result", "out/####.png", "--plate",
+                                   "frames/####.png", "--matte", "masks/####.png"});
+    expect_success(estimated);
+    EXPECT_THAT(estimated.out, HasSubstr("motion: "));
+    expect_failure(run({"measure", "--result", "none/####.png", "--plate", "frames/####.png",
+                        "--matte", "masks/####.png"}),
+                   4, {"none/####.png"});
+}
+
+TEST_F(Tools, DiffSaysWhereSequencesDiffer) {
+    make_shot(3);
+    fs::copy(folder_ / "frames", folder_ / "copy");
+    const Outcome same = run({"diff", "frames/####.png", "copy/####.png"});
+    expect_success(same);
+    ImageF3 touched = picture("copy/0002.png").rgb;
+    touched.at(17, 23, 1) += 3.0f / 255;
+    put_picture("copy/0002.png", touched);
+    const Outcome differs = run({"diff", "frames/####.png", "copy/####.png", "--json"});
+    EXPECT_EQ(differs.exit, 8);
+    EXPECT_THAT(differs.err, IsEmpty());
+    const Json json = Json::parse(differs.out);
+    EXPECT_EQ(json["equal"], false);
+    EXPECT_EQ(json["differences"][0]["frame"], 2);
+    EXPECT_EQ(json["differences"][0]["box"], (Json{17, 23, 18, 24}));
+    EXPECT_EQ(run({"diff", "frames/####.png", "copy/####.png", "--tolerance", "0.02"}).exit, 0);
+    fs::remove(folder_ / "copy/0003.png");
+    expect_failure(run({"diff", "frames/####.png", "copy/####.png"}), 8,
+                   {"1-3", "1-2", "--frames"});
+    expect_failure(run({"diff", "frames/####.png", "nothing.png"}), 4, {"nothing.png"});
+}
+
+TEST_F(Tools, MattePrintsAConfidenceForEachFrame) {
+    make_shot(4);
+    const Outcome outcome =
+        run({"matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png", "-o",
+             "mattes/####.png", "--progress", "none"});
+    expect_success(outcome);
+    EXPECT_THAT(outcome.err, IsEmpty());
+    EXPECT_THAT(outcome.out, HasSubstr("matte 1 confidence 1.00\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("\nmatte 4 confidence 0."));
+    EXPECT_EQ(names("mattes").size(), 4u);
+    const auto key = read_matte(in("mattes/0001.png"), {}, {});
+    ASSERT_TRUE(key);
+    const Matte painted = card_matte(0);
+    EXPECT_EQ(std::memcmp(key->data(), painted.data(), painted.size_bytes()), 0);
+
+    const Outcome json = run({"matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png",
+                              "-o", "mattes/####.png", "--overwrite", "--json"});
+    expect_success(json);
+    EXPECT_EQ(Json::parse(json.out)["mattes"].size(), 4u);
+    expect_failure(run({"matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png", "-o",
+                        "mattes/####.png"}),
+                   2, {"mattes/0001.png", "--overwrite"});
+}
+
+TEST_F(Tools, MoviesGoOutAndComeIn) {
+    make_shot(3, 12);
+    expect_success(run_replace({"--movie", "review.mkv"}));
+    expect_success(run_replace({"-o", "again/####.png", "--movie", "review.mp4"}));
+    EXPECT_GT(fs::file_size(folder_ / "review.mp4"), 1000u);
+    // The lossless movie holds the frames; as a plate with an empty matte they come back out.
+    fs::create_directory(folder_ / "none");
+    for (const char* name : {"none/0012.png", "none/0013.png", "none/0014.png"})
+        put_matte(name, Matte(Card::kPlate));
+    Words words = replace({"--plate", "review.mkv", "--movie-start", "12", "-o", "back/####.png"});
+    std::replace(words.begin(), words.end(), std::string("masks/####.png"),
+                 std::string("none/####.png"));
+    expect_success(run(words));
+    EXPECT_EQ(run({"diff", "out/####.png", "back/####.png"}).out,
+              "The same: 3 of 3 frames are equal.\n");
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,42 @@
+#pragma once
+// Movies with codes, formats and tags of the test's choice, and what a movie's tags say.
+
+extern "C" {
+#include <libavutil/pixfmt.h>
+#include <libavutil/rational.h>
+}
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/core/geometry.h"
+
+namespace weft {
+
+struct CodedMovie {
+    AVPixelFormat format = AV_PIX_FMT_YUV420P;
+    Size size{64, 64};
+    AVColorSpace matrix = AVCOL_SPC_UNSPECIFIED;
+    AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
+    AVColorTransferCharacteristic transfer = AVCOL_TRC_UNSPECIFIED;
+    int rotation_deg = 0;  ///< Clockwise; QuickTime (.mov) only.
+};
+
+/// Codes of the components in the order of the format's description: Y, Cb, Cr or R, G, B, A.
+using Codes = std::array<int, 4>;
+
+/// One frame of equal vertical bars, each filled with its codes; FFV1, which keeps them.
+void write_bars(const std::string& path, const CodedMovie& movie, const std::vector<Codes>& bars);
+
+struct MovieTags {
+    std::string codec;
+    AVColorSpace matrix = AVCOL_SPC_UNSPECIFIED;
+    AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
+    AVColorPrimaries primaries = AVCOL_PRI_UNSPECIFIED;
+    AVColorTransferCharacteristic transfer = AVCOL_TRC_UNSPECIFIED;
+    AVRational fps{};
+};
+MovieTags tags_of(const std::string& path);
+
+}  // namespace weft

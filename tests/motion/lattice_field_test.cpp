@@ -1,0 +1,165 @@
+#include "engine/motion/lattice_field.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/parallel.h"
+#include "tests/motion/pictures.h"
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{101, 67};  // no multiple of any spacing
+
+template <class F>
+LatticeField field_of(Size full, int spacing, const F& value) {
+    LatticeField out(full, spacing);
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i)
+            out.set_node(i, j, value(out.node_position(i, j)));
+    }
+    return out;
+}
+
+Vec2 quadratic(Vec2 p) {
+    return {1.5f + 0.03f * p.x - 0.02f * p.y + 0.0010f * p.x * p.x + 0.0007f * p.x * p.y,
+            -0.5f - 0.01f * p.x + 0.04f * p.y - 0.0013f * p.y * p.y + 0.0004f * p.x * p.x};
+}
+
+Vec2 affine(Vec2 p) {
+    return {2.0f + 0.10f * p.x - 0.05f * p.y, -1.0f + 0.02f * p.x + 0.08f * p.y};
+}
+
+Vec2 random_place(Rng& rng, float margin) {
+    const auto in = [&](int extent) {
+        return static_cast<float>(rng.uniform()) * (static_cast<float>(extent) + 2 * margin) -
+               margin;
+    };
+    const float x = in(kFrame.width);
+    return {x, in(kFrame.height)};
+}
+
+LatticeField random_field(int spacing) {
+    Rng rng(5);
+    return field_of(kFrame, spacing, [&](Vec2) {
+        const float x = static_cast<float>(rng.uniform());
+        return Vec2(10 * x - 5, 10 * static_cast<float>(rng.uniform()) - 5);
+    });
+}
+
+TEST(LatticeField, InterpolatesQuadraticsExactly) {
+    for (const int spacing : {1, 5, 8, 64}) {
+        const LatticeField field = field_of(kFrame, spacing, quadratic);
+        Rng rng(1);
+        for (int k = 0; k < 300; ++k) {
+            const Vec2 p = random_place(rng, 0);
+            EXPECT_LT(distance(field.at(p), quadratic(p)), 1e-3f)
+                << spacing << ": " << p.x << ", " << p.y;
+        }
+    }
+}
+
+TEST(LatticeField, NodesAreInterpolated) {
+    const LatticeField field = random_field(8);
+    for (int j = 1; j < field.nodes().height() - 1; ++j) {
+        for (int i = 1; i < field.nodes().width() - 1; ++i) {
+            EXPECT_LT(distance(field.at(field.node_position(i, j)), field.node(i, j)), 1e-5f);
+        }
+    }
+}
+
+TEST(LatticeField, DenseIsTheFieldAtPixelCentres) {
+    const LatticeField field = random_field(7);
+    for (const Recti area : {rect_of(kFrame), Recti{13, 5, 14, 66}, Recti{90, 60, 101, 67}}) {
+        const ImageF2 dense = field.dense(area);
+        ASSERT_EQ(dense.size(), area.size());
+        for (int y = 0; y < area.height(); ++y) {
+            for (int x = 0; x < area.width(); ++x) {
+                const float* d = dense.pixel(x, y);
+                EXPECT_LT(distance({d[0], d[1]}, field.at(centre_of(area.x0 + x, area.y0 + y))),
+                          1e-4f);
+            }
+        }
+    }
+}
+
+TEST(LatticeField, DenseDoesNotDependOnThreads) {
+    const LatticeField field = random_field(8);
+    set_thread_count(1);
+    const ImageF2 one = field.dense(rect_of(kFrame));
+    set_thread_count(3);
+    EXPECT_EQ(field.dense(rect_of(kFrame)), one);
+    set_thread_count(0);
+}
+
+TEST(LatticeField, GoesOnLinearlyOutside) {
+    const LatticeField flat = field_of(kFrame, 8, affine);
+    Rng rng(2);
+    for (int k = 0; k < 300; ++k) {
+        const Vec2 p = random_place(rng, 200);
+        EXPECT_LT(distance(flat.at(p), affine(p)), 2e-3f) << p.x << ", " << p.y;
+    }
+    // A curved field keeps the gradient that it has at the border: no second difference, no jump.
+    const LatticeField curved = field_of(kFrame, 8, quadratic);
+    for (const Vec2 step : {Vec2(-25, 0), Vec2(25, 0), Vec2(0, -25), Vec2(0, 25)}) {
+        const Vec2 a = Vec2(50, 33) + 6.0f * step;
+        const Vec2 bend = curved.at(a + step) - 2.0f * curved.at(a) + curved.at(a - step);
+        EXPECT_LT(std::hypot(bend.x, bend.y), 2e-3f);
+    }
+    for (float x = -30; x < 130; x += 0.25f) {
+        EXPECT_LT(distance(curved.at({x, 20}), curved.at({x + 0.25f, 20})), 0.1f) << x;
+    }
+}
+
+TEST(LatticeField, ComposesAffineMaps) {
+    const auto inner = [](Vec2 p) { return Vec2(0.5f + 0.02f * p.y, -3.0f - 0.04f * p.x); };
+    const LatticeField both = compose(field_of(kFrame, 8, inner), field_of(kFrame, 5, affine));
+    EXPECT_EQ(both.spacing(), 8);
+    EXPECT_EQ(both.full_size(), kFrame);
+    Rng rng(3);
+    for (int k = 0; k < 200; ++k) {
+        const Vec2 p = random_place(rng, 30);
+        EXPECT_LT(distance(both.at(p), inner(p) + affine(p + inner(p))), 2e-3f);
+    }
+}
+
+TEST(LatticeField, ComposingWithStandstillChangesNothing) {
+    const LatticeField field = random_field(8), still(kFrame, 8);
+    EXPECT_EQ(compose(still, field).nodes().size(), field.nodes().size());
+    for (int j = 1; j < field.nodes().height() - 1; ++j) {
+        for (int i = 1; i < field.nodes().width() - 1; ++i) {
+            EXPECT_LT(distance(compose(field, still).node(i, j), field.node(i, j)), 1e-6f);
+            EXPECT_LT(distance(compose(still, field).node(i, j), field.node(i, j)), 1e-5f);
+        }
+    }
+}
+
+TEST(LatticeField, ResamplesWhatItCanHold) {
+    const LatticeField other = field_of(kFrame, 8, quadratic).resampled(5);
+    EXPECT_EQ(other.spacing(), 5);
+    Rng rng(4);
+    for (int k = 0; k < 200; ++k) {
+        const Vec2 p = random_place(rng, 0);
+        EXPECT_LT(distance(other.at(p), quadratic(p)), 2e-3f);
+    }
+}
+
+TEST(LatticeField, MixesNodeByNode) {
+    const LatticeField a = field_of(kFrame, 8, affine), b = field_of(kFrame, 8, quadratic);
+    EXPECT_EQ(mix(a, b, 0).nodes(), a.nodes());
+    EXPECT_LT(distance(mix(a, b, 1).node(3, 4), b.node(3, 4)), 1e-5f);
+    const Vec2 quarter = 0.75f * a.node(6, 2) + 0.25f * b.node(6, 2);
+    EXPECT_LT(distance(mix(a, b, 0.25f).node(6, 2), quarter), 1e-5f);
+}
+
+TEST(LatticeField, HoldsTheSmallestFrames) {
+    for (const Size size : {Size{1, 1}, Size{8, 8}, Size{3, 200}}) {
+        const LatticeField field = field_of(size, 8, affine);
+        const ImageF2 dense = field.dense(rect_of(size));
+        const float* last = dense.pixel(size.width - 1, size.height - 1);
+        EXPECT_LT(distance({last[0], last[1]}, affine(centre_of(size.width - 1, size.height - 1))),
+                  1e-3f);
+    }
+}
+
+}  // namespace
+}  // namespace weft

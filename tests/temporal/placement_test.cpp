@@ -1,0 +1,154 @@
+#include "engine/temporal/placement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <limits>
+
+namespace weft {
+namespace {
+
+float distance(Vec2 a, Vec2 b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+Mat3 plate_from_plane(const PlanePlacement& p) {
+    const auto map = plane_from_plate(p);
+    EXPECT_TRUE(map.has_value()) << (map ? "" : map.error().text());
+    return map ? glm::inverse(*map) : Mat3(1);
+}
+
+Vec2 on_plate(const PlanePlacement& p, Vec2 texel) {
+    return project(plate_from_plane(p), texel);
+}
+
+TEST(Placement, DefaultIsTheIdentity) {
+    EXPECT_LT(distance(on_plate({}, {12, 34}), {12, 34}), 1e-5f);
+}
+
+TEST(Placement, TurnsCounterClockwiseOnTheScreen) {
+    PlanePlacement p;
+    p.rotate_deg = 90;
+    // The plane's x axis points up the screen, where y is smaller; its y axis to the right.
+    EXPECT_LT(distance(on_plate(p, {10, 0}), {0, -10}), 1e-4f);
+    EXPECT_LT(distance(on_plate(p, {0, 10}), {10, 0}), 1e-4f);
+    p.rotate_deg = 30;
+    EXPECT_LT(distance(on_plate(p, {10, 0}), {8.660254f, -5}), 1e-4f);
+}
+
+TEST(Placement, ScaleIsPlatePixelsATexelAboutTheOffset) {
+    PlanePlacement p;
+    p.scale = 2.5f;
+    p.offset_px = {100, 40};
+    EXPECT_LT(distance(on_plate(p, {0, 0}), {100, 40}), 1e-3f);
+    EXPECT_LT(distance(on_plate(p, {10, 4}), {125, 50}), 1e-3f);
+    p.rotate_deg = 180;
+    EXPECT_LT(distance(on_plate(p, {0, 0}), {100, 40}), 1e-3f);
+    EXPECT_LT(distance(on_plate(p, {10, 4}), {75, 30}), 1e-3f);
+}
+
+const std::array<Vec2, 4> kFloor{Vec2(120, 60), Vec2(220, 70), Vec2(300, 180), Vec2(40, 170)};
+
+TEST(Placement, CornersBoundARectangleOfThePlane) {
+    PlanePlacement p;
+    p.corners = kFloor;
+    const auto map = plane_from_plate(p);
+    ASSERT_TRUE(map);
+    const Vec2 a = project(*map, kFloor[0]), b = project(*map, kFloor[1]);
+    const Vec2 c = project(*map, kFloor[2]), d = project(*map, kFloor[3]);
+    EXPECT_LT(distance(a, {0, 0}), 0.01f);
+    EXPECT_GT(b.x, 10);
+    EXPECT_NEAR(b.y, 0, 0.01f);
+    EXPECT_GT(d.y, 10);
+    EXPECT_NEAR(d.x, 0, 0.01f);
+    EXPECT_LT(distance(c, {b.x, d.y}), 0.05f);
+}
+
+TEST(Placement, ScaleHoldsAtTheTopLeftCorner) {
+    for (const float scale : {0.5f, 1.0f, 3.0f}) {
+        PlanePlacement p;
+        p.corners = kFloor;
+        p.scale = scale;
+        const Mat3 plate = plate_from_plane(p);
+        const Vec2 origin = project(plate, {0, 0});
+        EXPECT_LT(distance(origin, kFloor[0]), 0.01f);
+        const float step = 0.5f / scale;  // half a pixel
+        EXPECT_NEAR(distance(project(plate, {step, 0}), origin), 0.5f, 0.01f);
+        EXPECT_NEAR(distance(project(plate, {0, step}), origin), 0.5f, 0.01f);
+    }
+}
+
+TEST(Placement, AParallelogramHasNoPerspective) {
+    PlanePlacement p;
+    p.corners = {Vec2(10, 20), Vec2(110, 20), Vec2(140, 70), Vec2(40, 70)};
+    EXPECT_LT(distance(on_plate(p, {50, 0}), {60, 20}), 0.05f);
+    const float left = std::hypot(30.0f, 50.0f);
+    EXPECT_LT(distance(on_plate(p, {100, left}), {140, 70}), 0.05f);
+    EXPECT_LT(distance(on_plate(p, {50, left / 2}), {75, 45}), 0.05f);
+}
+
+TEST(Placement, RotationAndOffsetActInsideThePlane) {
+    PlanePlacement still, turned;
+    still.corners = turned.corners = kFloor;
+    turned.rotate_deg = 90;
+    turned.offset_px = {20, 10};
+    turned.scale = still.scale = 2;
+    // A texel of the turned plane lies where the still plane has offset/scale + R · texel.
+    const Vec2 expected = on_plate(still, Vec2(10, 5) + Vec2(0, -7));
+    EXPECT_LT(distance(on_plate(turned, {7, 0}), expected), 0.02f);
+}
+
+TEST(Placement, RefusesAScaleThatIsNone) {
+    for (const float scale : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN(),
+                              std::numeric_limits<float>::infinity()}) {
+        PlanePlacement p;
+        p.scale = scale;
+        const auto map = plane_from_plate(p);
+        ASSERT_FALSE(map) << scale;
+        EXPECT_EQ(map.error().code, ErrorCode::kUsage);
+        EXPECT_NE(map.error().text().find("scale"), std::string::npos);
+    }
+}
+
+TEST(Placement, RefusesCornersThatAreNoQuadrilateral) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::array<std::array<Vec2, 4>, 4> wrong{{
+        {Vec2(0, 0), Vec2(100, 100), Vec2(100, 0), Vec2(0, 100)},  // crossed
+        {Vec2(0, 0), Vec2(50, 0), Vec2(100, 0), Vec2(0, 100)},     // three in a line
+        {Vec2(0, 0), Vec2(100, 0), Vec2(20, 20), Vec2(0, 100)},    // dented
+        {Vec2(0, 0), Vec2(100, 0), Vec2(nan, 100), Vec2(0, 100)},
+    }};
+    for (const auto& corners : wrong) {
+        PlanePlacement p;
+        p.corners = corners;
+        const auto map = plane_from_plate(p);
+        ASSERT_FALSE(map);
+        EXPECT_EQ(map.error().code, ErrorCode::kUsage);
+        EXPECT_NE(map.error().text().find("corners"), std::string::npos);
+    }
+}
+
+TEST(TextureCoords, AreThePlacementAtTheReferencePosition) {
+    PlanePlacement p;
+    p.scale = 2;
+    p.rotate_deg = 20;
+    p.offset_px = {5, 6};
+    const Mat3 map = *plane_from_plate(p);
+    LatticeField moved({64, 48}, 8);
+    for (int j = 0; j < moved.nodes().height(); ++j) {
+        for (int i = 0; i < moved.nodes().width(); ++i)
+            moved.set_node(i, j, {3.5f, -1.25f});
+    }
+    const TextureCoords coords = texture_coords(moved, map, {10, 12, 30, 40});
+    EXPECT_EQ(coords.size(), (Size{20, 28}));
+    EXPECT_EQ(coords.origin, Vec2i(10, 12));
+    for (const Vec2i at : {Vec2i(0, 0), Vec2i(19, 27), Vec2i(7, 3)}) {
+        const float* uv = coords.uv.pixel(at.x, at.y);
+        const Vec2 expected = project(map, Vec2(coords.origin + at) + 0.5f + Vec2(3.5f, -1.25f));
+        EXPECT_LT(distance({uv[0], uv[1]}, expected), 1e-3f);
+    }
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,214 @@
+#include "engine/temporal/surface_walker.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/matrix.hpp>
+#include <numeric>
+
+#include "tests/motion/pictures.h"
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{256, 176};
+constexpr int kFrames = 21;
+
+// A textured plane that turns, comes nearer and tilts away, while something crosses in front of it.
+class Shot {
+  public:
+    // Where the plane's points lie on frame t.
+    static Mat3 frame_from_plane(int t) {
+        const float s = static_cast<float>(t) / (kFrames - 1);
+        const float angle = 0.10f * s, zoom = 1 + 0.12f * s;
+        const Mat3 to_centre{1, 0, 0, 0, 1, 0, -128, -88, 1};
+        const Mat3 turn{zoom * std::cos(angle),
+                        zoom * std::sin(angle),
+                        0.00025f * s,
+                        -zoom * std::sin(angle),
+                        zoom * std::cos(angle),
+                        -0.00015f * s,
+                        0,
+                        0,
+                        1};
+        const Mat3 back{1, 0, 0, 0, 1, 0, 128 + 14 * s, 88 - 8 * s, 1};
+        return back * turn * to_centre;
+    }
+    // Where a pixel of frame `from` lies on frame `to`.
+    static Vec2 move(Vec2 p, int to, int from) {
+        return project(frame_from_plane(to) * glm::inverse(frame_from_plane(from)), p);
+    }
+    static bool occluded(Vec2 p, int t) { return distance(p, Vec2(-30 + 15 * t, 96)) < 26; }
+
+    Shot() {
+        const WaveTexture plane(7), occluder(8);
+        for (int t = 0; t < kFrames; ++t) {
+            const Mat3 map = glm::inverse(frame_from_plane(t));
+            luma.push_back(draw(kFrame, [&](Vec2 p) {
+                return occluded(p, t) ? occluder(p - Vec2(15 * t, 0)) : plane(project(map, p));
+            }));
+            visible.push_back(draw(kFrame, [&](Vec2 p) { return occluded(p, t) ? 0.0f : 1.0f; }));
+        }
+    }
+
+    std::vector<Matte> luma, visible;
+};
+
+FlowField flow_between(const Matte& cur, const Matte& prev) {
+    FlowField there = estimate_flow(cur, prev, FlowQuality::kFinal);
+    FlowField back = estimate_flow(prev, cur, FlowQuality::kFinal);
+    check_consistency(there, back);
+    return there;
+}
+
+// Mean distance, over the visible pixels of frame t, between where the walker says they were on the
+// reference frame and where they were.
+float mean_error(const LatticeField& ref_from_cur, const Shot& shot, int t, int reference) {
+    double sum = 0;
+    int count = 0;
+    for (int y = 0; y < kFrame.height; y += 3) {
+        for (int x = 0; x < kFrame.width; x += 3) {
+            if (!shot.visible[static_cast<std::size_t>(t)].at(x, y)) continue;
+            const Vec2 p = centre_of(x, y), truth = Shot::move(p, reference, t);
+            if (!rect_of(kFrame).contains(static_cast<int>(truth.x), static_cast<int>(truth.y)))
+                continue;
+            sum += distance(p + ref_from_cur.at(p), truth);
+            ++count;
+        }
+    }
+    return static_cast<float>(sum / count);
+}
+
+const std::vector<int>& forwards() {
+    static const std::vector<int> frames = [] {
+        std::vector<int> f(kFrames);
+        std::iota(f.begin(), f.end(), 0);
+        return f;
+    }();
+    return frames;
+}
+
+// Walks over `frames`, the first of which is the reference; the error on each further one.
+std::vector<float> walk(const Shot& shot, const std::vector<int>& frames) {
+    const auto at = [](const std::vector<Matte>& list, int t) -> const Matte& {
+        return list[static_cast<std::size_t>(t)];
+    };
+    SurfaceWalker walker(at(shot.luma, frames[0]), at(shot.visible, frames[0]), {});
+    std::vector<float> errors;
+    for (std::size_t k = 1; k < frames.size(); ++k) {
+        const Matte& cur = at(shot.luma, frames[k]);
+        walker.advance(cur, at(shot.visible, frames[k]),
+                       flow_between(cur, at(shot.luma, frames[k - 1])));
+        errors.push_back(mean_error(walker.ref_from_cur(), shot, frames[k], frames[0]));
+    }
+    return errors;
+}
+
+float mean(const std::vector<float>& v, std::size_t from, std::size_t to) {
+    return std::accumulate(v.begin() + static_cast<std::ptrdiff_t>(from),
+                           v.begin() + static_cast<std::ptrdiff_t>(to), 0.0f) /
+           static_cast<float>(to - from);
+}
+
+void expect_close_without_drift(const std::vector<float>& errors, float bound) {
+    for (std::size_t k = 0; k < errors.size(); ++k)
+        EXPECT_LT(errors[k], bound) << "step " << k + 1;
+    EXPECT_LT(mean(errors, 15, 20), mean(errors, 4, 9) + 0.04f);
+}
+
+TEST(SurfaceWalker, FollowsAPlaneBehindAnOccluder) {
+    expect_close_without_drift(walk(Shot(), forwards()), 0.08f);
+}
+
+TEST(SurfaceWalker, WalksBackwards) {
+    expect_close_without_drift(walk(Shot(), {forwards().rbegin(), forwards().rend()}), 0.08f);
+}
+
+TEST(SurfaceWalker, IsNotMisledByChangesOfBrightness) {
+    Shot shot;
+    for (int t = 0; t < kFrames; ++t) {
+        const float gain = 1 - 0.3f * static_cast<float>(t) / (kFrames - 1);
+        Matte& luma = shot.luma[static_cast<std::size_t>(t)];
+        for (int y = 0; y < kFrame.height; ++y) {
+            for (int x = 0; x < kFrame.width; ++x) {
+                luma.at(x, y) = code_of(gain * static_cast<float>(luma.at(x, y)) / 255.0f);
+            }
+        }
+    }
+    expect_close_without_drift(walk(shot, forwards()), 0.08f);
+}
+
+TEST(SurfaceWalker, ChainsTrueMotionClosely) {
+    const Shot shot;
+    SurfaceWalkerOptions options;
+    options.exact_motion = true;
+    options.spacing_px = 4;
+    SurfaceWalker walker(shot.luma[0], shot.visible[0], options);
+    for (std::size_t t = 1; t < kFrames; ++t) {
+        FlowField motion(kFrame);
+        motion.valid = shot.visible[t];
+        for (int y = 0; y < kFrame.height; ++y) {
+            for (int x = 0; x < kFrame.width; ++x) {
+                const Vec2 p = centre_of(x, y);
+                const Vec2 d =
+                    Shot::occluded(p, static_cast<int>(t))
+                        ? Vec2(-15, 0)
+                        : Shot::move(p, static_cast<int>(t) - 1, static_cast<int>(t)) - p;
+                motion.d.at(x, y, 0) = d.x;
+                motion.d.at(x, y, 1) = d.y;
+            }
+        }
+        walker.advance(shot.luma[t], shot.visible[t], motion);
+        EXPECT_LT(mean_error(walker.ref_from_cur(), shot, static_cast<int>(t), 0), 0.03f) << t;
+    }
+}
+
+TEST(SurfaceWalker, TheStepIsTheLastMotion) {
+    const Shot shot;
+    SurfaceWalker walker(shot.luma[0], shot.visible[0], {});
+    walker.advance(shot.luma[1], shot.visible[1], flow_between(shot.luma[1], shot.luma[0]));
+    const LatticeField first = walker.prev_from_cur();
+    walker.advance(shot.luma[2], shot.visible[2], flow_between(shot.luma[2], shot.luma[1]));
+    const Vec2 p(180, 60);
+    EXPECT_LT(distance(p + walker.prev_from_cur().at(p), Shot::move(p, 1, 2)), 0.15f);
+    EXPECT_LT(distance(p + first.at(p), Shot::move(p, 0, 1)), 0.15f);
+}
+
+TEST(SurfaceWalker, BeginsWhereAnEarlierWalkEnded) {
+    const Shot shot;
+    LatticeField base(kFrame, 8);
+    for (int j = 0; j < base.nodes().height(); ++j) {
+        for (int i = 0; i < base.nodes().width(); ++i)
+            base.set_node(i, j, {30, -12});
+    }
+    SurfaceWalker walker(shot.luma[0], shot.visible[0], {}, &base),
+        plain(shot.luma[0], shot.visible[0], {});
+    EXPECT_EQ(walker.ref_from_cur().nodes(), base.nodes());
+    const FlowField motion = flow_between(shot.luma[1], shot.luma[0]);
+    const Vec2 p(90, 40);
+    const Vec2 moved = walker.advance(shot.luma[1], shot.visible[1], motion).at(p);
+    const Vec2 alone = plain.advance(shot.luma[1], shot.visible[1], motion).at(p);
+    EXPECT_LT(distance(moved, alone + Vec2(30, -12)), 1e-3f);
+    // A new anchor changes what further frames are compared with, not where this one is.
+    const LatticeField before = walker.ref_from_cur();
+    walker.anchor_here(shot.luma[1], shot.visible[1]);
+    EXPECT_EQ(walker.ref_from_cur().nodes(), before.nodes());
+}
+
+TEST(SurfaceWalker, StandsStillWhereNothingIsVisible) {
+    const Shot shot;
+    const Matte nothing(kFrame);
+    SurfaceWalker walker(shot.luma[0], nothing, {});
+    walker.advance(shot.luma[1], nothing, flow_between(shot.luma[1], shot.luma[0]));
+    EXPECT_EQ(walker.ref_from_cur().at({100, 100}), Vec2(0, 0));
+}
+
+TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
+    const Shot shot;
+    SurfaceWalker walker(shot.luma[0], Matte(kFrame), {});
+    const FlowField motion = flow_between(shot.luma[1], shot.luma[0]);
+    walker.advance(shot.luma[1], shot.visible[1], motion);
+    EXPECT_LT(mean_error(walker.ref_from_cur(), shot, 1, 0), 0.2f);
+}
+
+}  // namespace
+}  // namespace weft
