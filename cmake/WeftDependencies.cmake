@@ -1,8 +1,7 @@
 # Every library comes from a Debian package; ./run installs them by name.
 find_package(Threads REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc video optflow)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgcodecs imgproc optflow video)
 find_package(OpenImageIO REQUIRED)
-find_package(OpenColorIO REQUIRED PATHS /usr/share/cmake)
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -47,7 +47,10 @@ int demo_command(const std::string& assets, const std::string& output, const Run
     *project = resolve_paths(*project, project_dir(path));
     project->output.path = (fs::path(output) / "####.png").string();
     project->output.movie = (fs::path(output) / "demo.mp4").string();
-    if (const int exit = render_command(*project, run); exit != 0 || run.dry_run) return exit;
+    // The folder is the demo's own: a second run replaces what the first one left.
+    RunOptions demo_run = run;
+    demo_run.overwrite = !run.skip_existing;
+    if (const int exit = render_command(*project, demo_run); exit != 0 || run.dry_run) return exit;
     const std::string sheet = (fs::path(output) / "contact_sheet.png").string();
     if (const Status written = write_contact_sheet(*project, sheet); !written) return report_error(written.error());
     if (!run.json) {

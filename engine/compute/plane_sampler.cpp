@@ -38,9 +38,9 @@ struct LevelView {
     float scale_x, scale_y;
 };
 
-// Cubic convolution (Keys 1981). Catmull–Rom is a = −0.5 and OpenCV's cubic a = −0.75; between them
-// the mean over a pixel comes out within a few percent of either's own (docs/decisions/0005).
-constexpr float kA = -0.6f;
+// Cubic convolution (Keys 1981) with a = −0.5, Catmull–Rom: averaged over the pixel it keeps the
+// plane's sharpness; steeper kernels overshoot it (docs/decisions/0005-sampling-filter.md).
+constexpr float kA = -0.5f;
 
 F4 cubic_weights(float f) {
     const float g = 1 - f;
