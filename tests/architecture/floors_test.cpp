@@ -69,7 +69,7 @@ const std::vector<Library> kLibraries{
       "engine/temporal", "engine/lighting", "engine/composite", "engine/metrics", "texture_db",
       "app/session"}},
     {"OpenImageIO", {"OpenImageIO/"}, {"engine/media"}},
-    {"FFmpeg", {"libavcodec/", "libavformat/", "libavutil/", "libswscale/"}, {"engine/media"}},
+    {"FFmpeg", {"libavcodec/", "libavformat/", "libavutil/", "libswscale/"}, {"engine/media"}, true},
     {"OpenColorIO", {"OpenColorIO/"}, {"engine/color"}},
     {"nlohmann-json", {"nlohmann/"}, {"app", "texture_db", "app/project/json_codec.h"}},
     {"CLI11", {"CLI/"}, {"app/cli", "app/main.cpp"}, true},
