@@ -23,11 +23,13 @@ std::string command_of(const CLI::App& app) {
 }
 
 bool has_command(const CLI::App& app, const std::string& name) {
-    return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); }).empty();
+    return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); })
+                .empty();
 }
 
 // One line for what CLI11 found wrong with the arguments.
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc,
+                          char** argv) {
     std::string what = error.what();
     const std::string first = argc > 1 ? argv[1] : "";
     if (argc < 2) {
@@ -62,8 +64,10 @@ int run_cli(int argc, char** argv) {
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.footer(
-        "Exit codes: 0 ok, 1 render failed, 2 usage, 3 project or input unreadable, 4 missing frames,\n"
-        "5 backend unavailable, 6 out of disk or memory, 7 refused by policy, 8 verification differs,\n"
+        "Exit codes: 0 ok, 1 render failed, 2 usage, 3 project or input unreadable, 4 missing "
+        "frames,\n"
+        "5 backend unavailable, 6 out of disk or memory, 7 refused by policy, 8 verification "
+        "differs,\n"
         "130 interrupted, 143 terminated. Each command has its own --help with examples.");
     int exit = 0;
     add_render_commands(app, exit);
@@ -72,16 +76,19 @@ int run_cli(int argc, char** argv) {
     try {
         const int code = parse(app, argc, argv, exit);
         if (code == 0 && std::ferror(stdout)) {
-            return report_error({ErrorCode::kNoSpace,
-                                 "What was to be printed could not be written. Free disk space, or send the "
-                                 "standard output elsewhere.",
-                                 {}});
+            return report_error(
+                {ErrorCode::kNoSpace,
+                 "What was to be printed could not be written. Free disk space, or send the "
+                 "standard output elsewhere.",
+                 {}});
         }
         return code;
     } catch (const std::bad_alloc&) {
-        return report_error({ErrorCode::kNoSpace, "Out of memory. Use fewer --threads or smaller plates.", {}});
+        return report_error(
+            {ErrorCode::kNoSpace, "Out of memory. Use fewer --threads or smaller plates.", {}});
     } catch (const std::exception& error) {
-        return report_error({ErrorCode::kRenderFailed, std::string("Unexpected failure: ") + error.what(), {}});
+        return report_error(
+            {ErrorCode::kRenderFailed, std::string("Unexpected failure: ") + error.what(), {}});
     }
 }
 

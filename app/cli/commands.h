@@ -19,7 +19,7 @@ struct RunOptions {
     bool overwrite = false, skip_existing = false;
     bool dry_run = false;
     AnalysisCacheOptions cache;
-    std::string report;                       ///< Path of the JSON report.
+    std::string report;  ///< Path of the JSON report.
     ProgressStyle progress = ProgressStyle::kPlain;
     bool json = false;
 };
@@ -38,9 +38,9 @@ struct SynthOptions {
 int synth_command(const SynthOptions& options);
 
 struct MeasureCommandOptions {
-    Project project;                          ///< Plate, matte, placement, motion; paths resolved.
+    Project project;  ///< Plate, matte, placement, motion; paths resolved.
     std::string result;
-    std::string texture;                      ///< Plane to compare with; empty: none.
+    std::string texture;  ///< Plane to compare with; empty: none.
     std::string motion_estimator = "deepflow";
     int threads = 0;
     bool json = false;
@@ -50,7 +50,7 @@ int measure_command(const MeasureCommandOptions& options);
 struct DiffOptions {
     std::string a, b;
     std::string frames;
-    double tolerance = 0;                     ///< Largest difference that counts as the same.
+    double tolerance = 0;  ///< Largest difference that counts as the same.
     bool json = false;
 };
 int diff_command(const DiffOptions& options);

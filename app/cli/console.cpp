@@ -13,21 +13,28 @@ const CancelToken& signal_token() {
     return token;
 }
 
-void on_signal(int signal) { signal_token().cancel(signal == SIGINT ? 130 : 143); }
+void on_signal(int signal) {
+    signal_token().cancel(signal == SIGINT ? 130 : 143);
+}
 
 std::string plain_line(const ProgressEvent& e) {
     char line[160];
-    const double percent = e.total > 0 ? 100.0 * static_cast<double>(e.done) / static_cast<double>(e.total) : 100.0;
+    const double percent =
+        e.total > 0 ? 100.0 * static_cast<double>(e.done) / static_cast<double>(e.total) : 100.0;
     const bool rendered = e.stage == "render";
-    std::snprintf(line, sizeof line, "%s%sframe %d %lld/%lld %.1f%% %.2fs\n", rendered ? "" : e.stage.c_str(),
-                  rendered ? "" : " ", e.frame, static_cast<long long>(e.done), static_cast<long long>(e.total),
-                  percent, e.seconds);
+    std::snprintf(line, sizeof line, "%s%sframe %d %lld/%lld %.1f%% %.2fs\n",
+                  rendered ? "" : e.stage.c_str(), rendered ? "" : " ", e.frame,
+                  static_cast<long long>(e.done), static_cast<long long>(e.total), percent,
+                  e.seconds);
     return line;
 }
 
 std::string json_line(const ProgressEvent& e) {
-    return nlohmann::ordered_json{{"stage", e.stage}, {"frame", e.frame},     {"done", e.done},
-                                  {"total", e.total}, {"seconds", e.seconds}}
+    return nlohmann::ordered_json{{"stage", e.stage},
+                                  {"frame", e.frame},
+                                  {"done", e.done},
+                                  {"total", e.total},
+                                  {"seconds", e.seconds}}
                .dump() +
            "\n";
 }
@@ -39,7 +46,9 @@ void print(std::FILE* stream, std::string_view text) {
     std::fflush(stream);
 }
 
-void print_warning(std::string_view text) { print(stderr, "weft: warning: " + std::string(text) + "\n"); }
+void print_warning(std::string_view text) {
+    print(stderr, "weft: warning: " + std::string(text) + "\n");
+}
 
 int report_error(const Error& error) {
     print(stderr, "weft: " + error.text() + "\n");

@@ -1,6 +1,6 @@
 #pragma once
-// What goes to which stream: results and progress to stdout, messages to stderr. With --json exactly
-// one object goes to stdout and progress to stderr.
+// What goes to which stream: results and progress to stdout, messages to stderr. With --json
+// exactly one object goes to stdout and progress to stderr.
 
 #include <cstdio>
 #include <string>

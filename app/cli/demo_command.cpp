@@ -25,9 +25,11 @@ Status write_contact_sheet(const Project& project, const std::string& path) {
             WEFT_TRY(picture, (row == 0 ? plate : result)->read(frame));
             for (int y = 0; y < half.height; ++y) {
                 for (int x = 0; x < half.width; ++x) {
-                    float* out = sheet.pixel(column * (half.width + kGap) + x, row * (half.height + kGap) + y);
+                    float* out = sheet.pixel(column * (half.width + kGap) + x,
+                                             row * (half.height + kGap) + y);
                     for (int c = 0; c < 3; ++c) {
-                        out[c] = 0.25f * (picture.rgb.pixel(2 * x, 2 * y)[c] + picture.rgb.pixel(2 * x + 1, 2 * y)[c] +
+                        out[c] = 0.25f * (picture.rgb.pixel(2 * x, 2 * y)[c] +
+                                          picture.rgb.pixel(2 * x + 1, 2 * y)[c] +
                                           picture.rgb.pixel(2 * x, 2 * y + 1)[c] +
                                           picture.rgb.pixel(2 * x + 1, 2 * y + 1)[c]);
                     }
@@ -52,11 +54,13 @@ int demo_command(const std::string& assets, const std::string& output, const Run
     demo_run.overwrite = !run.skip_existing;
     if (const int exit = render_command(*project, demo_run); exit != 0 || run.dry_run) return exit;
     const std::string sheet = (fs::path(output) / "contact_sheet.png").string();
-    if (const Status written = write_contact_sheet(*project, sheet); !written) return report_error(written.error());
+    if (const Status written = write_contact_sheet(*project, sheet); !written)
+        return report_error(written.error());
     if (!run.json) {
-        print(stdout, "The demo shot is in " + fs::absolute(output).string() + ":\n  frames         " +
-                          project->output.path + "\n  movie          " + project->output.movie +
-                          "\n  contact sheet  " + sheet + " (plate above, result below)\n");
+        print(stdout, "The demo shot is in " + fs::absolute(output).string() +
+                          ":\n  frames         " + project->output.path + "\n  movie          " +
+                          project->output.movie + "\n  contact sheet  " + sheet +
+                          " (plate above, result below)\n");
     }
     return 0;
 }

@@ -18,14 +18,16 @@ struct Outcome {
     std::string text;
 };
 
-Expected<std::vector<int>> common_frames(const DiffOptions& options, const FrameReader& a, const FrameReader& b) {
+Expected<std::vector<int>> common_frames(const DiffOptions& options, const FrameReader& a,
+                                         const FrameReader& b) {
     std::vector<int> wanted = a.frames();
     if (!options.frames.empty()) {
         WEFT_TRY(list, parse_frame_list(options.frames));
         wanted = std::move(list);
     } else if (a.frames() != b.frames() && a.frames().size() + b.frames().size() > 2) {
-        return fail(ErrorCode::kDiffers, options.a + " has frames " + format_frame_list(a.frames()) + ", " +
-                                             options.b + " has " + format_frame_list(b.frames()) +
+        return fail(ErrorCode::kDiffers, options.a + " has frames " +
+                                             format_frame_list(a.frames()) + ", " + options.b +
+                                             " has " + format_frame_list(b.frames()) +
                                              ". Compare those in both with --frames.");
     }
     return wanted;
@@ -35,7 +37,8 @@ Expected<Outcome> compare(const DiffOptions& options) {
     WEFT_TRY(a, open_plate(options.a, {}));
     WEFT_TRY(b, open_plate(options.b, {}));
     WEFT_TRY(frames, common_frames(options, *a, *b));
-    const bool single = a->frames().size() == 1 && b->frames().size() == 1 && options.frames.empty();
+    const bool single =
+        a->frames().size() == 1 && b->frames().size() == 1 && options.frames.empty();
     Outcome out;
     for (const int frame : frames) {
         WEFT_TRY(left, a->read(frame));
@@ -56,10 +59,11 @@ Expected<Outcome> compare(const DiffOptions& options) {
                               {"box", {box.x0, box.y0, box.x1, box.y1}},
                               {"psnr_db", diff->psnr_db ? Json(*diff->psnr_db) : Json()}});
         char line[200];
-        std::snprintf(line, sizeof line,
-                      "frame %d: %lld of %lld pixels differ, by at most %.6f, inside %d,%d to %d,%d\n", frame,
-                      static_cast<long long>(diff->differing), static_cast<long long>(diff->pixels), largest, box.x0,
-                      box.y0, box.x1, box.y1);
+        std::snprintf(
+            line, sizeof line,
+            "frame %d: %lld of %lld pixels differ, by at most %.6f, inside %d,%d to %d,%d\n", frame,
+            static_cast<long long>(diff->differing), static_cast<long long>(diff->pixels), largest,
+            box.x0, box.y0, box.x1, box.y1);
         out.text += line;
     }
     return out;
@@ -80,8 +84,8 @@ int diff_command(const DiffOptions& options) {
         print(stdout, json.dump(2) + "\n");
     } else {
         print(stdout, outcome->text + (all.equal() ? "The same: " : "Different: ") +
-                          std::to_string(all.frames - all.differing_frames) + " of " + std::to_string(all.frames) +
-                          " frames are equal.\n");
+                          std::to_string(all.frames - all.differing_frames) + " of " +
+                          std::to_string(all.frames) + " frames are equal.\n");
     }
     return all.equal() ? 0 : exit_code(ErrorCode::kDiffers);
 }

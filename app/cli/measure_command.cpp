@@ -22,8 +22,10 @@ struct Outcome {
 };
 
 // The plane that the result was made from: given, or grown again as the render does.
-Expected<ImageU8x3> ideal_plane(const MeasureCommandOptions& options, const Region& region, Size plate) {
-    const std::string& path = region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
+Expected<ImageU8x3> ideal_plane(const MeasureCommandOptions& options, const Region& region,
+                                Size plate) {
+    const std::string& path =
+        region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
     WEFT_TRY(picture, read_image(path));
     const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
     WEFT_TRY(space, parse_color_space(!region.texture.space.empty() ? region.texture.space
@@ -57,7 +59,8 @@ class Measurer {
         SequenceMeasure measure(std::move(measure_options));
         for (const int frame : frames_) {
             auto measured = add(measure, frame);
-            if (!measured) return fail_in(std::move(measured).error(), "Frame " + std::to_string(frame));
+            if (!measured)
+                return fail_in(std::move(measured).error(), "Frame " + std::to_string(frame));
             outcome_.frames.push_back(*measured);
         }
         outcome_.all = measure.summary();
@@ -72,17 +75,20 @@ class Measurer {
         WEFT_TRY(result, open_plate(options_.result, {"", project.plate.movie_start}));
         result_ = result;
         // Where no frames were asked for, the result says which there are.
-        if (project.settings.frames.empty()) project.settings.frames = format_frame_list(result_->frames());
+        if (project.settings.frames.empty())
+            project.settings.frames = format_frame_list(result_->frames());
         WEFT_TRY(shot, open_shot(project, open));
         shot_ = shot;
         outcome_.warnings = shot_->warnings;
         if (region().propagated()) {
-            return fail(ErrorCode::kUsage, "Measuring needs a matte for every frame; 'weft matte' makes them.");
+            return fail(ErrorCode::kUsage,
+                        "Measuring needs a matte for every frame; 'weft matte' makes them.");
         }
         frames_ = shot_->plan.frames;
         for (const int frame : frames_) {
             if (!std::binary_search(result_->frames().begin(), result_->frames().end(), frame)) {
-                return fail(ErrorCode::kMissingFrames, "The result " + options_.result + " has no frame " +
+                return fail(ErrorCode::kMissingFrames, "The result " + options_.result +
+                                                           " has no frame " +
                                                            std::to_string(frame) + ".");
             }
         }
@@ -90,7 +96,9 @@ class Measurer {
             return fail(ErrorCode::kUnreadable, "The result and the plate differ in size.");
         }
         const std::string& out = project.color.out_space;
-        WEFT_TRY(out_space, parse_color_space(!out.empty() ? out : result_->display_encoded() ? "srgb" : "linear"));
+        WEFT_TRY(out_space, parse_color_space(!out.empty()                 ? out
+                                              : result_->display_encoded() ? "srgb"
+                                                                           : "linear"));
         WEFT_TRY(display_from_result, make_color_transform(out_space, {"srgb"}));
         display_from_result_ = display_from_result;
         return {};
@@ -107,11 +115,13 @@ class Measurer {
         const bool textured = !settings.texture.sample.empty() || !settings.texture.plane.empty();
         if (!textured) return out;
         if (!region().true_motion) {
-            outcome_.warnings.push_back("Without true motion (--motion) there is no floor and no sharpness kept.");
+            outcome_.warnings.push_back(
+                "Without true motion (--motion) there is no floor and no sharpness kept.");
             return out;
         }
         if (region().reference_frames.front() != frames_.front()) {
-            outcome_.warnings.push_back("The reference frame is not the first measured one: no floor, no sharpness kept.");
+            outcome_.warnings.push_back(
+                "The reference frame is not the first measured one: no floor, no sharpness kept.");
             return out;
         }
         WEFT_TRY(plane, ideal_plane(options_, settings, shot_->plate->size()));
@@ -130,11 +140,14 @@ class Measurer {
         const Matte matte = holdout ? without_holdout(extent, *holdout) : std::move(extent);
         std::optional<FlowField> motion;
         if (region().true_motion && !outcome_.frames.empty()) {
-            WEFT_TRY(field, shot_->source->motion(0, region().motion_forward ? outcome_.frames.back().frame : frame));
+            WEFT_TRY(field, shot_->source->motion(
+                                0, region().motion_forward ? outcome_.frames.back().frame : frame));
             motion = std::move(field);
         }
-        return measure.add({frame, result.rgb, source, matte, motion ? &*motion : nullptr,
-                            region().motion_forward ? MotionDirection::kForward : MotionDirection::kBackward, nullptr});
+        return measure.add(
+            {frame, result.rgb, source, matte, motion ? &*motion : nullptr,
+             region().motion_forward ? MotionDirection::kForward : MotionDirection::kBackward,
+             nullptr});
     }
 
     const MeasureCommandOptions& options_;
@@ -145,7 +158,9 @@ class Measurer {
     Outcome outcome_;
 };
 
-Json number(const std::optional<double>& v) { return v ? Json(*v) : Json(); }
+Json number(const std::optional<double>& v) {
+    return v ? Json(*v) : Json();
+}
 
 Json spread(const Spread& s) {
     if (s.frames == 0) return Json();
@@ -170,7 +185,8 @@ Json frame_json(const FrameMeasures& f) {
 Json to_json(const Outcome& o) {
     const SequenceMeasures& a = o.all;
     Json frames = Json::array();
-    for (const FrameMeasures& f : o.frames) frames.push_back(frame_json(f));
+    for (const FrameMeasures& f : o.frames)
+        frames.push_back(frame_json(f));
     return {{"motion", a.motion},
             {"frames", a.frames},
             {"tde", spread(a.tde)},
@@ -193,16 +209,19 @@ Json to_json(const Outcome& o) {
 std::string line(const char* name, const Spread& s) {
     if (s.frames == 0) return std::string(name) + "  not measured\n";
     char text[160];
-    std::snprintf(text, sizeof text, "%s  mean %.3f, %.3f to %.3f\n", name, s.mean, s.least, s.largest);
+    std::snprintf(text, sizeof text, "%s  mean %.3f, %.3f to %.3f\n", name, s.mean, s.least,
+                  s.largest);
     return text;
 }
 
 std::string to_text(const Outcome& o) {
     const SequenceMeasures& a = o.all;
-    std::string text = std::to_string(a.frames) + " frames, measured with motion: " + a.motion + "\n";
+    std::string text =
+        std::to_string(a.frames) + " frames, measured with motion: " + a.motion + "\n";
     text += line("TDE of the result  ", a.tde) + line("TDE of the source  ", a.source_tde) +
             line("TDE floor          ", a.tde_floor) + line("TDE at the floor's ", a.tde_at_floor) +
-            line("sharpness kept     ", a.sharpness_kept) + line("RMS contrast kept  ", a.rms_contrast_kept);
+            line("sharpness kept     ", a.sharpness_kept) +
+            line("RMS contrast kept  ", a.rms_contrast_kept);
     char more[400];
     if (a.tde_over_floor) {
         std::snprintf(more, sizeof more, "TDE over floor       %.3f\n", *a.tde_over_floor);
@@ -213,7 +232,8 @@ std::string to_text(const Outcome& o) {
         text += more;
     }
     std::snprintf(more, sizeof more,
-                  "TIV                  %.3f (source %.3f), relative %.6f\noutside the matte    %lld pixels differ\n",
+                  "TIV                  %.3f (source %.3f), relative %.6f\noutside the matte    "
+                  "%lld pixels differ\n",
                   a.tiv, a.source_tiv, a.tiv_relative, static_cast<long long>(a.outside_differing));
     return text + more;
 }
@@ -224,7 +244,8 @@ int measure_command(const MeasureCommandOptions& options) {
     use_threads(options.threads);
     const auto outcome = Measurer(options).run();
     if (!outcome) return report_error(outcome.error());
-    for (const std::string& warning : outcome->warnings) print_warning(warning);
+    for (const std::string& warning : outcome->warnings)
+        print_warning(warning);
     print(stdout, options.json ? to_json(*outcome).dump(2) + "\n" : to_text(*outcome));
     return 0;
 }

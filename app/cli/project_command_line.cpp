@@ -16,11 +16,13 @@ void add_new(CLI::App& app, int& exit) {
     const auto path = std::make_shared<std::string>();
     const auto overwrite = std::make_shared<bool>(false);
     add_path(*command, *path);
-    const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{true, true, true, false, false});
+    const auto flags = std::make_shared<ProjectFlags>(
+        *command, ProjectFlags::Which{true, true, true, false, false});
     command->add_flag("--overwrite", *overwrite, "Replace the file if it exists");
     command->footer(
         "Relative paths are kept as written and mean the project file's folder.\n"
-        "Example:\n  weft new shot.weft --plate 'frames/####.exr' -o 'out/####.exr' --frames 1001-1048");
+        "Example:\n  weft new shot.weft --plate 'frames/####.exr' -o 'out/####.exr' --frames "
+        "1001-1048");
     command->callback([=, &exit] {
         Project project;
         const Status status = flags->apply(project);
@@ -32,10 +34,12 @@ void add_region_add(CLI::App& group, int& exit) {
     CLI::App* command = group.add_subcommand("add", "Add a region on top");
     const auto path = std::make_shared<std::string>();
     add_path(*command, *path);
-    const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{false, false, false, true, true});
+    const auto flags = std::make_shared<ProjectFlags>(
+        *command, ProjectFlags::Which{false, false, false, true, true});
     command->footer(
         "Example:\n"
-        "  weft region add shot.weft --name wall --matte 'masks/wall.####.png' --texture brick.jpg --scale 1.5");
+        "  weft region add shot.weft --name wall --matte 'masks/wall.####.png' --texture brick.jpg "
+        "--scale 1.5");
     command->callback([=, &exit] {
         Region region;
         const Status status = flags->apply(region);
@@ -48,7 +52,8 @@ void add_region_set(CLI::App& group, int& exit) {
     const auto path = std::make_shared<std::string>(), region = std::make_shared<std::string>();
     add_path(*command, *path);
     command->add_option("region", *region, "Name or id of the region")->required();
-    const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{false, false, false, true, true});
+    const auto flags = std::make_shared<ProjectFlags>(
+        *command, ProjectFlags::Which{false, false, false, true, true});
     command->footer("Example:\n  weft region set shot.weft wall --rotate 12 --light-strength 0.7");
     command->callback([=, &exit] {
         auto project = load_project(*path);
@@ -90,7 +95,9 @@ void add_apply(CLI::App& app, int& exit) {
     const auto path = std::make_shared<std::string>(), actions = std::make_shared<std::string>();
     const auto dry = std::make_shared<bool>(false);
     add_path(*command, *path);
-    command->add_option("actions", *actions, "JSON list of actions (docs/FORMATS.md)")->required()->type_name("PATH");
+    command->add_option("actions", *actions, "JSON list of actions (docs/FORMATS.md)")
+        ->required()
+        ->type_name("PATH");
     command->add_flag("--dry-run", *dry, "Check the actions and change nothing");
     command->footer(
         "All actions are applied, or none.\n"

@@ -27,7 +27,9 @@ int saved(const std::string& path, const Expected<Project>& project) {
 
 Expected<std::string> read_text(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) return fail(ErrorCode::kUnreadable, path + " cannot be read. Check the name and its permissions.");
+    if (!file)
+        return fail(ErrorCode::kUnreadable,
+                    path + " cannot be read. Check the name and its permissions.");
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
@@ -39,7 +41,8 @@ Error in_file(Error error, const std::string& path) {
 Json region_json(const Region& region) {
     Json out{{"id", region.id}, {"name", region.name}, {"enabled", region.enabled}};
     Json keys = Json::array();
-    for (const auto& [frame, key] : region.matte->keyframes) keys.push_back(frame);
+    for (const auto& [frame, key] : region.matte->keyframes)
+        keys.push_back(frame);
     out["matte"] = {{"files", region.matte->files}, {"keyframes", keys}};
     out["holdouts"] = region.holdouts->size();
     out["texture"] = region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
@@ -50,7 +53,8 @@ Json region_json(const Region& region) {
 
 int new_command(const std::string& path, const Project& project, bool overwrite) {
     if (!overwrite && std::filesystem::exists(path)) {
-        return report_error({ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.", {}});
+        return report_error(
+            {ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.", {}});
     }
     return saved(path, project);
 }
@@ -82,8 +86,9 @@ int region_list_command(const std::string& path, bool json) {
     for (const auto& region : project->regions) {
         const Json entry = region_json(*region);
         list.push_back(entry);
-        text += std::to_string(region->id) + "  " + region->name + (region->enabled ? "" : " (off)") + "  " +
-                entry["texture"].get<std::string>() + "\n";
+        text += std::to_string(region->id) + "  " + region->name +
+                (region->enabled ? "" : " (off)") + "  " + entry["texture"].get<std::string>() +
+                "\n";
     }
     print(stdout, json ? list.dump(2) + "\n" : text);
     return 0;
@@ -96,27 +101,33 @@ int info_command(const std::string& path, bool json) {
     if (!shot) return report_error(shot.error());
     const CachedReader& plate = *(*shot)->plate;
     Json regions = Json::array();
-    for (const auto& region : project->regions) regions.push_back(region_json(*region));
-    const Json info{{"project", path},
-                    {"name", project->name},
-                    {"plate",
-                     {{"path", project->plate.path},
-                      {"size", {plate.size().width, plate.size().height}},
-                      {"frames", format_frame_list(plate.frames())},
-                      {"fps", plate.fps()},
-                      {"space", (*shot)->spaces.plate.name}}},
-                    {"render", {{"frames", format_frame_list((*shot)->plan.frames)}, {"output", project->output.path}}},
-                    {"spaces", {{"working", (*shot)->spaces.working.name}, {"out", (*shot)->spaces.out.name}}},
-                    {"regions", regions},
-                    {"warnings", (*shot)->warnings}};
+    for (const auto& region : project->regions)
+        regions.push_back(region_json(*region));
+    const Json info{
+        {"project", path},
+        {"name", project->name},
+        {"plate",
+         {{"path", project->plate.path},
+          {"size", {plate.size().width, plate.size().height}},
+          {"frames", format_frame_list(plate.frames())},
+          {"fps", plate.fps()},
+          {"space", (*shot)->spaces.plate.name}}},
+        {"render",
+         {{"frames", format_frame_list((*shot)->plan.frames)}, {"output", project->output.path}}},
+        {"spaces", {{"working", (*shot)->spaces.working.name}, {"out", (*shot)->spaces.out.name}}},
+        {"regions", regions},
+        {"warnings", (*shot)->warnings}};
     if (json) {
         print(stdout, info.dump(2) + "\n");
         return 0;
     }
-    print(stdout, path + "\nplate    " + project->plate.path + "  " + std::to_string(plate.size().width) + "x" +
-                      std::to_string(plate.size().height) + "  frames " + format_frame_list(plate.frames()) + "  " +
-                      (*shot)->spaces.plate.name + "\nrender   frames " + format_frame_list((*shot)->plan.frames) +
-                      "  to " + project->output.path + "\nregions  " + std::to_string(project->regions.size()) + "\n");
+    print(stdout, path + "\nplate    " + project->plate.path + "  " +
+                      std::to_string(plate.size().width) + "x" +
+                      std::to_string(plate.size().height) + "  frames " +
+                      format_frame_list(plate.frames()) + "  " + (*shot)->spaces.plate.name +
+                      "\nrender   frames " + format_frame_list((*shot)->plan.frames) + "  to " +
+                      project->output.path + "\nregions  " +
+                      std::to_string(project->regions.size()) + "\n");
     return region_list_command(path, false);
 }
 
@@ -125,13 +136,15 @@ int validate_command(const std::string& path, bool files) {
     if (!project) return report_error(project.error());
     const auto issues = validate(*project);
     for (const Issue& issue : issues) {
-        print(stdout, std::string(issue.severity == Severity::kError ? "error: " : "warning: ") + issue.text() + "\n");
+        print(stdout, std::string(issue.severity == Severity::kError ? "error: " : "warning: ") +
+                          issue.text() + "\n");
     }
     if (has_errors(issues)) return exit_code(ErrorCode::kUsage);
     if (files) {
         const auto shot = open_shot(resolve_paths(*project, project_dir(path)));
         if (!shot) return report_error(shot.error());
-        for (const std::string& warning : (*shot)->warnings) print(stdout, "warning: " + warning + "\n");
+        for (const std::string& warning : (*shot)->warnings)
+            print(stdout, "warning: " + warning + "\n");
     }
     print(stdout, path + " is valid.\n");
     return 0;

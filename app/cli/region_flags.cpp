@@ -21,11 +21,13 @@ bool begins_with_any(std::string_view flag, std::initializer_list<std::string_vi
 }
 
 bool is_plate_flag(std::string_view flag) {
-    return begins_with_any(flag, {"--plate", "--plate-layer", "--movie-start", "--plate-space", "--fps"});
+    return begins_with_any(flag,
+                           {"--plate", "--plate-layer", "--movie-start", "--plate-space", "--fps"});
 }
 
 bool is_output_flag(std::string_view flag) {
-    return begins_with_any(flag, {"--output", "--depth", "--jpeg-quality", "--exr-compression", "--movie", "--out-space"});
+    return begins_with_any(flag, {"--output", "--depth", "--jpeg-quality", "--exr-compression",
+                                  "--movie", "--out-space"});
 }
 
 bool is_matte_flag(std::string_view flag) {
@@ -35,7 +37,8 @@ bool is_matte_flag(std::string_view flag) {
 }  // namespace
 
 template <class Owner>
-void ProjectFlags::add(CLI::App& command, const Parameter<Owner>& parameter, std::list<Given<Owner>>& into) {
+void ProjectFlags::add(CLI::App& command, const Parameter<Owner>& parameter,
+                       std::list<Given<Owner>>& into) {
     into.push_back({&parameter, {}, false});
     Given<Owner>& given = into.back();
     std::string names(parameter.flag);
@@ -52,30 +55,40 @@ void ProjectFlags::add(CLI::App& command, const Parameter<Owner>& parameter, std
         option->multi_option_policy(parameter.repeatable ? CLI::MultiOptionPolicy::TakeAll
                                                          : CLI::MultiOptionPolicy::TakeLast);
     }
-    option->type_name(parameter.is_path ? "PATH" : parameter.unit.empty() ? "" : std::string(parameter.unit));
+    option->type_name(parameter.is_path        ? "PATH"
+                      : parameter.unit.empty() ? ""
+                                               : std::string(parameter.unit));
 }
 
 ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
     for (const auto& parameter : project_parameters()) {
         if (parameter.flag.empty() || parameter.flag == "--project-name") continue;
         const bool plate = is_plate_flag(parameter.flag), output = is_output_flag(parameter.flag);
-        if (plate ? which.plate : output ? which.output : which.render || (which.plate && parameter.flag == "--frames")) {
+        if (plate    ? which.plate
+            : output ? which.output
+                     : which.render || (which.plate && parameter.flag == "--frames")) {
             add(command, parameter, project_);
         }
     }
     if (which.matte) {
-        command.add_option("--matte", mattes_, "Matte for every frame ('masks/####.png'), or a painted keyframe (12=a.png); repeatable")
+        command
+            .add_option("--matte", mattes_,
+                        "Matte for every frame ('masks/####.png'), or a painted keyframe "
+                        "(12=a.png); repeatable")
             ->type_name("PATH")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        command.add_option("--holdout", holdouts_, "Matte of what passes in front of the surface; repeatable")
+        command
+            .add_option("--holdout", holdouts_,
+                        "Matte of what passes in front of the surface; repeatable")
             ->type_name("PATH")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
     for (const auto& parameter : region_parameters()) {
         if (parameter.flag.empty()) continue;
-        if (is_matte_flag(parameter.flag) ? which.matte : which.region) add(command, parameter, region_);
+        if (is_matte_flag(parameter.flag) ? which.matte : which.region)
+            add(command, parameter, region_);
     }
 }
 
@@ -106,14 +119,17 @@ Status apply_given(Owner& owner, const List& given) {
 
 }  // namespace
 
-Status ProjectFlags::apply(Project& project) const { return apply_given(project, project_); }
+Status ProjectFlags::apply(Project& project) const {
+    return apply_given(project, project_);
+}
 
 Status ProjectFlags::apply(Region& region) const {
     WEFT_CHECK_OK(apply_given(region, region_));
     if (!mattes_.empty()) {
         MatteSource matte;
         matte.select = region.matte->select;
-        for (const std::string& text : mattes_) WEFT_CHECK_OK(add_matte_text(matte, text));
+        for (const std::string& text : mattes_)
+            WEFT_CHECK_OK(add_matte_text(matte, text));
         region.matte = matte;
     }
     if (!holdouts_.empty()) {
@@ -140,19 +156,24 @@ Expected<Project> ProjectFlags::project() const {
 }
 
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
-    command.add_option("--threads", run.threads, "Threads to use; 0 is one a processor")->check(CLI::Range(0, 1024));
-    command.add_option("--cache", run.cache.folder, "Folder for analyses that later runs find again [~/.cache/weft]")
+    command.add_option("--threads", run.threads, "Threads to use; 0 is one a processor")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--cache", run.cache.folder,
+                    "Folder for analyses that later runs find again [~/.cache/weft]")
         ->type_name("PATH");
     command.add_flag("!--no-cache", run.cache.keep, "Keep nothing of the analysis");
     command.add_flag("--overwrite", run.overwrite, "Replace output files that exist");
-    const std::map<std::string, ProgressStyle> styles{
-        {"plain", ProgressStyle::kPlain}, {"json", ProgressStyle::kJson}, {"none", ProgressStyle::kNone}};
+    const std::map<std::string, ProgressStyle> styles{{"plain", ProgressStyle::kPlain},
+                                                      {"json", ProgressStyle::kJson},
+                                                      {"none", ProgressStyle::kNone}};
     command.add_option("--progress", run.progress, "plain, json or none [plain]")
         ->transform(CLI::CheckedTransformer(styles))
         ->type_name("");
     command.add_flag("--json", run.json, "One JSON object on stdout; progress goes to stderr");
     if (!renders) return;
-    command.add_flag("--skip-existing", run.skip_existing, "Keep frames that are there and can be read");
+    command.add_flag("--skip-existing", run.skip_existing,
+                     "Keep frames that are there and can be read");
     command.add_option("--backend", run.backend, "auto, cpu or cuda [auto]")->type_name("");
     command.add_option("--report", run.report, "Write a JSON report here")->type_name("PATH");
     command.add_flag("--dry-run", run.dry_run, "Say what would be rendered, and stop");

@@ -36,7 +36,7 @@ class ProjectFlags {
     template <class Owner>
     void add(CLI::App& command, const Parameter<Owner>& parameter, std::list<Given<Owner>>& into);
 
-    std::list<Given<Project>> project_;     // a list: CLI11 keeps pointers to the entries
+    std::list<Given<Project>> project_;  // a list: CLI11 keeps pointers to the entries
     std::list<Given<Region>> region_;
     std::vector<std::string> mattes_, holdouts_;
 };

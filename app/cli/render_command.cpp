@@ -22,16 +22,19 @@ int dry_run(const Project& project) {
     const auto shot = open_shot(project);
     if (!shot) return report_error(shot.error());
     const ShotPlan& plan = (*shot)->plan;
-    for (const std::string& warning : (*shot)->warnings) print_warning(warning);
-    std::string text = "plate    " + project.plate.path + " (" + std::to_string((*shot)->plate->size().width) + "x" +
-                       std::to_string((*shot)->plate->size().height) + ", " + (*shot)->spaces.plate.name + ")\n" +
-                       "working  " + (*shot)->spaces.working.name + "\n" + "output   " + project.output.path + " (" +
-                       (*shot)->spaces.out.name + ")\n" + "frames   " + format_frame_list(plan.frames) + " (" +
-                       std::to_string(plan.frames.size()) + ")\n";
+    for (const std::string& warning : (*shot)->warnings)
+        print_warning(warning);
+    std::string text =
+        "plate    " + project.plate.path + " (" + std::to_string((*shot)->plate->size().width) +
+        "x" + std::to_string((*shot)->plate->size().height) + ", " + (*shot)->spaces.plate.name +
+        ")\n" + "working  " + (*shot)->spaces.working.name + "\n" + "output   " +
+        project.output.path + " (" + (*shot)->spaces.out.name + ")\n" + "frames   " +
+        format_frame_list(plan.frames) + " (" + std::to_string(plan.frames.size()) + ")\n";
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
         const Region& region = *project.regions[(*shot)->region_index[k]];
-        text += "region   " + region.name + ": " + (*shot)->textures[k].path + ", reference frame " +
-                std::to_string(plan.regions[k].reference_frames.front()) + "\n";
+        text += "region   " + region.name + ": " + (*shot)->textures[k].path +
+                ", reference frame " + std::to_string(plan.regions[k].reference_frames.front()) +
+                "\n";
     }
     print(stdout, text);
     return 0;
@@ -41,18 +44,23 @@ int dry_run(const Project& project) {
 
 int render_command(const Project& project, const RunOptions& run) {
     if (run.overwrite && run.skip_existing) {
-        return report_error({ErrorCode::kUsage, "--overwrite and --skip-existing contradict each other.", {}});
+        return report_error(
+            {ErrorCode::kUsage, "--overwrite and --skip-existing contradict each other.", {}});
     }
     if (run.dry_run) return dry_run(project);
     if (!run.report.empty()) {
         // Known before the work; the empty file is gone again at the end of this block.
-        if (const auto probe = TemporaryFile::create(run.report); !probe) return report_error(probe.error());
+        if (const auto probe = TemporaryFile::create(run.report); !probe)
+            return report_error(probe.error());
     }
     const JobSpec spec = spec_of(project, run);
-    const auto result = run_job(spec, cancel_on_signals(), progress_printer(run.progress, run.json));
+    const auto result =
+        run_job(spec, cancel_on_signals(), progress_printer(run.progress, run.json));
     if (!result) return report_error(result.error());
-    for (const std::string& line : result->passed_over) print(stderr, "weft: passed over " + line + "\n");
-    for (const std::string& warning : result->warnings) print_warning(warning);
+    for (const std::string& line : result->passed_over)
+        print(stderr, "weft: passed over " + line + "\n");
+    for (const std::string& warning : result->warnings)
+        print_warning(warning);
     const std::string report = report_json(spec, *result);
     if (!run.report.empty()) {
         if (const Status written = write_file_atomically(run.report, report); !written) {
@@ -67,13 +75,16 @@ int matte_command(const Project& project, const std::string& output, const RunOp
     std::vector<std::string> warnings;
     const auto mattes = run_matte_job(spec_of(project, run), output, cancel_on_signals(),
                                       progress_printer(run.progress, run.json), warnings);
-    for (const std::string& warning : warnings) print_warning(warning);
+    for (const std::string& warning : warnings)
+        print_warning(warning);
     if (!mattes) return report_error(mattes.error());
     std::string text = run.json ? "{\"mattes\": [" : "";
     for (const MatteResult& m : *mattes) {
         char line[64];
-        std::snprintf(line, sizeof line, run.json ? "{\"frame\": %d, \"confidence\": %.4f}" : "matte %d confidence %.2f",
-                      m.frame, static_cast<double>(m.confidence));
+        std::snprintf(
+            line, sizeof line,
+            run.json ? "{\"frame\": %d, \"confidence\": %.4f}" : "matte %d confidence %.2f",
+            m.frame, static_cast<double>(m.confidence));
         if (run.json && &m != &mattes->front()) text += ", ";
         text += line;
         if (!run.json) text += "\n";

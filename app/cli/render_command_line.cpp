@@ -11,11 +11,13 @@ namespace {
 int run_render(const Expected<Project>& project, const std::string& dir, const RunOptions& run) {
     if (!project) return report_error(project.error());
     if (project->output.path.empty()) {
-        return report_error(
-            {ErrorCode::kUsage, "No output is set. Give a pattern with -o, such as 'out/####.png'.", {}});
+        return report_error({ErrorCode::kUsage,
+                             "No output is set. Give a pattern with -o, such as 'out/####.png'.",
+                             {}});
     }
     for (const Issue& issue : validate(*project)) {
-        if (issue.severity == Severity::kError) return report_error({ErrorCode::kUsage, issue.text(), {}});
+        if (issue.severity == Severity::kError)
+            return report_error({ErrorCode::kUsage, issue.text(), {}});
         print_warning(issue.text());
     }
     return render_command(resolve_paths(*project, dir), run);
@@ -28,11 +30,15 @@ void add_replace(CLI::App& app, int& exit) {
     add_run_flags(*command, *run, true);
     command->footer(
         "Examples:\n"
-        "  weft replace --plate 'frames/####.png' --matte 'masks/####.png' --texture wool.jpg -o 'out/####.png'\n"
-        "  weft replace --plate shot.mp4 --matte 1012=a.png --matte 1040=b.png --texture brick.jpg --scale 1.5 \\\n"
+        "  weft replace --plate 'frames/####.png' --matte 'masks/####.png' --texture wool.jpg -o "
+        "'out/####.png'\n"
+        "  weft replace --plate shot.mp4 --matte 1012=a.png --matte 1040=b.png --texture brick.jpg "
+        "--scale 1.5 \\\n"
         "               -o 'out/####.png' --movie review.mp4\n"
-        "  weft replace --plate 'cg/####.exr' --matte 'ids/####.png' --matte-value 2 --motion 'flow/####.flo' \\\n"
-        "               --plane tiles.png --light-strength 0.8 -o 'out/####.exr' --report report.json");
+        "  weft replace --plate 'cg/####.exr' --matte 'ids/####.png' --matte-value 2 --motion "
+        "'flow/####.flo' \\\n"
+        "               --plane tiles.png --light-strength 0.8 -o 'out/####.exr' --report "
+        "report.json");
     command->callback([=, &exit] { exit = run_render(flags->project(), "", *run); });
 }
 
@@ -41,7 +47,8 @@ void add_render(CLI::App& app, int& exit) {
     const auto run = std::make_shared<RunOptions>();
     const auto path = std::make_shared<std::string>();
     command->add_option("project", *path, "Project file (.weft)")->required()->type_name("PATH");
-    const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{false, true, true, false, false});
+    const auto flags = std::make_shared<ProjectFlags>(
+        *command, ProjectFlags::Which{false, true, true, false, false});
     add_run_flags(*command, *run, true);
     command->footer(
         "Settings given here hold for this run only.\n"
@@ -66,8 +73,10 @@ void add_matte(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("matte", "Propagate painted mattes through a shot");
     const auto run = std::make_shared<RunOptions>();
     const auto output = std::make_shared<std::string>();
-    const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{true, false, false, true, false});
-    command->add_option("-o,--output", *output, "Pattern of the mattes to write ('mattes/####.png')")
+    const auto flags = std::make_shared<ProjectFlags>(
+        *command, ProjectFlags::Which{true, false, false, true, false});
+    command
+        ->add_option("-o,--output", *output, "Pattern of the mattes to write ('mattes/####.png')")
         ->required()
         ->type_name("PATH");
     add_run_flags(*command, *run, false);
@@ -75,7 +84,8 @@ void add_matte(CLI::App& app, int& exit) {
         "Prints the confidence of each frame: low ones want a keyframe.\n"
         "Examples:\n"
         "  weft matte --plate 'frames/####.png' --matte 12=a.png -o 'mattes/####.png'\n"
-        "  weft matte --plate shot.mp4 --matte 1012=a.png --matte 1040=b.png -o 'mattes/####.png' --frames 1001-1050");
+        "  weft matte --plate shot.mp4 --matte 1012=a.png --matte 1040=b.png -o 'mattes/####.png' "
+        "--frames 1001-1050");
     command->callback([=, &exit] {
         const auto project = flags->project();
         exit = project ? matte_command(*project, *output, *run) : report_error(project.error());

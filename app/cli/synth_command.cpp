@@ -14,8 +14,8 @@ namespace {
 
 Status write_plane(const std::string& path, const TexturePlane& plane) {
     ImageF3 pixels(plane.pixels.size());
-    std::transform(plane.pixels.data(), plane.pixels.data() + plane.pixels.size_bytes(), pixels.data(),
-                   [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
+    std::transform(plane.pixels.data(), plane.pixels.data() + plane.pixels.size_bytes(),
+                   pixels.data(), [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
     WriteOptions write;
     write.depth = default_depth(path, PixelDepth::kU8);
     if (write.depth == PixelDepth::kHalf || write.depth == PixelDepth::kFloat) {
@@ -30,7 +30,8 @@ Status write_source_map(const std::string& path, const TexturePlane& plane) {
     ImageF3 map(plane.source.size());
     for (int y = 0; y < map.height(); ++y) {
         for (int x = 0; x < map.width(); ++x) {
-            for (int c = 0; c < 2; ++c) map.pixel(x, y)[c] = static_cast<float>(plane.source.pixel(x, y)[c]);
+            for (int c = 0; c < 2; ++c)
+                map.pixel(x, y)[c] = static_cast<float>(plane.source.pixel(x, y)[c]);
         }
     }
     WriteOptions write;
@@ -42,7 +43,8 @@ Status write_source_map(const std::string& path, const TexturePlane& plane) {
 Expected<TexturePlane> run(const SynthOptions& options) {
     for (const std::string& path : {options.output, options.source_map}) {
         if (!path.empty() && !options.overwrite && std::filesystem::exists(path)) {
-            return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.");
+            return fail(ErrorCode::kUsage,
+                        path + " exists already. Use --overwrite, or another name.");
         }
     }
     WriteOptions write;
@@ -55,7 +57,8 @@ Expected<TexturePlane> run(const SynthOptions& options) {
                                                                      : "srgb"));
     WEFT_TRY(display_from_texture, make_color_transform(space, {"srgb"}));
     const ImageU8x3 sample = make_views(picture.rgb, *display_from_texture).display;
-    if (const auto warning = sample_warning(sample)) print_warning(options.sample + ": " + *warning);
+    if (const auto warning = sample_warning(sample))
+        print_warning(options.sample + ": " + *warning);
     auto plane = grow_plane(sample, options.plane, cancel_on_signals());
     if (!plane) return fail_in(std::move(plane).error(), options.sample);
     WEFT_CHECK_OK(write_plane(options.output, *plane));
@@ -72,7 +75,8 @@ int synth_command(const SynthOptions& options) {
     const PlaneStats& s = plane->stats;
     const nlohmann::ordered_json json{
         {"size", {plane->pixels.width(), plane->pixels.height()}},
-        {"seconds", {{"search", s.search_s}, {"seam", s.seam_s}, {"other", s.other_s}, {"total", s.total_s}}},
+        {"seconds",
+         {{"search", s.search_s}, {"seam", s.seam_s}, {"other", s.other_s}, {"total", s.total_s}}},
         {"seam_energy", s.seam_energy},
         {"seam_length_px", s.seam_length_px},
         {"seam_energy_per_area", s.seam_energy_per_area},
@@ -87,9 +91,10 @@ int synth_command(const SynthOptions& options) {
     }
     char line[256];
     std::snprintf(line, sizeof line,
-                  "%s %dx%d: %d placements, seam energy per area %.3f, %.3fs (search %.3f, seam %.3f, other %.3f)\n",
-                  options.output.c_str(), plane->pixels.width(), plane->pixels.height(), s.placements,
-                  s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.other_s);
+                  "%s %dx%d: %d placements, seam energy per area %.3f, %.3fs (search %.3f, seam "
+                  "%.3f, other %.3f)\n",
+                  options.output.c_str(), plane->pixels.width(), plane->pixels.height(),
+                  s.placements, s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.other_s);
     print(stdout, line);
     return 0;
 }

@@ -10,8 +10,12 @@ void add_synth(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("synth", "Grow a texture plane from a sample");
     const auto options = std::make_shared<SynthOptions>();
     const auto size = std::make_shared<std::string>("512x512");
-    command->add_option("sample", options->sample, "Picture of the texture")->required()->type_name("PATH");
-    command->add_option("-o,--output", options->output, "File to write")->required()->type_name("PATH");
+    command->add_option("sample", options->sample, "Picture of the texture")
+        ->required()
+        ->type_name("PATH");
+    command->add_option("-o,--output", options->output, "File to write")
+        ->required()
+        ->type_name("PATH");
     command->add_option("--size", *size, "Width x height in texels [512x512]")->type_name("WxH");
     const std::map<std::string, SeamMethod> seams{{"graphcut", SeamMethod::kGraphCut},
                                                   {"dp", SeamMethod::kDynamicProgramming},
@@ -19,30 +23,43 @@ void add_synth(CLI::App& app, int& exit) {
     command->add_option("--seam", options->plane.seam, "graphcut, dp or none [graphcut]")
         ->transform(CLI::CheckedTransformer(seams))
         ->type_name("");
-    command->add_option("--overlap", options->plane.overlap_px, "Largest overlap of pieces, px [36]")->type_name("px");
+    command
+        ->add_option("--overlap", options->plane.overlap_px, "Largest overlap of pieces, px [36]")
+        ->type_name("px");
     command->add_option("--feather", options->plane.feather_px, "Blend across the seams, px [0]")
         ->check(CLI::Range(0, 256))
         ->type_name("px");
-    command->add_option("--refine", options->plane.refine_passes, "Rounds of new pieces over the worst seams [0]")
+    command
+        ->add_option("--refine", options->plane.refine_passes,
+                     "Rounds of new pieces over the worst seams [0]")
         ->check(CLI::Range(0, 100))
         ->type_name("");
     command->add_flag("--tileable", options->plane.tileable, "Opposite borders join");
-    command->add_option("--seed", options->plane.seed, "Seed of all random choices [1]")->type_name("");
-    command->add_option("--source-map", options->source_map, "EXR of the sample's x, y that each texel shows")
+    command->add_option("--seed", options->plane.seed, "Seed of all random choices [1]")
+        ->type_name("");
+    command
+        ->add_option("--source-map", options->source_map,
+                     "EXR of the sample's x, y that each texel shows")
         ->type_name("PATH");
-    command->add_option("--texture-space", options->texture_space, "Colour space of the sample")->type_name("");
-    command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")->check(CLI::Range(0, 1024));
+    command->add_option("--texture-space", options->texture_space, "Colour space of the sample")
+        ->type_name("");
+    command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")
+        ->check(CLI::Range(0, 1024));
     command->add_flag("--overwrite", options->overwrite, "Replace files that exist");
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
         "Examples:\n"
         "  weft synth wool.jpg -o plane.png --size 1024x1024\n"
-        "  weft synth brick.jpg -o plane.png --size 2048x2048 --tileable --source-map map.exr --json");
+        "  weft synth brick.jpg -o plane.png --size 2048x2048 --tileable --source-map map.exr "
+        "--json");
     command->callback([=, &exit] {
         int width = 0, height = 0;
         char after = 0;
-        if (std::sscanf(size->c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 1 || height < 1) {
-            exit = report_error({ErrorCode::kUsage, "Cannot read the size '" + *size + "'. Write it like 512x512.", {}});
+        if (std::sscanf(size->c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 1 ||
+            height < 1) {
+            exit = report_error({ErrorCode::kUsage,
+                                 "Cannot read the size '" + *size + "'. Write it like 512x512.",
+                                 {}});
             return;
         }
         options->plane.size = {width, height};
@@ -51,24 +68,35 @@ void add_synth(CLI::App& app, int& exit) {
 }
 
 void add_measure(CLI::App& app, int& exit) {
-    CLI::App* command = app.add_subcommand("measure", "Measure flicker, sharpness, drift and light of a result");
+    CLI::App* command =
+        app.add_subcommand("measure", "Measure flicker, sharpness, drift and light of a result");
     const auto options = std::make_shared<MeasureCommandOptions>();
-    command->add_option("--result", options->result, "The rendered frames ('out/####.png')")->required()->type_name("PATH");
-    const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{true, false, true, true, true});
-    command->add_option("--out-space", options->project.color.out_space, "Colour space of the result");
-    command->add_option("--estimator", options->motion_estimator,
-                        "Motion to measure with where none is given: deepflow or farneback [deepflow]")
+    command->add_option("--result", options->result, "The rendered frames ('out/####.png')")
+        ->required()
+        ->type_name("PATH");
+    const auto flags = std::make_shared<ProjectFlags>(
+        *command, ProjectFlags::Which{true, false, true, true, true});
+    command->add_option("--out-space", options->project.color.out_space,
+                        "Colour space of the result");
+    command
+        ->add_option("--estimator", options->motion_estimator,
+                     "Motion to measure with where none is given: deepflow or farneback [deepflow]")
         ->check(CLI::IsMember({"deepflow", "farneback"}))
         ->type_name("");
-    command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")->check(CLI::Range(0, 1024));
+    command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")
+        ->check(CLI::Range(0, 1024));
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
-        "With --motion (true motion) and the texture and placement of the render, the floor of the TDE and the\n"
-        "sharpness kept are measured too. Light is part of the picture: render with --light none to judge\n"
+        "With --motion (true motion) and the texture and placement of the render, the floor of the "
+        "TDE and the\n"
+        "sharpness kept are measured too. Light is part of the picture: render with --light none "
+        "to judge\n"
         "transport alone.\n"
         "Examples:\n"
-        "  weft measure --result 'out/####.png' --plate 'frames/####.png' --matte 'masks/####.png'\n"
-        "  weft measure --result 'out/####.png' --plate 'frames/####.png' --matte 'ids/####.png' --matte-value 2 \\\n"
+        "  weft measure --result 'out/####.png' --plate 'frames/####.png' --matte "
+        "'masks/####.png'\n"
+        "  weft measure --result 'out/####.png' --plate 'frames/####.png' --matte 'ids/####.png' "
+        "--matte-value 2 \\\n"
         "               --motion 'flow/####.png' --plane plane.png --json");
     command->callback([=, &exit] {
         const std::string out_space = options->project.color.out_space;
@@ -89,7 +117,9 @@ void add_diff(CLI::App& app, int& exit) {
     command->add_option("a", options->a, "One sequence")->required()->type_name("PATH");
     command->add_option("b", options->b, "The other")->required()->type_name("PATH");
     command->add_option("--frames", options->frames, "Frames to compare");
-    command->add_option("--tolerance", options->tolerance, "Largest difference that counts as the same, white = 1 [0]")
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "Largest difference that counts as the same, white = 1 [0]")
         ->check(CLI::NonNegativeNumber)
         ->type_name("");
     command->add_flag("--json", options->json, "One JSON object on stdout");

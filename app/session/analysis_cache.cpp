@@ -20,13 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the analysis itself computes something else.
-constexpr int kAnalysisVersion = 2;
+constexpr int kAnalysisVersion = 3;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
     const auto time = fs::last_write_time(path, error).time_since_epoch().count();
-    hasher.text(path).value(static_cast<std::uint64_t>(error ? 0 : size)).value(static_cast<std::int64_t>(time));
+    hasher.text(path)
+        .value(static_cast<std::uint64_t>(error ? 0 : size))
+        .value(static_cast<std::int64_t>(time));
 }
 
 Status add_pattern(Hasher& hasher, const std::string& text) {
@@ -38,7 +40,8 @@ Status add_pattern(Hasher& hasher, const std::string& text) {
         return {};
     }
     WEFT_TRY(frames, pattern.list_frames());
-    for (const int frame : frames) add_file(hasher, pattern.path_for(frame));
+    for (const int frame : frames)
+        add_file(hasher, pattern.path_for(frame));
     return {};
 }
 
@@ -48,7 +51,9 @@ Status add_matte(Hasher& hasher, const MatteSource& matte) {
         hasher.value(frame);
         add_file(hasher, key.path);
     }
-    hasher.value(matte.select.value.value_or(-1)).text(matte.select.channel).value(matte.select.invert);
+    hasher.value(matte.select.value.value_or(-1))
+        .text(matte.select.channel)
+        .value(matte.select.invert);
     return {};
 }
 
@@ -57,7 +62,9 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
     const RegionPlan& plan = shot.plan.regions[index];
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
-    hasher.value(kAnalysisVersion).text(shot.project.plate.layer).value(shot.project.plate.movie_start);
+    hasher.value(kAnalysisVersion)
+        .text(shot.project.plate.layer)
+        .value(shot.project.plate.movie_start);
     for (const int frame : shot.plate->frames()) {
         WEFT_TRY(stamp, shot.plate->stamp(frame));
         hasher.value(frame).value(stamp.high).value(stamp.low);
@@ -65,18 +72,23 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
     hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name);
     hasher.value(static_cast<int>(shot.plan.quality));
     WEFT_CHECK_OK(add_matte(hasher, *region.matte));
-    for (const MatteSource& holdout : *region.holdouts) WEFT_CHECK_OK(add_matte(hasher, holdout));
+    for (const MatteSource& holdout : *region.holdouts)
+        WEFT_CHECK_OK(add_matte(hasher, holdout));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward);
-    for (const int frame : plan.reference_frames) hasher.value(frame);
+    for (const int frame : plan.reference_frames)
+        hasher.value(frame);
     hasher.value(static_cast<int>(plan.temporal));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
         hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
         hasher.value(plan.blend).value(plan.weight).value(plan.overlap_px).value(plan.feather_px);
-        hasher.value(static_cast<int>(plan.seam)).value(plan.placement.scale).value(plan.placement.rotate_deg);
+        hasher.value(static_cast<int>(plan.seam))
+            .value(plan.placement.scale)
+            .value(plan.placement.rotate_deg);
         hasher.value(plan.placement.offset_px.x).value(plan.placement.offset_px.y);
         if (plan.placement.corners) {
-            for (const Vec2 c : *plan.placement.corners) hasher.value(c.x).value(c.y);
+            for (const Vec2 c : *plan.placement.corners)
+                hasher.value(c.x).value(c.y);
         }
     }
     return hasher.finish().hex();
@@ -84,12 +96,18 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
 
 const char* kind_name(AnalysisKind kind) {
     switch (kind) {
-        case AnalysisKind::kMatteForward: return "matte-forward";
-        case AnalysisKind::kMatte: return "matte";
-        case AnalysisKind::kCoords: return "coords";
-        case AnalysisKind::kCoordsOneWay: return "coords-one-way";
-        case AnalysisKind::kShading: return "shading";
-        case AnalysisKind::kPaperTexture: return "paper";
+        case AnalysisKind::kMatteForward:
+            return "matte-forward";
+        case AnalysisKind::kMatte:
+            return "matte";
+        case AnalysisKind::kCoords:
+            return "coords";
+        case AnalysisKind::kCoordsOneWay:
+            return "coords-one-way";
+        case AnalysisKind::kShading:
+            return "shading";
+        case AnalysisKind::kPaperTexture:
+            return "paper";
     }
     return "";
 }
@@ -134,7 +152,8 @@ class DiskStore final : public AnalysisStore {
             path.string() + "." + std::to_string(getpid()) + "-" + std::to_string(counter_++);
         std::ofstream file(temporary, std::ios::binary);
         file.write(reinterpret_cast<const char*>(&header), sizeof header);
-        file.write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(size));
+        file.write(reinterpret_cast<const char*>(packed.data()),
+                   static_cast<std::streamsize>(size));
         file.close();
         std::error_code error;
         if (file) fs::rename(temporary, path, error);
@@ -177,7 +196,8 @@ class DiskStore final : public AnalysisStore {
                (std::string(kind_name(key.kind)) + "." + std::to_string(key.frame));
     }
     static tl::unexpected<Error> missing(const AnalysisKey& key) {
-        return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " + std::to_string(key.frame) +
+        return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " +
+                                                  std::to_string(key.frame) +
                                                   " is missing or damaged. Render again.");
     }
 
@@ -188,7 +208,8 @@ class DiskStore final : public AnalysisStore {
 
 fs::path default_folder() {
     if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) return fs::path(xdg) / "weft";
-    if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "weft";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".cache" / "weft";
     return {};
 }
 
@@ -214,9 +235,11 @@ void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint6
             entry.bytes += file.is_regular_file(error) ? file.file_size(error) : 0;
         }
         total += entry.bytes;
-        if (std::find(in_use.begin(), in_use.end(), entry.path) == in_use.end()) entries.push_back(entry);
+        if (std::find(in_use.begin(), in_use.end(), entry.path) == in_use.end())
+            entries.push_back(entry);
     }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.used < b.used; });
     for (const Entry& entry : entries) {
         if (total <= limit_bytes) return;
         fs::remove_all(entry.path, error);
@@ -234,8 +257,9 @@ Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
     if (keep && !root.empty()) root /= "analysis";
     if (keep && (root.empty() || !writable(root))) {
         if (!options.folder.empty()) {
-            return fail(ErrorCode::kUnreadable, "The cache folder " + options.folder +
-                                                    " cannot be written. Choose another with --cache.");
+            return fail(ErrorCode::kUnreadable,
+                        "The cache folder " + options.folder +
+                            " cannot be written. Choose another with --cache.");
         }
         warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
         keep = false;
@@ -244,7 +268,8 @@ Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
         std::error_code error;
         std::string name = (fs::temp_directory_path(error) / "weft-XXXXXX").string();
         if (error || !mkdtemp(name.data())) {
-            return fail(ErrorCode::kNoSpace, "No temporary folder can be made. Set TMPDIR or give --cache FOLDER.");
+            return fail(ErrorCode::kNoSpace,
+                        "No temporary folder can be made. Set TMPDIR or give --cache FOLDER.");
         }
         root = name;
     }
@@ -255,8 +280,8 @@ Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
         std::error_code error;
         fs::create_directories(folders.back(), error);
         if (error) {
-            return fail(ErrorCode::kNoSpace, "The folder " + folders.back().string() + " cannot be made: " +
-                                                 error.message() + ".");
+            return fail(ErrorCode::kNoSpace, "The folder " + folders.back().string() +
+                                                 " cannot be made: " + error.message() + ".");
         }
         fs::last_write_time(folders.back(), fs::file_time_type::clock::now(), error);
     }

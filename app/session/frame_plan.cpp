@@ -17,7 +17,8 @@ std::vector<int> missing_in(const std::vector<int>& wanted, const std::vector<in
 
 std::vector<int> frames_between(int first, int last) {
     std::vector<int> out;
-    for (int f = first; f <= last; ++f) out.push_back(f);
+    for (int f = first; f <= last; ++f)
+        out.push_back(f);
     return out;
 }
 
@@ -32,7 +33,8 @@ Status check_pattern(const std::string& text, const char* what, const std::vecto
                     ". Add the files, or render only the frames that have one (--frames).");
 }
 
-// The frames whose motion file is read: all of the span but the one that the motion would leave it at.
+// The frames whose motion file is read: all of the span but the one that the motion would leave it
+// at.
 std::vector<int> motion_frames(const RegionPlan& plan, const FrameSpan& span) {
     return plan.motion_forward ? frames_between(span.first, span.last - 1)
                                : frames_between(span.first + 1, span.last);
@@ -53,9 +55,9 @@ Expected<std::vector<int>> frames_to_render(const Project& project, const FrameR
     WEFT_TRY(frames, parse_frame_list(project.settings.frames));
     const std::vector<int> missing = missing_in(frames, plate.frames());
     if (!missing.empty()) {
-        return fail(ErrorCode::kMissingFrames,
-                    "The plate " + project.plate.path + " has no " + frames_text(missing) +
-                        ". It has " + frames_text(plate.frames()) + ".");
+        return fail(ErrorCode::kMissingFrames, "The plate " + project.plate.path + " has no " +
+                                                   frames_text(missing) + ". It has " +
+                                                   frames_text(plate.frames()) + ".");
     }
     return frames;
 }

@@ -13,7 +13,8 @@ namespace weft {
 
 /// The project's frames: its list, or all of the plate's. Errors: Usage for a list that cannot be
 /// read, MissingFrames when the plate has not all of them.
-[[nodiscard]] Expected<std::vector<int>> frames_to_render(const Project& project, const FrameReader& plate);
+[[nodiscard]] Expected<std::vector<int>> frames_to_render(const Project& project,
+                                                          const FrameReader& plate);
 
 /// Checks that the plate has every frame of a region's span and that mattes, holdouts and motion
 /// have a file for each frame for which they will be read. Errors: MissingFrames naming the pattern

@@ -16,21 +16,24 @@ namespace fs = std::filesystem;
 Status prepare_output(const Shot& shot, const SequencePattern& pattern, ExistingFrames existing) {
     const std::vector<int>& frames = shot.plan.frames;
     if (pattern.is_single() && frames.size() > 1) {
-        return fail(ErrorCode::kUsage, "The output " + pattern.text() +
-                                           " has no frame number. Write it like 'mattes/####.png'.");
+        return fail(ErrorCode::kUsage,
+                    "The output " + pattern.text() +
+                        " has no frame number. Write it like 'mattes/####.png'.");
     }
     const fs::path folder = fs::path(pattern.path_for(frames.front())).parent_path();
     std::error_code error;
     if (!folder.empty()) fs::create_directories(folder, error);
     if (error) {
-        return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() + " cannot be made: " +
-                                                error.message() + ". Choose another with -o.");
+        return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() +
+                                                " cannot be made: " + error.message() +
+                                                ". Choose another with -o.");
     }
     for (const int frame : frames) {
         const std::string path = pattern.path_for(frame);
         WEFT_CHECK_OK(check_no_input(shot, frame, path));
         if (existing == ExistingFrames::kRefuse && fs::exists(path, error)) {
-            return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another folder.");
+            return fail(ErrorCode::kUsage,
+                        path + " exists already. Use --overwrite, or another folder.");
         }
     }
     return {};
@@ -38,8 +41,10 @@ Status prepare_output(const Shot& shot, const SequencePattern& pattern, Existing
 
 }  // namespace
 
-Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec, const std::string& pattern_text,
-                                                 const CancelToken& cancel, const ProgressFn& progress,
+Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
+                                                 const std::string& pattern_text,
+                                                 const CancelToken& cancel,
+                                                 const ProgressFn& progress,
                                                  std::vector<std::string>& warnings) {
     use_threads(spec.threads);
     WEFT_TRY(pattern, SequencePattern::parse(pattern_text));

@@ -82,7 +82,8 @@ class RenderJob {
         result_.passed_over = choice.passed_over;
 
         if (spec_.project.output.path.empty()) {
-            return fail(ErrorCode::kUsage, "No output is set. Give a pattern with -o, such as 'out/####.png'.");
+            return fail(ErrorCode::kUsage,
+                        "No output is set. Give a pattern with -o, such as 'out/####.png'.");
         }
         WEFT_TRY(pattern, SequencePattern::parse(spec_.project.output.path));
         pattern_ = pattern;
@@ -94,10 +95,12 @@ class RenderJob {
         result_.textures = shot_->textures;
         result_.size = shot_->plate->size();
         if (plan_.regions.empty()) {
-            return fail(ErrorCode::kUsage, "There is no region to replace. Add one with a matte and a texture.");
+            return fail(ErrorCode::kUsage,
+                        "There is no region to replace. Add one with a matte and a texture.");
         }
         if (pattern_->is_single() && plan_.frames.size() > 1) {
-            return fail(ErrorCode::kUsage, "The output " + pattern_->text() + " has no frame number for " +
+            return fail(ErrorCode::kUsage, "The output " + pattern_->text() +
+                                               " has no frame number for " +
                                                std::to_string(plan_.frames.size()) +
                                                " frames. Write it like 'out/####.png'.");
         }
@@ -111,11 +114,21 @@ class RenderJob {
     Status choose_format() {
         const Output& output = shot_->project.output;
         switch (output.depth) {
-            case OutputDepth::kAuto: write_.depth = default_depth(output.path, shot_->plate->depth()); break;
-            case OutputDepth::k8: write_.depth = PixelDepth::kU8; break;
-            case OutputDepth::k16: write_.depth = PixelDepth::kU16; break;
-            case OutputDepth::kHalf: write_.depth = PixelDepth::kHalf; break;
-            case OutputDepth::kFloat: write_.depth = PixelDepth::kFloat; break;
+            case OutputDepth::kAuto:
+                write_.depth = default_depth(output.path, shot_->plate->depth());
+                break;
+            case OutputDepth::k8:
+                write_.depth = PixelDepth::kU8;
+                break;
+            case OutputDepth::k16:
+                write_.depth = PixelDepth::kU16;
+                break;
+            case OutputDepth::kHalf:
+                write_.depth = PixelDepth::kHalf;
+                break;
+            case OutputDepth::kFloat:
+                write_.depth = PixelDepth::kFloat;
+                break;
         }
         write_.jpeg_quality = output.jpeg_quality;
         write_.exr_compression = output.exr_compression;
@@ -128,8 +141,9 @@ class RenderJob {
         std::error_code error;
         if (!folder.empty()) fs::create_directories(folder, error);
         if (error) {
-            return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() + " cannot be made: " +
-                                                    error.message() + ". Choose another with -o.");
+            return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() +
+                                                    " cannot be made: " + error.message() +
+                                                    ". Choose another with -o.");
         }
         remove_stale_temporaries(pattern_->path_for(plan_.frames.front()));
         WEFT_TRY(probe, TemporaryFile::create(pattern_->path_for(plan_.frames.front())));
@@ -140,11 +154,12 @@ class RenderJob {
             if (fs::exists(path, error)) present.push_back(frame);
         }
         if (!present.empty() && spec_.existing == ExistingFrames::kRefuse) {
-            return fail(ErrorCode::kUsage, pattern_->path_for(present.front()) + " exists already" +
-                                               (present.size() > 1 ? ", and " + std::to_string(present.size() - 1) +
-                                                                         " more"
-                                                                   : "") +
-                                               ". Use --overwrite, --skip-existing, or another folder.");
+            return fail(
+                ErrorCode::kUsage,
+                pattern_->path_for(present.front()) + " exists already" +
+                    (present.size() > 1 ? ", and " + std::to_string(present.size() - 1) + " more"
+                                        : "") +
+                    ". Use --overwrite, --skip-existing, or another folder.");
         }
         WEFT_CHECK_OK(check_movie());
         for (const int frame : plan_.frames) {
@@ -176,11 +191,13 @@ class RenderJob {
                 if (warning) result_.warnings.push_back(shot_->textures[k].path + ": " + *warning);
             }
             WEFT_CHECK_OK(check_reference(k));
-            auto scene = make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_, {});
+            auto scene =
+                make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_, {});
             if (!scene) {
                 const std::size_t at = shot_->region_index[k];
-                return fail_in(std::move(scene).error(), "Region '" + shot_->project.regions[at]->name + "' with " +
-                                                             shot_->textures[k].path);
+                return fail_in(std::move(scene).error(), "Region '" +
+                                                             shot_->project.regions[at]->name +
+                                                             "' with " + shot_->textures[k].path);
             }
             result_.planes.push_back(scene->stats);
             scenes_.push_back(std::move(*scene));
@@ -192,7 +209,8 @@ class RenderJob {
     // nothing to follow from there.
     Status check_reference(std::size_t region) {
         const int frame = plan_.regions[region].reference_frames.front();
-        WEFT_TRY(extent, extent_matte(*shot_->source, plan_, *store_, static_cast<int>(region), frame));
+        WEFT_TRY(extent,
+                 extent_matte(*shot_->source, plan_, *store_, static_cast<int>(region), frame));
         if (matte_bounds(extent).empty()) empty_references_.emplace_back(region, frame);
         return {};
     }
@@ -208,7 +226,8 @@ class RenderJob {
             WEFT_TRY(opened, open_review_movie());
             movie = std::move(opened);
         }
-        // A batch of frames at a time, so that the movie gets them in order and memory stays bounded.
+        // A batch of frames at a time, so that the movie gets them in order and memory stays
+        // bounded.
         const auto batch = static_cast<std::size_t>(2 * thread_count());
         for (std::size_t first = 0; first < result_.frames.size(); first += batch) {
             const std::size_t count = std::min(batch, result_.frames.size() - first);
@@ -234,7 +253,10 @@ class RenderJob {
         WEFT_TRY(display_from_out, make_color_transform(shot_->spaces.out, {"srgb"}));
         display_from_out_ = display_from_out;
         result_.movie = path;
-        return open_movie(path, shot_->plate->size(), given > 0 ? given : of_plate > 0 ? of_plate : 24.0);
+        return open_movie(path, shot_->plate->size(),
+                          given > 0      ? given
+                          : of_plate > 0 ? of_plate
+                                         : 24.0);
     }
 
     Status one_frame(FrameResult& result, ImageF3* display) {
@@ -247,7 +269,8 @@ class RenderJob {
                 pixels = std::move(written.rgb);
             }
         } else {
-            WEFT_TRY(rendered, render_frame(*shot_->source, plan_, scenes_, *store_, *backend_, result.frame));
+            WEFT_TRY(rendered, render_frame(*shot_->source, plan_, scenes_, *store_, *backend_,
+                                            result.frame));
             WEFT_TRY(decoded, shot_->plate->read_shared(result.frame));
             WEFT_CHECK_OK(write_image(result.path, rendered.pixels, decoded->alpha, write_));
             result.above_one = rendered.above_one;
@@ -264,20 +287,22 @@ class RenderJob {
         const std::lock_guard lock(progress_mutex_);
         ++done_;
         if (progress_) {
-            progress_({"render", done_, static_cast<std::int64_t>(result_.frames.size()), result.frame,
-                       result.seconds});
+            progress_({"render", done_, static_cast<std::int64_t>(result_.frames.size()),
+                       result.frame, result.seconds});
         }
         return {};
     }
 
     void finish_warnings() {
-        const bool some_touched = std::any_of(result_.frames.begin(), result_.frames.end(),
-                                              [](const FrameResult& f) { return !f.untouched && !f.skipped; });
+        const bool some_touched =
+            std::any_of(result_.frames.begin(), result_.frames.end(),
+                        [](const FrameResult& f) { return !f.untouched && !f.skipped; });
         for (const auto& [region, frame] : empty_references_) {
             if (!some_touched) break;
-            result_.warnings.push_back("Region '" + shot_->project.regions[shot_->region_index[region]]->name +
-                                       "': its matte is empty on the reference frame " + std::to_string(frame) +
-                                       ". Place the texture on a frame that shows the surface (--reference-frame).");
+            result_.warnings.push_back(
+                "Region '" + shot_->project.regions[shot_->region_index[region]]->name +
+                "': its matte is empty on the reference frame " + std::to_string(frame) +
+                ". Place the texture on a frame that shows the surface (--reference-frame).");
         }
         const std::vector<std::string> of_frames = warnings_of(result_.frames);
         result_.warnings.insert(result_.warnings.end(), of_frames.begin(), of_frames.end());
@@ -290,12 +315,12 @@ class RenderJob {
     std::shared_ptr<const Backend> backend_;
     std::optional<SequencePattern> pattern_;
     std::shared_ptr<const Shot> shot_;
-    ShotPlan plan_;                        // the shot's, less the frames that are there already
+    ShotPlan plan_;  // the shot's, less the frames that are there already
     std::vector<int> to_render_;
     WriteOptions write_;
     std::shared_ptr<AnalysisStore> store_;
     std::vector<RegionScene> scenes_;
-    std::vector<std::pair<std::size_t, int>> empty_references_;   // region, frame
+    std::vector<std::pair<std::size_t, int>> empty_references_;  // region, frame
     std::shared_ptr<const ColorTransform> display_from_out_;
     std::mutex progress_mutex_;
     std::int64_t done_ = 0;
@@ -308,7 +333,8 @@ void use_threads(int threads) {
     cv::setNumThreads(thread_count());
 }
 
-Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel, const ProgressFn& progress) {
+Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel,
+                            const ProgressFn& progress) {
     return RenderJob(spec, cancel, progress).run();
 }
 

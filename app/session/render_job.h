@@ -15,9 +15,9 @@
 namespace weft {
 
 enum class ExistingFrames {
-    kRefuse,      ///< Stop before the first frame.
+    kRefuse,  ///< Stop before the first frame.
     kOverwrite,
-    kSkip         ///< Keep those that can be read and have the plate's size; render the others.
+    kSkip  ///< Keep those that can be read and have the plate's size; render the others.
 };
 
 /// Sets how many threads this process uses, OpenCV's included; 0 is one a processor.
@@ -25,9 +25,9 @@ void use_threads(int threads);
 
 /// A snapshot of everything that a render needs.
 struct JobSpec {
-    Project project;                       ///< With absolute paths.
+    Project project;  ///< With absolute paths.
     std::string backend = "auto";
-    int threads = 0;                       ///< 0: one a processor.
+    int threads = 0;  ///< 0: one a processor.
     ExistingFrames existing = ExistingFrames::kRefuse;
     AnalysisCacheOptions cache;
 };
@@ -38,8 +38,8 @@ struct FrameResult {
     double seconds = 0;
     bool skipped = false;
     std::int64_t above_one = 0, filled = 0;
-    std::int64_t nonfinite = 0;            ///< Pixels of NaN or infinity in the whole plate.
-    bool untouched = false;                ///< No matte reaches this frame.
+    std::int64_t nonfinite = 0;  ///< Pixels of NaN or infinity in the whole plate.
+    bool untouched = false;      ///< No matte reaches this frame.
 };
 
 struct StageSeconds {
@@ -49,7 +49,7 @@ struct StageSeconds {
 struct JobResult {
     std::vector<FrameResult> frames;
     StageSeconds seconds;
-    double fps = 0;                        ///< Frames a second over analysis and rendering.
+    double fps = 0;  ///< Frames a second over analysis and rendering.
     std::int64_t peak_rss_bytes = 0;
     std::string backend, backend_description;
     std::vector<std::string> passed_over;  ///< Better backends that could not be had.
@@ -62,12 +62,14 @@ struct JobResult {
 };
 
 /// Analyses, synthesises, renders and writes. Frames appear whole or not at all; what was written
-/// before an error or a cancellation stays. The bytes do not depend on the number of threads. Errors:
-/// those of opening, the backend, the disk, and cancellation. Sets the process's thread count.
+/// before an error or a cancellation stays. The bytes do not depend on the number of threads.
+/// Errors: those of opening, the backend, the disk, and cancellation. Sets the process's thread
+/// count.
 [[nodiscard]] Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel,
                                           const ProgressFn& progress);
 
-/// Only the mattes: propagated (or read) and written to `pattern`, with the confidence of each frame.
+/// Only the mattes: propagated (or read) and written to `pattern`, with the confidence of each
+/// frame.
 struct MatteResult {
     int frame = 0;
     std::string path;

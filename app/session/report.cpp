@@ -26,12 +26,17 @@ Json value_json(const ParameterValue& value) {
 template <class Owner>
 Json settings_of(const Owner& owner, std::span<const Parameter<Owner>> table) {
     Json out = Json::object();
-    for (const auto& parameter : table) out[parameter.full_key()] = value_json(parameter.read(owner));
+    for (const auto& parameter : table)
+        out[parameter.full_key()] = value_json(parameter.read(owner));
     return out;
 }
 
 Json plane_json(const PlaneStats& stats) {
-    return {{"seconds", {{"search", stats.search_s}, {"seam", stats.seam_s}, {"other", stats.other_s}, {"total", stats.total_s}}},
+    return {{"seconds",
+             {{"search", stats.search_s},
+              {"seam", stats.seam_s},
+              {"other", stats.other_s},
+              {"total", stats.total_s}}},
             {"seam_energy", stats.seam_energy},
             {"seam_length_px", stats.seam_length_px},
             {"seam_energy_per_area", stats.seam_energy_per_area},
@@ -48,7 +53,8 @@ Json textures_json(const JobResult& result) {
                    {"size", {t.size.width, t.size.height}},
                    {"space", result.spaces.textures[k].name},
                    {"kind", t.is_plane ? "plane" : "sample"}};
-        if (k < result.planes.size() && result.planes[k]) entry["synthesis"] = plane_json(*result.planes[k]);
+        if (k < result.planes.size() && result.planes[k])
+            entry["synthesis"] = plane_json(*result.planes[k]);
         out.push_back(std::move(entry));
     }
     return out;
@@ -76,10 +82,16 @@ std::string report_json(const JobSpec& spec, const JobResult& result) {
     }
     const Json report{
         {"version", kVersion},
-        {"backend", {{"name", result.backend}, {"device", result.backend_description}, {"passed_over", result.passed_over}}},
+        {"backend",
+         {{"name", result.backend},
+          {"device", result.backend_description},
+          {"passed_over", result.passed_over}}},
         {"threads", thread_count()},
         {"size", {result.size.width, result.size.height}},
-        {"spaces", {{"plate", result.spaces.plate.name}, {"working", result.spaces.working.name}, {"out", result.spaces.out.name}}},
+        {"spaces",
+         {{"plate", result.spaces.plate.name},
+          {"working", result.spaces.working.name},
+          {"out", result.spaces.out.name}}},
         {"frames", frames_json(result)},
         {"fps", result.fps},
         {"seconds_per_stage",
@@ -90,7 +102,8 @@ std::string report_json(const JobSpec& spec, const JobResult& result) {
           {"total", result.seconds.total}}},
         {"peak_rss_bytes", result.peak_rss_bytes},
         {"textures", textures_json(result)},
-        {"settings", {{"project", settings_of(spec.project, project_parameters())}, {"regions", regions}}},
+        {"settings",
+         {{"project", settings_of(spec.project, project_parameters())}, {"regions", regions}}},
         {"movie", result.movie},
         {"warnings", result.warnings}};
     // Paths may hold bytes that are no UTF-8; they are replaced rather than refused.

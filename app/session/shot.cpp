@@ -16,7 +16,9 @@ namespace {
 constexpr const char* kSrgb = "srgb";
 constexpr const char* kLinear = "linear";
 
-bool float_depth(PixelDepth depth) { return depth == PixelDepth::kHalf || depth == PixelDepth::kFloat; }
+bool float_depth(PixelDepth depth) {
+    return depth == PixelDepth::kHalf || depth == PixelDepth::kFloat;
+}
 
 PlanePlacement plane_placement(const Placement& p) {
     PlanePlacement out;
@@ -25,7 +27,8 @@ PlanePlacement plane_placement(const Placement& p) {
     out.offset_px = {p.offset_px.x, p.offset_px.y};
     if (p.corners_px) {
         out.corners.emplace();
-        for (std::size_t k = 0; k < 4; ++k) (*out.corners)[k] = {(*p.corners_px)[k].x, (*p.corners_px)[k].y};
+        for (std::size_t k = 0; k < 4; ++k)
+            (*out.corners)[k] = {(*p.corners_px)[k].x, (*p.corners_px)[k].y};
     }
     return out;
 }
@@ -33,11 +36,16 @@ PlanePlacement plane_placement(const Placement& p) {
 // The depth that the output will have: what the user chose, or what the plate and format suggest.
 PixelDepth out_depth(const Output& output, PixelDepth plate) {
     switch (output.depth) {
-        case OutputDepth::k8: return PixelDepth::kU8;
-        case OutputDepth::k16: return PixelDepth::kU16;
-        case OutputDepth::kHalf: return PixelDepth::kHalf;
-        case OutputDepth::kFloat: return PixelDepth::kFloat;
-        case OutputDepth::kAuto: break;
+        case OutputDepth::k8:
+            return PixelDepth::kU8;
+        case OutputDepth::k16:
+            return PixelDepth::kU16;
+        case OutputDepth::kHalf:
+            return PixelDepth::kHalf;
+        case OutputDepth::kFloat:
+            return PixelDepth::kFloat;
+        case OutputDepth::kAuto:
+            break;
     }
     return output.path.empty() ? plate : default_depth(output.path, plate);
 }
@@ -59,16 +67,19 @@ class ShotOpener {
   private:
     Status open_plate_reader() {
         const Plate& plate = shot_.project.plate;
-        if (plate.path.empty()) return fail(ErrorCode::kUsage, "No plate is set. Give one with --plate.");
+        if (plate.path.empty())
+            return fail(ErrorCode::kUsage, "No plate is set. Give one with --plate.");
         WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
-        for (const std::string& w : reader->warnings()) shot_.warnings.push_back(w);
+        for (const std::string& w : reader->warnings())
+            shot_.warnings.push_back(w);
         shot_.plate = cached(reader, options_.cache_bytes);
         WEFT_TRY(frames, frames_to_render(shot_.project, *shot_.plate));
         shot_.plan.frames = std::move(frames);
         shot_.plan.first_plate = shot_.plate->frames().front();
         shot_.plan.last_plate = shot_.plate->frames().back();
-        shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft ? FlowQuality::kDraft
-                                                                              : FlowQuality::kFinal;
+        shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft
+                                 ? FlowQuality::kDraft
+                                 : FlowQuality::kFinal;
         shot_.plan.seed = static_cast<std::uint64_t>(shot_.project.settings.seed);
         return {};
     }
@@ -123,9 +134,11 @@ class ShotOpener {
         plan.id = std::to_string(region.id);
         plan.random_key = region.id;
         if (region.matte->empty()) {
-            return fail(ErrorCode::kUsage, "It has no matte. Give files or painted keyframes (--matte).");
+            return fail(ErrorCode::kUsage,
+                        "It has no matte. Give files or painted keyframes (--matte).");
         }
-        for (const auto& [frame, key] : region.matte->keyframes) plan.matte_keys.push_back(frame);
+        for (const auto& [frame, key] : region.matte->keyframes)
+            plan.matte_keys.push_back(frame);
         plan.has_holdout = !region.holdouts->empty();
         for (const MatteSource& holdout : *region.holdouts) {
             if (holdout.files.empty()) {
@@ -160,10 +173,11 @@ class ShotOpener {
         return {};
     }
 
-    // The first painted frame where mattes are propagated, since there the artist has looked; else the
-    // first frame that the plate and the matte have, whatever part of it is rendered: every part of a
-    // shot, on every machine, has the same reference.
-    [[nodiscard]] Expected<int> default_reference(const Region& region, const RegionPlan& plan) const {
+    // The first painted frame where mattes are propagated, since there the artist has looked; else
+    // the first frame that the plate and the matte have, whatever part of it is rendered: every
+    // part of a shot, on every machine, has the same reference.
+    [[nodiscard]] Expected<int> default_reference(const Region& region,
+                                                  const RegionPlan& plan) const {
         if (plan.propagated()) return plan.matte_keys.front();
         WEFT_TRY(pattern, SequencePattern::parse(region.matte->files));
         if (pattern.is_single()) return shot_.plan.first_plate;
@@ -172,15 +186,18 @@ class ShotOpener {
             if (std::binary_search(mattes.begin(), mattes.end(), frame)) return frame;
         }
         return fail(ErrorCode::kMissingFrames,
-                    "The matte " + region.matte->files + " has no file for any frame of the plate, which has " +
-                        frames_text(shot_.plate->frames()) + ". Check the pattern and its numbers.");
+                    "The matte " + region.matte->files +
+                        " has no file for any frame of the plate, which has " +
+                        frames_text(shot_.plate->frames()) +
+                        ". Check the pattern and its numbers.");
     }
 
     Status add_texture(const Region& region, RegionPlan& plan) {
         const bool is_plane = !region.texture.plane.empty();
         const std::string& path = is_plane ? region.texture.plane : region.texture.sample;
         if (path.empty()) {
-            return fail(ErrorCode::kUsage, "It has no texture. Give a sample (--texture) or a plane (--plane).");
+            return fail(ErrorCode::kUsage,
+                        "It has no texture. Give a sample (--texture) or a plane (--plane).");
         }
         WEFT_TRY(picture, read_image(path));
         const std::string& given =
@@ -189,7 +206,8 @@ class ShotOpener {
         WEFT_TRY(working_from_texture, make_color_transform(texture_space, shot_.spaces.working));
         WEFT_TRY(display_from_texture, make_color_transform(texture_space, {kSrgb}));
         if (picture.nonfinite > 0) {
-            shot_.warnings.push_back("The texture " + path + " has " + std::to_string(picture.nonfinite) +
+            shot_.warnings.push_back("The texture " + path + " has " +
+                                     std::to_string(picture.nonfinite) +
                                      " pixels of NaN or infinity; they are taken as black.");
         }
         auto texture = std::make_shared<TexturePicture>();
@@ -198,11 +216,14 @@ class ShotOpener {
         texture->wrap = region.texture.wrap;
         for (int k = 0; k < texture->pixels.height(); ++k) {
             float* row = texture->pixels.row(k);
-            std::replace_if(row, row + texture->pixels.stride(), [](float v) { return !std::isfinite(v); }, 0.0f);
+            std::replace_if(
+                row, row + texture->pixels.stride(), [](float v) { return !std::isfinite(v); },
+                0.0f);
         }
         Hasher hasher;
         hasher.image(texture->pixels);
-        shot_.textures.push_back({region.name, path, hasher.finish().hex(), texture->pixels.size(), is_plane});
+        shot_.textures.push_back(
+            {region.name, path, hasher.finish().hex(), texture->pixels.size(), is_plane});
         shot_.spaces.textures.push_back(texture_space);
         plan.texture = std::move(texture);
         plan.working_from_texture = working_from_texture;
@@ -214,10 +235,12 @@ class ShotOpener {
     Status add_light_picture(const Region& region, RegionPlan& plan) {
         if (plan.light_source != LightSource::kImage) return {};
         if (region.light.image.empty()) {
-            return fail(ErrorCode::kUsage, "The light source 'image' needs a picture. Give one with --light PICTURE.");
+            return fail(ErrorCode::kUsage,
+                        "The light source 'image' needs a picture. Give one with --light PICTURE.");
         }
         WEFT_TRY(picture, read_image(region.light.image));
-        WEFT_TRY(to_linear, make_color_transform({float_depth(picture.depth) ? kLinear : kSrgb}, {kLinear}));
+        WEFT_TRY(to_linear,
+                 make_color_transform({float_depth(picture.depth) ? kLinear : kSrgb}, {kLinear}));
         to_linear->apply(picture.rgb);
         plan.light_picture = std::make_shared<const ImageF3>(std::move(picture.rgb));
         return {};
@@ -230,7 +253,8 @@ class ShotOpener {
 
 }  // namespace
 
-Expected<std::shared_ptr<const Shot>> open_shot(const Project& project, const OpenShotOptions& options) {
+Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
+                                                const OpenShotOptions& options) {
     return ShotOpener(project, options).open();
 }
 

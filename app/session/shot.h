@@ -15,20 +15,20 @@ namespace weft {
 /// The colour spaces that a shot works in, given or by the file types.
 struct ShotSpaces {
     ColorSpace plate, working, out;
-    std::vector<ColorSpace> textures;          ///< One a region.
+    std::vector<ColorSpace> textures;  ///< One a region.
 };
 
 /// A texture as the report names it.
 struct ShotTexture {
-    std::string region, path, id;              ///< id: hash of the decoded pixels.
+    std::string region, path, id;  ///< id: hash of the decoded pixels.
     Size size;
     bool is_plane = false;
 };
 
 /// Everything that analysing and rendering need. Shared and immutable once made; thread-safe.
 struct Shot {
-    Project project;                           ///< With absolute paths.
-    std::vector<std::size_t> region_index;     ///< Of each planned region in the project.
+    Project project;                        ///< With absolute paths.
+    std::vector<std::size_t> region_index;  ///< Of each planned region in the project.
     std::shared_ptr<const CachedReader> plate;
     std::shared_ptr<const ShotSource> source;
     ShotPlan plan;
@@ -38,8 +38,8 @@ struct Shot {
 };
 
 struct OpenShotOptions {
-    std::size_t cache_bytes = 256u << 20;      ///< For decoded plates.
-    bool textures = true;                      ///< Without: enough to propagate mattes.
+    std::size_t cache_bytes = 256u << 20;  ///< For decoded plates.
+    bool textures = true;                  ///< Without: enough to propagate mattes.
 };
 
 /// Opens the plate, resolves the frames, spaces and textures, and checks that every file that the

@@ -17,8 +17,8 @@ enum class SampleQuality { kDraft, kFinal };
 /// pixel's footprint, which is the parallelogram that the coordinates' Jacobian spans.
 struct SampleRequest {
     const PlanePyramid* plane = nullptr;
-    ViewF2 coords;                     ///< H×W×2 texels of the plane (TextureCoords::uv).
-    ViewU8x1 matte;                    ///< H×W
+    ViewF2 coords;   ///< H×W×2 texels of the plane (TextureCoords::uv).
+    ViewU8x1 matte;  ///< H×W
     SampleQuality quality = SampleQuality::kFinal;
 };
 
@@ -26,8 +26,8 @@ struct SampleRequest {
 class Backend {
   public:
     virtual ~Backend() = default;
-    [[nodiscard]] virtual std::string name() const = 0;          ///< As in --backend.
-    [[nodiscard]] virtual std::string description() const = 0;   ///< Device, for the report.
+    [[nodiscard]] virtual std::string name() const = 0;         ///< As in --backend.
+    [[nodiscard]] virtual std::string description() const = 0;  ///< Device, for the report.
     /// `out`: H×W×3, in the pyramid's space; pixels with matte 0 are left as they are.
     virtual void sample_plane(const SampleRequest& request, ImageView<float, 3> out) const = 0;
 };

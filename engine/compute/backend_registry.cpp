@@ -7,7 +7,8 @@ namespace {
 
 std::string joined(const std::vector<std::string>& words) {
     std::string out;
-    for (const auto& w : words) out += (out.empty() ? "" : ", ") + w;
+    for (const auto& w : words)
+        out += (out.empty() ? "" : ", ") + w;
     return out;
 }
 
@@ -25,7 +26,8 @@ void BackendRegistry::add(BackendEntry entry) {
 
 std::vector<std::string> BackendRegistry::names() const {
     std::vector<std::string> out;
-    for (const auto& e : entries_) out.push_back(e.name);
+    for (const auto& e : entries_)
+        out.push_back(e.name);
     return out;
 }
 
@@ -45,8 +47,8 @@ Expected<BackendChoice> BackendRegistry::choose(const std::string& name) const {
     const auto entry = std::find_if(entries_.begin(), entries_.end(),
                                     [&](const BackendEntry& e) { return e.name == name; });
     if (entry == entries_.end()) {
-        return fail(ErrorCode::kUsage, "There is no backend '" + name + "'. Known are auto, " +
-                                           joined(names()) + ".");
+        return fail(ErrorCode::kUsage,
+                    "There is no backend '" + name + "'. Known are auto, " + joined(names()) + ".");
     }
     auto made = entry->make();
     if (!made) {

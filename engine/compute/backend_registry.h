@@ -12,7 +12,7 @@ namespace weft {
 /// A backend that may or may not be usable on this machine.
 struct BackendEntry {
     std::string name;
-    int score = 0;                     ///< `auto` takes the highest that can be made.
+    int score = 0;  ///< `auto` takes the highest that can be made.
     /// Makes it, or says in an Error (NoBackend) why it cannot be had here.
     std::function<Expected<std::shared_ptr<const Backend>>()> make;
 };
@@ -27,15 +27,16 @@ struct BackendChoice {
 /// is thread-safe.
 class BackendRegistry {
   public:
-    BackendRegistry();                 ///< Holds "cpu".
+    BackendRegistry();  ///< Holds "cpu".
     void add(BackendEntry entry);
     /// "auto" or a name. Errors: Usage for a name that no build knows (the message lists the known
-    /// ones), NoBackend when the named one cannot be had here (the message says why, and what there is).
+    /// ones), NoBackend when the named one cannot be had here (the message says why, and what there
+    /// is).
     [[nodiscard]] Expected<BackendChoice> choose(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> names() const;
 
   private:
-    std::vector<BackendEntry> entries_;   // best first
+    std::vector<BackendEntry> entries_;  // best first
 };
 
 [[nodiscard]] std::shared_ptr<const Backend> make_cpu_backend();

@@ -18,6 +18,8 @@ class CpuBackend final : public Backend {
 
 }  // namespace
 
-std::shared_ptr<const Backend> make_cpu_backend() { return std::make_shared<CpuBackend>(); }
+std::shared_ptr<const Backend> make_cpu_backend() {
+    return std::make_shared<CpuBackend>();
+}
 
 }  // namespace weft

@@ -9,7 +9,9 @@
 namespace weft {
 namespace {
 
-float usable(float v) { return v > 0 && std::isfinite(v) ? v : 0.0f; }
+float usable(float v) {
+    return v > 0 && std::isfinite(v) ? v : 0.0f;
+}
 
 // One output texel's share of the input along an axis: from `first`, `weights` of them.
 struct AreaTap {
@@ -33,7 +35,8 @@ std::vector<AreaTap> area_taps(int in, int out) {
 }
 
 PlanePyramid::Level halve(const PlanePyramid::Level& in) {
-    const int width = std::max(1, (in.width() + 1) / 2), height = std::max(1, (in.height() + 1) / 2);
+    const int width = std::max(1, (in.width() + 1) / 2),
+              height = std::max(1, (in.height() + 1) / 2);
     PlanePyramid::Level out(width, height);
     const auto columns = area_taps(in.width(), width), rows = area_taps(in.height(), height);
     parallel_rows(height, 32, [&](int y0, int y1) {
@@ -51,7 +54,8 @@ PlanePyramid::Level halve(const PlanePyramid::Level& in) {
                         p += 4;
                     }
                 }
-                for (std::size_t c = 0; c < 3; ++c) out.pixel(x, y)[c] = sum[c];
+                for (std::size_t c = 0; c < 3; ++c)
+                    out.pixel(x, y)[c] = sum[c];
             }
         }
     });
@@ -73,7 +77,8 @@ PlanePyramid::PlanePyramid(ViewF3 linear, WrapMode wrap) : size_(linear.size()),
     Level plane(size_);
     for (int y = 0; y < linear.height(); ++y) {
         for (int x = 0; x < linear.width(); ++x) {
-            for (int c = 0; c < 3; ++c) plane.pixel(x, y)[c] = usable(linear.pixel(x, y)[c]);
+            for (int c = 0; c < 3; ++c)
+                plane.pixel(x, y)[c] = usable(linear.pixel(x, y)[c]);
         }
     }
     levels_.push_back(std::move(plane));

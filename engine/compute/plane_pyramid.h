@@ -8,15 +8,15 @@
 
 namespace weft {
 
-/// Levels of a texture plane: level 0 is the plane itself, each further one half the size. Texels are
-/// four floats in the working space (the fourth is padding, so that one load fetches a texel).
+/// Levels of a texture plane: level 0 is the plane itself, each further one half the size. Texels
+/// are four floats in the working space (the fourth is padding, so that one load fetches a texel).
 class PlanePyramid {
   public:
     using Level = Image<float, 4>;
 
     PlanePyramid() = default;
-    /// `linear`: H×W×3, linear light; values that are negative or not finite count as 0. Costs about
-    /// 21 bytes a texel.
+    /// `linear`: H×W×3, linear light; values that are negative or not finite count as 0. Costs
+    /// about 21 bytes a texel.
     PlanePyramid(ViewF3 linear, WrapMode wrap);
 
     [[nodiscard]] Size size() const { return size_; }

@@ -18,7 +18,9 @@ F4 load(const float* p) {
     return v;
 }
 
-F4 spread(float v) { return F4{v, v, v, v}; }
+F4 spread(float v) {
+    return F4{v, v, v, v};
+}
 
 // Cells along one axis of the pixel, from the footprint's length in texels.
 struct Density {
@@ -51,7 +53,8 @@ F4 cubic_weights(float f) {
 }
 
 F4 row_sum(const float* t0, const float* t1, const float* t2, const float* t3, F4 w) {
-    return spread(w[0]) * load(t0) + spread(w[1]) * load(t1) + spread(w[2]) * load(t2) + spread(w[3]) * load(t3);
+    return spread(w[0]) * load(t0) + spread(w[1]) * load(t1) + spread(w[2]) * load(t2) +
+           spread(w[3]) * load(t3);
 }
 
 // Cubic lookup at level coordinates anywhere; W is the wrap mode.
@@ -62,11 +65,13 @@ F4 lookup(const PlanePyramid::Level& level, float u, float v) {
     const F4 wx = cubic_weights(gx - bx), wy = cubic_weights(gy - by);
     std::array<int, 4> column{};
     for (int k = 0; k < 4; ++k) {
-        column[static_cast<std::size_t>(k)] = 4 * wrapped_index(static_cast<int>(bx) + k - 1, level.width(), W);
+        column[static_cast<std::size_t>(k)] =
+            4 * wrapped_index(static_cast<int>(bx) + k - 1, level.width(), W);
     }
     F4 sum{};
     for (int k = 0; k < 4; ++k) {
-        const float* row = level.row(wrapped_index(static_cast<int>(by) + k - 1, level.height(), W));
+        const float* row =
+            level.row(wrapped_index(static_cast<int>(by) + k - 1, level.height(), W));
         sum += spread(wy[k]) *
                row_sum(row + column[0], row + column[1], row + column[2], row + column[3], wx);
     }
@@ -77,7 +82,8 @@ F4 lookup(const PlanePyramid::Level& level, float u, float v) {
 F4 lookup_inside(const PlanePyramid::Level& level, float u, float v) {
     const float gx = u - 0.5f, gy = v - 0.5f;
     const int x = static_cast<int>(gx), y = static_cast<int>(gy);
-    const F4 wx = cubic_weights(gx - static_cast<float>(x)), wy = cubic_weights(gy - static_cast<float>(y));
+    const F4 wx = cubic_weights(gx - static_cast<float>(x)),
+             wy = cubic_weights(gy - static_cast<float>(y));
     const float* row = level.pixel(x - 1, y - 1);
     F4 sum{};
     for (int k = 0; k < 4; ++k, row += level.stride()) {
@@ -99,11 +105,11 @@ class Sampler {
     Sampler(const SampleRequest& request, ImageView<float, 3> out)
         : request_(request), out_(out), density_(density(request.quality)) {
         for (const auto& level : request.plane->levels()) {
-            levels_.push_back(
-                {&level,
-                 static_cast<float>(level.width()) / static_cast<float>(request.plane->size().width),
-                 static_cast<float>(level.height()) /
-                     static_cast<float>(request.plane->size().height)});
+            levels_.push_back({&level,
+                               static_cast<float>(level.width()) /
+                                   static_cast<float>(request.plane->size().width),
+                               static_cast<float>(level.height()) /
+                                   static_cast<float>(request.plane->size().height)});
         }
     }
 
@@ -114,7 +120,8 @@ class Sampler {
             const F4 colour = pixel(x, y);
             float* o = out_.pixel(x, y);
             // The cubic may undershoot beside a highlight.
-            for (int c = 0; c < 3; ++c) o[c] = std::max(0.0f, colour[c]);
+            for (int c = 0; c < 3; ++c)
+                o[c] = std::max(0.0f, colour[c]);
         }
     }
 
@@ -123,7 +130,8 @@ class Sampler {
     [[nodiscard]] Vec2 slope(int xa, int ya, int xb, int yb) const {
         const float *a = request_.coords.pixel(xa, ya), *b = request_.coords.pixel(xb, yb);
         const int steps = std::max(1, (xb - xa) + (yb - ya));
-        return {(b[0] - a[0]) / static_cast<float>(steps), (b[1] - a[1]) / static_cast<float>(steps)};
+        return {(b[0] - a[0]) / static_cast<float>(steps),
+                (b[1] - a[1]) / static_cast<float>(steps)};
     }
 
     [[nodiscard]] F4 pixel(int x, int y) const {
@@ -141,24 +149,29 @@ class Sampler {
         // one of them.
         const float cell = std::max(lx / static_cast<float>(nx), ly / static_cast<float>(ny));
         std::size_t level = 0;
-        for (float span = 1.0f; cell > span && level + 1 < levels_.size(); span *= 2) ++level;
+        for (float span = 1.0f; cell > span && level + 1 < levels_.size(); span *= 2)
+            ++level;
         const LevelView& view = levels_[level];
 
         const Vec2 scale(view.scale_x, view.scale_y);
         const Size size = request_.plane->size();
-        const Vec2 at = Vec2(folded(centre[0], size.width, W), folded(centre[1], size.height, W)) * scale;
+        const Vec2 at =
+            Vec2(folded(centre[0], size.width, W), folded(centre[1], size.height, W)) * scale;
         const Vec2 step_x = jx * scale / static_cast<float>(nx);
         const Vec2 step_y = jy * scale / static_cast<float>(ny);
         const Vec2 first = at - step_x * (0.5f * static_cast<float>(nx - 1)) -
                            step_y * (0.5f * static_cast<float>(ny - 1));
-        return sum(*view.texels, at, first, step_x, step_y, nx, ny) * spread(1.0f / static_cast<float>(nx * ny));
+        return sum(*view.texels, at, first, step_x, step_y, nx, ny) *
+               spread(1.0f / static_cast<float>(nx * ny));
     }
 
     [[nodiscard]] static F4 sum(const PlanePyramid::Level& level, Vec2 at, Vec2 first, Vec2 step_x,
                                 Vec2 step_y, int nx, int ny) {
-        const float reach_x = std::abs(at.x - first.x) + std::abs(step_x.x) * static_cast<float>(nx) +
+        const float reach_x = std::abs(at.x - first.x) +
+                              std::abs(step_x.x) * static_cast<float>(nx) +
                               std::abs(step_y.x) * static_cast<float>(ny) + 2;
-        const float reach_y = std::abs(at.y - first.y) + std::abs(step_x.y) * static_cast<float>(nx) +
+        const float reach_y = std::abs(at.y - first.y) +
+                              std::abs(step_x.y) * static_cast<float>(nx) +
                               std::abs(step_y.y) * static_cast<float>(ny) + 2;
         const bool inside = at.x - reach_x >= 0 && at.y - reach_y >= 0 &&
                             at.x + reach_x < static_cast<float>(level.width()) &&
@@ -183,7 +196,8 @@ template <WrapMode W>
 void run(const SampleRequest& request, ImageView<float, 3> out) {
     const Sampler<W> sampler(request, out);
     parallel_rows(out.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) sampler.row(y);
+        for (int y = y0; y < y1; ++y)
+            sampler.row(y);
     });
 }
 
@@ -191,9 +205,12 @@ void run(const SampleRequest& request, ImageView<float, 3> out) {
 
 void sample_plane_cpu(const SampleRequest& request, ImageView<float, 3> out) {
     switch (request.plane->wrap()) {
-        case WrapMode::kRepeat: return run<WrapMode::kRepeat>(request, out);
-        case WrapMode::kMirror: return run<WrapMode::kMirror>(request, out);
-        case WrapMode::kClamp: return run<WrapMode::kClamp>(request, out);
+        case WrapMode::kRepeat:
+            return run<WrapMode::kRepeat>(request, out);
+        case WrapMode::kMirror:
+            return run<WrapMode::kMirror>(request, out);
+        case WrapMode::kClamp:
+            return run<WrapMode::kClamp>(request, out);
     }
 }
 

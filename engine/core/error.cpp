@@ -4,7 +4,8 @@ namespace weft {
 
 std::string Error::text() const {
     std::string out;
-    for (auto it = context.rbegin(); it != context.rend(); ++it) out += *it + ": ";
+    for (auto it = context.rbegin(); it != context.rend(); ++it)
+        out += *it + ": ";
     return out + message;
 }
 

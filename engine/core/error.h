@@ -12,18 +12,20 @@ namespace weft {
 /// What kind of failure, and the process's exit code for it (documented in docs/CLI.md, stable).
 enum class ErrorCode : int {
     kRenderFailed = 1,
-    kUsage = 2,            ///< Contradictory or impossible request.
-    kUnreadable = 3,       ///< A project or an input that cannot be read, or is of the wrong kind.
+    kUsage = 2,       ///< Contradictory or impossible request.
+    kUnreadable = 3,  ///< A project or an input that cannot be read, or is of the wrong kind.
     kMissingFrames = 4,
     kNoBackend = 5,
-    kNoSpace = 6,          ///< Out of disk or memory.
-    kRefused = 7,          ///< Refused by policy.
-    kDiffers = 8,          ///< Verification found a difference.
+    kNoSpace = 6,  ///< Out of disk or memory.
+    kRefused = 7,  ///< Refused by policy.
+    kDiffers = 8,  ///< Verification found a difference.
     kInterrupted = 130,
     kTerminated = 143,
 };
 
-[[nodiscard]] inline int exit_code(ErrorCode code) { return static_cast<int>(code); }
+[[nodiscard]] inline int exit_code(ErrorCode code) {
+    return static_cast<int>(code);
+}
 
 /// What happened, to what, and what to do about it; `context` holds the callers' words, innermost
 /// first. A message is one line of sentence case without a final line break.
@@ -56,14 +58,14 @@ using Status = Expected<void>;
 // value out: WEFT_TRY(frame, reader.read(12));
 #define WEFT_CONCAT_(a, b) a##b
 #define WEFT_CONCAT(a, b) WEFT_CONCAT_(a, b)
-#define WEFT_CHECK_OK(expr)                                                        \
-    do {                                                                           \
-        if (auto weft_status = (expr); !weft_status)                               \
+#define WEFT_CHECK_OK(expr)                                                         \
+    do {                                                                            \
+        if (auto weft_status = (expr); !weft_status)                                \
             return ::tl::unexpected<::weft::Error>(std::move(weft_status).error()); \
     } while (false)
-#define WEFT_TRY(var, expr)                                                                  \
-    auto WEFT_CONCAT(weft_try_, __LINE__) = (expr);                                          \
-    if (!WEFT_CONCAT(weft_try_, __LINE__))                                                   \
-        return ::tl::unexpected<::weft::Error>(                                              \
-            std::move(WEFT_CONCAT(weft_try_, __LINE__)).error());                            \
+#define WEFT_TRY(var, expr)                                       \
+    auto WEFT_CONCAT(weft_try_, __LINE__) = (expr);               \
+    if (!WEFT_CONCAT(weft_try_, __LINE__))                        \
+        return ::tl::unexpected<::weft::Error>(                   \
+            std::move(WEFT_CONCAT(weft_try_, __LINE__)).error()); \
     auto var = std::move(*WEFT_CONCAT(weft_try_, __LINE__))

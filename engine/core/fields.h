@@ -19,8 +19,8 @@ struct FlowField {
 
 /// Which way in time a file of true motion points.
 enum class MotionDirection {
-    kForward,    ///< later_from_earlier, on the earlier frame's pixels.
-    kBackward    ///< earlier_from_later, on the later frame's pixels.
+    kForward,  ///< later_from_earlier, on the earlier frame's pixels.
+    kBackward  ///< earlier_from_later, on the later frame's pixels.
 };
 
 /// Which place of the texture plane each pixel shows, in texels (texel (i, j) has its centre at

@@ -43,8 +43,9 @@ Expected<std::vector<int>> parse_frame_list(std::string_view text) {
         const std::size_t comma = text.find(',');
         Span span{};
         if (!parse_span(text.substr(0, comma), span)) {
-            return fail(ErrorCode::kUsage, "Cannot read the frames '" + whole +
-                                               "'. Write them like 1-40, 1-100x2, -5--1 or 1,4,9-12.");
+            return fail(ErrorCode::kUsage,
+                        "Cannot read the frames '" + whole +
+                            "'. Write them like 1-40, 1-100x2, -5--1 or 1,4,9-12.");
         }
         const auto count = (static_cast<long long>(span.last) - span.first) / span.step + 1;
         if (count + static_cast<long long>(frames.size()) > static_cast<long long>(kMaxFrames)) {
@@ -65,7 +66,8 @@ std::string format_frame_list(const std::vector<int>& frames) {
         // The longest run of equal steps from i; two frames alone are written as two numbers.
         std::size_t j = i + 1;
         const int step = j < frames.size() ? frames[j] - frames[i] : 1;
-        while (j < frames.size() && frames[j] - frames[j - 1] == step) ++j;
+        while (j < frames.size() && frames[j] - frames[j - 1] == step)
+            ++j;
         if (j - i == 2 && step != 1) j = i + 1;
         if (!out.empty()) out += ',';
         out += std::to_string(frames[i]);

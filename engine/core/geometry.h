@@ -46,7 +46,9 @@ struct Recti {
     [[nodiscard]] Recti grown(int px) const { return {x0 - px, y0 - px, x1 + px, y1 + px}; }
 };
 
-inline Recti rect_of(Size s) { return {0, 0, s.width, s.height}; }
+inline Recti rect_of(Size s) {
+    return {0, 0, s.width, s.height};
+}
 
 /// Projective map of a point: (x, y, 1) through `m`, divided by the third coordinate.
 inline Vec2 project(const Mat3& m, Vec2 p) {

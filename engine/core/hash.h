@@ -30,10 +30,7 @@ class Hasher {
     /// The length goes in too, so that ("ab","c") differs from ("a","bc").
     Hasher& text(std::string_view s);
     template <class T>
-        requires std::is_arithmetic_v<T>
-    Hasher& value(T v) {
-        return bytes(&v, sizeof v);
-    }
+    requires std::is_arithmetic_v<T> Hasher& value(T v) { return bytes(&v, sizeof v); }
     template <class T, int C>
     Hasher& image(const Image<T, C>& image) {
         value(image.width()).value(image.height()).value(C);

@@ -25,8 +25,8 @@ class ImageView {
 
     /// A view of mutable pixels is a view of const ones.
     template <class U>
-        requires(std::is_const_v<T> && std::is_same_v<std::remove_const_t<T>, U>)
-    ImageView(const ImageView<U, C>& o)  // NOLINT(google-explicit-constructor)
+    requires(std::is_const_v<T>&& std::is_same_v<std::remove_const_t<T>, U>)
+        ImageView(const ImageView<U, C>& o)  // NOLINT(google-explicit-constructor)
         : ImageView(o.data(), o.width(), o.height(), o.stride()) {}
 
     [[nodiscard]] int width() const { return width_; }
@@ -37,7 +37,9 @@ class ImageView {
     [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
     [[nodiscard]] T* data() const { return data_; }
     [[nodiscard]] T* row(int y) const { return data_ + y * stride_; }
-    [[nodiscard]] T* pixel(int x, int y) const { return row(y) + static_cast<std::ptrdiff_t>(x) * C; }
+    [[nodiscard]] T* pixel(int x, int y) const {
+        return row(y) + static_cast<std::ptrdiff_t>(x) * C;
+    }
     [[nodiscard]] T& at(int x, int y, int c = 0) const {
         assert(x >= 0 && y >= 0 && x < width_ && y < height_ && c >= 0 && c < C);
         return pixel(x, y)[c];
@@ -63,7 +65,8 @@ class Image {
 
     Image() = default;
     Image(int width, int height, T fill = T{})
-        : width_(width), height_(height),
+        : width_(width),
+          height_(height),
           pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * C, fill) {
         assert(width >= 0 && height >= 0);
     }
@@ -89,8 +92,8 @@ class Image {
 
     [[nodiscard]] ImageView<T, C> view() { return {data(), width_, height_, stride()}; }
     [[nodiscard]] ImageView<const T, C> view() const { return {data(), width_, height_, stride()}; }
-    operator ImageView<T, C>() { return view(); }                    // NOLINT
-    operator ImageView<const T, C>() const { return view(); }        // NOLINT
+    operator ImageView<T, C>() { return view(); }              // NOLINT
+    operator ImageView<const T, C>() const { return view(); }  // NOLINT
 
     bool operator==(const Image&) const = default;
 

@@ -67,7 +67,8 @@ class Pool {
             stop_ = true;
         }
         wake_.notify_all();
-        for (auto& t : helpers_) t.join();
+        for (auto& t : helpers_)
+            t.join();
     }
 
     void set_count(int count) {
@@ -131,13 +132,18 @@ class Pool {
 
 }  // namespace
 
-void set_thread_count(int count) { Pool::instance().set_count(count); }
-int thread_count() { return Pool::instance().count(); }
+void set_thread_count(int count) {
+    Pool::instance().set_count(count);
+}
+int thread_count() {
+    return Pool::instance().count();
+}
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
     if (n == 0) return;
     if (n == 1 || inside_parallel || thread_count() == 1) {
-        for (std::size_t i = 0; i < n; ++i) body(i);
+        for (std::size_t i = 0; i < n; ++i)
+            body(i);
         return;
     }
     const auto work = std::make_shared<Work>();

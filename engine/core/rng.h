@@ -1,6 +1,6 @@
 #pragma once
-// Counter-based random numbers: a value depends only on its key, never on how many were drawn before
-// or by which thread.
+// Counter-based random numbers: a value depends only on its key, never on how many were drawn
+// before or by which thread.
 
 #include <cstdint>
 

@@ -19,11 +19,12 @@ std::array<float, 4> catmull_rom(float f) {
 }
 
 struct Tap {
-    int first;                    // node index of weight[0]
+    int first;  // node index of weight[0]
     std::array<float, 4> weight;
 };
 
-// Where a frame coordinate falls among `count` nodes; the coordinate must lie inside the inner ones.
+// Where a frame coordinate falls among `count` nodes; the coordinate must lie inside the inner
+// ones.
 Tap tap_at(float coordinate, int spacing, int count) {
     const float g = coordinate / static_cast<float>(spacing) + LatticeField::kMargin;
     const int cell = std::clamp(static_cast<int>(std::floor(g)), 1, count - 3);
@@ -50,7 +51,8 @@ int node_count(int extent, int spacing) {
 }  // namespace
 
 LatticeField::LatticeField(Size full, int spacing)
-    : full_(full), spacing_(spacing),
+    : full_(full),
+      spacing_(spacing),
       nodes_(node_count(full.width, spacing), node_count(full.height, spacing)) {
     assert(spacing >= 1);
 }

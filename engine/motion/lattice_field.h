@@ -9,11 +9,11 @@ namespace weft {
 
 /// Displacements in pixels at the nodes of a square lattice over a frame. Node (i, j) stands at
 /// ((i − kMargin) · spacing, (j − kMargin) · spacing) in frame coordinates, where pixel (x, y) has
-/// its centre at (x + 0.5, y + 0.5). Between nodes the field is a Catmull–Rom surface (C¹, exact for
-/// quadratics), beyond the lattice it goes on linearly. Const access is thread-safe.
+/// its centre at (x + 0.5, y + 0.5). Between nodes the field is a Catmull–Rom surface (C¹, exact
+/// for quadratics), beyond the lattice it goes on linearly. Const access is thread-safe.
 class LatticeField {
   public:
-    static constexpr int kMargin = 2;   ///< Nodes outside the frame on each side.
+    static constexpr int kMargin = 2;  ///< Nodes outside the frame on each side.
 
     LatticeField() = default;
     /// A field of zeros over a frame of size `full`; `spacing` ≥ 1 px.
@@ -51,9 +51,9 @@ class LatticeField {
     ImageF2 nodes_;
 };
 
-/// First `inner`, then `outer`: the displacement of p is inner(p) + outer(p + inner(p)). With fields
-/// named target_from_source: a_from_c = compose(b_from_c, a_from_b). Same frame size; the result has
-/// `inner`'s spacing.
+/// First `inner`, then `outer`: the displacement of p is inner(p) + outer(p + inner(p)). With
+/// fields named target_from_source: a_from_c = compose(b_from_c, a_from_b). Same frame size; the
+/// result has `inner`'s spacing.
 [[nodiscard]] LatticeField compose(const LatticeField& inner, const LatticeField& outer);
 
 /// a + weight · (b − a), node by node; both of the same frame size and spacing.

@@ -14,8 +14,8 @@ cv::Mat as_mat(ViewU8x1 image) {
             static_cast<std::size_t>(image.stride())};
 }
 
-// DIS builds a pyramid down to patches of 8 px; smaller pictures are padded by repeating the border.
-// It also wants rows without gaps, which a crop does not have.
+// DIS builds a pyramid down to patches of 8 px; smaller pictures are padded by repeating the
+// border. It also wants rows without gaps, which a crop does not have.
 constexpr int kSmallest = 64;
 
 cv::Mat prepared(const cv::Mat& image) {
@@ -47,7 +47,9 @@ bool lookup(const ImageF2& d, float px, float py, Vec2& out) {
     return true;
 }
 
-float squared(float v) { return v * v; }
+float squared(float v) {
+    return v * v;
+}
 
 // Marks in `there.valid` the pixels from which going there and back misses.
 void check_one_way(const FlowField& there, const ImageF2& back, float tolerance_px, Matte& valid) {
@@ -59,7 +61,8 @@ void check_one_way(const FlowField& there, const ImageF2& back, float tolerance_
                 const bool inside = lookup(back, static_cast<float>(x) + 0.5f + d[0],
                                            static_cast<float>(y) + 0.5f + d[1], home);
                 const float miss = std::sqrt(squared(d[0] + home.x) + squared(d[1] + home.y));
-                const float way = std::sqrt(squared(d[0]) + squared(d[1])) + std::sqrt(squared(home.x) + squared(home.y));
+                const float way = std::sqrt(squared(d[0]) + squared(d[1])) +
+                                  std::sqrt(squared(home.x) + squared(home.y));
                 if (!inside || miss > tolerance_px + 0.05f * way) valid.at(x, y) = 0;
             }
         }
@@ -73,11 +76,12 @@ FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
     const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
     const bool draft = quality == FlowQuality::kDraft;
     // The finest pyramid level decides about precision and cost (measured on blender_fox_gt: the
-    // rolling ball's error is 1.2 px at a quarter, 0.37 at a half and 0.14 at the full size). Larger
-    // plates end at a level of about the same size.
+    // rolling ball's error is 1.2 px at a quarter, 0.37 at a half and 0.14 at the full size).
+    // Larger plates end at a level of about the same size.
     const int widest = draft ? 512 : 1280;
     int finest = 0;
-    while ((source.width() >> finest) > widest) ++finest;
+    while ((source.width() >> finest) > widest)
+        ++finest;
     dis->setFinestScale(finest);
     dis->setPatchStride(4);
     dis->setGradientDescentIterations(draft ? 12 : 16);

@@ -11,9 +11,9 @@ namespace weft {
 namespace {
 
 struct Sample {
-    Vec2 p;          // where, frame coordinates
-    Vec2 d;          // raw motion there
-    float weight;    // 0–1
+    Vec2 p;        // where, frame coordinates
+    Vec2 d;        // raw motion there
+    float weight;  // 0–1
 };
 
 // Scale of a set of residuals: 1.4826 · median of their norms / √2 (per component).
@@ -45,12 +45,15 @@ bool solve(std::array<std::array<double, N>, N>& a, std::array<std::array<double
         for (std::size_t r = 0; r < N; ++r) {
             if (r == k) continue;
             const double f = a[r][k] / a[k][k];
-            for (std::size_t c = k; c < N; ++c) a[r][c] -= f * a[k][c];
-            for (std::size_t c = 0; c < 2; ++c) rhs[r][c] -= f * rhs[k][c];
+            for (std::size_t c = k; c < N; ++c)
+                a[r][c] -= f * a[k][c];
+            for (std::size_t c = 0; c < 2; ++c)
+                rhs[r][c] -= f * rhs[k][c];
         }
     }
     for (std::size_t k = 0; k < N; ++k) {
-        for (std::size_t c = 0; c < 2; ++c) rhs[k][c] /= a[k][k];
+        for (std::size_t c = 0; c < 2; ++c)
+            rhs[k][c] /= a[k][k];
     }
     return true;
 }
@@ -80,7 +83,11 @@ Frame2D frame_of(const std::vector<Sample>& samples) {
 using Quadratic = std::array<std::array<double, 2>, 6>;
 
 std::array<double, 6> quadratic_basis(Vec2 q) {
-    return {1.0, q.x, q.y, static_cast<double>(q.x) * q.x, static_cast<double>(q.x) * q.y,
+    return {1.0,
+            q.x,
+            q.y,
+            static_cast<double>(q.x) * q.x,
+            static_cast<double>(q.x) * q.y,
             static_cast<double>(q.y) * q.y};
 }
 
@@ -102,7 +109,8 @@ Vec2 evaluate_tamed(const Quadratic& model, Vec2 q) {
     if (r <= kReach) return evaluate(model, q);
     const Vec2 edge = q * (kReach / r);
     constexpr float kStep = 0.05f;
-    const Vec2 slope = (evaluate(model, edge) - evaluate(model, edge * (1 - kStep / kReach))) / kStep;
+    const Vec2 slope =
+        (evaluate(model, edge) - evaluate(model, edge * (1 - kStep / kReach))) / kStep;
     return evaluate(model, edge) + slope * (r - kReach);
 }
 
@@ -122,16 +130,18 @@ Quadratic fit_quadratic(const std::vector<Sample>& samples, const Frame2D& frame
             const auto b = quadratic_basis(frame.local(s.p));
             total += w;
             for (std::size_t j = 0; j < 6; ++j) {
-                for (std::size_t k = 0; k <= j; ++k) a[j][k] += w * b[j] * b[k];
+                for (std::size_t k = 0; k <= j; ++k)
+                    a[j][k] += w * b[j] * b[k];
                 rhs[j][0] += w * b[j] * s.d.x;
                 rhs[j][1] += w * b[j] * s.d.y;
             }
         }
-        // A faint ridge on the slopes and a stronger one on the curvature: a sliver of surface gives
-        // no evidence about either across it.
+        // A faint ridge on the slopes and a stronger one on the curvature: a sliver of surface
+        // gives no evidence about either across it.
         constexpr std::array<double, 6> kRidge{1e-9, 1e-4, 1e-4, 1e-3, 1e-3, 1e-3};
         for (std::size_t j = 0; j < 6; ++j) {
-            for (std::size_t k = j + 1; k < 6; ++k) a[j][k] = a[k][j];
+            for (std::size_t k = j + 1; k < 6; ++k)
+                a[j][k] = a[k][j];
             a[j][j] += kRidge[j] * total;
         }
         if (!solve<6>(a, rhs)) return model;
@@ -144,8 +154,8 @@ Quadratic fit_quadratic(const std::vector<Sample>& samples, const Frame2D& frame
     return model;
 }
 
-// Weighted sums of a cell or, once blurred, of a neighbourhood: everything that an affine fit of two
-// components needs.
+// Weighted sums of a cell or, once blurred, of a neighbourhood: everything that an affine fit of
+// two components needs.
 enum Moment { kW, kWx, kWy, kWxx, kWxy, kWyy, kU, kUx, kUy, kV, kVx, kVy, kMoments };
 using Moments = Image<double, kMoments>;
 
@@ -163,7 +173,8 @@ void blur(Moments& m) {
             for (int k = std::max(-kRadius, -x); k <= std::min(kRadius, m.width() - 1 - x); ++k) {
                 const double* in = m.pixel(x + k, y);
                 const double w = g[static_cast<std::size_t>(k + kRadius)];
-                for (int c = 0; c < kMoments; ++c) out[c] += w * in[c];
+                for (int c = 0; c < kMoments; ++c)
+                    out[c] += w * in[c];
             }
         }
     }
@@ -173,7 +184,8 @@ void blur(Moments& m) {
         for (int k = std::max(-kRadius, -y); k <= std::min(kRadius, m.height() - 1 - y); ++k) {
             const double* in = t.row(y + k);
             const double w = g[static_cast<std::size_t>(k + kRadius)];
-            for (std::ptrdiff_t c = 0; c < m.stride(); ++c) row[c] += w * in[c];
+            for (std::ptrdiff_t c = 0; c < m.stride(); ++c)
+                row[c] += w * in[c];
         }
     }
 }
@@ -188,7 +200,8 @@ Vec2 affine_at_node(const double* m, Vec2 node, double sigma) {
     const double mxy = (m[kWxy] - qx * m[kWy] - qy * m[kWx] + qx * qy * w) / s2;
     // The slope is held back where the neighbourhood is one-sided.
     const double ridge = 0.15 * w;
-    std::array<std::array<double, 3>, 3> a{{{w, mx, my}, {mx, mxx + ridge, mxy}, {my, mxy, myy + ridge}}};
+    std::array<std::array<double, 3>, 3> a{
+        {{w, mx, my}, {mx, mxx + ridge, mxy}, {my, mxy, myy + ridge}}};
     std::array<std::array<double, 2>, 3> rhs{
         {{m[kU], m[kV]},
          {(m[kUx] - qx * m[kU]) / sigma, (m[kVx] - qx * m[kV]) / sigma},
@@ -200,7 +213,7 @@ Vec2 affine_at_node(const double* m, Vec2 node, double sigma) {
 // One level: local affine fits of σ = 2 · spacing to the residuals, on a lattice of that spacing.
 struct Level {
     LatticeField correction;
-    ImageF1 support;      // Σ g·w at each node, in samples
+    ImageF1 support;  // Σ g·w at each node, in samples
 };
 
 Level fit_level(const std::vector<Sample>& samples, const std::vector<Vec2>& residuals, Size full,
@@ -210,8 +223,10 @@ Level fit_level(const std::vector<Sample>& samples, const std::vector<Vec2>& res
     Moments m(nodes.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Sample& s = samples[i];
-        const int nx = static_cast<int>(std::lround(s.p.x / static_cast<float>(spacing))) + LatticeField::kMargin;
-        const int ny = static_cast<int>(std::lround(s.p.y / static_cast<float>(spacing))) + LatticeField::kMargin;
+        const int nx = static_cast<int>(std::lround(s.p.x / static_cast<float>(spacing))) +
+                       LatticeField::kMargin;
+        const int ny = static_cast<int>(std::lround(s.p.y / static_cast<float>(spacing))) +
+                       LatticeField::kMargin;
         const float r = glm::length(residuals[i]) / scale;
         const double w = s.weight / (1 + r * r);
         const double x = s.p.x, y = s.p.y, u = w * residuals[i].x, v = w * residuals[i].y;
@@ -243,10 +258,11 @@ Level fit_level(const std::vector<Sample>& samples, const std::vector<Vec2>& res
     return level;
 }
 
-// Holds a level back to what stands out of the noise: δ · τ² / (τ² + se²). se² is the local fit's own
-// variance; τ², how much this surface really deviates from the stiffer model at this level, is taken
-// from all nodes together (empirical Bayes), by a quantile: a rolling ball's shadow moves across the
-// ground as one, and only the rest of the ground tells that the ground does not move with it.
+// Holds a level back to what stands out of the noise: δ · τ² / (τ² + se²). se² is the local fit's
+// own variance; τ², how much this surface really deviates from the stiffer model at this level, is
+// taken from all nodes together (empirical Bayes), by a quantile: a rolling ball's shadow moves
+// across the ground as one, and only the rest of the ground tells that the ground does not move
+// with it.
 void shrink(Level& level, float noise, float samples_per_independent) {
     const auto variance_at = [&](int i, int j) {
         // For Gaussian weights the effective number of samples is (Σg)²/Σg² = 2 Σg.
@@ -277,8 +293,10 @@ void shrink(Level& level, float noise, float samples_per_independent) {
     }
 }
 
-void subtract(const std::vector<Sample>& samples, const LatticeField& field, std::vector<Vec2>& residuals) {
-    for (std::size_t i = 0; i < samples.size(); ++i) residuals[i] -= field.at(samples[i].p);
+void subtract(const std::vector<Sample>& samples, const LatticeField& field,
+              std::vector<Vec2>& residuals) {
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        residuals[i] -= field.at(samples[i].p);
 }
 
 std::vector<Sample> take_samples(ViewF2 flow, ViewU8x1 weights, int stride) {
@@ -314,12 +332,14 @@ LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitO
         }
     }
     std::vector<Vec2> residuals(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) residuals[i] = samples[i].d;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        residuals[i] = samples[i].d;
     subtract(samples, field, residuals);
 
     // The noise of the raw motion is what even the finest fit leaves. Half of it again, because the
     // estimator's errors hang together over about the width of that fit and are partly followed.
-    const int finest = std::max(options.spacing_px / 2, static_cast<int>(std::lround(options.finest_px / 2)));
+    const int finest =
+        std::max(options.spacing_px / 2, static_cast<int>(std::lround(options.finest_px / 2)));
     const float spread = std::max(options.noise_floor_px, robust_scale(samples, residuals));
     std::vector<Vec2> left = residuals;
     subtract(samples, fit_level(samples, residuals, full, finest, 3 * spread).correction, left);
@@ -357,7 +377,8 @@ Matte motion_weights(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 valid, int border
     // A thin region keeps what it has: the border gives way until a third of the region remains.
     double border = border_px;
     const int area = cv::countNonZero(inside);
-    while (border > 1 && cv::countNonZero(distance > border) * 3 < area) border /= 2;
+    while (border > 1 && cv::countNonZero(distance > border) * 3 < area)
+        border /= 2;
 
     cv::Mat gx, gy, energy;
     cv::Sobel(as_mat(luma), gx, CV_16S, 1, 0, 3, 1.0, 0, cv::BORDER_REPLICATE);

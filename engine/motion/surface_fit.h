@@ -8,10 +8,10 @@
 namespace weft {
 
 struct SurfaceFitOptions {
-    int spacing_px = 8;          ///< Of the lattice that comes out.
-    float finest_px = 8;        ///< σ of the finest local fit.
-    float correlation_px = 8;   ///< Over how many pixels the errors of the raw motion hang together:
-                                 ///< the patch size of the estimator, 1 for exact motion.
+    int spacing_px = 8;        ///< Of the lattice that comes out.
+    float finest_px = 8;       ///< σ of the finest local fit.
+    float correlation_px = 8;  ///< Over how many pixels the errors of the raw motion hang together:
+                               ///< the patch size of the estimator, 1 for exact motion.
     float noise_floor_px = 0.04f;
 };
 

@@ -7,7 +7,8 @@ namespace weft {
 
 Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStore& store,
                     const CancelToken& cancel, const ProgressFn& progress) {
-    ProgressEvent event{"analyse", 0, count_matte_steps(plan, store) + count_surface_steps(plan, store), 0, 0};
+    ProgressEvent event{"analyse", 0,
+                        count_matte_steps(plan, store) + count_surface_steps(plan, store), 0, 0};
     const PassContext context{source, plan, cancel, [&](int frame, double seconds) {
                                   ++event.done;
                                   event.frame = frame;

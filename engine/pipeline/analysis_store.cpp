@@ -14,10 +14,7 @@ constexpr int kLargestSide = 1 << 16;
 class Writer {
   public:
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    Writer& value(const T& v) {
-        return raw(&v, sizeof v);
-    }
+    requires std::is_trivially_copyable_v<T> Writer& value(const T& v) { return raw(&v, sizeof v); }
     Writer& raw(const void* data, std::size_t size) {
         const auto* p = static_cast<const std::uint8_t*>(data);
         bytes_.insert(bytes_.end(), p, p + size);
@@ -50,7 +47,8 @@ class Reader {
     [[nodiscard]] bool ok() const { return ok_; }
     // Whether as much is still to come: to be asked before room is made for it.
     [[nodiscard]] bool holds(double count, std::size_t element_bytes) const {
-        return count * static_cast<double>(element_bytes) <= static_cast<double>(bytes_.size() - position_);
+        return count * static_cast<double>(element_bytes) <=
+               static_cast<double>(bytes_.size() - position_);
     }
 
   private:
@@ -59,13 +57,18 @@ class Reader {
     bool ok_ = true;
 };
 
-double area(Size s) { return static_cast<double>(s.width) * s.height; }
+double area(Size s) {
+    return static_cast<double>(s.width) * s.height;
+}
 
-bool sane(Size s) { return s.width >= 0 && s.height >= 0 && s.width <= kLargestSide && s.height <= kLargestSide; }
+bool sane(Size s) {
+    return s.width >= 0 && s.height >= 0 && s.width <= kLargestSide && s.height <= kLargestSide;
+}
 
 tl::unexpected<Error> damaged(const char* what) {
-    return fail(ErrorCode::kRenderFailed, std::string("The cached ") + what +
-                                              " is damaged. Delete the cache folder and render again.");
+    return fail(ErrorCode::kRenderFailed,
+                std::string("The cached ") + what +
+                    " is damaged. Delete the cache folder and render again.");
 }
 
 // Shading is kept as round(log2(v) · 2048) + 32768: from 2^-16 to 2^16.
@@ -158,7 +161,8 @@ Expected<LatticeField> decode_lattice(const Bytes& bytes) {
     const double cells = area({full.width / spacing, full.height / spacing});
     if (!reader.holds(cells, 2 * sizeof(float))) return damaged("motion");
     LatticeField out(full, spacing);
-    if (!reader.raw(out.nodes().data(), out.nodes().size_bytes()).complete()) return damaged("motion");
+    if (!reader.raw(out.nodes().data(), out.nodes().size_bytes()).complete())
+        return damaged("motion");
     return out;
 }
 
@@ -175,7 +179,8 @@ Expected<Shading> decode_shading(const Bytes& bytes) {
     }
     std::vector<std::uint16_t> codes(static_cast<std::size_t>(size.width) *
                                      static_cast<std::size_t>(size.height));
-    if (!reader.raw(codes.data(), codes.size() * sizeof codes[0]).complete()) return damaged("light");
+    if (!reader.raw(codes.data(), codes.size() * sizeof codes[0]).complete())
+        return damaged("light");
     out.value = ImageF1(size);
     std::transform(codes.begin(), codes.end(), out.value.data(), from_log_code);
     return out;

@@ -16,12 +16,12 @@
 namespace weft {
 
 enum class AnalysisKind : std::uint8_t {
-    kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made).
-    kMatte,          ///< Propagated and merged, with its confidence.
-    kCoords,         ///< ref_from_cur
-    kCoordsOneWay,   ///< The same between two references, as the first of them found it.
+    kMatteForward,  ///< Propagated from the keyframe before (only while the mattes are made).
+    kMatte,         ///< Propagated and merged, with its confidence.
+    kCoords,        ///< ref_from_cur
+    kCoordsOneWay,  ///< The same between two references, as the first of them found it.
     kShading,
-    kPaperTexture    ///< The paper mode's synthesised picture.
+    kPaperTexture  ///< The paper mode's synthesised picture.
 };
 
 struct AnalysisKey {
@@ -63,7 +63,7 @@ struct StoredMatte {
 
 [[nodiscard]] Bytes encode(const StoredMatte& matte);
 [[nodiscard]] Bytes encode(const LatticeField& field);
-[[nodiscard]] Bytes encode(const Shading& shading);   ///< 16 bit, logarithmic: steps of 0.03%.
+[[nodiscard]] Bytes encode(const Shading& shading);  ///< 16 bit, logarithmic: steps of 0.03%.
 [[nodiscard]] Bytes encode(const ImageU8x3& picture);
 /// Errors: RenderFailed when the bytes are not what the encoder wrote.
 [[nodiscard]] Expected<StoredMatte> decode_matte(const Bytes& bytes);

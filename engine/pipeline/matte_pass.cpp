@@ -98,15 +98,16 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         if (!estimate || job.is_key(at.frame)) continue;
         if (!job.between_keys(at.frame)) {
             if (at.frame < job.keys.front()) {
-                WEFT_CHECK_OK(put(store, job.region, at.frame, AnalysisKind::kMatte, std::move(*estimate)));
+                WEFT_CHECK_OK(
+                    put(store, job.region, at.frame, AnalysisKind::kMatte, std::move(*estimate)));
             }
             continue;
         }
         WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward}));
         WEFT_TRY(forward, decode_matte(bytes));
         const auto after = std::lower_bound(job.keys.begin(), job.keys.end(), at.frame);
-        const float position = static_cast<float>(at.frame - *(after - 1)) /
-                               static_cast<float>(*after - *(after - 1));
+        const float position =
+            static_cast<float>(at.frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
         WEFT_CHECK_OK(put(store, job.region, at.frame, AnalysisKind::kMatte,
                           merge_estimates({std::move(forward.matte), forward.confidence}, *estimate,
                                           position, at.views->display)));
@@ -130,10 +131,10 @@ Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
     WEFT_CHECK_OK(sweep(context, {there.first, there.last, true}, [&](const SweepFrame& at) {
         return visit_forward(context, store, jobs, at);
     }));
-    for (Job& job : jobs) job.walker.reset();
-    return sweep(context, {back.last, back.first, true}, [&](const SweepFrame& at) {
-        return visit_backward(context, store, jobs, at);
-    });
+    for (Job& job : jobs)
+        job.walker.reset();
+    return sweep(context, {back.last, back.first, true},
+                 [&](const SweepFrame& at) { return visit_backward(context, store, jobs, at); });
 }
 
 }  // namespace weft

@@ -43,9 +43,10 @@ Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
     }
     const Vec2 extent = high - low;
     if (!(extent.x < kLargestPlane && extent.y < kLargestPlane)) {
-        return fail(ErrorCode::kUsage,
-                    "The placement needs a texture of more than 8192 texels a side for every frame. "
-                    "Raise the scale, or use --temporal locked, which repeats its plane.");
+        return fail(
+            ErrorCode::kUsage,
+            "The placement needs a texture of more than 8192 texels a side for every frame. "
+            "Raise the scale, or use --temporal locked, which repeats its plane.");
     }
     const Vec2i origin(static_cast<int>(std::floor(low.x)), static_cast<int>(std::floor(low.y)));
     return FramePlane{origin,

@@ -14,7 +14,7 @@ namespace weft {
 /// The texels that a still placement shows on the whole frame: where a plane that is made anew for
 /// a frame begins, and how large it is.
 struct FramePlane {
-    Vec2i origin;     ///< Texel of the placement's plane at the picture's (0, 0).
+    Vec2i origin;  ///< Texel of the placement's plane at the picture's (0, 0).
     Size size;
 };
 /// Errors: Usage when the placement would need more than 8192 texels along a side.
@@ -23,8 +23,8 @@ struct FramePlane {
 /// The sample in 8 bit as synthesis sees it.
 [[nodiscard]] ImageU8x3 synthesis_sample(const RegionPlan& region);
 
-/// Synthesises frame after frame: the previous result, warped along the surface's motion, enters the
-/// cut's data term with λ_t; then T_t ← α T_t + (1 − α) warp(T_{t−1}).
+/// Synthesises frame after frame: the previous result, warped along the surface's motion, enters
+/// the cut's data term with λ_t; then T_t ← α T_t + (1 − α) warp(T_{t−1}).
 class PaperWalker {
   public:
     PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plate);

@@ -41,7 +41,8 @@ PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_p
             std::uint8_t* out = views.display.row(y);
             std::uint8_t* luma = views.luma.row(y);
             for (int x = 0; x < plate.width(); ++x, in += 3, out += 3) {
-                for (int c = 0; c < 3; ++c) out[c] = code(in[c]);
+                for (int c = 0; c < 3; ++c)
+                    out[c] = code(in[c]);
                 luma[x] = static_cast<std::uint8_t>(
                     (out[0] * 6966 + out[1] * 23436 + out[2] * 2366 + 16384) >> 15);
             }
@@ -83,7 +84,8 @@ Recti matte_bounds(ViewU8x1 matte) {
         const std::uint8_t* end = row + matte.width();
         const auto* first = std::find_if(row, end, [](std::uint8_t m) { return m > 0; });
         if (first == end) continue;
-        while (end[-1] == 0) --end;
+        while (end[-1] == 0)
+            --end;
         box = box.united({static_cast<int>(first - row), y, static_cast<int>(end - row), y + 1});
     }
     return box;

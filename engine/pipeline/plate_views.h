@@ -7,9 +7,9 @@
 namespace weft {
 
 struct PlateViews {
-    ImageU8x3 display;        ///< sRGB codes; NaN as 0, values outside [0, 1] clipped.
-    Matte luma;               ///< Rec. 709 luma of it.
-    Matte finite;             ///< 255 where all components are finite, else 0; empty: everywhere.
+    ImageU8x3 display;  ///< sRGB codes; NaN as 0, values outside [0, 1] clipped.
+    Matte luma;         ///< Rec. 709 luma of it.
+    Matte finite;       ///< 255 where all components are finite, else 0; empty: everywhere.
 };
 
 [[nodiscard]] PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate);

@@ -20,7 +20,8 @@ Expected<Matte> extent_matte(const ShotSource& source, const ShotPlan& plan,
     return std::move(stored.matte);
 }
 
-Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan, int region, int frame) {
+Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan, int region,
+                              int frame) {
     if (!region_of(plan, region).has_holdout) return Matte{};
     WEFT_TRY(holdout, source.holdout(region, frame));
     return holdout ? std::move(*holdout) : Matte{};

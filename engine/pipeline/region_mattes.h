@@ -9,8 +9,8 @@ namespace weft {
 [[nodiscard]] Expected<Matte> extent_matte(const ShotSource& source, const ShotPlan& plan,
                                            const AnalysisStore& store, int region, int frame);
 /// The region's holdout on a frame; an empty image when it has none.
-[[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan, int region,
-                                            int frame);
+[[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
+                                            int region, int frame);
 
 /// The frames that a region's analysis spans: its frames to render, references and matte keyframes.
 struct FrameSpan {

@@ -20,23 +20,23 @@ namespace weft {
 
 /// A texture as it was read: exactly one of `sample` (to be grown) and `plane` (used as it is).
 struct TexturePicture {
-    ImageF3 pixels;                    ///< In the texture's own space.
+    ImageF3 pixels;  ///< In the texture's own space.
     bool is_plane = false;
-    bool eight_bit = true;             ///< `pixels` are codes/255.
-    WrapMode wrap = WrapMode::kRepeat; ///< Beyond a given plane; grown planes repeat.
+    bool eight_bit = true;              ///< `pixels` are codes/255.
+    WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
 };
 
 struct RegionPlan {
-    std::string id;                    ///< Stable; enters the keys of random numbers.
+    std::string id;  ///< Stable; enters the keys of random numbers.
     std::uint64_t random_key = 0;
     // Mattes: frame by frame, or painted on these frames (ascending) and propagated.
     std::vector<int> matte_keys;
     [[nodiscard]] bool propagated() const { return !matte_keys.empty(); }
     bool has_holdout = false;
     // Motion and placement.
-    std::vector<int> reference_frames; ///< The first holds the placement; at least one.
+    std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
     bool true_motion = false;
-    bool motion_forward = true;        ///< A file of true motion points to the next frame, else back.
+    bool motion_forward = true;  ///< A file of true motion points to the next frame, else back.
     PlanePlacement placement;
     // Texture.
     std::shared_ptr<const TexturePicture> texture;
@@ -47,24 +47,24 @@ struct RegionPlan {
     int feather_px = 0;
     // Time.
     TemporalMode temporal = TemporalMode::kLocked;
-    float blend = 0.2f;                ///< α of the paper mode.
-    float weight = 1.0f;               ///< λ_t of the paper mode.
+    float blend = 0.2f;   ///< α of the paper mode.
+    float weight = 1.0f;  ///< λ_t of the paper mode.
     // Light.
     LightSource light_source = LightSource::kPlate;
-    std::shared_ptr<const ImageF3> light_picture;   ///< Linear light; for kImage.
+    std::shared_ptr<const ImageF3> light_picture;  ///< Linear light; for kImage.
     LightOptions light;
 };
 
 /// What holds for the whole shot.
 struct ShotPlan {
-    std::vector<int> frames;           ///< To be rendered, ascending.
-    int first_plate = 0, last_plate = 0;   ///< Numbers of the plate's first and last frame.
+    std::vector<int> frames;              ///< To be rendered, ascending.
+    int first_plate = 0, last_plate = 0;  ///< Numbers of the plate's first and last frame.
     FlowQuality quality = FlowQuality::kFinal;
     std::uint64_t seed = 1;
-    bool display_referred = true;      ///< The output rolls off above 1.
+    bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
         out_from_plate;
-    std::vector<RegionPlan> regions;   ///< Lowest layer first.
+    std::vector<RegionPlan> regions;  ///< Lowest layer first.
 };
 
 }  // namespace weft

@@ -24,7 +24,8 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
                                   const ProgressFn& progress) {
     const TexturePicture& texture = *region.texture;
     if (texture.is_plane) {
-        return PlanePyramid(transformed(texture.pixels, *region.working_from_texture), texture.wrap);
+        return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
+                            texture.wrap);
     }
     PlaneOptions options;
     options.size = plane_size(region.placement, plate);

@@ -1,5 +1,6 @@
 #pragma once
-// A region made ready to be rendered: its texture plane, its placement, the light it is relative to.
+// A region made ready to be rendered: its texture plane, its placement, the light it is relative
+// to.
 
 #include <optional>
 
@@ -14,11 +15,11 @@
 namespace weft {
 
 struct RegionScene {
-    PlanePyramid plane;                  ///< Empty in the modes that make one for every frame.
+    PlanePyramid plane;  ///< Empty in the modes that make one for every frame.
     Mat3 plane_from_plate{1};
-    float reference_shading = 1;         ///< S₀
+    float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
-    std::optional<PlaneStats> stats;     ///< Of a grown plane.
+    std::optional<PlaneStats> stats;  ///< Of a grown plane.
 };
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
@@ -29,7 +30,8 @@ struct RegionScene {
 /// Grows a region's plane and takes S₀ from the analysis of its (first) reference frame.
 [[nodiscard]] Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                                const AnalysisStore& store, int region,
-                                               const CancelToken& cancel, const ProgressFn& progress);
+                                               const CancelToken& cancel,
+                                               const ProgressFn& progress);
 
 /// A plane's pixels in the working space: each texel takes the sample's pixel that its source map
 /// names, at the sample's full precision; what feathering changed in 8 bit is added.

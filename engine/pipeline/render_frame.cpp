@@ -19,8 +19,13 @@ class FrameRenderer {
   public:
     FrameRenderer(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
                   const Backend& backend, int frame, std::shared_ptr<const ImageF3> plate)
-        : source_(source), plan_(plan), store_(store), backend_(backend), frame_(frame),
-          plate_(std::move(plate)), canvas_(transformed(*plate_, *plan.working_from_plate)),
+        : source_(source),
+          plan_(plan),
+          store_(store),
+          backend_(backend),
+          frame_(frame),
+          plate_(std::move(plate)),
+          canvas_(transformed(*plate_, *plan.working_from_plate)),
           touched_(plate_->size()) {}
 
     Status add(int index, const RegionScene& scene);
@@ -42,7 +47,7 @@ class FrameRenderer {
     const Backend& backend_;
     int frame_;
     std::shared_ptr<const ImageF3> plate_;
-    ImageF3 canvas_;                        // working space; layers go over it
+    ImageF3 canvas_;  // working space; layers go over it
     Matte touched_;
     std::optional<PlateViews> views_;
     bool lit_ = false;
@@ -81,7 +86,8 @@ Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, co
     SampleRequest request;
     request.coords = at.uv;
     request.matte = matte;
-    request.quality = plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
+    request.quality =
+        plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
     if (!scene.plane.empty()) {
         request.plane = &scene.plane;
         backend_.sample_plane(request, out);
@@ -122,14 +128,15 @@ Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, co
     return out;
 }
 
-Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
-                            ImageF3& texture) {
+Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box,
+                            const Matte& matte, ImageF3& texture) {
     const RegionPlan& region = region_of(plan_, index);
     if (region.light_source == LightSource::kNone || region.light.strength <= 0) return {};
     lit_ = true;
     const Vec2i origin(box.x0, box.y0);
     if (scene.picture_light) {
-        apply_light(texture, origin, matte, *scene.picture_light, scene.reference_shading, region.light);
+        apply_light(texture, origin, matte, *scene.picture_light, scene.reference_shading,
+                    region.light);
         return {};
     }
     WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kShading}));
@@ -153,8 +160,8 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     const ImageView<float, 3> area = canvas_.view().crop(box);
     const ImageF3 old_surface = unmix_surface(area, inside);
     composite_over(area, area, old_surface, inside, surface);
-    std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(), touched_.data(),
-                   [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+    std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(),
+                   touched_.data(), [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
     return {};
 }
 
@@ -179,7 +186,8 @@ RenderedFrame FrameRenderer::finish() {
 
 Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& plan,
                                      const std::vector<RegionScene>& scenes,
-                                     const AnalysisStore& store, const Backend& backend, int frame) {
+                                     const AnalysisStore& store, const Backend& backend,
+                                     int frame) {
     WEFT_TRY(plate, source.plate(frame));
     FrameRenderer renderer(source, plan, store, backend, frame, std::move(plate));
     for (std::size_t k = 0; k < scenes.size(); ++k) {

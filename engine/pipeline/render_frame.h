@@ -7,18 +7,18 @@
 namespace weft {
 
 struct RenderedFrame {
-    ImageF3 pixels;                  ///< In the output space; where no matte reaches, the plate's own
-                                     ///< values (through out_from_plate, if that is not the identity).
-    Matte touched;                   ///< The union of all mattes.
-    std::int64_t above_one = 0;      ///< Pixels that would have clipped and were rolled off.
-    std::int64_t filled = 0;         ///< NaN or infinite plate pixels that a region filled.
+    ImageF3 pixels;              ///< In the output space; where no matte reaches, the plate's own
+                                 ///< values (through out_from_plate, if that is not the identity).
+    Matte touched;               ///< The union of all mattes.
+    std::int64_t above_one = 0;  ///< Pixels that would have clipped and were rolled off.
+    std::int64_t filled = 0;     ///< NaN or infinite plate pixels that a region filled.
 };
 
 /// Renders one frame. A pure function of its arguments: frames may be rendered in any order, from
 /// several threads, on several machines.
 [[nodiscard]] Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& plan,
                                                    const std::vector<RegionScene>& scenes,
-                                                   const AnalysisStore& store, const Backend& backend,
-                                                   int frame);
+                                                   const AnalysisStore& store,
+                                                   const Backend& backend, int frame);
 
 }  // namespace weft

@@ -15,8 +15,8 @@ struct Job {
     int region = 0;
     const RegionPlan* plan = nullptr;
     FrameSpan span;
-    std::vector<int> references;     // ascending
-    int primary = 0;                 // the reference that holds the placement
+    std::vector<int> references;  // ascending
+    int primary = 0;              // the reference that holds the placement
     bool coords = false, shading = false, paper = false;
 
     std::optional<SurfaceWalker> walker;
@@ -29,7 +29,8 @@ struct Job {
     }
     // Between two references what the first leg finds is not final: blend() makes it so.
     [[nodiscard]] AnalysisKind coords_kind(int frame) const {
-        const bool between = frame > references.front() && frame < references.back() && !is_reference(frame);
+        const bool between =
+            frame > references.front() && frame < references.back() && !is_reference(frame);
         return between ? AnalysisKind::kCoordsOneWay : AnalysisKind::kCoords;
     }
     [[nodiscard]] bool complete(const AnalysisStore& store) const {
@@ -67,9 +68,9 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
 
 // The three sweeps over all jobs. An empty one has first == last with nothing to do.
 struct Legs {
-    std::optional<SweepOptions> forward;    // from the primary references to the ends
-    std::optional<SweepOptions> backward;   // from the last references to the begins
-    std::optional<SweepOptions> again;      // from references before a primary up to it
+    std::optional<SweepOptions> forward;   // from the primary references to the ends
+    std::optional<SweepOptions> backward;  // from the last references to the begins
+    std::optional<SweepOptions> again;     // from references before a primary up to it
 };
 
 Legs legs_of(const std::vector<Job>& jobs) {
@@ -146,7 +147,8 @@ class Follower {
 
   private:
     [[nodiscard]] Expected<Matte> visible_at(const Job& job, const SweepFrame& at) const {
-        WEFT_TRY(extent, extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
+        WEFT_TRY(extent,
+                 extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
         WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, at.frame));
         Matte visible = without_holdout(extent, holdout);
         drop_nonfinite(visible, at.views->finite);
@@ -157,7 +159,8 @@ class Follower {
         SurfaceWalkerOptions options;
         options.quality = context_.plan.quality;
         options.exact_motion = job.plan->true_motion;
-        options.spacing_px = std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
+        options.spacing_px =
+            std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
         job.walker.emplace(at.views->luma, visible, options, base);
         job.last_shading.reset();
         job.last_visible = visible;
@@ -187,7 +190,8 @@ class Follower {
         job.last_visible = visible;
         if (job.is_reference(at.frame)) job.walker->anchor_here(at.views->luma, visible);
         if (job.painter) {
-            WEFT_TRY(picture, job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
+            WEFT_TRY(picture,
+                     job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
         return {};
@@ -198,14 +202,16 @@ class Follower {
     [[nodiscard]] Expected<FlowField> true_motion(const Job& job, int frame) const {
         const bool direct = job.plan->motion_forward == walking_back_;
         if (direct) return context_.source.motion(job.region, frame);
-        WEFT_TRY(cur_from_prev, context_.source.motion(job.region, frame + (walking_back_ ? 1 : -1)));
+        WEFT_TRY(cur_from_prev,
+                 context_.source.motion(job.region, frame + (walking_back_ ? 1 : -1)));
         drop_nonfinite(cur_from_prev.valid, job.last_visible);
         return invert_flow(cur_from_prev);
     }
 
     Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
         if (job.coords) {
-            WEFT_CHECK_OK(keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
+            WEFT_CHECK_OK(
+                keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
         }
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
@@ -225,7 +231,8 @@ class Follower {
     Status blend(Job& job, int frame) {
         if (!job.coords) return {};
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
-        const float s = static_cast<float>(frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
+        const float s =
+            static_cast<float>(frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
         const float smooth = s * s * (3 - 2 * s);
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
@@ -270,7 +277,8 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
         if (!leg) return {};
         follower.begin_leg(*leg);
         return sweep(context, *leg, [&](const SweepFrame& at) -> Status {
-            for (Job& job : jobs) WEFT_CHECK_OK((follower.*stop)(job, at));
+            for (Job& job : jobs)
+                WEFT_CHECK_OK((follower.*stop)(job, at));
             return {};
         });
     };

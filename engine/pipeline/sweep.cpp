@@ -37,7 +37,8 @@ Status sweep(const PassContext& context, const SweepOptions& options, const Swee
         WEFT_TRY(current, next.get());
         if (context.cancel.cancelled()) return cancelled(context.cancel);
         if (frame != options.last) {
-            next = std::async(std::launch::async, [&context, frame, step] { return load(context, frame + step); });
+            next = std::async(std::launch::async,
+                              [&context, frame, step] { return load(context, frame + step); });
         }
         FlowField motion;
         if (options.motion && previous.plate) {
@@ -46,7 +47,8 @@ Status sweep(const PassContext& context, const SweepOptions& options, const Swee
             FlowField back = estimate_flow(previous.views.luma, current.views.luma, quality);
             check_consistency(motion, back);
         }
-        WEFT_CHECK_OK(visit({frame, current.plate, &current.views, motion.empty() ? nullptr : &motion}));
+        WEFT_CHECK_OK(
+            visit({frame, current.plate, &current.views, motion.empty() ? nullptr : &motion}));
         if (context.step) context.step(frame, seconds_since(start));
         previous = std::move(current);
         if (frame == options.last) return {};

@@ -33,7 +33,7 @@ struct PassContext {
     const ShotSource& source;
     const ShotPlan& plan;
     CancelToken cancel;
-    std::function<void(int frame, double seconds)> step;   ///< Called after every frame.
+    std::function<void(int frame, double seconds)> step;  ///< Called after every frame.
 };
 
 using SweepVisitor = std::function<Status(const SweepFrame&)>;

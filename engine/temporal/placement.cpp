@@ -11,7 +11,9 @@ namespace weft {
 namespace {
 
 // Columns, as GLM keeps them: the map (u, v) → (a u + c v + tx, b u + d v + ty).
-Mat3 affine(float a, float b, float c, float d, Vec2 t) { return {a, b, 0, c, d, 0, t.x, t.y, 1}; }
+Mat3 affine(float a, float b, float c, float d, Vec2 t) {
+    return {a, b, 0, c, d, 0, t.x, t.y, 1};
+}
 
 // The homography of the unit square onto four corners in order (Heckbert 1989, eq. 2.9–2.11).
 Mat3 square_to_quad(const std::array<Vec2, 4>& q) {
@@ -44,7 +46,8 @@ Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
     const float angle = glm::radians(p.rotate_deg);
     const float c = std::cos(angle), s = std::sin(angle);
     if (!p.corners) {
-        return glm::inverse(affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px));
+        return glm::inverse(
+            affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px));
     }
     if (!convex(*p.corners)) {
         return fail(ErrorCode::kUsage,

@@ -14,9 +14,9 @@ namespace weft {
 /// offset + scale · R(rotate) · u: turned counter-clockwise as seen on the screen, about the place
 /// `offset`, which is the placement's origin.
 struct PlanePlacement {
-    float scale = 1;                ///< Plate pixels per sample pixel at the origin, > 0.
-    float rotate_deg = 0;           ///< Counter-clockwise.
-    Vec2 offset_px{0, 0};           ///< Of the origin, in plate pixels.
+    float scale = 1;       ///< Plate pixels per sample pixel at the origin, > 0.
+    float rotate_deg = 0;  ///< Counter-clockwise.
+    Vec2 offset_px{0, 0};  ///< Of the origin, in plate pixels.
     /// Top left, top right, bottom right, bottom left on the plate: where a rectangle of the plane
     /// comes to lie in perspective. Its size in texels is such that `scale` holds along both edges
     /// at the top left corner, which is the origin; rotation and offset then act in the plane.
@@ -28,9 +28,9 @@ struct PlanePlacement {
 /// positive or the corners are not a convex quadrilateral.
 [[nodiscard]] Expected<Mat3> plane_from_plate(const PlanePlacement& placement);
 
-/// The texture coordinates of every pixel centre of `area` of a frame: where it was on the reference
-/// frame (`ref_from_cur`), then through the placement.
-[[nodiscard]] TextureCoords texture_coords(const LatticeField& ref_from_cur, const Mat3& plane_from_plate,
-                                           const Recti& area);
+/// The texture coordinates of every pixel centre of `area` of a frame: where it was on the
+/// reference frame (`ref_from_cur`), then through the placement.
+[[nodiscard]] TextureCoords texture_coords(const LatticeField& ref_from_cur,
+                                           const Mat3& plane_from_plate, const Recti& area);
 
 }  // namespace weft

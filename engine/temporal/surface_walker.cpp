@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "engine/motion/surface_fit.h"
+#include "engine/temporal/stretch_limit.h"
 
 namespace weft {
 namespace {
@@ -16,7 +17,8 @@ cv::Mat as_mat(ViewU8x1 v) {
 
 Matte copy_of(ViewU8x1 v) {
     Matte out(v.size());
-    for (int y = 0; y < v.height(); ++y) std::copy(v.row(y), v.row(y) + v.width(), out.row(y));
+    for (int y = 0; y < v.height(); ++y)
+        std::copy(v.row(y), v.row(y) + v.width(), out.row(y));
     return out;
 }
 
@@ -28,7 +30,8 @@ Recti bounds_of(ViewU8x1 mask) {
         const auto* first = std::find_if(row, row + mask.width(), inside);
         if (first == row + mask.width()) continue;
         int last = mask.width();
-        while (row[last - 1] < 128) --last;
+        while (row[last - 1] < 128)
+            --last;
         box = box.united({static_cast<int>(first - row), y, last, y + 1});
     }
     return box;
@@ -200,7 +203,8 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     s.ref_from_cur = compose(s.anchor_from_cur, s.ref_from_anchor);
     constexpr float kEnough = 0.6f;
     constexpr int kLongest = 24;
-    if (explained < kEnough || s.anchor_age >= kLongest) s.become_anchor(luma, visible);
+    const bool slid = limit_stretch(s.ref_from_cur, visible);
+    if (slid || explained < kEnough || s.anchor_age >= kLongest) s.become_anchor(luma, visible);
     return s.ref_from_cur;
 }
 
@@ -208,7 +212,11 @@ void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible) {
     state_->become_anchor(luma, visible);
 }
 
-const LatticeField& SurfaceWalker::ref_from_cur() const { return state_->ref_from_cur; }
-const LatticeField& SurfaceWalker::prev_from_cur() const { return state_->prev_from_cur; }
+const LatticeField& SurfaceWalker::ref_from_cur() const {
+    return state_->ref_from_cur;
+}
+const LatticeField& SurfaceWalker::prev_from_cur() const {
+    return state_->prev_from_cur;
+}
 
 }  // namespace weft

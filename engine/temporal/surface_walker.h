@@ -12,12 +12,12 @@ namespace weft {
 
 struct SurfaceWalkerOptions {
     FlowQuality quality = FlowQuality::kFinal;
-    bool exact_motion = false;   ///< The motion is true: follow it closely, do not register.
-    int spacing_px = 8;          ///< Of the lattices.
+    bool exact_motion = false;  ///< The motion is true: follow it closely, do not register.
+    int spacing_px = 8;         ///< Of the lattices.
 };
 
-/// Walks away from a reference frame, forwards or backwards in time, and holds where every pixel was
-/// on it (method: "Temporal consistency", surface-locked mode).
+/// Walks away from a reference frame, forwards or backwards in time, and holds where every pixel
+/// was on it (method: "Temporal consistency", surface-locked mode).
 ///
 /// Motion from frame to frame is fitted (fit_surface_motion) and chained. A chain drifts, so each
 /// frame is also registered against an *anchor*, at first the reference frame itself: the anchor's
@@ -27,8 +27,8 @@ struct SurfaceWalkerOptions {
 class SurfaceWalker {
   public:
     /// `luma`: the frame to start from, 8 bit. `visible`: extent matte without holdouts, the same
-    /// size. `ref_from_start`: where the start's pixels were on the reference frame; the walk starts
-    /// on the reference frame itself without it.
+    /// size. `ref_from_start`: where the start's pixels were on the reference frame; the walk
+    /// starts on the reference frame itself without it.
     SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
                   const LatticeField* ref_from_start = nullptr);
     ~SurfaceWalker();

@@ -1,0 +1,104 @@
+#include "engine/temporal/stretch_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace weft {
+namespace {
+
+constexpr float kLimit = 3.0f;  // times
+constexpr float kPull = 0.33f;  // a frame, at twice the limit
+
+Vec2 landing(const LatticeField& field, int i, int j) {
+    return field.node_position(i, j) + field.node(i, j);
+}
+
+// The larger of the stretch and the squeeze at an inner node: singular values of the Jacobian.
+float stretch_at(const LatticeField& field, int i, int j) {
+    const float step = 2.0f * static_cast<float>(field.spacing());
+    const Vec2 x = (landing(field, i + 1, j) - landing(field, i - 1, j)) / step;
+    const Vec2 y = (landing(field, i, j + 1) - landing(field, i, j - 1)) / step;
+    const float sum = x.x * x.x + x.y * x.y + y.x * y.x + y.y * y.y;
+    const float det = x.x * y.y - x.y * y.x;
+    const float root = std::sqrt(std::max(0.0f, sum * sum - 4 * det * det));
+    const float largest = std::sqrt(0.5f * (sum + root));
+    const float smallest = det <= 0 ? 0.0f : std::sqrt(std::max(0.0f, 0.5f * (sum - root)));
+    return std::max(largest, 1.0f / std::max(smallest, 1e-3f));
+}
+
+bool inside(const LatticeField& field, ViewU8x1 visible, int i, int j) {
+    const Vec2 p = field.node_position(i, j);
+    const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
+    return rect_of(visible.size()).contains(x, y) && visible.at(x, y) >= 128;
+}
+
+// q ≈ a p + b over complex numbers: rotation, scale and translation by least squares.
+struct Similarity {
+    std::complex<double> a{1, 0}, b{0, 0};
+    [[nodiscard]] Vec2 operator()(Vec2 p) const {
+        const std::complex<double> q = a * std::complex<double>(p.x, p.y) + b;
+        return {static_cast<float>(q.real()), static_cast<float>(q.imag())};
+    }
+};
+
+Similarity fit(const LatticeField& field, const ImageF1& weight) {
+    double n = 0, norm = 0;
+    std::complex<double> p_sum, q_sum, cross;
+    for (int j = 0; j < weight.height(); ++j) {
+        for (int i = 0; i < weight.width(); ++i) {
+            const double w = weight.at(i, j);
+            if (w <= 0) continue;
+            const Vec2 at = field.node_position(i, j), to = landing(field, i, j);
+            const std::complex<double> p(at.x, at.y), q(to.x, to.y);
+            n += w;
+            p_sum += w * p;
+            q_sum += w * q;
+            cross += w * std::conj(p) * q;
+            norm += w * std::norm(p);
+        }
+    }
+    Similarity out;
+    if (n <= 0) return out;
+    const double spread = norm - std::norm(p_sum) / n;
+    if (spread > 1e-6) out.a = (cross - std::conj(p_sum) * q_sum / n) / spread;
+    const double scale = std::abs(out.a);
+    out.a = scale > 1e-6 ? out.a * (std::clamp(scale, 2.0 / 3.0, 1.5) / scale)
+                         : std::complex<double>(1, 0);
+    out.b = (q_sum - out.a * p_sum) / n;
+    return out;
+}
+
+}  // namespace
+
+bool limit_stretch(LatticeField& field, ViewU8x1 visible) {
+    const Size size = field.nodes().size();
+    ImageF1 excess(size), weight(size);
+    bool any = false;
+    for (int j = 1; j + 1 < size.height; ++j) {
+        for (int i = 1; i + 1 < size.width; ++i) {
+            if (!inside(field, visible, i, j)) continue;
+            const float stretch = stretch_at(field, i, j);
+            excess.at(i, j) = std::clamp(std::log2(stretch / kLimit), 0.0f, 1.0f);
+            weight.at(i, j) = excess.at(i, j) > 0 ? 0.02f : 1.0f;
+            any |= excess.at(i, j) > 0;
+        }
+    }
+    if (!any) return false;
+    const Similarity target = fit(field, weight);
+    for (int j = 1; j + 1 < size.height; ++j) {
+        for (int i = 1; i + 1 < size.width; ++i) {
+            // The mean over the neighbours: a pull that starts at one node would tear there.
+            float pull = 0;
+            for (int k = 0; k < 9; ++k)
+                pull += excess.at(i + k % 3 - 1, j + k / 3 - 1) / 9.0f;
+            if (pull <= 0) continue;
+            const Vec2 p = field.node_position(i, j);
+            field.set_node(i, j,
+                           field.node(i, j) + kPull * pull * (target(p) - landing(field, i, j)));
+        }
+    }
+    return true;
+}
+
+}  // namespace weft
