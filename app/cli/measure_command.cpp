@@ -28,9 +28,9 @@ Expected<ImageU8x3> ideal_plane(const MeasureCommandOptions& options, const Regi
         region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
     WEFT_TRY(picture, read_image(path));
     const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
-    WEFT_TRY(space, parse_color_space(!region.texture.space.empty() ? region.texture.space
-                                      : is_float                    ? "linear"
-                                                                    : "srgb"));
+    const std::string& given = region.texture.space.empty() ? options.project.color.texture_space
+                                                            : region.texture.space;
+    WEFT_TRY(space, parse_color_space(!given.empty() ? given : is_float ? "linear" : "srgb"));
     WEFT_TRY(display, make_color_transform(space, {"srgb"}));
     ImageU8x3 codes = make_views(picture.rgb, *display).display;
     if (!region.texture.plane.empty()) return codes;

@@ -109,8 +109,8 @@ struct Placement {
     double scale = 1;       ///< Plate pixels per sample pixel at the placement's origin.
     double rotate_deg = 0;  ///< Counter-clockwise as seen on screen.
     PlatePoint offset_px;
-    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, which replaces
-    /// scale, rotation and offset.
+    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which scale,
+    /// rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
     Extras extra;
     bool operator==(const Placement&) const = default;

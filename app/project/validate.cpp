@@ -93,11 +93,6 @@ void check_placement(Finder& find, const Placement& placement) {
     if (clockwise != 4 && counter != 4)
         find.error("placement.corners_px", "The four corners make no convex quadrilateral",
                    "Give top left, top right, bottom right, bottom left, in this order");
-    const Placement plain;
-    if (placement.scale != plain.scale || placement.rotate_deg != plain.rotate_deg ||
-        !(placement.offset_px == plain.offset_px))
-        find.warning("placement", "Corners replace scale, rotation and offset, which are set too",
-                     "Remove the corners, or set the others back");
 }
 
 void check_synthesis(Finder& find, const SynthesisParams& synthesis) {
