@@ -1,6 +1,7 @@
 # Language level, warnings, sanitizers, and the flags that results depend on.
 option(WEFT_WERROR "Treat warnings as errors (CI)" OFF)
 option(WEFT_TESTS "Build the tests" ON)
+option(WEFT_BENCH "Build the benchmarks in bench/" OFF)
 set(WEFT_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address or thread")
 set(WEFT_CUDA AUTO CACHE STRING "CUDA backend: AUTO (when nvcc is found), ON or OFF")
 

@@ -63,6 +63,6 @@ int apply_command(const std::string& path, const std::string& actions, bool dry_
 int region_add_command(const std::string& path, Region region);
 int region_list_command(const std::string& path, bool json);
 
-int demo_command(const std::string& assets, const std::string& output, const RunOptions& run);
+int demo_command(const std::string& assets, const std::string& given_output, const RunOptions& run);
 
 }  // namespace weft

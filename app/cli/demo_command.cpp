@@ -42,16 +42,18 @@ Status write_contact_sheet(const Project& project, const std::string& path) {
 
 }  // namespace
 
-int demo_command(const std::string& assets, const std::string& output, const RunOptions& run) {
+int demo_command(const std::string& assets, const std::string& given_output,
+                 const RunOptions& run) {
+    const std::string output = given_output.empty() ? "weft-demo" : given_output;
     const std::string path = (fs::path(assets) / "demo" / "demo.weft").string();
     auto project = load_project(path);
     if (!project) return report_error(project.error());
     *project = resolve_paths(*project, project_dir(path));
     project->output.path = (fs::path(output) / "####.png").string();
     project->output.movie = (fs::path(output) / "demo.mp4").string();
-    // The folder is the demo's own: a second run replaces what the first one left.
+    // The default folder is the demo's own: a second run replaces what the first one left.
     RunOptions demo_run = run;
-    demo_run.overwrite = !run.skip_existing;
+    if (given_output.empty()) demo_run.overwrite = !run.skip_existing;
     if (const int exit = render_command(*project, demo_run); exit != 0 || run.dry_run) return exit;
     const std::string sheet = (fs::path(output) / "contact_sheet.png").string();
     if (const Status written = write_contact_sheet(*project, sheet); !written)

@@ -9,6 +9,7 @@
 #include "engine/metrics/sequence_measure.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_scene.h"
+#include "engine/pipeline/synthesis_inputs.h"
 
 namespace weft {
 namespace {
@@ -22,27 +23,20 @@ struct Outcome {
 };
 
 // The plane that the result was made from: given, or grown again as the render does.
-Expected<ImageU8x3> ideal_plane(const MeasureCommandOptions& options, const Region& region,
-                                Size plate) {
+Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan, Size plate) {
+    const Region& region = *project.regions.front();
     const std::string& path =
         region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
     WEFT_TRY(picture, read_image(path));
     const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
-    const std::string& given = region.texture.space.empty() ? options.project.color.texture_space
-                                                            : region.texture.space;
+    const std::string& given =
+        region.texture.space.empty() ? project.color.texture_space : region.texture.space;
     WEFT_TRY(space, parse_color_space(!given.empty() ? given : is_float ? "linear" : "srgb"));
     WEFT_TRY(display, make_color_transform(space, {"srgb"}));
     ImageU8x3 codes = make_views(picture.rgb, *display).display;
     if (!region.texture.plane.empty()) return codes;
-    PlaneOptions grow;
-    PlanePlacement placement;
-    placement.scale = static_cast<float>(region.placement.scale);
-    grow.size = plane_size(placement, plate);
-    grow.seam = region.synthesis.seam;
-    grow.overlap_px = region.synthesis.overlap_px;
-    grow.feather_px = region.synthesis.feather_px;
-    grow.seed = static_cast<std::uint64_t>(options.project.settings.seed);
-    grow.region = region.id;
+    PlaneOptions grow = plane_options(plan, static_cast<std::uint64_t>(project.settings.seed),
+                                      plane_size(plan.placement, plate));
     grow.tileable = true;
     WEFT_TRY(plane, grow_plane(codes, grow));
     return std::move(plane.pixels);
@@ -124,7 +118,7 @@ class Measurer {
                 "The reference frame is not the first measured one: no floor, no sharpness kept.");
             return out;
         }
-        WEFT_TRY(plane, ideal_plane(options_, settings, shot_->plate->size()));
+        WEFT_TRY(plane, ideal_plane(options_.project, region(), shot_->plate->size()));
         WEFT_TRY(map, plane_from_plate(region().placement));
         out.ideal = IdealInputs{std::move(plane), map, {}};
         return out;

@@ -133,7 +133,7 @@ void add_demo(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("demo", "Render the demo shot");
     const auto run = std::make_shared<RunOptions>();
     const auto assets = std::make_shared<std::string>(WEFT_ASSETS_DIR);
-    const auto output = std::make_shared<std::string>("weft-demo");
+    const auto output = std::make_shared<std::string>();
     command->add_option("-o,--output", *output, "Folder to write [weft-demo]")->type_name("PATH");
     command->add_option("--assets", *assets, "Folder of the demo's assets")->type_name("PATH");
     add_run_flags(*command, *run, true);

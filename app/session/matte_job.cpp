@@ -20,14 +20,8 @@ Status prepare_output(const Shot& shot, const SequencePattern& pattern, Existing
                     "The output " + pattern.text() +
                         " has no frame number. Write it like 'mattes/####.png'.");
     }
-    const fs::path folder = fs::path(pattern.path_for(frames.front())).parent_path();
+    WEFT_CHECK_OK(make_output_folder(pattern.path_for(frames.front())));
     std::error_code error;
-    if (!folder.empty()) fs::create_directories(folder, error);
-    if (error) {
-        return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() +
-                                                " cannot be made: " + error.message() +
-                                                ". Choose another with -o.");
-    }
     for (const int frame : frames) {
         const std::string path = pattern.path_for(frame);
         WEFT_CHECK_OK(check_no_input(shot, frame, path));

@@ -47,4 +47,14 @@ Status check_no_input(const Shot& shot, int frame, const std::string& output) {
     return {};
 }
 
+Status make_output_folder(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code error;
+    if (!folder.empty()) std::filesystem::create_directories(folder, error);
+    if (!error) return {};
+    return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() +
+                                            " cannot be made: " + error.message() +
+                                            ". Choose another with -o.");
+}
+
 }  // namespace weft

@@ -10,4 +10,7 @@ namespace weft {
 /// a matte, a holdout or a motion file, by whatever path. Errors: Usage, naming it.
 [[nodiscard]] Status check_no_input(const Shot& shot, int frame, const std::string& output);
 
+/// Makes the folder that a file is to lie in. Errors: Unreadable, with the folder and the reason.
+[[nodiscard]] Status make_output_folder(const std::string& path);
+
 }  // namespace weft

@@ -19,6 +19,7 @@
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/render_frame.h"
+#include "engine/pipeline/synthesis_inputs.h"
 #include "gpu/cuda_backend.h"
 
 namespace weft {
@@ -113,23 +114,7 @@ class RenderJob {
 
     Status choose_format() {
         const Output& output = shot_->project.output;
-        switch (output.depth) {
-            case OutputDepth::kAuto:
-                write_.depth = default_depth(output.path, shot_->plate->depth());
-                break;
-            case OutputDepth::k8:
-                write_.depth = PixelDepth::kU8;
-                break;
-            case OutputDepth::k16:
-                write_.depth = PixelDepth::kU16;
-                break;
-            case OutputDepth::kHalf:
-                write_.depth = PixelDepth::kHalf;
-                break;
-            case OutputDepth::kFloat:
-                write_.depth = PixelDepth::kFloat;
-                break;
-        }
+        write_.depth = output_depth(output, shot_->plate->depth());
         write_.jpeg_quality = output.jpeg_quality;
         write_.exr_compression = output.exr_compression;
         return check_format(output.path, write_);
@@ -137,14 +122,8 @@ class RenderJob {
 
     // Makes the folder, and decides about frames that are there already, before any work is done.
     Status check_existing() {
-        const fs::path folder = fs::path(pattern_->path_for(plan_.frames.front())).parent_path();
+        WEFT_CHECK_OK(make_output_folder(pattern_->path_for(plan_.frames.front())));
         std::error_code error;
-        if (!folder.empty()) fs::create_directories(folder, error);
-        if (error) {
-            return fail(ErrorCode::kUnreadable, "The output folder " + folder.string() +
-                                                    " cannot be made: " + error.message() +
-                                                    ". Choose another with -o.");
-        }
         remove_stale_temporaries(pattern_->path_for(plan_.frames.front()));
         WEFT_TRY(probe, TemporaryFile::create(pattern_->path_for(plan_.frames.front())));
         std::vector<int> present;
@@ -187,7 +166,7 @@ class RenderJob {
         if (to_render_.empty()) return {};
         for (std::size_t k = 0; k < plan_.regions.size(); ++k) {
             if (const auto& texture = *plan_.regions[k].texture; !texture.is_plane) {
-                const auto warning = sample_warning(synthesis_sample8(k));
+                const auto warning = sample_warning(synthesis_sample(plan_.regions[k]));
                 if (warning) result_.warnings.push_back(shot_->textures[k].path + ": " + *warning);
             }
             WEFT_CHECK_OK(check_reference(k));
@@ -213,11 +192,6 @@ class RenderJob {
                  extent_matte(*shot_->source, plan_, *store_, static_cast<int>(region), frame));
         if (matte_bounds(extent).empty()) empty_references_.emplace_back(region, frame);
         return {};
-    }
-
-    [[nodiscard]] ImageU8x3 synthesis_sample8(std::size_t region) const {
-        const RegionPlan& plan = plan_.regions[region];
-        return make_views(plan.texture->pixels, *plan.display_from_texture).display;
     }
 
     Status render_all() {

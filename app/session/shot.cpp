@@ -33,23 +33,6 @@ PlanePlacement plane_placement(const Placement& p) {
     return out;
 }
 
-// The depth that the output will have: what the user chose, or what the plate and format suggest.
-PixelDepth out_depth(const Output& output, PixelDepth plate) {
-    switch (output.depth) {
-        case OutputDepth::k8:
-            return PixelDepth::kU8;
-        case OutputDepth::k16:
-            return PixelDepth::kU16;
-        case OutputDepth::kHalf:
-            return PixelDepth::kHalf;
-        case OutputDepth::kFloat:
-            return PixelDepth::kFloat;
-        case OutputDepth::kAuto:
-            break;
-    }
-    return output.path.empty() ? plate : default_depth(output.path, plate);
-}
-
 // Opens a project step by step; each step leaves something in `shot_`.
 class ShotOpener {
   public:
@@ -75,8 +58,6 @@ class ShotOpener {
         shot_.plate = cached(reader, options_.cache_bytes);
         WEFT_TRY(frames, frames_to_render(shot_.project, *shot_.plate));
         shot_.plan.frames = std::move(frames);
-        shot_.plan.first_plate = shot_.plate->frames().front();
-        shot_.plan.last_plate = shot_.plate->frames().back();
         shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft
                                  ? FlowQuality::kDraft
                                  : FlowQuality::kFinal;
@@ -94,7 +75,7 @@ class ShotOpener {
         WEFT_TRY(working, space(p.color.working_space, kLinear));
         // Output of the plate's own kind keeps the plate's space, so that the plate passes through
         // untouched; another kind has its usual one.
-        const bool float_out = float_depth(out_depth(p.output, shot_.plate->depth()));
+        const bool float_out = float_depth(output_depth(p.output, shot_.plate->depth()));
         const bool same_kind = float_out == !shot_.plate->display_encoded();
         WEFT_TRY(out, same_kind && p.color.out_space.empty()
                           ? Expected<ColorSpace>(plate)
@@ -131,7 +112,6 @@ class ShotOpener {
 
     Status add_region(const Region& region) {
         RegionPlan plan;
-        plan.id = std::to_string(region.id);
         plan.random_key = region.id;
         if (region.matte->empty()) {
             return fail(ErrorCode::kUsage,
@@ -180,7 +160,7 @@ class ShotOpener {
                                                   const RegionPlan& plan) const {
         if (plan.propagated()) return plan.matte_keys.front();
         WEFT_TRY(pattern, SequencePattern::parse(region.matte->files));
-        if (pattern.is_single()) return shot_.plan.first_plate;
+        if (pattern.is_single()) return shot_.plate->frames().front();
         WEFT_TRY(mattes, pattern.list_frames());
         for (const int frame : shot_.plate->frames()) {
             if (std::binary_search(mattes.begin(), mattes.end(), frame)) return frame;
@@ -252,6 +232,22 @@ class ShotOpener {
 };
 
 }  // namespace
+
+PixelDepth output_depth(const Output& output, PixelDepth plate) {
+    switch (output.depth) {
+        case OutputDepth::k8:
+            return PixelDepth::kU8;
+        case OutputDepth::k16:
+            return PixelDepth::kU16;
+        case OutputDepth::kHalf:
+            return PixelDepth::kHalf;
+        case OutputDepth::kFloat:
+            return PixelDepth::kFloat;
+        case OutputDepth::kAuto:
+            break;
+    }
+    return output.path.empty() ? plate : default_depth(output.path, plate);
+}
 
 Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
                                                 const OpenShotOptions& options) {

@@ -37,6 +37,10 @@ struct Shot {
     std::vector<std::string> warnings;
 };
 
+/// The depth that the output will have: what the user chose, or what the plate and the format
+/// suggest.
+[[nodiscard]] PixelDepth output_depth(const Output& output, PixelDepth plate);
+
 struct OpenShotOptions {
     std::size_t cache_bytes = 256u << 20;  ///< For decoded plates.
     bool textures = true;                  ///< Without: enough to propagate mattes.

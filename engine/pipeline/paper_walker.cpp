@@ -5,8 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/core/parallel.h"
-#include "engine/pipeline/plate_views.h"
-#include "engine/synthesis/texture_plane.h"
+#include "engine/pipeline/synthesis_inputs.h"
 
 namespace weft {
 namespace {
@@ -54,10 +53,6 @@ Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
                        static_cast<int>(std::ceil(high.y)) - origin.y + 1}};
 }
 
-ImageU8x3 synthesis_sample(const RegionPlan& region) {
-    return make_views(region.texture->pixels, *region.display_from_texture).display;
-}
-
 PaperWalker::PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plate)
     : region_(region), seed_(seed), plane_(frame_plane(region.placement, plate)) {
     if (plane_) plane_from_plate_ = *plane_from_plate(region.placement);
@@ -93,13 +88,7 @@ Expected<ImageU8x3> PaperWalker::advance(int frame, const LatticeField& prev_fro
 
 Expected<ImageU8x3> PaperWalker::synthesise(int frame, const Warped* previous,
                                             const CancelToken& cancel) const {
-    PlaneOptions options;
-    options.size = plane_->size;
-    options.seam = region_.seam;
-    options.overlap_px = region_.overlap_px;
-    options.feather_px = region_.feather_px;
-    options.seed = seed_;
-    options.region = region_.random_key;
+    PlaneOptions options = plane_options(region_, seed_, plane_->size);
     options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame));
     if (previous) options.guide = PlaneGuide{previous->picture, previous->known, region_.weight};
     WEFT_TRY(plane, grow_plane(synthesis_sample(region_), options, cancel));

@@ -20,9 +20,6 @@ struct FramePlane {
 /// Errors: Usage when the placement would need more than 8192 texels along a side.
 [[nodiscard]] Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate);
 
-/// The sample in 8 bit as synthesis sees it.
-[[nodiscard]] ImageU8x3 synthesis_sample(const RegionPlan& region);
-
 /// Synthesises frame after frame: the previous result, warped along the surface's motion, enters
 /// the cut's data term with λ_t; then T_t ← α T_t + (1 − α) warp(T_{t−1}).
 class PaperWalker {

@@ -22,13 +22,11 @@ namespace weft {
 struct TexturePicture {
     ImageF3 pixels;  ///< In the texture's own space.
     bool is_plane = false;
-    bool eight_bit = true;              ///< `pixels` are codes/255.
     WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
 };
 
 struct RegionPlan {
-    std::string id;  ///< Stable; enters the keys of random numbers.
-    std::uint64_t random_key = 0;
+    std::uint64_t random_key = 0;  ///< Stable id of the region; enters the keys of random numbers.
     // Mattes: frame by frame, or painted on these frames (ascending) and propagated.
     std::vector<int> matte_keys;
     [[nodiscard]] bool propagated() const { return !matte_keys.empty(); }
@@ -58,7 +56,6 @@ struct RegionPlan {
 /// What holds for the whole shot.
 struct ShotPlan {
     std::vector<int> frames;              ///< To be rendered, ascending.
-    int first_plate = 0, last_plate = 0;  ///< Numbers of the plate's first and last frame.
     FlowQuality quality = FlowQuality::kFinal;
     std::uint64_t seed = 1;
     bool display_referred = true;  ///< The output rolls off above 1.

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
-#include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/synthesis_inputs.h"
 
 namespace weft {
 namespace {
@@ -27,13 +27,8 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
         return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
                             texture.wrap);
     }
-    PlaneOptions options;
-    options.size = plane_size(region.placement, plate);
-    options.seam = region.seam;
-    options.overlap_px = region.overlap_px;
-    options.feather_px = region.feather_px;
-    options.seed = plan.seed;
-    options.region = region.random_key;
+    PlaneOptions options =
+        plane_options(region, plan.seed, plane_size(region.placement, plate));
     options.tileable = true;
     WEFT_TRY(plane, grow_plane(synthesis_sample(region), options, cancel, progress));
     stats = plane.stats;

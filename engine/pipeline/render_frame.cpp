@@ -10,6 +10,7 @@
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/synthesis_inputs.h"
 
 namespace weft {
 namespace {
@@ -105,13 +106,7 @@ Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, co
                        [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
         region.working_from_display->apply(picture);
     } else {
-        PlaneOptions options;
-        options.size = frame_area.size;
-        options.seam = region.seam;
-        options.overlap_px = region.overlap_px;
-        options.feather_px = region.feather_px;
-        options.seed = plan_.seed;
-        options.region = region.random_key;
+        PlaneOptions options = plane_options(region, plan_.seed, frame_area.size);
         options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
         WEFT_TRY(plane, grow_plane(synthesis_sample(region), options));
         picture = plane_in_working_space(region, plane);

@@ -145,7 +145,6 @@ inline std::shared_ptr<const TexturePicture> sample_texture() {
 /// A region that follows the wall from frame 1 on, without light.
 inline RegionPlan make_region(std::shared_ptr<const TexturePicture> texture) {
     RegionPlan region;
-    region.id = "wall";
     region.random_key = 5;
     region.reference_frames = {kFirst};
     region.texture = std::move(texture);
@@ -160,8 +159,6 @@ inline ShotPlan make_plan(RegionPlan region, int first = kFirst, int last = kLas
     ShotPlan plan;
     for (int f = first; f <= last; ++f)
         plan.frames.push_back(f);
-    plan.first_plate = kFirst;
-    plan.last_plate = kLast;
     plan.working_from_plate = color("srgb", "linear");
     plan.display_from_plate = color("srgb", "srgb");
     plan.out_from_working = color("linear", "srgb");

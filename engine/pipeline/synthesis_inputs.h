@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+
+#include "engine/pipeline/region_plan.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+/// The sample in 8 bit as synthesis sees it.
+[[nodiscard]] ImageU8x3 synthesis_sample(const RegionPlan& region);
+
+/// A region's settings for growing a plane of `size`; frame, guide and tiling are the caller's.
+[[nodiscard]] PlaneOptions plane_options(const RegionPlan& region, std::uint64_t seed, Size size);
+
+}  // namespace weft
