@@ -54,7 +54,8 @@ void add_region_set(CLI::App& group, int& exit) {
     command->add_option("region", *region, "Name or id of the region")->required();
     const auto flags = std::make_shared<ProjectFlags>(
         *command, ProjectFlags::Which{false, false, false, true, true});
-    command->footer("Example:\n  weft region set shot.weft wall --rotate 12 --light-strength 0.7");
+    command->footer("Example:\n  weft region set shot.weft wall --rotate 12 --light-strength 0.7\n"
+        "  weft region set shot.weft wall --enabled=false");
     command->callback([=, &exit] {
         auto project = load_project(*path);
         if (!project) {
@@ -69,8 +70,9 @@ void add_region_set(CLI::App& group, int& exit) {
         Region changed = *project->regions[*index];
         Status status = flags->apply(changed);
         if (status) {
-            project->regions[*index] = std::move(changed);
-            status = save_project(*path, *project);
+            const auto edited =
+                apply_edits(*project, region_edits(*project->regions[*index], changed));
+            status = edited ? save_project(*path, *edited) : Status(tl::unexpected(edited.error()));
         }
         exit = status ? 0 : report_error(status.error());
     });

@@ -39,12 +39,12 @@ bool is_matte_flag(std::string_view flag) {
 template <class Owner>
 void ProjectFlags::add(CLI::App& command, const Parameter<Owner>& parameter,
                        std::list<Given<Owner>>& into) {
-    into.push_back({&parameter, {}, false});
+    into.push_back({&parameter, {}, false, nullptr});
     Given<Owner>& given = into.back();
     std::string names(parameter.flag);
     if (names == "--output") names = "-o," + names;
     if (parameter.kind == ParameterKind::kFlag) {
-        command.add_flag(names, given.flag, help_of(parameter));
+        given.option = command.add_flag(names, given.flag, help_of(parameter));
         return;
     }
     CLI::Option* option = command.add_option(names, given.texts, help_of(parameter));
@@ -109,7 +109,8 @@ template <class Owner, class List>
 Status apply_given(Owner& owner, const List& given) {
     for (const auto& g : given) {
         if (g.parameter->kind == ParameterKind::kFlag) {
-            if (g.flag) WEFT_CHECK_OK(set_parameter_text(owner, *g.parameter, "true"));
+            if (g.option->count() > 0)
+                WEFT_CHECK_OK(set_parameter_text(owner, *g.parameter, g.flag ? "true" : "false"));
         } else if (!g.texts.empty()) {
             WEFT_CHECK_OK(set_parameter_text(owner, *g.parameter, joined(*g.parameter, g.texts)));
         }

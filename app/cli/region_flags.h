@@ -31,7 +31,8 @@ class ProjectFlags {
     struct Given {
         const Parameter<Owner>* parameter;
         std::vector<std::string> texts;
-        bool flag = false;
+        bool flag = false;  ///< --flag, or --flag=false
+        const CLI::Option* option = nullptr;
     };
     template <class Owner>
     void add(CLI::App& command, const Parameter<Owner>& parameter, std::list<Given<Owner>>& into);

@@ -191,6 +191,20 @@ Expected<Project> apply_edits(const Project& project, const std::vector<Edit>& e
     return out;
 }
 
+std::vector<Edit> region_edits(const Region& before, const Region& after) {
+    const RegionRef ref{before.id, {}};
+    std::vector<Edit> edits;
+    // A matte is set whole, its parameters with it.
+    if (before.matte != after.matte) edits.emplace_back(SetMatte{ref, *after.matte});
+    if (before.holdouts != after.holdouts) edits.emplace_back(SetHoldouts{ref, *after.holdouts});
+    for (const Parameter<Region>& parameter : region_parameters()) {
+        const ParameterValue value = parameter.read(after);
+        if (parameter.group != "matte" && value != parameter.read(before))
+            edits.emplace_back(SetRegionParameter{ref, parameter.full_key(), value});
+    }
+    return edits;
+}
+
 std::string edit_label(const Project& before, const Edit& edit) {
     const auto region = [&](const RegionRef& ref) { return name_of_region(before, ref); };
     struct Label {

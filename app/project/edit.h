@@ -103,6 +103,9 @@ using Edit = std::variant<SetPlate, SetOutput, SetProjectParameter, AddRegion, R
 /// All of them in order, or the error of the first that fails ("Action 3: …").
 [[nodiscard]] Expected<Project> apply_edits(const Project& project, const std::vector<Edit>& edits);
 
+/// The edits that make the region `before` into `after`, which keeps its id.
+[[nodiscard]] std::vector<Edit> region_edits(const Region& before, const Region& after);
+
 /// What the edit does in a few words ("Set placement.scale of wall"), for the history list.
 [[nodiscard]] std::string edit_label(const Project& before, const Edit& edit);
 

@@ -141,8 +141,11 @@ Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterV
         if (number == 0) number = 0;
     }
     if (info.kind == ParameterKind::kFrames) {
-        std::sort(numbers->begin(), numbers->end());
-        numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
+        // In the order given, which may mean something, and each once.
+        std::vector<double> once;
+        for (const double number : *numbers)
+            if (std::find(once.begin(), once.end(), number) == once.end()) once.push_back(number);
+        *numbers = std::move(once);
     }
     return value;
 }
@@ -198,9 +201,14 @@ Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text)
             return numbers ? ParameterValue(std::move(*numbers)) : as_text;
         }
         case ParameterKind::kFrames: {
-            if (text.empty()) return ParameterValue(std::vector<double>());
-            WEFT_TRY(frames, parse_frame_list(text));
-            return ParameterValue(std::vector<double>(frames.begin(), frames.end()));
+            std::vector<double> numbers;
+            for (std::size_t from = 0; from < text.size();) {
+                const std::size_t to = std::min(text.find(',', from), text.size());
+                WEFT_TRY(frames, parse_frame_list(text.substr(from, to - from)));
+                numbers.insert(numbers.end(), frames.begin(), frames.end());
+                from = to + 1;
+            }
+            return ParameterValue(std::move(numbers));
         }
         default:
             return as_text;
@@ -281,9 +289,14 @@ std::string format_parameter(const ParameterInfo& info, const ParameterValue& va
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     if (!numbers) return shown(value);
-    if (info.kind == ParameterKind::kFrames)
-        return format_frame_list(std::vector<int>(numbers->begin(), numbers->end()));
     std::string out;
+    if (info.kind == ParameterKind::kFrames) {
+        if (std::is_sorted(numbers->begin(), numbers->end()))
+            return format_frame_list(std::vector<int>(numbers->begin(), numbers->end()));
+        for (const double number : *numbers)
+            out += (out.empty() ? "" : ",") + fmt::format("{}", number);
+        return out;
+    }
     for (std::size_t i = 0; i < numbers->size(); ++i) {
         if (i > 0) out += i % 2 == 1 ? "," : " ";
         out += fmt::format("{}", (*numbers)[i]);

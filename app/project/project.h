@@ -159,7 +159,7 @@ struct Region {
     Leaf<std::vector<MatteSource>> holdouts;  ///< What passes in front of it.
     TextureSource texture;
     Placement placement;
-    std::vector<int> reference_frames;  ///< Ascending; empty: the first frame.
+    std::vector<int> reference_frames;  ///< The first holds the placement; empty: the first frame.
     MotionSource motion;
     SynthesisParams synthesis;
     TemporalParams temporal;

@@ -108,7 +108,7 @@ std::vector<Parameter<Region>> make_region_table() {
         entry<R, &R::reference_frames>(
             {.key = "reference_frames",
              .flag = "--reference-frame",
-             .help = "Frame on which the texture is placed; default the first",
+             .help = "Frame on which the texture is placed; further ones hold it in place; default the first frame",
              .min = -kMaxFrame,
              .max = kMaxFrame,
              .repeatable = true}),

@@ -76,6 +76,21 @@ TEST_F(ProjectFile, SettingsAndActionsChangeIt) {
     EXPECT_THAT(valid.err, IsEmpty());
 }
 
+TEST_F(ProjectFile, AFlagCanBeTakenBack) {
+    make_project(1);
+    add_card();
+    const auto enabled = [&] {
+        const Outcome list = run({"region", "list", kProject, "--json"});
+        return Json::parse(list.out)[0]["enabled"].get<bool>();
+    };
+    expect_success(run({"region", "set", kProject, "card", "--enabled=false"}));
+    EXPECT_FALSE(enabled());
+    expect_success(run({"region", "set", kProject, "card", "--scale", "2"}));
+    EXPECT_FALSE(enabled()) << "a flag that was not given changes nothing";
+    expect_success(run({"region", "set", kProject, "card", "--enabled"}));
+    EXPECT_TRUE(enabled());
+}
+
 TEST_F(ProjectFile, ARefusedChangeLeavesTheFile) {
     make_project(1);
     add_card();

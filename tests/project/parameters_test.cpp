@@ -128,7 +128,7 @@ TEST(Parameters, TextsReachTheRightMember) {
     set("--scale", "2.5");
     set("--offset", "-3,4.5");
     set("--corners", "0,0 10,0 10,5 0,5");
-    set("--reference-frame", "40,12");
+    set("--reference-frame", "40,12,20-22,12");
     set("--seam", "dp");
     set("--overlap", "24");
     set("--matte-value", "7");
@@ -137,7 +137,8 @@ TEST(Parameters, TextsReachTheRightMember) {
     EXPECT_EQ(region.placement.offset_px, (PlatePoint{-3, 4.5}));
     ASSERT_TRUE(region.placement.corners_px);
     EXPECT_EQ((*region.placement.corners_px)[2], (PlatePoint{10, 5}));
-    EXPECT_EQ(region.reference_frames, (std::vector<int>{12, 40}));
+    EXPECT_EQ(region.reference_frames, (std::vector<int>{40, 12, 20, 21, 22}))
+        << "the first given holds the placement";
     EXPECT_EQ(region.synthesis.seam, SeamMethod::kDynamicProgramming);
     EXPECT_EQ(region.synthesis.overlap_px, 24);
     EXPECT_EQ(region.matte->select.value, 7);
