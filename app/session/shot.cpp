@@ -180,6 +180,11 @@ class ShotOpener {
                         "It has no texture. Give a sample (--texture) or a plane (--plane).");
         }
         WEFT_TRY(picture, read_image(path));
+        if (!is_plane) {
+            // Now, not after minutes of analysis.
+            if (const Status fits = check_sample(picture.rgb.size(), plan.overlap_px); !fits)
+                return fail_in(fits.error(), path);
+        }
         const std::string& given =
             region.texture.space.empty() ? shot_.project.color.texture_space : region.texture.space;
         WEFT_TRY(texture_space, space(given, float_depth(picture.depth) ? kLinear : kSrgb));

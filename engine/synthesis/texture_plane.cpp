@@ -21,21 +21,7 @@ std::string text_of(Size s) {
 }
 
 Status check(ViewU8x3 sample, const PlaneOptions& o) {
-    if (sample.width() < 2 * kLeastOverlap || sample.height() < 2 * kLeastOverlap) {
-        return fail(ErrorCode::kUsage, "The texture sample is " + text_of(sample.size()) +
-                                           " px, too small to grow. Use one of at least 24x24 px.");
-    }
-    if (o.overlap_px < kLeastOverlap) {
-        return fail(ErrorCode::kUsage,
-                    "The overlap is " + std::to_string(o.overlap_px) + " px. Use at least 12 px.");
-    }
-    if (std::min(sample.width(), sample.height()) < o.overlap_px) {
-        return fail(ErrorCode::kUsage,
-                    "The texture sample is " + text_of(sample.size()) +
-                        " px, smaller than the overlap of " + std::to_string(o.overlap_px) +
-                        " px. Use a larger sample, or an overlap of at most " +
-                        std::to_string(std::min(sample.width(), sample.height()) / 2) + " px.");
-    }
+    WEFT_CHECK_OK(check_sample(sample.size(), o.overlap_px));
     if (o.size.width < 1 || o.size.height < 1 || o.size.width > kLargestSide ||
         o.size.height > kLargestSide) {
         return fail(ErrorCode::kUsage, "The texture plane's size is " + text_of(o.size) +
@@ -88,6 +74,25 @@ Expected<TexturePlane> grow(ViewU8x3 sample, const PlaneOptions& options, const 
 }
 
 }  // namespace
+
+Status check_sample(Size sample, int overlap_px) {
+    if (sample.width < 2 * kLeastOverlap || sample.height < 2 * kLeastOverlap) {
+        return fail(ErrorCode::kUsage, "The texture sample is " + text_of(sample) +
+                                           " px, too small to grow. Use one of at least 24x24 px.");
+    }
+    if (overlap_px < kLeastOverlap) {
+        return fail(ErrorCode::kUsage,
+                    "The overlap is " + std::to_string(overlap_px) + " px. Use at least 12 px.");
+    }
+    if (std::min(sample.width, sample.height) < overlap_px) {
+        return fail(ErrorCode::kUsage,
+                    "The texture sample is " + text_of(sample) +
+                        " px, smaller than the overlap of " + std::to_string(overlap_px) +
+                        " px. Use a larger sample, or an overlap of at most " +
+                        std::to_string(std::min(sample.width, sample.height) / 2) + " px.");
+    }
+    return {};
+}
 
 Expected<TexturePlane> grow_plane(ViewU8x3 sample, const PlaneOptions& options,
                                   const CancelToken& cancel, const ProgressFn& progress) {

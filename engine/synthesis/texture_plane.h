@@ -14,46 +14,51 @@
 
 namespace weft {
 
-/// A picture that the plane should resemble (the warped previous frame in the paper's mode, a wanted
-/// illumination): enters placement costs and the data terms of the cut with `weight` (λ_t).
+/// A picture that the plane should resemble (the warped previous frame in the paper's mode, a
+/// wanted illumination): enters placement costs and the data terms of the cut with `weight` (λ_t).
 struct PlaneGuide {
-    ViewU8x3 target;          ///< As large as the plane.
-    ViewU8x1 known;           ///< 0 where the target says nothing.
+    ViewU8x3 target;  ///< As large as the plane.
+    ViewU8x1 known;   ///< 0 where the target says nothing.
     float weight = 1.0f;
 };
 
 struct PlaneOptions {
-    Size size{512, 512};                        ///< Texels.
+    Size size{512, 512};  ///< Texels.
     SeamMethod seam = SeamMethod::kGraphCut;
-    int overlap_px = 36;                        ///< Largest overlap along the sweep, 12 … sample/2.
-    int feather_px = 0;                         ///< Blend across the seams, 0 is off.
+    int overlap_px = 36;  ///< Largest overlap along the sweep, 12 … sample/2.
+    int feather_px = 0;   ///< Blend across the seams, 0 is off.
     std::uint64_t seed = 1;
-    std::uint64_t region = 0, frame = 0;        ///< Further keys of the random numbers.
-    bool tileable = false;                      ///< Opposite borders join along cut seams.
+    std::uint64_t region = 0, frame = 0;  ///< Further keys of the random numbers.
+    bool tileable = false;                ///< Opposite borders join along cut seams.
     std::optional<PlaneGuide> guide;
-    int refine_passes = 0;                      ///< Rounds of blocks over the worst seams, 0 is off.
+    int refine_passes = 0;  ///< Rounds of blocks over the worst seams, 0 is off.
 };
 
 /// Times in seconds of wall clock; total includes planning and cold caches.
 struct PlaneStats {
     double search_s = 0, seam_s = 0, other_s = 0, total_s = 0;
-    double seam_energy = 0;          ///< Σ over seam pixel pairs of ‖A−B‖(p) + ‖A−B‖(q), 8-bit units.
-    std::int64_t seam_length_px = 0; ///< Neighbouring pairs that are not neighbours in the source.
+    double seam_energy = 0;  ///< Σ over seam pixel pairs of ‖A−B‖(p) + ‖A−B‖(q), 8-bit units.
+    std::int64_t seam_length_px = 0;  ///< Neighbouring pairs that are not neighbours in the source.
     double seam_energy_per_area = 0;
     std::size_t peak_graph_bytes = 0;
     int placements = 0;
 };
 
 struct TexturePlane {
-    ImageU8x3 pixels;                 ///< In the sample's encoding.
-    Image<std::int32_t, 2> source;    ///< Which sample pixel (x, y) each texel shows (before feathering).
+    ImageU8x3 pixels;  ///< In the sample's encoding.
+    Image<std::int32_t, 2>
+        source;  ///< Which sample pixel (x, y) each texel shows (before feathering).
     PlaneStats stats;
 };
 
+/// Whether a sample of this size can be grown with this overlap. Errors: Usage, saying what would
+/// do.
+[[nodiscard]] Status check_sample(Size sample, int overlap_px);
+
 /// Grows a plane. Deterministic: the same sample and options give the same bytes, whatever the
-/// number of threads. Errors: Usage when the sample is smaller than twice 12 px on a side or than the
-/// overlap, or the size is not in [1, 16384]; NoSpace; cancelled. A constant-colour sample is not an
-/// error: the plane is that colour.
+/// number of threads. Errors: Usage when the sample is smaller than twice 12 px on a side or than
+/// the overlap, or the size is not in [1, 16384]; NoSpace; cancelled. A constant-colour sample is
+/// not an error: the plane is that colour.
 [[nodiscard]] Expected<TexturePlane> grow_plane(ViewU8x3 sample, const PlaneOptions& options,
                                                 const CancelToken& cancel = {},
                                                 const ProgressFn& progress = {});
