@@ -19,10 +19,11 @@ struct SurfaceWalkerOptions {
 /// Walks away from a reference frame, forwards or backwards in time, and holds where every pixel
 /// was on it (method: "Temporal consistency", surface-locked mode).
 ///
-/// Motion from frame to frame is fitted (fit_surface_motion) and chained. A chain drifts, so each
-/// frame is also registered against an *anchor*, at first the reference frame itself: the anchor's
-/// picture is moved by the chain's prediction, what motion is left is estimated and a part of it is
-/// put right. When the anchor has become too different to compare, the present frame becomes the
+/// Motion from frame to frame is fitted (fit_surface_motion) and chained; where the region shows
+/// nothing but its outline (structure_to_noise), from that (estimate_contour_flow). A chain drifts,
+/// so each frame is also registered against an *anchor*, at first the reference frame itself: by a
+/// homography where one explains the picture, else by a smooth field (register_planar,
+/// register_lattice). When too little of the anchor is to be seen, the present frame becomes the
 /// next one. Not thread-safe; several walkers may run in several threads.
 class SurfaceWalker {
   public:

@@ -1,0 +1,195 @@
+#include "engine/motion/photometric_register.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "engine/motion/photometric_samples.h"
+
+namespace weft {
+namespace {
+
+using Vec8 = std::array<double, 8>;
+using Mat8 = std::array<Vec8, 8>;
+
+// Solves a symmetric positive system in place (Cholesky). False when it is not positive definite.
+bool solve(Mat8& a, Vec8& b) {
+    for (std::size_t j = 0; j < 8; ++j) {
+        for (std::size_t k = 0; k < j; ++k)
+            a[j][j] -= a[j][k] * a[j][k];
+        if (a[j][j] <= 1e-12) return false;
+        a[j][j] = std::sqrt(a[j][j]);
+        for (std::size_t i = j + 1; i < 8; ++i) {
+            for (std::size_t k = 0; k < j; ++k)
+                a[i][j] -= a[i][k] * a[j][k];
+            a[i][j] /= a[j][j];
+        }
+    }
+    for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t k = 0; k < i; ++k)
+            b[i] -= a[i][k] * b[k];
+        b[i] /= a[i][i];
+    }
+    for (std::size_t i = 8; i-- > 0;) {
+        for (std::size_t k = i + 1; k < 8; ++k)
+            b[i] -= a[k][i] * b[k];
+        b[i] /= a[i][i];
+    }
+    return true;
+}
+
+// A homography in coordinates about `centre`, of about unit size, on both sides.
+struct Homography {
+    double cx = 0, cy = 0, radius = 1;
+    Vec8 h{1, 0, 0, 0, 1, 0, 0, 0};  // row by row, the last entry is 1
+
+    struct At {
+        double x, y;             // frame coordinates
+        double u, v, nx, ny, w;  // local coordinates in, local out, denominator
+    };
+    [[nodiscard]] At at(double x, double y) const {
+        At a{};
+        a.u = (x - cx) / radius;
+        a.v = (y - cy) / radius;
+        a.w = h[6] * a.u + h[7] * a.v + 1;
+        a.nx = (h[0] * a.u + h[1] * a.v + h[2]) / a.w;
+        a.ny = (h[3] * a.u + h[4] * a.v + h[5]) / a.w;
+        a.x = cx + radius * a.nx;
+        a.y = cy + radius * a.ny;
+        return a;
+    }
+};
+
+// d(value)/dh from the value's gradient g (per pixel) at a.
+Vec8 gradient_of(const Homography& map, const Homography::At& a, double gx, double gy) {
+    const double s = map.radius / a.w, ax = gx * s, ay = gy * s;
+    const double along = ax * a.nx + ay * a.ny;
+    return {ax * a.u, ax * a.v, ax, ay * a.u, ay * a.v, ay, -along * a.u, -along * a.v};
+}
+
+// The homography nearest to a field at the samples, by linear least squares on the numerator
+// (algebraic error; the photometric iterations that follow do not depend on it).
+bool start_from(const LatticeField& field, const std::vector<RegistrationSample>& samples,
+                Homography& map) {
+    Mat8 a{};
+    Vec8 b{};
+    for (std::size_t k = 0; k < samples.size(); k += 7) {
+        const Vec2 p = samples[k].p, q = p + field.at(p);
+        const double u = (p.x - map.cx) / map.radius, v = (p.y - map.cy) / map.radius;
+        const double tx = (q.x - map.cx) / map.radius, ty = (q.y - map.cy) / map.radius;
+        const std::array<Vec8, 2> rows{
+            Vec8{u, v, 1, 0, 0, 0, -u * tx, -v * tx},
+            Vec8{0, 0, 0, u, v, 1, -u * ty, -v * ty},
+        };
+        const std::array<double, 2> wanted{tx, ty};
+        for (std::size_t r = 0; r < 2; ++r) {
+            for (std::size_t i = 0; i < 8; ++i) {
+                for (std::size_t j = 0; j <= i; ++j)
+                    a[i][j] += rows[r][i] * rows[r][j];
+                b[i] += rows[r][i] * wanted[r];
+            }
+        }
+    }
+    const double ridge = 1e-6 * static_cast<double>(samples.size());
+    a[6][6] += ridge;
+    a[7][7] += ridge;
+    for (std::size_t i = 0; i < 8; ++i)
+        a[i][i] += 1e-12 * static_cast<double>(samples.size());
+    if (!solve(a, b)) return false;
+    map.h = b;
+    return true;
+}
+
+LatticeField field_of(const Homography& map, const LatticeField& like) {
+    LatticeField out(like.full_size(), like.spacing());
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i) {
+            const Vec2 p = out.node_position(i, j);
+            const auto a = map.at(p.x, p.y);
+            // Beyond the horizon there is no surface.
+            const bool sane = a.w > 0.05;
+            out.set_node(i, j,
+                         sane ? Vec2(static_cast<float>(a.x) - p.x, static_cast<float>(a.y) - p.y)
+                              : like.node(i, j));
+        }
+    }
+    return out;
+}
+
+// One Gauss–Newton step. Returns how far the samples move at most, px; negative: no solution.
+double planar_step(const RegistrationPicture& anchor,
+                   const std::vector<RegistrationSample>& samples, Homography& map) {
+    struct Term {
+        double r;
+        Vec8 j;
+    };
+    std::vector<Term> terms;
+    terms.reserve(samples.size());
+    std::vector<float> sizes;
+    sizes.reserve(samples.size());
+    for (const RegistrationSample& s : samples) {
+        const auto a = map.at(s.p.x, s.p.y);
+        if (a.w < 0.05) continue;
+        const auto seen = look_up(anchor, {static_cast<float>(a.x), static_cast<float>(a.y)});
+        if (!seen) continue;
+        const double r = static_cast<double>(seen->value) - static_cast<double>(s.value);
+        terms.push_back({r, gradient_of(map, a, seen->gradient.x, seen->gradient.y)});
+        sizes.push_back(static_cast<float>(std::abs(r)));
+    }
+    if (terms.size() < 200) return -1;
+    const double scale = robust_spread(sizes);
+    Mat8 a{};
+    Vec8 b{};
+    for (const Term& t : terms) {
+        const double w = cauchy(t.r / scale);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const double wj = w * t.j[i];
+            for (std::size_t k = 0; k <= i; ++k)
+                a[i][k] += wj * t.j[k];
+            b[i] -= wj * t.r;
+        }
+    }
+    // Perspective is held back by a prior of about a tenth over the region.
+    const double prior = 100 * scale * scale;
+    a[6][6] += prior;
+    a[7][7] += prior;
+    b[6] -= prior * map.h[6];
+    b[7] -= prior * map.h[7];
+    for (std::size_t i = 0; i < 8; ++i)
+        a[i][i] *= 1 + 1e-9;
+    if (!solve(a, b)) return -1;
+    double most = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        map.h[i] += b[i];
+        most = std::max(most, std::abs(b[i]) * map.radius);
+    }
+    return most;
+}
+
+}  // namespace
+
+PlanarRegistration register_planar(const RegistrationPicture& anchor,
+                                   const RegistrationPicture& cur, const LatticeField& initial,
+                                   const RegistrationOptions& options) {
+    PlanarRegistration out{initial, {}, false};
+    const auto samples = registration_samples(cur, options.samples);
+    if (samples.size() < 500) return out;
+    Homography map;
+    map.cx = 0.5 * (cur.area.x0 + cur.area.x1);
+    map.cy = 0.5 * (cur.area.y0 + cur.area.y1);
+    map.radius = std::max(8.0, 0.5 * std::max(cur.area.width(), cur.area.height()));
+    if (!start_from(initial, samples, map)) return out;
+    double moved = 1;
+    for (int k = 0; k < options.iterations && moved > 0.003; ++k) {
+        moved = planar_step(anchor, samples, map);
+        if (moved < 0 || moved > 50) return out;
+    }
+    out.anchor_from_cur = field_of(map, initial);
+    out.fit = registration_fit(anchor, cur, out.anchor_from_cur, options);
+    out.found = true;
+    return out;
+}
+
+}  // namespace weft

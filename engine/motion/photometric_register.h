@@ -1,0 +1,63 @@
+#pragma once
+// Where a surface in one frame lies in another, found by comparing the pictures directly.
+
+#include "engine/core/image.h"
+#include "engine/motion/lattice_field.h"
+
+namespace weft {
+
+/// A frame's luma as registration compares it: inside the region only, less its local mean and over
+/// its local deviation, so that shading and a change of light hardly count. Immutable.
+struct RegistrationPicture {
+    Recti area;      ///< Of the frame; the images below cover it.
+    ImageF1 value;   ///< About −3…3.
+    ImageF1 inside;  ///< 1 well inside the region, 0 where nothing is to be compared.
+};
+
+/// `luma`, `visible`: H×W, 8 bit, of one size. Pure; deterministic.
+[[nodiscard]] RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible);
+
+/// How well a map explains the frame: both in units of the local deviation.
+struct RegistrationFit {
+    double residual = 0;  ///< Robust mean of |anchor(map(p)) − cur(p)|.
+    double share = 0;     ///< Of the region's pixels: seen in the anchor and agreeing.
+};
+
+struct RegistrationOptions {
+    int samples = 60000;         ///< At most about so many pixels are compared.
+    int iterations = 8;          ///< At most; ends when nothing moves.
+    int lattice_px = 12;         ///< Spacing of the correction's nodes.
+    float stiffness_px = 0.15f;  ///< Second differences of the correction that are usual, px.
+};
+
+struct PlanarRegistration {
+    LatticeField anchor_from_cur;
+    RegistrationFit fit;
+    bool found = false;  ///< False: too few pixels or no convergence; the field is the initial one.
+};
+
+/// The homography that takes the frame to the anchor, by Gauss–Newton on robust photometric
+/// residuals (Lucas & Kanade 1981; Baker & Matthews 2004, forwards additive), from `initial`
+/// (anchor_from_cur, right to a pixel or so). The field has `initial`'s lattice. Pure;
+/// deterministic.
+[[nodiscard]] PlanarRegistration register_planar(const RegistrationPicture& anchor,
+                                                 const RegistrationPicture& cur,
+                                                 const LatticeField& initial,
+                                                 const RegistrationOptions& options);
+
+/// `initial` plus a smooth correction: the maximum a posteriori displacement of a coarse lattice
+/// under the photometric residuals and the prior that second differences are of the order of
+/// `stiffness_px`; where the picture tells nothing the correction of the surroundings goes on.
+/// Pure; deterministic.
+[[nodiscard]] LatticeField register_lattice(const RegistrationPicture& anchor,
+                                            const RegistrationPicture& cur,
+                                            const LatticeField& initial,
+                                            const RegistrationOptions& options);
+
+/// How well any map explains the frame, by the same measure for all.
+[[nodiscard]] RegistrationFit registration_fit(const RegistrationPicture& anchor,
+                                               const RegistrationPicture& cur,
+                                               const LatticeField& anchor_from_cur,
+                                               const RegistrationOptions& options);
+
+}  // namespace weft
