@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/console.h"
+#include "app/project/edit.h"
 #include "app/session/render_job.h"
 #include "engine/metrics/measuring_motion.h"
 #include "engine/synthesis/texture_plane.h"
@@ -61,6 +62,7 @@ int new_command(const std::string& path, const Project& project, bool overwrite)
 int apply_command(const std::string& path, const std::string& actions, bool dry_run);
 /// A change of one region (or, without a name, a new one) in a project file.
 int region_add_command(const std::string& path, Region region);
+int region_correct_command(const std::string& path, const SetCorrection& edit);
 int region_list_command(const std::string& path, bool json);
 
 int demo_command(const std::string& assets, const std::string& given_output, const RunOptions& run);
