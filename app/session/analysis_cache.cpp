@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the analysis itself computes something else.
-constexpr int kAnalysisVersion = 4;
+constexpr int kAnalysisVersion = 5;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -78,6 +78,9 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
     hasher.value(plan.motion_forward);
     for (const int frame : plan.reference_frames)
         hasher.value(frame);
+    hasher.value(static_cast<std::uint64_t>(plan.light_evidence.size()));
+    for (const int frame : plan.light_evidence)
+        hasher.value(frame);
     hasher.value(static_cast<int>(plan.temporal));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
         hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
@@ -104,6 +107,8 @@ const char* kind_name(AnalysisKind kind) {
             return "coords";
         case AnalysisKind::kCoordsOneWay:
             return "coords-one-way";
+        case AnalysisKind::kLightSample:
+            return "light-sample";
         case AnalysisKind::kShading:
             return "shading";
         case AnalysisKind::kPaperTexture:

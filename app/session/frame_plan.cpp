@@ -40,7 +40,47 @@ std::vector<int> motion_frames(const RegionPlan& plan, const FrameSpan& span) {
                                : frames_between(span.first + 1, span.last);
 }
 
+// Those of `frames` for which the pattern has a file; all of them for a still or no pattern.
+Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> frames) {
+    if (text.empty()) return frames;
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    if (pattern.is_single()) return frames;
+    WEFT_TRY(present, pattern.list_frames());
+    std::vector<int> both;
+    std::set_intersection(frames.begin(), frames.end(), present.begin(), present.end(),
+                          std::back_inserter(both));
+    return both;
+}
+
 }  // namespace
+
+Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
+                                          const ShotPlan& shot, const FrameReader& plate) {
+    if (plan.light_source != LightSource::kPlate || plan.light.strength <= 0 ||
+        shot.quality == FlowQuality::kDraft)
+        return std::vector<int>{};
+    constexpr int kReach = 48, kMostFrames = 12;
+    std::vector<int> frames = plate.frames();
+    std::vector<std::string> patterns{region.matte->files, region.motion.files};
+    for (const MatteSource& holdout : *region.holdouts)
+        patterns.push_back(holdout.files);
+    for (const std::string& pattern : patterns) {
+        WEFT_TRY(left, with_files(pattern, std::move(frames)));
+        frames = std::move(left);
+    }
+    const int reference = plan.reference_frames.front();
+    const auto has = [&](int f) { return std::binary_search(frames.begin(), frames.end(), f); };
+    int first = reference, last = reference;
+    while (first > reference - kReach && has(first - 1))
+        --first;
+    while (last < reference + kReach && has(last + 1))
+        ++last;
+    const int steps = std::min(last - first, kMostFrames - 1);
+    std::vector<int> chosen{first};
+    for (int k = 1; k <= steps; ++k)
+        chosen.push_back(first + (last - first) * k / steps);
+    return chosen;
+}
 
 std::string frames_text(const std::vector<int>& frames) {
     const std::string list = format_frame_list(frames);

@@ -144,6 +144,8 @@ class ShotOpener {
         plan.weight = static_cast<float>(region.temporal.weight);
         plan.light_source = region.light.source;
         plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        WEFT_TRY(evidence, light_evidence(region, plan, shot_.plan, *shot_.plate));
+        plan.light_evidence = std::move(evidence);
         if (options_.textures) {
             WEFT_CHECK_OK(add_texture(region, plan));
             WEFT_CHECK_OK(add_light_picture(region, plan));

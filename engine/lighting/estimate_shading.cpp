@@ -93,32 +93,42 @@ ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
                            {kStepSigma * sigma, kStepRange});
 }
 
+// pattern_px in pixels of the small picture.
+float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) {
+    return std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale));
+}
+
 }  // namespace
 
-Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
-    const int d = std::clamp(options.downscale, 1, 16);
-    Shading shading{ImageF1(reduced_size(linear.size(), d), 1.0f), d, linear.size()};
-    SurfaceSample sample = sample_surface(linear, visible, d);
-    if (sample.box.empty()) return shading;
-    const float pattern_px = std::max(1.0f, options.pattern_px / static_cast<float>(d));
-    if (options.chromaticity)
-        remove_chromatic_reflectance(sample, static_cast<int>(kChromaWindow * pattern_px) + 1);
-    const ImageF1 luma = without_pattern(sample, pattern_px);
+SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
+    SurfaceSample sample = sample_surface(linear, visible, std::clamp(options.downscale, 1, 16));
+    if (options.chromaticity && !sample.box.empty()) {
+        remove_chromatic_reflectance(
+            sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1);
+    }
+    return sample;
+}
 
+ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
+    return without_pattern(sample, small_pattern(sample, options));
+}
+
+Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample) {
+    Shading shading{ImageF1(reduced_size(sample.full, sample.downscale), 1.0f), sample.downscale,
+                    sample.full};
+    if (sample.box.empty()) return shading;
     shading.inside = Matte(shading.value.size());
-    Matte known(shading.value.size());
     parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < sample.box.width(); ++x) {
                 if (sample.weight.row(y)[x] == 0) continue;
                 const int u = x + sample.box.x0, v = y + sample.box.y0;
-                shading.value.row(v)[u] = luma.row(y)[x];
+                shading.value.row(v)[u] = log.row(y)[x];
                 shading.inside.row(v)[u] = 255;
-                known.row(v)[u] = 255;
             }
         }
     });
-    fill_unknown(shading.value, known);
+    fill_unknown(shading.value, shading.inside);
     parallel_rows(shading.value.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             float* row = shading.value.row(y);
@@ -127,6 +137,11 @@ Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& 
         }
     });
     return shading;
+}
+
+Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
+    const SurfaceSample sample = light_sample(linear, visible, options);
+    return shading_from_log(sample.box.empty() ? ImageF1() : log_shading(sample, options), sample);
 }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/core/image.h"
+#include "engine/lighting/surface_sample.h"
 
 namespace weft {
 
@@ -43,6 +44,15 @@ struct Shading {
 /// header.
 [[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible,
                                        const ShadingOptions& options);
+
+/// The two halves of estimate_shading: the plate as the estimate sees it, the colour of the
+/// surface's paint taken out, and the light in it.
+[[nodiscard]] SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible,
+                                         const ShadingOptions& options);
+/// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
+[[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
+/// Makes a Shading of it.
+[[nodiscard]] Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample);
 
 /// Steady in time: mixes the shading with the previous frame's, moved along the motion, where the
 /// two agree within noise; where they do not (a moving shadow, a change of light) the new one

@@ -51,6 +51,9 @@ struct RegionPlan {
     LightSource light_source = LightSource::kPlate;
     std::shared_ptr<const ImageF3> light_picture;  ///< Linear light; for kImage.
     LightOptions light;
+    /// Frames whose evidence tells the old texture from light, ascending; empty: each frame stands
+    /// for itself. They do not depend on what part of a shot is rendered.
+    std::vector<int> light_evidence;
 };
 
 /// What holds for the whole shot.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/temporal/surface_walker.h"
@@ -27,6 +28,8 @@ struct Job {
     [[nodiscard]] bool is_reference(int frame) const {
         return std::binary_search(references.begin(), references.end(), frame);
     }
+    // Light is estimated from several frames at once, after the legs.
+    [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }
     // Between two references what the first leg finds is not final: blend() makes it so.
     [[nodiscard]] AnalysisKind coords_kind(int frame) const {
         const bool between =
@@ -125,7 +128,7 @@ class Follower {
         if (at.frame >= job.primary && job.is_reference(at.frame)) {
             WEFT_CHECK_OK(restart(job, at, visible));
             // What the first leg left at the primary reference is where the past begins.
-            if (at.frame == job.primary && job.shading) {
+            if (at.frame == job.primary && job.shading && !job.gathers_light()) {
                 WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kShading}));
                 WEFT_TRY(shading, decode_shading(bytes));
                 job.last_shading = std::move(shading);
@@ -209,14 +212,19 @@ class Follower {
     }
 
     Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
-        if (job.coords) {
+        if (job.coords || job.gathers_light()) {
             WEFT_CHECK_OK(
                 keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
         }
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
         const Size size = working.size();
-        Shading shading = estimate_shading(working, visible, shading_options(context_.plan, size));
+        const ShadingOptions options = shading_options(context_.plan, size);
+        if (job.gathers_light()) {
+            return keep(job, at.frame, AnalysisKind::kLightSample,
+                        encode(light_sample(working, visible, options)));
+        }
+        Shading shading = estimate_shading(working, visible, options);
         if (job.last_shading) {
             shading = steady_shading(shading, *job.last_shading,
                                      job.walker->prev_from_cur().dense(rect_of(size)));
@@ -284,7 +292,12 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     };
     WEFT_CHECK_OK(run(legs.forward, &Follower::forward));
     WEFT_CHECK_OK(run(legs.backward, &Follower::backward));
-    return run(legs.again, &Follower::again);
+    WEFT_CHECK_OK(run(legs.again, &Follower::again));
+    for (const Job& job : jobs) {
+        if (job.gathers_light())
+            WEFT_CHECK_OK(estimate_light(context, job.region, {job.span.first, job.span.last}, store));
+    }
+    return {};
 }
 
 }  // namespace weft
