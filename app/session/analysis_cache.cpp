@@ -81,6 +81,8 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
     hasher.value(static_cast<std::uint64_t>(plan.light_evidence.size()));
     for (const int frame : plan.light_evidence)
         hasher.value(frame);
+    for (const int frame : plan.grain_frames)
+        hasher.value(frame);
     hasher.value(static_cast<int>(plan.temporal));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
         hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
@@ -111,6 +113,8 @@ const char* kind_name(AnalysisKind kind) {
             return "light-sample";
         case AnalysisKind::kShading:
             return "shading";
+        case AnalysisKind::kGrain:
+            return "grain";
         case AnalysisKind::kPaperTexture:
             return "paper";
     }

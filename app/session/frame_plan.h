@@ -31,6 +31,11 @@ namespace weft {
                                                         const ShotPlan& shot,
                                                         const FrameReader& plate);
 
+/// The frames that grain is measured on: the first reference frame and up to three after it. None
+/// where it is not wanted, or there is no frame after. Errors: those of the patterns.
+[[nodiscard]] Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& plan,
+                                                      const FrameReader& plate);
+
 /// "frames 4-9 and 12"; long lists are cut.
 [[nodiscard]] std::string frames_text(const std::vector<int>& frames);
 

@@ -162,6 +162,10 @@ Bytes encode(const SurfaceSample& s) {
         .take();
 }
 
+Bytes encode(const GrainModel& grain) {
+    return Writer().value(grain.deviation).value(grain.kernel).value(grain.mix).take();
+}
+
 Bytes encode(const ImageU8x3& picture) {
     return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
 }
@@ -235,6 +239,14 @@ Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
         s.weight.data()[i] = static_cast<float>(weight[i]) / 255.0f;
     }
     return s;
+}
+
+Expected<GrainModel> decode_grain(const Bytes& bytes) {
+    Reader reader(bytes);
+    GrainModel grain;
+    reader.value(grain.deviation).value(grain.kernel).value(grain.mix);
+    if (!reader.complete()) return damaged("grain");
+    return grain;
 }
 
 Expected<ImageU8x3> decode_picture(const Bytes& bytes) {

@@ -13,7 +13,7 @@ namespace weft {
                                             int region, int frame);
 
 /// The frames that a region's analysis spans: its frames to render, references, matte keyframes
-/// and evidence of light.
+/// and the evidence of light and grain.
 struct FrameSpan {
     int first = 0, last = 0;
 };

@@ -18,12 +18,15 @@ struct Job {
     FrameSpan span;
     std::vector<int> references;  // ascending
     int primary = 0;              // the reference that holds the placement
-    bool coords = false, shading = false, paper = false;
+    bool coords = false, shading = false, paper = false, grain = false;
 
     std::optional<SurfaceWalker> walker;
     std::optional<Shading> last_shading;
     std::optional<PaperWalker> painter;
     Matte last_visible;
+    std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
+    ImageF3 last_display;
+    Matte last_metered;
 
     [[nodiscard]] bool is_reference(int frame) const {
         return std::binary_search(references.begin(), references.end(), frame);
@@ -42,7 +45,7 @@ struct Job {
             if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
             if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
         }
-        return true;
+        return !grain || store.has({region, primary, AnalysisKind::kGrain});
     }
 };
 
@@ -61,8 +64,9 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
         // Further references anchor coordinates; nothing else is carried from them.
         if (!job.coords) job.references = {job.primary};
         job.paper = region.temporal == TemporalMode::kPaper;
-        job.shading = region.light_source == LightSource::kPlate && region.light.strength > 0;
-        if ((job.coords || job.paper || job.shading) && !job.complete(store)) {
+        job.shading = region.estimates_light();
+        job.grain = region.grain > 0 && !region.grain_frames.empty();
+        if ((job.coords || job.paper || job.shading || job.grain) && !job.complete(store)) {
             jobs.push_back(std::move(job));
         }
     }
@@ -118,6 +122,7 @@ class Follower {
         WEFT_TRY(visible, visible_at(job, at));
         WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
                                               : advance(job, at, visible));
+        WEFT_CHECK_OK(measure_grain(job, at, visible));
         return keep_all(job, at, visible);
     }
 
@@ -232,6 +237,24 @@ class Follower {
         WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kShading, encode(shading)));
         job.last_shading = std::move(shading);
         return {};
+    }
+
+    Status measure_grain(Job& job, const SweepFrame& at, const Matte& visible) {
+        if (!job.grain || at.frame > job.plan->grain_frames.back()) return {};
+        ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
+        if (at.frame == job.primary) {
+            job.meter.emplace(context_.plan.plate_quantum);
+        } else {
+            job.meter->add(display, job.last_display, visible, job.last_metered,
+                           job.walker->prev_from_cur().dense(rect_of(display.size())));
+        }
+        job.last_display = std::move(display);
+        job.last_metered = visible;
+        if (at.frame < job.plan->grain_frames.back()) return {};
+        const GrainModel grain = job.meter->model();
+        job.meter.reset();
+        job.last_display = {};
+        return keep(job, job.primary, AnalysisKind::kGrain, encode(grain));
     }
 
     // Between two references the histories from both are carried and their difference is spread
