@@ -145,6 +145,12 @@ struct LightParams {
     std::string image;  ///< The illumination picture of kImage.
     LightForm form = LightForm::kGain;
     double strength = 1;  ///< λ
+    std::string strength_keys;  ///< λ over time, "1:1 24:0.3"; empty: `strength` throughout.
+    std::string lamps;          ///< Painted light (engine/lighting/painted_light.h).
+    double cast = 0;            ///< How far the light's colour is taken over.
+    double highlights = 0;      ///< How much of the old surface's gloss is kept.
+    std::string albedo;         ///< Pattern of the artist's unlit colour.
+    std::string lighting;       ///< Pattern of the artist's lighting pass.
     Extras extra;
     bool operator==(const LightParams&) const = default;
 };
@@ -154,6 +160,14 @@ struct LightParams {
 struct CorrectionPin {
     PlatePoint from, to;
     bool operator==(const CorrectionPin&) const = default;
+};
+
+/// What makes the new texture look as if it had gone through the plate's camera.
+struct FinishParams {
+    double grain = 1;  ///< Of the plate's grain; 0: none.
+    double focus = 1;  ///< Of the plate's blur; 0: none.
+    Extras extra;
+    bool operator==(const FinishParams&) const = default;
 };
 
 /// One surface to be replaced.
@@ -172,6 +186,7 @@ struct Region {
     SynthesisParams synthesis;
     TemporalParams temporal;
     LightParams light;
+    FinishParams finish;
     Extras extra;
     bool operator==(const Region&) const = default;
 };
