@@ -73,6 +73,7 @@ int run_cli(int argc, char** argv) {
     add_render_commands(app, exit);
     add_project_commands(app, exit);
     add_tool_commands(app, exit);
+    add_study_command(app, exit);
     try {
         const int code = parse(app, argc, argv, exit);
         if (code == 0 && std::ferror(stdout)) {

@@ -42,6 +42,8 @@ class ProjectFlags {
     std::vector<std::string> mattes_, holdouts_;
 };
 
+/// --progress and --json.
+void add_progress_flags(CLI::App& command, RunOptions& run);
 /// --threads, --backend, --progress and the like.
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders);
 
@@ -49,5 +51,6 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders);
 void add_render_commands(CLI::App& app, int& exit);
 void add_project_commands(CLI::App& app, int& exit);
 void add_tool_commands(CLI::App& app, int& exit);
+void add_study_command(CLI::App& app, int& exit);
 
 }  // namespace weft
