@@ -77,6 +77,7 @@ int run_cli(int argc, char** argv, const EditCommand& edit) {
     add_tool_commands(app, exit);
     add_edit_command(app, exit, edit);
     add_texture_commands(app, exit);
+    add_study_command(app, exit);
     try {
         const int code = parse(app, argc, argv, exit);
         if (code == 0 && std::ferror(stdout)) {

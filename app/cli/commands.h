@@ -8,6 +8,7 @@
 #include "app/cli/console.h"
 #include "app/project/edit.h"
 #include "app/session/render_job.h"
+#include "app/session/study.h"
 #include "engine/metrics/measuring_motion.h"
 #include "engine/synthesis/texture_plane.h"
 
@@ -64,6 +65,9 @@ struct MeasureCommandOptions {
     bool json = false;
 };
 int measure_command(const MeasureCommandOptions& options);
+
+/// `weft study`; threads, overwrite and the like are in `options` already.
+int study_command(const StudyOptions& options, const RunOptions& run);
 
 struct DiffOptions {
     std::string a, b;

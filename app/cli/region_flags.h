@@ -43,6 +43,8 @@ class ProjectFlags {
     std::vector<std::string> mattes_, holdouts_;
 };
 
+/// --progress and --json.
+void add_progress_flags(CLI::App& command, RunOptions& run);
 /// --threads, --backend, --progress and the like.
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders);
 
@@ -52,5 +54,6 @@ void add_project_commands(CLI::App& app, int& exit);
 void add_synth_commands(CLI::App& app, int& exit);
 void add_tool_commands(CLI::App& app, int& exit);
 void add_edit_command(CLI::App& app, int& exit, const EditCommand& edit);
+void add_study_command(CLI::App& app, int& exit);
 
 }  // namespace weft
