@@ -31,7 +31,8 @@ bool is_output_flag(std::string_view flag) {
 }
 
 bool is_matte_flag(std::string_view flag) {
-    return begins_with_any(flag, {"--matte-value", "--matte-channel", "--matte-invert"});
+    return begins_with_any(flag, {"--matte-value", "--matte-channel", "--matte-invert",
+                                  "--matte-steadiness", "--matte-frozen", "--matte-frozen-files"});
 }
 
 }  // namespace

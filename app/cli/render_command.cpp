@@ -78,7 +78,7 @@ int matte_command(const Project& project, const std::string& output, const RunOp
     for (const std::string& warning : warnings)
         print_warning(warning);
     if (!mattes) return report_error(mattes.error());
-    std::string text = run.json ? "{\"mattes\": [" : "";
+    std::string text = run.json ? "{\"mattes\": [" : "", suggested;
     for (const MatteResult& m : *mattes) {
         char line[64];
         std::snprintf(
@@ -87,9 +87,10 @@ int matte_command(const Project& project, const std::string& output, const RunOp
             m.frame, static_cast<double>(m.confidence));
         if (run.json && &m != &mattes->front()) text += ", ";
         text += line;
-        if (!run.json) text += "\n";
+        if (m.suggested) suggested += (suggested.empty() ? "" : ", ") + std::to_string(m.frame);
+        if (!run.json) text += m.suggested ? "  put a keyframe here\n" : "\n";
     }
-    print(stdout, run.json ? text + "]}\n" : text);
+    print(stdout, run.json ? text + "], \"suggested_keyframes\": [" + suggested + "]}\n" : text);
     return 0;
 }
 

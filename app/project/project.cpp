@@ -41,6 +41,7 @@ Leaf<MatteSource> map_matte(const Leaf<MatteSource>& matte, const auto& map) {
     if (matte->empty()) return matte;
     return matte.with([&](MatteSource& m) {
         map(m.files);
+        map(m.frozen_files);
         for (auto& [frame, key] : m.keyframes)
             map(key.path);
     });
@@ -135,7 +136,8 @@ Project map_paths(const Project& project,
 
 std::size_t own_bytes(const MatteSource& matte) {
     std::size_t bytes =
-        sizeof matte + heap_bytes_of(matte.files, matte.select.channel, matte.extra);
+        sizeof matte + heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel, matte.extra) +
+        matte.frozen.capacity() * sizeof(int);
     for (const auto& [frame, key] : matte.keyframes)
         bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra);
     return bytes;

@@ -89,6 +89,9 @@ struct MatteSource {
     std::string files;                       ///< Pattern; empty: keyframes.
     std::map<int, MatteKeyframe> keyframes;  ///< By frame number.
     MatteSelect select;
+    double steadiness = 0.5;   ///< 0–1: how much boil is taken out of propagated mattes.
+    std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated …
+    std::string frozen_files;  ///< … from files of this pattern.
     Extras extra;
     [[nodiscard]] bool empty() const { return files.empty() && keyframes.empty(); }
     bool operator==(const MatteSource&) const = default;

@@ -35,6 +35,28 @@ std::vector<Parameter<Owner>> matte_entries() {
              .key = "invert",
              .flag = "--matte-invert",
              .help = "The surface is where the matte is black"}),
+        entry<Owner, Path..., &MatteSource::steadiness>(
+            {.group = "matte",
+             .key = "steadiness",
+             .flag = "--matte-steadiness",
+             .help = "How much of the boundary's boil is taken out of propagated mattes",
+             .min = 0,
+             .max = 1}),
+        entry<Owner, Path..., &MatteSource::frozen>(
+            {.group = "matte",
+             .key = "frozen",
+             .flag = "--matte-frozen",
+             .help = "Frames whose mattes are final: read from --matte-frozen-files, kept as they "
+                     "are, and propagated from like painted ones",
+             .min = -kMaxFrame,
+             .max = kMaxFrame,
+             .repeatable = true}),
+        entry<Owner, Path..., &MatteSource::frozen_files>(
+            {.group = "matte",
+             .key = "frozen_files",
+             .flag = "--matte-frozen-files",
+             .help = "Pattern of the frozen frames' mattes, as 'weft matte' wrote them",
+             .is_path = true}),
     };
 }
 

@@ -51,6 +51,7 @@ Status add_matte(Hasher& hasher, const MatteSource& matte) {
         hasher.value(frame);
         add_file(hasher, key.path);
     }
+    hasher.value(matte.steadiness);
     hasher.value(matte.select.value.value_or(-1))
         .text(matte.select.channel)
         .value(matte.select.invert);

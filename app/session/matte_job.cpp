@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "app/session/output_check.h"
 #include "app/session/render_job.h"
+#include "engine/mask/keyframe_advice.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/matte_pass.h"
@@ -31,6 +33,19 @@ Status prepare_output(const Shot& shot, const SequencePattern& pattern, Existing
         }
     }
     return {};
+}
+
+void mark_suggestions(std::vector<MatteResult>& results) {
+    std::vector<FrameConfidence> frames;
+    std::vector<int> painted;
+    for (const MatteResult& r : results) {
+        frames.push_back({r.frame, r.confidence});
+        if (r.painted) painted.push_back(r.frame);
+    }
+    if (painted.empty()) return;
+    const std::vector<int> suggested = suggest_keyframes(std::move(frames), painted);
+    for (MatteResult& r : results)
+        r.suggested = std::find(suggested.begin(), suggested.end(), r.frame) != suggested.end();
 }
 
 }  // namespace
@@ -74,9 +89,12 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
             WEFT_TRY(read, shot->source->matte(0, frame));
             matte.matte = std::move(read);
         }
-        results.push_back({frame, pattern.path_for(frame), matte.confidence});
+        const std::vector<int>& keys = plan.regions[0].matte_keys;
+        results.push_back({frame, pattern.path_for(frame), matte.confidence,
+                           std::binary_search(keys.begin(), keys.end(), frame)});
         WEFT_CHECK_OK(write_matte(results.back().path, matte.matte));
     }
+    mark_suggestions(results);
     return results;
 }
 

@@ -74,6 +74,8 @@ struct MatteResult {
     int frame = 0;
     std::string path;
     float confidence = 1;
+    bool painted = false;    ///< A keyframe, painted or frozen.
+    bool suggested = false;  ///< A matte painted here would help most.
 };
 /// What is odd but no error is added to `warnings`.
 [[nodiscard]] Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,

@@ -102,12 +102,31 @@ class ShotOpener {
         return {};
     }
 
+    // Frozen frames are keyframes that are read from their files, except where one is painted.
+    static Status add_frozen_mattes(Region& region) {
+        if (region.matte->frozen.empty()) return {};
+        if (region.matte->frozen_files.empty() || !region.matte->files.empty()) {
+            return fail(ErrorCode::kUsage,
+                        "Frozen mattes need their files (--matte-frozen-files), and painted "
+                        "keyframes (--matte FRAME=FILE) to be propagated beside them.");
+        }
+        WEFT_TRY(pattern, SequencePattern::parse(region.matte->frozen_files));
+        region.matte = region.matte.with([&](MatteSource& matte) {
+            for (const int frame : matte.frozen)
+                matte.keyframes.try_emplace(frame, MatteKeyframe{pattern.path_for(frame), {}});
+        });
+        return {};
+    }
+
     Status add_regions() {
         std::vector<Leaf<Region>> planned;
         for (std::size_t k = 0; k < shot_.project.regions.size(); ++k) {
+            if (!shot_.project.regions[k]->enabled) continue;
+            Status frozen;
+            shot_.project.regions[k] = shot_.project.regions[k].with(
+                [&](Region& with_frozen) { frozen = add_frozen_mattes(with_frozen); });
             const Region& region = *shot_.project.regions[k];
-            if (!region.enabled) continue;
-            auto added = add_region(region);
+            auto added = frozen ? add_region(region) : std::move(frozen);
             if (!added) return fail_in(std::move(added).error(), "Region '" + region.name + "'");
             shot_.region_index.push_back(k);
             planned.push_back(shot_.project.regions[k]);
@@ -125,6 +144,7 @@ class ShotOpener {
         }
         for (const auto& [frame, key] : region.matte->keyframes)
             plan.matte_keys.push_back(frame);
+        plan.matte_steadiness = static_cast<float>(region.matte->steadiness);
         plan.has_holdout = !region.holdouts->empty();
         for (const MatteSource& holdout : *region.holdouts) {
             if (holdout.files.empty()) {

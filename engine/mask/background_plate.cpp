@@ -14,18 +14,35 @@ namespace {
 constexpr float kClearancePx = 3;     // nearer to the shape its colour is mixed in
 constexpr float kSurePx = 12;         // outside by so much a difference is noise, not surface
 constexpr float kLeastNoise = 4;      // mean difference of a pixel and itself, 8-bit levels
-constexpr float kForeignRange = 110;  // over which the differences of something else spread
+constexpr float kForeignRange = 160;  // over which the differences of something else spread
 constexpr float kMostOdds = 3;
+constexpr float kMostGain = 2;        // of a shadow, or its end
+constexpr float kLightShare = 0.35f;  // of a difference in brightness alone
 
-// Mean absolute difference of a pixel and the most alike one of the plate around it.
-int least_difference(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
-    int least = 3 * 255;
+int difference(const std::uint8_t* a, const std::uint8_t* b) {
+    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+}
+
+// The same where a shadow may have come or gone: a change of brightness alone counts less.
+float difference_but_light(const std::uint8_t* a, const std::uint8_t* b) {
+    const auto plain = static_cast<float>(difference(a, b));
+    const int ab = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    const int bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    if (bb == 0) return plain;
+    const float gain =
+        std::clamp(static_cast<float>(ab) / static_cast<float>(bb), 1 / kMostGain, kMostGain);
+    float left = kLightShare * std::abs(1 - gain) * static_cast<float>(b[0] + b[1] + b[2]);
+    for (int i = 0; i < 3; ++i)
+        left += std::abs(static_cast<float>(a[i]) - gain * static_cast<float>(b[i]));
+    return std::min(plain, left);
+}
+
+// Difference, summed over channels, of a pixel and the most alike one of the plate around it.
+float least_difference(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
+    float least = 3 * 255;
     for (int v = std::max(0, y - 1); v <= std::min(plate.height() - 1, y + 1); ++v) {
-        for (int u = std::max(0, x - 1); u <= std::min(plate.width() - 1, x + 1); ++u) {
-            const std::uint8_t* p = plate.pixel(u, v);
-            least = std::min(least,
-                             std::abs(c[0] - p[0]) + std::abs(c[1] - p[1]) + std::abs(c[2] - p[2]));
-        }
+        for (int u = std::max(0, x - 1); u <= std::min(plate.width() - 1, x + 1); ++u)
+            least = std::min(least, difference_but_light(c, plate.pixel(u, v)));
     }
     return least;
 }
@@ -79,22 +96,21 @@ void BackgroundPlate::move(ViewF2 background_from_cur) {
 
 ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, const Recti& area) const {
     const int w = area.width(), h = area.height();
-    cv::Mat difference(h, w, CV_32F, cv::Scalar(0)), sure(h, w, CV_32FC2, cv::Scalar::all(0));
+    cv::Mat differences(h, w, CV_32F, cv::Scalar(0)), sure(h, w, CV_32FC2, cv::Scalar::all(0));
     parallel_rows(h, 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < w; ++x) {
                 const int fx = area.x0 + x, fy = area.y0 + y;
                 if (known_.row(fy)[fx] == 0) continue;
-                const auto d =
-                    static_cast<float>(least_difference(frame.pixel(x, y), picture_, fx, fy)) / 3;
-                difference.at<float>(y, x) = d;
+                const float d = least_difference(frame.pixel(x, y), picture_, fx, fy) / 3;
+                differences.at<float>(y, x) = d;
                 if (expected_phi.row(y)[x] < -kSurePx)
                     sure.at<cv::Vec2f>(y, x) = cv::Vec2f(1, std::min(d, 30.0f));
             }
         }
     });
     cv::Mat patch, noise;
-    cv::blur(difference, patch, cv::Size(3, 3));
+    cv::blur(differences, patch, cv::Size(3, 3));
     const int side = 2 * (std::min(picture_.width(), picture_.height()) / 12) + 1;
     cv::boxFilter(sure, noise, CV_32F, cv::Size(side, side), cv::Point(-1, -1), true,
                   cv::BORDER_REPLICATE);

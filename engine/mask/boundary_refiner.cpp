@@ -23,8 +23,9 @@ constexpr float kShapeReachPx = 4;    // shape prior: distance for one unit of l
 constexpr float kTrustedReachPx = 6;  // what it grows by where colours are trusted
 constexpr float kGrowthPenalty = 0.5f;  // log odds against surface beyond the expected boundary
 constexpr float kSmoothness = 2;
-constexpr float kWideWeight = 1;
+constexpr float kWideWeight = 2.3f;
 constexpr float kContradiction = 1.0f;  // mean log odds that open up what seemed settled
+constexpr float kBoilBands = 0.15f;     // 1.5 px at 854×480
 constexpr float kIslandBands = 4;       // islands up to this many bands² are removed
 
 // Evidence for inside at every pixel of the band: the colours' where they separate, and the
@@ -119,6 +120,23 @@ BoundaryEvidence weigh(ViewF1 expected, ViewF1 found, const Evidence& e, float b
     return result;
 }
 
+// Boil is a boundary that moves to and fro by a pixel against the surface. A small difference from
+// where the surface's motion puts it is taken back, a large one is a change of shape and stays.
+void hold_steady(ImageF1& found, ViewF1 expected, float band_px, float steadiness) {
+    if (steadiness <= 0) return;
+    const float boil_px = kBoilBands * band_px;
+    parallel_rows(found.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            float* phi = found.row(y);
+            const float* e = expected.row(y);
+            for (int x = 0; x < found.width(); ++x) {
+                const float r = (e[x] - phi[x]) / boil_px;
+                if (std::abs(r) < 3) phi[x] += steadiness * std::exp(-r * r) * (e[x] - phi[x]);
+            }
+        }
+    });
+}
+
 }  // namespace
 
 RefineScale::RefineScale(Size frame) {
@@ -150,7 +168,8 @@ std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px) {
 }
 
 RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const LocalColorField& colors,
-                                ViewF1 further_odds, ViewF1 wide_odds, const RefineScale& scale) {
+                                ViewF1 further_odds, ViewF1 wide_odds, const RefineScale& scale,
+                                float steadiness) {
     const Matte undecided =
         undecided_pixels(expected_phi, wide_odds, scale.band_px, scale.limit_px - 1);
     const Evidence evidence = gather_evidence(frame, expected_phi, colors, further_odds, wide_odds,
@@ -160,6 +179,7 @@ RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const Local
                    static_cast<int>(kIslandBands * scale.band_px * scale.band_px));
     RefinedBoundary result;
     result.phi = smooth_distance(signed_distance(labels, scale.limit_px), 2);
+    hold_steady(result.phi, expected_phi, scale.band_px, steadiness);
     result.matte = edge_alpha(frame, result.phi, kEdgeWidthPx);
     result.evidence = weigh(expected_phi, result.phi, evidence, scale.band_px);
     // The soft edge tells the boundary's place to a fraction of a pixel; carried on, slow motion is

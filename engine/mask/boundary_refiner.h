@@ -37,9 +37,12 @@ struct RefinedBoundary {
 
 /// `frame`, `expected_phi` and `further_odds` (more log odds for inside, 0: none; may be empty) are
 /// of one size. So are `wide_odds` (may be empty): where these contradict what is expected, pixels
-/// further than the band from it are decided too. Deterministic for any number of threads.
+/// further than the band from it are decided too. `steadiness` (0–1): how much of a difference of
+/// less than a pixel or two from the expected boundary is taken for boil and left out.
+/// Deterministic for any number of threads.
 [[nodiscard]] RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi,
                                               const LocalColorField& colors, ViewF1 further_odds,
-                                              ViewF1 wide_odds, const RefineScale& scale);
+                                              ViewF1 wide_odds, const RefineScale& scale,
+                                              float steadiness);
 
 }  // namespace weft

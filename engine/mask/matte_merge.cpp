@@ -52,7 +52,7 @@ struct JointShape {
 }  // namespace
 
 MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstimate& from_after,
-                              float position, ViewU8x3 frame) {
+                              float position, ViewU8x3 frame, const MatteOptions& options) {
     if (position <= 0) return from_before;
     if (position >= 1) return from_after;
     // Squared: a walk that is half as sure is more than twice as likely to be wrong.
@@ -79,8 +79,8 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
         w.source_centers = {w.center};
     const LocalColorField colors(std::move(windows), {{part, joint.agreed, 1.5f, 1.0f, 1.0f}},
                                  scale.window_half_px, scale.sample_stride, part.size());
-    const RefinedBoundary found =
-        refine_boundary(part, joint.expected, colors, joint.votes, ViewF1(), scale);
+    const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.votes,
+                                                  ViewF1(), scale, options.steadiness);
     for (int y = 0; y < area.height(); ++y) {
         std::copy(found.matte.row(y), found.matte.row(y) + area.width(),
                   merged.matte.pixel(area.x0, area.y0 + y));

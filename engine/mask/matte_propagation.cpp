@@ -85,18 +85,19 @@ struct MatteWalker::State {
     ImageF2 key_from_prev;  ///< Where each pixel's surface lay on the keyframe, pixels.
     RefineScale scale;
     BackgroundPlate plate;
+    MatteOptions options;
     float confidence = 1;
 
     LocalColorField learn_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                  const Recti& area) const;
 };
 
-MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key) {
+MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options) {
     const RefineScale scale(frame.size());
     ImageF1 phi = smooth_distance(signed_distance(inside_of(key), scale.limit_px), 1);
     state_ = std::make_unique<State>(State{copy_of(frame), phi, copy_of(frame), phi,
                                            own_places(frame.size()), scale,
-                                           BackgroundPlate(frame, phi), 1.0f});
+                                           BackgroundPlate(frame, phi), options, 1.0f});
 }
 
 MatteWalker::~MatteWalker() = default;
@@ -139,8 +140,9 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
             match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
                             Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
                            s.scale.band_px);
-        const RefinedBoundary found = refine_boundary(part, shape.phi, colors, matched,
-                                                      s.plate.odds(part, shape.phi, area), s.scale);
+        const RefinedBoundary found =
+            refine_boundary(part, shape.phi, colors, matched, s.plate.odds(part, shape.phi, area),
+                            s.scale, s.options.steadiness);
         // What each frame loses depends on how often its boundary had to be guessed. The result
         // ranks frames by how well they came out; it is not calibrated to be the overlap itself.
         const BoundaryEvidence& e = found.evidence;

@@ -13,12 +13,16 @@ struct MatteEstimate {
     float confidence = 1;  ///< 0–1: how sure the boundary is, 1 on the keyframe itself.
 };
 
+struct MatteOptions {
+    float steadiness = 0.5f;  ///< 0–1: how much of the boundary's boil is taken out.
+};
+
 /// Walks away from one keyframe, forwards or backwards in time, one frame at a time. The keyframe's
 /// matte is never changed. Not thread-safe; two walkers may run in two threads.
 class MatteWalker {
   public:
     /// `frame`: display-encoded 8-bit plate, H×W×3. `key`: its painted matte, the same size.
-    MatteWalker(ViewU8x3 frame, ViewU8x1 key);
+    MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options = {});
     ~MatteWalker();
     MatteWalker(MatteWalker&&) noexcept;
     MatteWalker& operator=(MatteWalker&&) noexcept;
@@ -37,6 +41,6 @@ class MatteWalker {
 /// is where the frame lies between them (0: at `from_before`'s keyframe).
 [[nodiscard]] MatteEstimate merge_estimates(const MatteEstimate& from_before,
                                             const MatteEstimate& from_after, float position,
-                                            ViewU8x3 frame);
+                                            ViewU8x3 frame, const MatteOptions& options = {});
 
 }  // namespace weft

@@ -15,6 +15,7 @@ struct Job {
     int region = 0;
     std::vector<int> keys;
     FrameSpan span;
+    MatteOptions options;
     std::optional<MatteWalker> walker;
 
     [[nodiscard]] bool is_key(int frame) const {
@@ -30,7 +31,8 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
         const RegionPlan& region = plan.regions[k];
         if (!region.propagated()) continue;
-        Job job{static_cast<int>(k), region.matte_keys, analysed_span(plan, region), {}};
+        Job job{static_cast<int>(k), region.matte_keys, analysed_span(plan, region),
+                {region.matte_steadiness}, {}};
         bool complete = true;
         for (int f = job.span.first; f <= job.span.last && complete; ++f) {
             complete = store.has({job.region, f, AnalysisKind::kMatte});
@@ -64,7 +66,7 @@ Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job
                                             const SweepFrame& at) {
     if (job.is_key(at.frame)) {
         WEFT_TRY(key, context.source.matte_key(job.region, at.frame));
-        job.walker.emplace(at.views->display, key);
+        job.walker.emplace(at.views->display, key, job.options);
         return std::optional<MatteEstimate>(MatteEstimate{std::move(key), 1.0f});
     }
     if (!job.walker || at.frame < job.span.first || at.frame > job.span.last || !at.prev_from_cur) {
@@ -110,7 +112,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
             static_cast<float>(at.frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
         WEFT_CHECK_OK(put(store, job.region, at.frame, AnalysisKind::kMatte,
                           merge_estimates({std::move(forward.matte), forward.confidence}, *estimate,
-                                          position, at.views->display)));
+                                          position, at.views->display, job.options)));
     }
     return {};
 }

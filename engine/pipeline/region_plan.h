@@ -33,6 +33,7 @@ struct RegionPlan {
     // Mattes: frame by frame, or painted on these frames (ascending) and propagated.
     std::vector<int> matte_keys;
     [[nodiscard]] bool propagated() const { return !matte_keys.empty(); }
+    float matte_steadiness = 0.5f;  ///< Of propagated mattes, 0–1.
     bool has_holdout = false;
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.

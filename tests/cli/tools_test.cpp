@@ -118,6 +118,27 @@ TEST_F(Tools, DiffSaysWhereSequencesDiffer) {
     expect_failure(run({"diff", "frames/####.png", "nothing.png"}), 4, {"nothing.png"});
 }
 
+TEST_F(Tools, AFrozenMatteIsKeptAndPropagatedFrom) {
+    make_shot(4);
+    const auto propagate = [&](std::vector<std::string> more, const std::string& out) {
+        std::vector<std::string> words{"matte", "--plate", "frames/####.png", "--matte",
+                                       "1=masks/0001.png", "-o", out, "--progress", "none"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    expect_success(propagate({}, "first/####.png"));
+    // Frozen at frame 3 is the matte of frame 1, which the walk would never find there.
+    fs::create_directories(folder_ / "final");
+    fs::copy_file(folder_ / "masks/0001.png", folder_ / "final/0003.png");
+    expect_success(propagate(
+        {"--matte-frozen", "3", "--matte-frozen-files", "final/####.png"}, "second/####.png"));
+    EXPECT_EQ(bytes("second/0003.png"), bytes("second/0001.png"));
+    EXPECT_NE(bytes("first/0003.png"), bytes("second/0003.png"));
+    EXPECT_NE(bytes("first/0004.png"), bytes("second/0004.png"));
+    expect_failure(propagate({"--matte-frozen", "3"}, "third/####.png"), 2,
+                   {"--matte-frozen-files"});
+}
+
 TEST_F(Tools, MattePrintsAConfidenceForEachFrame) {
     make_shot(4);
     const Outcome outcome =

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -94,6 +96,41 @@ TEST(MatteWalker, ConfidenceFallsFasterUnderCorruptedMotion) {
     EXPECT_GT(good.back().confidence, bad.back().confidence + 0.1f);
     EXPECT_GT(overlap(good.back().matte, scene.matte(8)),
               overlap(bad.back().matte, scene.matte(8)));
+}
+
+// Fresh noise in every frame: the held boundary wavers less against the true one, and is no further
+// from it.
+TEST(MatteWalker, SteadinessTakesBoilOut) {
+    DiscScene scene;
+    const auto boil = [&](float steadiness) {
+        MatteWalker walker(scene.frame(0), scene.matte(0), {steadiness});
+        Matte before = scene.matte(0);
+        double change = 0, miss = 0;
+        for (int t = 1; t <= 12; ++t) {
+            ImageU8x3 frame = scene.frame(t, 9);
+            Rng rng(21, 0, static_cast<std::uint64_t>(t));
+            for (int y = 0; y < frame.height(); ++y) {
+                for (int i = 0; i < 3 * frame.width(); ++i) {
+                    const int noisy = frame.row(y)[i] + static_cast<int>(rng.below(61)) - 30;
+                    frame.row(y)[i] = static_cast<std::uint8_t>(std::clamp(noisy, 0, 255));
+                }
+            }
+            const Matte now = walker.advance(frame, scene.prev_from_cur(t)).matte;
+            const Matte truth = scene.matte(t), was_truth = scene.matte(t - 1);
+            for (int y = 0; y < now.height(); ++y) {
+                for (int x = 0; x < now.width(); ++x) {
+                    const int error = now.at(x, y) - truth.at(x, y);
+                    change += std::abs(error - (before.at(x, y) - was_truth.at(x, y)));
+                    miss += std::abs(error);
+                }
+            }
+            before = now;
+        }
+        return std::pair(change, miss);
+    };
+    const auto loose = boil(0), held = boil(0.8f);
+    EXPECT_LT(held.first, 0.9 * loose.first);
+    EXPECT_LT(held.second, 1.1 * loose.second);
 }
 
 TEST(MatteWalker, GivesTheSameBytesOnAnyNumberOfThreads) {
