@@ -7,6 +7,7 @@
 #include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
+#include "engine/lighting/pattern_period.h"
 
 namespace weft {
 namespace {
@@ -19,6 +20,8 @@ constexpr float kDoubts = 0.35f, kTrusts = 0.7f;  // share of the detail's energ
 constexpr float kMinEnergy = 1e-5f;     // ln² of detail: less is noise
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
+constexpr int kLongestPeriod = 64;  // small pixels
+constexpr float kPeriods = 1.0f;    // pieces up to so many periods are paint
 
 // The box of positions that a sample's pixels have on the reference frame.
 Recti mapped_box(const SurfaceSample& s, const ImageF2& ref_from_cur) {
@@ -159,6 +162,11 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     part.box = mapped_box(s, ref_from_cur);
     if (part.box.empty()) return;
     const ImageF1 light = log_shading(s, options_);
+    std::vector<float> levels;
+    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i) {
+        if (s.weight.data()[i] > 0) levels.push_back(light.data()[i]);
+    }
+    part.level = median_of(levels, 0.0f);
     part.residue = part.light = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
     for (int y = 0; y < s.box.height(); ++y) {
@@ -210,7 +218,43 @@ ClipReflectance ReflectanceGatherer::finish() {
             }
         }
     });
+    add_static_remains(out);
     return out;
+}
+
+// What is left of the pattern in every frame's light stays at its place of the surface, as light
+// that moves does not. On the surface itself, where no moving shadow is in the way, larger pieces
+// of the pattern can be told from light than in a frame: up to the pattern's period.
+void ReflectanceGatherer::add_static_remains(ClipReflectance& r) const {
+    SurfaceSample still;
+    still.box = r.box;
+    still.downscale = 1;
+    still.full = r.box.size();
+    still.luma = still.weight = ImageF1(r.box.size());
+    parallel_rows(r.box.height(), 8, [&](int y0, int y1) {
+        std::vector<float> values;
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < r.box.width(); ++x) {
+                if (!(r.trust.row(y)[x] > 0)) continue;
+                values.clear();
+                for (const Part& part : parts_) {
+                    const int u = x + r.box.x0 - part.box.x0, v = y + r.box.y0 - part.box.y0;
+                    if (u < 0 || v < 0 || u >= part.box.width() || v >= part.box.height()) continue;
+                    const float w = part.weight.row(v)[u];
+                    if (w > kSplatKnown) values.push_back(part.light.row(v)[u] / w - part.level);
+                }
+                still.luma.row(y)[x] = median_of(values, 0.0f);
+                still.weight.row(y)[x] = 1;
+            }
+        }
+    });
+    const int period = pattern_period_px(r.value, r.trust, kLongestPeriod);
+    if (period == 0) return;
+    const ImageF1 light =
+        light_beyond_period(still, r.value, static_cast<float>(period) * kPeriods);
+    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i) {
+        if (r.trust.data()[i] > 0) r.value.data()[i] += still.luma.data()[i] - light.data()[i];
+    }
 }
 
 Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflectance,

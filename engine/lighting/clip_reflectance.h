@@ -34,9 +34,12 @@ class ReflectanceGatherer {
     struct Part {
         Recti box;
         ImageF1 residue;  // ln reflectance as this frame alone shows it
-        ImageF1 light;    // ln shading, relative to its mean over the frame
+        ImageF1 light;    // ln shading
         ImageF1 weight;
+        float level = 0;  // median ln shading
     };
+    void add_static_remains(ClipReflectance& reflectance) const;
+
     ShadingOptions options_;
     std::vector<Part> parts_;
 };

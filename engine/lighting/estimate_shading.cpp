@@ -30,6 +30,8 @@ constexpr float kStepSigma = 0.6f;  // times the blur's
 constexpr float kRemains = 3.0f;            // deviations
 constexpr float kRemainsOfPattern = 0.12f;  // the most that is left of a pattern's deviation
 
+constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // where a clip is the evidence
+
 // A surface whose lightness varies by less than the first (a deviation, ln units) has no pattern,
 // and what varies is its own shading: wrinkles, facets. From the second on all of it is pattern.
 constexpr float kPlain = 0.08f, kPatterned = 0.16f;
@@ -79,7 +81,7 @@ float pattern_presence(float deviation) {
 // What a blur leaves of a pattern is wide and faint, and looks like light. Differences from the
 // surface's smooth light (a quadratic) that are no larger than such remains are taken for them; the
 // non-negative garrote (Gao 1998) takes the faint ones out and leaves shadows as they are.
-void remove_remains(ImageF1& light, const SurfaceSample& s) {
+void remove_remains(ImageF1& light, const SurfaceSample& s, float pattern, float most) {
     const QuadraticFit smooth(light, s.weight);
     ImageF1 rest(light.size());
     for (int y = 0; y < light.height(); ++y) {
@@ -87,9 +89,8 @@ void remove_remains(ImageF1& light, const SurfaceSample& s) {
             rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
     }
     const ImageF1 none(light.size());
-    const float pattern = deviation_between(s.luma, light, s.weight);
     const float limit = kRemains * std::min(deviation_between(rest, none, s.weight),
-                                            kRemainsOfPattern * pattern);
+                                            most * pattern);
     if (!(limit > 0)) return;
     parallel_rows(light.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -121,7 +122,7 @@ ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
         guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
     ImageF1 light = joint_bilateral(weighted(guide, s.weight), s.weight, guide,
                                     {kStepSigma * sigma, kStepRange});
-    remove_remains(light, s);
+    remove_remains(light, s, deviation_between(s.luma, light, s.weight), kRemainsOfPattern);
     return light;
 }
 
@@ -143,6 +144,19 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
 
 ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
     return without_pattern(sample, small_pattern(sample, options));
+}
+
+ImageF1 light_beyond_period(const SurfaceSample& still, const ImageF1& pattern, float period_px) {
+    const float sigma = kPatternSigma * period_px;
+    const ImageF1 weighted_luma = weighted(still.luma, still.weight);
+    ImageF1 light = blurred(weighted_luma, still.weight, sigma).value;
+    for (int i = 0; i < kRollings; ++i) {
+        light = joint_bilateral(weighted_luma, still.weight, light,
+                                {kRollingSigma * sigma, kStillRange});
+    }
+    const ImageF1 none(pattern.size());
+    remove_remains(light, still, deviation_between(pattern, none, still.weight), kStillRemains);
+    return light;
 }
 
 Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample) {

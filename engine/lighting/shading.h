@@ -58,6 +58,10 @@ struct Shading {
                                          const ShadingOptions& options);
 /// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
 [[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
+/// Of `still`, ln light that has no fine pattern left, what is wider than `period_px` of its pixels
+/// or stands out from what may be left of `pattern`, its ln reflectance: the light.
+[[nodiscard]] ImageF1 light_beyond_period(const SurfaceSample& still, const ImageF1& pattern,
+                                          float period_px);
 /// Makes a Shading of it.
 [[nodiscard]] Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample);
 
