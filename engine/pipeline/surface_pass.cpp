@@ -6,6 +6,7 @@
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/temporal/held_frames.h"
 #include "engine/temporal/surface_walker.h"
 
 namespace weft {
@@ -21,6 +22,8 @@ struct Job {
     bool coords = false, shading = false, paper = false, grain = false;
 
     std::optional<SurfaceWalker> walker;
+    HeldFrames held;
+    bool held_now = false;
     std::optional<Shading> last_shading;
     std::optional<PaperWalker> painter;
     Matte last_visible;
@@ -114,7 +117,11 @@ class Follower {
   public:
     Follower(const PassContext& context, AnalysisStore& store) : context_(context), store_(store) {}
 
-    void begin_leg(const SweepOptions& leg) { walking_back_ = leg.last < leg.first; }
+    void begin_leg(const SweepOptions& leg, std::vector<Job>& jobs) {
+        walking_back_ = leg.last < leg.first;
+        for (Job& job : jobs)
+            job.held = HeldFrames();
+    }
 
     // Leg 1: out of the primary reference.
     Status forward(Job& job, const SweepFrame& at) {
@@ -154,10 +161,12 @@ class Follower {
     }
 
   private:
-    [[nodiscard]] Expected<Matte> visible_at(const Job& job, const SweepFrame& at) const {
+    // Also says whether the drawing of the frame before is held: job.held_now.
+    [[nodiscard]] Expected<Matte> visible_at(Job& job, const SweepFrame& at) const {
         WEFT_TRY(extent,
                  extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
         WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, at.frame));
+        job.held_now = job.held.advance({at.views->display, extent, holdout});
         Matte visible = without_holdout(extent, holdout);
         drop_nonfinite(visible, at.views->finite);
         return visible;
@@ -203,6 +212,8 @@ class Follower {
         if (job.plan->true_motion) {
             WEFT_TRY(motion, true_motion(job, at.frame));
             job.walker->advance(at.views->luma, visible, motion);
+        } else if (job.held_now) {
+            job.walker->hold();
         } else {
             job.walker->advance(at.views->luma, visible, *at.prev_from_cur);
         }
@@ -322,7 +333,7 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     using Stop = Status (Follower::*)(Job&, const SweepFrame&);
     const auto run = [&](const std::optional<SweepOptions>& leg, Stop stop) -> Status {
         if (!leg) return {};
-        follower.begin_leg(*leg);
+        follower.begin_leg(*leg, jobs);
         return sweep(context, *leg, [&](const SweepFrame& at) -> Status {
             for (Job& job : jobs)
                 WEFT_CHECK_OK((follower.*stop)(job, at));

@@ -240,6 +240,10 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     return keep();
 }
 
+void SurfaceWalker::hold() {
+    state_->prev_from_cur = LatticeField(state_->frame_size(), state_->options.spacing_px);
+}
+
 void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
                                 const LatticeField* ref_from_here) {
     if (ref_from_here) {

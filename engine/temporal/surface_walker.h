@@ -41,6 +41,8 @@ class SurfaceWalker {
     /// Returns ref_from_cur, which is defined everywhere: behind holdouts and outside the matte the
     /// surface's motion is continued.
     const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur);
+    /// Goes on to a frame that shows the same drawing as the one before: nothing moves.
+    void hold();
     /// Makes the present frame, whose pictures these are, the anchor: further reference frames.
     /// With `ref_from_here` the surface lies there from now on, whatever the walk has found.
     void anchor_here(ViewU8x1 luma, ViewU8x1 visible,

@@ -101,6 +101,17 @@ TEST(Analysis, TwoReferencesAreBlendedBetweenAndKeptThemselves) {
         EXPECT_LT(coords_error(two, frame, 2), 0.2f) << frame;
 }
 
+TEST(Analysis, AHeldDrawingHasTheSameCoordinatesToTheBit) {
+    MemoryShot shot = make_wall();
+    // Frames 4 and 5 show the drawing of frame 3.
+    shot.plates[4] = shot.plates[5] = shot.plates[3];
+    MemoryAnalysisStore store;
+    analyse(shot, make_plan(region_from({1})), store);
+    EXPECT_EQ(stored_coords(store, 4).nodes(), stored_coords(store, 3).nodes());
+    EXPECT_EQ(stored_coords(store, 5).nodes(), stored_coords(store, 3).nodes());
+    EXPECT_NE(stored_coords(store, 6).nodes(), stored_coords(store, 5).nodes());
+}
+
 TEST(Analysis, ACorrectionHoldsFromItsFrameOnAndIsSpreadBeforeIt) {
     const MemoryShot shot = make_wall();
     RegionPlan region = region_from({2, 8});
