@@ -86,9 +86,9 @@ std::array<float, GrainModel::kSide * GrainModel::kSide> kernel_of(
             for (int y = -kReach; y <= kReach; ++y) {
                 for (int x = -kReach; x <= kReach; ++x) {
                     // A taper, or the cut at the reach would ring.
-                    const double taper = (1 - std::abs(x) / (kReach + 1.0)) *
-                                         (1 - std::abs(y) / (kReach + 1.0));
-                    power += std::sqrt(taper) * cosine(u * x + v * y) *
+                    const double r2 = static_cast<double>(x * x + y * y) / (kReach * kReach + kReach);
+                    const double taper = std::max(0.0, 1 - r2 * r2);
+                    power += taper * cosine(u * x + v * y) *
                              acf[static_cast<std::size_t>((y + kReach) * kSide + x + kReach)];
                 }
             }
