@@ -113,8 +113,9 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
         }
     }
     if (lengths.size() < kFewestEdges) return 0;
-    const auto strong = lengths.begin() + static_cast<std::ptrdiff_t>(
-                                              kStrongShare * static_cast<float>(lengths.size() - 1));
+    const auto strong =
+        lengths.begin() +
+        static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
     std::nth_element(lengths.begin(), strong, lengths.end());
     const float least = std::max(kLeastGradient, *strong);
 
