@@ -13,6 +13,7 @@ constexpr float kKnownBlur = 1.0f;       // px
 constexpr float kLeastGradient = 0.03f;  // of the display range per px: below, it may be grain
 constexpr float kStrongShare = 0.85f;    // quantile of gradients from which edges are strong
 constexpr float kSharper = 0.33f;        // quantile of the edges' blur
+constexpr float kOfMeasuring = 0.66f;    // px²: central differences, and edges between pixels
 constexpr std::size_t kFewestEdges = 60;
 constexpr float kSharpest = 0.3f, kMostBlurred = 6.0f;
 constexpr float kLeastBlur = 0.2f;
@@ -112,8 +113,9 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
         }
     }
     if (lengths.size() < kFewestEdges) return 0;
-    const auto strong = lengths.begin() + static_cast<std::ptrdiff_t>(
-                                              kStrongShare * static_cast<float>(lengths.size() - 1));
+    const auto strong =
+        lengths.begin() +
+        static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
     std::nth_element(lengths.begin(), strong, lengths.end());
     const float least = std::max(kLeastGradient, *strong);
 
@@ -130,8 +132,12 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
                 gradient(sharp, x - u, y - v).length() > here)
                 continue;
             const float ratio = here / std::max(1e-6f, gradient(soft, x, y).length());
-            blurs.push_back(ratio > 1.0138f ? kKnownBlur / std::sqrt(ratio * ratio - 1.0f)
-                                            : kMostBlurred);
+            if (!(ratio > 1.0138f)) {
+                blurs.push_back(kMostBlurred);
+                continue;
+            }
+            const float variance = kKnownBlur * kKnownBlur / (ratio * ratio - 1.0f);
+            blurs.push_back(std::sqrt(std::max(0.0f, variance - kOfMeasuring)));
         }
     }
     if (blurs.size() < kFewestEdges) return 0;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kReach = GrainModel::kRadius;
 constexpr int kBins = GrainModel::kBins;
-constexpr float kFlatShare = 0.35f;       // of pixels, those of least gradient
-constexpr std::size_t kFewest = 400;      // flat pixels
+constexpr float kFlatShare = 0.35f;   // of pixels, those of least gradient
+constexpr std::size_t kFewest = 400;  // flat pixels
 constexpr std::size_t kFewestInBin = 100;
 constexpr double kLeastDeviation = 0.35 / 255;  // less is not seen
 constexpr double kMostDeviation = 0.1;          // more is no grain
@@ -26,8 +26,8 @@ float luma_of(const float* p) {
 // Catmull-Rom weights (Keys 1981, a = -1/2).
 std::array<float, 4> cubic(float t) {
     const float t2 = t * t, t3 = t2 * t;
-    return {0.5f * (-t + 2 * t2 - t3), 0.5f * (2 - 5 * t2 + 3 * t3),
-            0.5f * (t + 4 * t2 - 3 * t3), 0.5f * (t3 - t2)};
+    return {0.5f * (-t + 2 * t2 - t3), 0.5f * (2 - 5 * t2 + 3 * t3), 0.5f * (t + 4 * t2 - 3 * t3),
+            0.5f * (t3 - t2)};
 }
 
 struct Lookup {
@@ -86,9 +86,10 @@ std::array<float, GrainModel::kSide * GrainModel::kSide> kernel_of(
             for (int y = -kReach; y <= kReach; ++y) {
                 for (int x = -kReach; x <= kReach; ++x) {
                     // A taper, or the cut at the reach would ring.
-                    const double taper = (1 - std::abs(x) / (kReach + 1.0)) *
-                                         (1 - std::abs(y) / (kReach + 1.0));
-                    power += std::sqrt(taper) * cosine(u * x + v * y) *
+                    const double r2 =
+                        static_cast<double>(x * x + y * y) / (kReach * kReach + kReach);
+                    const double taper = std::max(0.0, 1 - r2 * r2);
+                    power += taper * cosine(u * x + v * y) *
                              acf[static_cast<std::size_t>((y + kReach) * kSide + x + kReach)];
                 }
             }
@@ -156,13 +157,15 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
                     visible.row(y)[x + 4] != 255)
                     continue;
                 const float* d = prev_from_cur.pixel(x, y);
-                const Lookup before = look_up(previous, previous_visible,
-                                              static_cast<float>(x) + d[0],
-                                              static_cast<float>(y) + d[1]);
+                const Lookup before =
+                    look_up(previous, previous_visible, static_cast<float>(x) + d[0],
+                            static_cast<float>(y) + d[1]);
                 const float* p = current.pixel(x, y);
                 if (!before.known || !std::isfinite(p[0] + p[1] + p[2])) continue;
-                const float gx = 0.5f * (local_luma(current, x + 1, y) - local_luma(current, x - 1, y));
-                const float gy = 0.5f * (local_luma(current, x, y + 1) - local_luma(current, x, y - 1));
+                const float gx =
+                    0.5f * (local_luma(current, x + 1, y) - local_luma(current, x - 1, y));
+                const float gy =
+                    0.5f * (local_luma(current, x, y + 1) - local_luma(current, x, y - 1));
                 if (!std::isfinite(gx + gy)) continue;
                 for (std::size_t c = 0; c < 3; ++c)
                     difference.pixel(x, y)[c] = p[c] - before.value[c];
@@ -188,8 +191,8 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
         for (int x = 0; x < size.width; ++x) {
             if (!known.row(y)[x] || gradient2.row(y)[x] > flat) continue;
             const float* d = difference.pixel(x, y);
-            pixels_.push_back({{d[0], d[1], d[2]}, gradient2.row(y)[x], luma.row(y)[x],
-                               gain.row(y)[x]});
+            pixels_.push_back(
+                {{d[0], d[1], d[2]}, gradient2.row(y)[x], luma.row(y)[x], gain.row(y)[x]});
             for (int v = -kReach; v <= kReach; ++v) {
                 for (int u = -kReach; u <= kReach; ++u) {
                     const int nx = x + u, ny = y + v;
@@ -197,7 +200,8 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
                     const auto lag = static_cast<std::size_t>((v + kReach) * kLags + u + kReach);
                     lag_counts_[lag] += 1;
                     for (std::size_t c = 0; c < 3; ++c)
-                        lag_sums_[c][lag] += static_cast<double>(d[c]) * difference.pixel(nx, ny)[c];
+                        lag_sums_[c][lag] +=
+                            static_cast<double>(d[c]) * difference.pixel(nx, ny)[c];
                 }
             }
         }
@@ -252,11 +256,11 @@ GrainModel GrainMeter::model() const {
         for (std::size_t b = 0; b < kBins; ++b) {
             const double mean = std::max(0.0, grain[c]);
             // Few pixels: mostly the mean over all lumas.
-            const double weight = static_cast<double>(counts[b]) /
-                                  static_cast<double>(counts[b] + kFewestInBin);
+            const double weight =
+                static_cast<double>(counts[b]) / static_cast<double>(counts[b] + kFewestInBin);
             const double own = counts[b] > 0 ? sums[c][b] / static_cast<double>(counts[b]) : mean;
-            model.deviation[c][b] = static_cast<float>(
-                std::sqrt(std::max(0.0, weight * own + (1 - weight) * mean)));
+            model.deviation[c][b] =
+                static_cast<float>(std::sqrt(std::max(0.0, weight * own + (1 - weight) * mean)));
         }
         auto acf = lag_sums_[c];
         for (std::size_t k = 0; k < acf.size(); ++k)
@@ -267,15 +271,20 @@ GrainModel GrainMeter::model() const {
         model.kernel[c] = kernel_of(acf);
     }
     const auto correlation = [&](std::size_t a, std::size_t b) {
-        return std::clamp(together[a][b] / std::sqrt(std::max(1e-30, together[a][a] * together[b][b])),
-                          -0.99, 0.99);
+        return std::clamp(
+            together[a][b] / std::sqrt(std::max(1e-30, together[a][a] * together[b][b])), -0.99,
+            0.99);
     };
     const double gr = correlation(1, 0), br = correlation(2, 0), bg = correlation(2, 1);
     const double g1 = std::sqrt(1 - gr * gr);
     const double b1 = (bg - br * gr) / g1;
     const double b2 = std::sqrt(std::max(0.0, 1 - br * br - b1 * b1));
-    model.mix = {1, static_cast<float>(gr), static_cast<float>(g1), static_cast<float>(br),
-                 static_cast<float>(b1), static_cast<float>(b2)};
+    model.mix = {1,
+                 static_cast<float>(gr),
+                 static_cast<float>(g1),
+                 static_cast<float>(br),
+                 static_cast<float>(b1),
+                 static_cast<float>(b2)};
     return model;
 }
 
@@ -289,8 +298,8 @@ void add_grain(ImageView<float, 3> display, ViewU8x1 matte, Vec2i origin, const 
         for (int y = 0; y < white.height(); ++y) {
             for (int x = 0; x < width; ++x) {
                 for (int c = 0; c < 3; ++c) {
-                    white.pixel(x, y)[c] = normal(key, origin.x + x - kReach,
-                                                  origin.y + y0 + y - kReach, c);
+                    white.pixel(x, y)[c] =
+                        normal(key, origin.x + x - kReach, origin.y + y0 + y - kReach, c);
                 }
             }
         }

@@ -13,14 +13,15 @@ namespace weft {
 namespace {
 
 constexpr int kFewestFrames = 3;
-constexpr float kSplatKnown = 0.2f;     // of a pixel's weight
-constexpr int kDetailRadius = 3;        // small pixels: what is finer is compared
-constexpr int kWindow = 12;             // in which the frame is compared with the reflectance
+constexpr float kSplatKnown = 0.2f;  // of a pixel's weight
+constexpr int kDetailRadius = 3;     // small pixels: what is finer is compared
+constexpr int kWindow = 12;          // in which the frame is compared with the reflectance
 constexpr float kDoubts = 0.35f, kTrusts = 0.7f;  // share of the detail's energy that it explains
-constexpr float kMinEnergy = 1e-5f;     // ln² of detail: less is noise
+constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noise
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
 constexpr int kLongestPeriod = 64;  // small pixels
+constexpr float kMoving = 0.25f;    // ln units: light that changes more is no paint
 constexpr float kPeriods = 1.0f;    // pieces up to so many periods are paint
 
 // The box of positions that a sample's pixels have on the reference frame.
@@ -145,8 +146,8 @@ ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
     gaussian_blur(guide, kFineSigma);
     gaussian_blur(total, kFineSigma);
     for (std::size_t i = 0; i < guide.size_bytes() / sizeof(float); ++i) {
-        guide.data()[i] = total.data()[i] > 1e-3f ? guide.data()[i] / total.data()[i]
-                                                  : luma.data()[i];
+        guide.data()[i] =
+            total.data()[i] > 1e-3f ? guide.data()[i] / total.data()[i] : luma.data()[i];
     }
     const ImageF1 values = weighted(luma, weight);
     for (int i = 0; i < kFineRollings; ++i)
@@ -174,8 +175,10 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
             const float w = s.weight.row(y)[x];
             if (w == 0) continue;
             const float* d = ref_from_cur.pixel(x, y);
-            const float u = static_cast<float>(x + s.box.x0) + d[0] - static_cast<float>(part.box.x0);
-            const float v = static_cast<float>(y + s.box.y0) + d[1] - static_cast<float>(part.box.y0);
+            const float u =
+                static_cast<float>(x + s.box.x0) + d[0] - static_cast<float>(part.box.x0);
+            const float v =
+                static_cast<float>(y + s.box.y0) + d[1] - static_cast<float>(part.box.y0);
             if (!(u >= 0 && v >= 0 && u < static_cast<float>(part.box.width() - 1) &&
                   v < static_cast<float>(part.box.height() - 1)))
                 continue;
@@ -243,7 +246,15 @@ void ReflectanceGatherer::add_static_remains(ClipReflectance& r) const {
                     const float w = part.weight.row(v)[u];
                     if (w > kSplatKnown) values.push_back(part.light.row(v)[u] / w - part.level);
                 }
-                still.luma.row(y)[x] = median_of(values, 0.0f);
+                if (values.empty()) continue;
+                // The upper quartile: a shadow that stays for half of the frames moves all the
+                // same.
+                const auto upper =
+                    values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
+                std::nth_element(values.begin(), upper, values.end());
+                const float value = *upper;
+                if (*std::max_element(upper, values.end()) - value > kMoving) continue;
+                still.luma.row(y)[x] = value;
                 still.weight.row(y)[x] = 1;
             }
         }
@@ -253,7 +264,7 @@ void ReflectanceGatherer::add_static_remains(ClipReflectance& r) const {
     const ImageF1 light =
         light_beyond_period(still, r.value, static_cast<float>(period) * kPeriods);
     for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i) {
-        if (r.trust.data()[i] > 0) r.value.data()[i] += still.luma.data()[i] - light.data()[i];
+        if (still.weight.data()[i] > 0) r.value.data()[i] += still.luma.data()[i] - light.data()[i];
     }
 }
 

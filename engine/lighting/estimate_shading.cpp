@@ -89,8 +89,8 @@ void remove_remains(ImageF1& light, const SurfaceSample& s, float pattern, float
             rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
     }
     const ImageF1 none(light.size());
-    const float limit = kRemains * std::min(deviation_between(rest, none, s.weight),
-                                            most * pattern);
+    const float limit =
+        kRemains * std::min(deviation_between(rest, none, s.weight), most * pattern);
     if (!(limit > 0)) return;
     parallel_rows(light.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {

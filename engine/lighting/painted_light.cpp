@@ -71,7 +71,8 @@ Status add_key(KeyedNumbers& into, std::string_view text, bool only, std::size_t
     }
     WEFT_TRY(numbers, numbers_of(text));
     if (numbers.size() != wanted) {
-        return fail(ErrorCode::kUsage, quoted(trimmed(text)) + " has " + std::to_string(numbers.size()) + " numbers instead of " +
+        return fail(ErrorCode::kUsage, quoted(trimmed(text)) + " has " +
+                                           std::to_string(numbers.size()) + " numbers instead of " +
                                            std::to_string(wanted));
     }
     into.keys.emplace_back(frame, std::move(numbers));
@@ -137,9 +138,9 @@ float gain_at(LampKind kind, const std::vector<float>& n, float x, float y, Size
         }
         case LampKind::kGradient: {
             const float dx = n[2] - n[0], dy = n[3] - n[1];
-            const float t = std::clamp(((x - n[0]) * dx + (y - n[1]) * dy) /
-                                           std::max(1e-6f, dx * dx + dy * dy),
-                                       0.0f, 1.0f);
+            const float t =
+                std::clamp(((x - n[0]) * dx + (y - n[1]) * dy) / std::max(1e-6f, dx * dx + dy * dy),
+                           0.0f, 1.0f);
             return held(n[4]) + t * (held(n[5]) - held(n[4]));
         }
     }
@@ -155,8 +156,7 @@ std::vector<float> KeyedNumbers::at(int frame) const {
     if (after == keys.begin()) return keys.front().second;
     if (after == keys.end()) return keys.back().second;
     const auto& [first, from] = *(after - 1);
-    const float t =
-        static_cast<float>(frame - first) / static_cast<float>(after->first - first);
+    const float t = static_cast<float>(frame - first) / static_cast<float>(after->first - first);
     std::vector<float> out = from;
     for (std::size_t k = 0; k < out.size(); ++k)
         out[k] += t * (after->second[k] - from[k]);

@@ -33,8 +33,8 @@ struct Lamp {
 [[nodiscard]] Expected<KeyedNumbers> parse_keyed_number(std::string_view text);
 
 /// Lamps between ";", a lamp's keys between "|", each with its frame before a colon or none where
-/// there is one key only: "point 1: 320,180 200 1.5 | 24: 400,180 200 1; gradient 0,0 0,480 1.2 0.6".
-/// Errors: Usage with the lamp and what is wrong.
+/// there is one key only: "point 1: 320,180 200 1.5 | 24: 400,180 200 1; gradient 0,0 0,480 1.2
+/// 0.6". Errors: Usage with the lamp and what is wrong.
 [[nodiscard]] Expected<std::vector<Lamp>> parse_lamps(std::string_view text);
 
 /// The product of all lamps on a frame; S₀ is 1. `full`: the plate's size.

@@ -27,7 +27,8 @@ std::vector<double> autocorrelation(const ImageF1& pattern, const ImageF1& weigh
             for (int x = 0; x + dx < pattern.width(); ++x) {
                 if (wa[x] == 0 || wb[x] == 0) continue;
                 cross += static_cast<double>(a[x]) * b[x];
-                energy += 0.5 * (static_cast<double>(a[x]) * a[x] + static_cast<double>(b[x]) * b[x]);
+                energy +=
+                    0.5 * (static_cast<double>(a[x]) * a[x] + static_cast<double>(b[x]) * b[x]);
             }
         }
         out[index] = energy > 0 ? cross / energy : 0.0;

@@ -14,7 +14,7 @@ namespace weft {
 namespace {
 
 constexpr int kCovered = 128;
-constexpr int kLevels = 1024;           // of a histogram over encoded luma from 0 to kBrightest
+constexpr int kLevels = 1024;  // of a histogram over encoded luma from 0 to kBrightest
 constexpr float kBrightest = 4.0f;
 constexpr float kPaintQuantile = 0.98f;  // of plate / shading: what is above may be gloss
 constexpr float kGlossAbove = 1.15f;
@@ -88,8 +88,8 @@ std::vector<float> cumulative(const std::vector<float>& values) {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < kLevels; ++k) {
         sum += counts[k];
-        out[k + 1] = static_cast<float>(static_cast<double>(sum) /
-                                        static_cast<double>(values.size()));
+        out[k + 1] =
+            static_cast<float>(static_cast<double>(sum) / static_cast<double>(values.size()));
     }
     return out;
 }
@@ -178,8 +178,7 @@ void apply_cast(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const
                     const float here = colour.mean[c] + colour.slope[c] * away;
                     const float there =
                         reference_colour.mean[c] + reference_colour.slope[c] * reference_log;
-                    gain[c] = fast_exp(
-                        strength * std::clamp(here - there, -kMaxCast, kMaxCast));
+                    gain[c] = fast_exp(strength * std::clamp(here - there, -kMaxCast, kMaxCast));
                 }
                 const float grey = luminance(gain.data());
                 float* p = texture.pixel(x, y);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kTerms = 6;
 constexpr int kStep = 2;  // pixels: the fit is smooth
 constexpr int kRounds = 3;
-constexpr double kCauchy = 0.1;    // ln units
+constexpr double kCauchy = 0.1;  // ln units
 constexpr double kRidge = 1e-4;
 
 using Terms = std::array<double, kTerms>;

@@ -187,8 +187,8 @@ std::array<double, kTerms> trusted_coefficients(const Terms& differences, const 
     return coefficients;
 }
 
-// Light that other objects throw back tints a surface, wide and faint. What of the explained part is
-// so beside the rest is left to the light.
+// Light that other objects throw back tints a surface, wide and faint. What of the explained part
+// is so beside the rest is left to the light.
 void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
     const QuadraticFit fit(explained, weight);
     ImageF1 wide(explained.size());

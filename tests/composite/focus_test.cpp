@@ -31,7 +31,8 @@ ImageF3 squares(float sigma_px) {
 TEST(Focus, TheBlurOfEdgesIsFound) {
     for (const float sigma : {0.8f, 1.2f, 2.0f, 3.0f}) {
         const ImageF3 picture = squares(sigma);
-        EXPECT_NEAR(edge_blur_px(picture, Matte(picture.size(), 255)), sigma, 0.2f * sigma) << sigma;
+        EXPECT_NEAR(edge_blur_px(picture, Matte(picture.size(), 255)), sigma, 0.2f * sigma)
+            << sigma;
     }
 }
 
@@ -53,7 +54,8 @@ TEST(Focus, WhatLiesOutsideOfTheMatteDoesNotEnter) {
     Matte matte(picture.size());
     for (int y = 0; y < 20; ++y) {
         for (int x = 0; x < 40; ++x) {
-            if (x < 20) matte.at(x, y) = 255;
+            if (x < 20)
+                matte.at(x, y) = 255;
             else
                 picture.at(x, y, 0) = std::nanf("");
         }

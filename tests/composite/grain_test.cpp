@@ -78,7 +78,8 @@ TEST(Grain, WhatIsPutBackHasTheMeasuredDeviationAndSpectrum) {
     add_grain(made, Matte(base.size(), 255), {0, 0}, model, 1, 77);
     const ImageF3 plate = grainy(base, 3);
     for (const auto& [x0, x1] : {std::pair{10, 80}, std::pair{120, 190}}) {
-        const Statistics want = statistics(plate, base, x0, x1), got = statistics(made, base, x0, x1);
+        const Statistics want = statistics(plate, base, x0, x1),
+                         got = statistics(made, base, x0, x1);
         EXPECT_NEAR(got.deviation, want.deviation, 0.15 * want.deviation);
         EXPECT_NEAR(got.next, want.next, 0.1);
     }

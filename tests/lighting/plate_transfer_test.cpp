@@ -15,9 +15,11 @@ ImageF3 noise(float middle, float swing, unsigned key) {
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
             key = key * 1664525u + 1013904223u;
-            const float v = middle + swing * (static_cast<float>(key >> 8 & 0xffffu) / 65535.0f - 0.5f);
+            const float v =
+                middle + swing * (static_cast<float>(key >> 8 & 0xffffu) / 65535.0f - 0.5f);
             const float linear = srgb_to_linear(v);
-            out.at(x, y, 0) = 1.1f * linear, out.at(x, y, 1) = linear, out.at(x, y, 2) = 0.6f * linear;
+            out.at(x, y, 0) = 1.1f * linear, out.at(x, y, 1) = linear,
+                         out.at(x, y, 2) = 0.6f * linear;
         }
     }
     return out;
@@ -44,7 +46,8 @@ TEST(PlateTransfer, StatisticsAndHistogramGiveThePlatesMeanAndDeviation) {
     const Moments want = lumas(plate);
     for (const bool histogram : {false, true}) {
         ImageF3 texture = noise(0.7f, 0.4f, 9);
-        if (histogram) match_histogram(texture, plate, all, 1);
+        if (histogram)
+            match_histogram(texture, plate, all, 1);
         else
             transfer_statistics(texture, plate, all, 1);
         const Moments got = lumas(texture);
