@@ -159,7 +159,7 @@ TEST(Parameters, LightTakesAChoiceOrAPicture) {
     EXPECT_EQ(region.light.image, "lights/warm.exr");
     ASSERT_TRUE(set_parameter_text(region, light, "none"));
     EXPECT_EQ(region.light.source, LightSource::kNone);
-    EXPECT_EQ(allowed_values(light), "plate, none or a path");
+    EXPECT_EQ(allowed_values(light), "plate, none, painted or a path");
 }
 
 TEST(Parameters, FormatIsReadBack) {

@@ -13,6 +13,9 @@ Region full_region() {
     matte.keyframes = {
         {-5, {"mattes/a.png", {}}}, {12, {"mattes/b.png", {}}}, {100, {"mattes/c.png", {}}}};
     matte.select = {4, "R", true};
+    matte.steadiness = 0.75;
+    matte.frozen = {10, 11};
+    matte.frozen_files = "final/####.png";
     r.matte = matte;
     MatteSource holdout;
     holdout.files = "hold/####.png";
@@ -31,6 +34,13 @@ Region full_region() {
     r.light.image = "light.png";
     r.light.form = LightForm::kDetail;
     r.light.strength = 0.75;
+    r.light.strength_keys = "1:1 24:0.3";
+    r.light.lamps = "point 320,180 200 1.5";
+    r.light.cast = 0.25;
+    r.light.highlights = 0.5;
+    r.light.albedo = "albedo/####.exr";
+    r.light.lighting = "lighting/####.exr";
+    r.finish = {0.5, 0.25, {}};
     return r;
 }
 
