@@ -28,7 +28,6 @@ constexpr float kStepRange = 0.4f;  // steps below are smooth shading that rolli
 constexpr float kStepSigma = 0.6f;  // times the blur's
 
 constexpr float kRemains = 3.0f;            // deviations
-constexpr float kRemainsOfPattern = 0.12f;  // the most that is left of a pattern's deviation
 
 constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // where a clip is the evidence
 
@@ -122,7 +121,6 @@ ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
         guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
     ImageF1 light = joint_bilateral(weighted(guide, s.weight), s.weight, guide,
                                     {kStepSigma * sigma, kStepRange});
-    remove_remains(light, s, deviation_between(s.luma, light, s.weight), kRemainsOfPattern);
     return light;
 }
 
