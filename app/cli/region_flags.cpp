@@ -156,6 +156,16 @@ Expected<Project> ProjectFlags::project() const {
     return project;
 }
 
+void add_progress_flags(CLI::App& command, RunOptions& run) {
+    const std::map<std::string, ProgressStyle> styles{{"plain", ProgressStyle::kPlain},
+                                                      {"json", ProgressStyle::kJson},
+                                                      {"none", ProgressStyle::kNone}};
+    command.add_option("--progress", run.progress, "plain, json or none [plain]")
+        ->transform(CLI::CheckedTransformer(styles))
+        ->type_name("");
+    command.add_flag("--json", run.json, "One JSON object on stdout; progress goes to stderr");
+}
+
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     command.add_option("--threads", run.threads, "Threads to use; 0 is one a processor")
         ->check(CLI::Range(0, 1024));
@@ -165,13 +175,7 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
         ->type_name("PATH");
     command.add_flag("!--no-cache", run.cache.keep, "Keep nothing of the analysis");
     command.add_flag("--overwrite", run.overwrite, "Replace output files that exist");
-    const std::map<std::string, ProgressStyle> styles{{"plain", ProgressStyle::kPlain},
-                                                      {"json", ProgressStyle::kJson},
-                                                      {"none", ProgressStyle::kNone}};
-    command.add_option("--progress", run.progress, "plain, json or none [plain]")
-        ->transform(CLI::CheckedTransformer(styles))
-        ->type_name("");
-    command.add_flag("--json", run.json, "One JSON object on stdout; progress goes to stderr");
+    add_progress_flags(command, run);
     if (!renders) return;
     command.add_flag("--skip-existing", run.skip_existing,
                      "Keep frames that are there and can be read");

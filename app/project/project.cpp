@@ -142,7 +142,10 @@ std::size_t own_bytes(const MatteSource& matte) {
 }
 
 std::size_t own_bytes(const Region& r) {
-    return sizeof r + r.reference_frames.capacity() * sizeof(int) +
+    std::size_t pins = 0;
+    for (const auto& [frame, list] : r.corrections)
+        pins += 64 + list.capacity() * sizeof(CorrectionPin);
+    return sizeof r + pins + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
                          r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,

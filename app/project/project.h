@@ -109,8 +109,8 @@ struct Placement {
     double scale = 1;       ///< Plate pixels per sample pixel at the placement's origin.
     double rotate_deg = 0;  ///< Counter-clockwise as seen on screen.
     PlatePoint offset_px;
-    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which scale,
-    /// rotation and offset act.
+    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
+    /// scale, rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
     Extras extra;
     bool operator==(const Placement&) const = default;
@@ -155,6 +155,13 @@ struct LightParams {
     bool operator==(const LightParams&) const = default;
 };
 
+/// On one frame, what the texture shows at `from` belongs at `to`; plate pixels. `from` == `to`
+/// holds a place.
+struct CorrectionPin {
+    PlatePoint from, to;
+    bool operator==(const CorrectionPin&) const = default;
+};
+
 /// What makes the new texture look as if it had gone through the plate's camera.
 struct FinishParams {
     double grain = 1;  ///< Of the plate's grain; 0: none.
@@ -174,6 +181,7 @@ struct Region {
     TextureSource texture;
     Placement placement;
     std::vector<int> reference_frames;  ///< The first holds the placement; empty: the first frame.
+    std::map<int, std::vector<CorrectionPin>> corrections;  ///< By frame; each has a pin or more.
     MotionSource motion;
     SynthesisParams synthesis;
     TemporalParams temporal;

@@ -105,13 +105,13 @@ std::vector<Parameter<Region>> make_region_table() {
              .min = -kMaxPlatePx,
              .max = kMaxPlatePx,
              .optional = true}),
-        entry<R, &R::reference_frames>(
-            {.key = "reference_frames",
-             .flag = "--reference-frame",
-             .help = "Frame on which the texture is placed; further ones hold it in place; default the first frame",
-             .min = -kMaxFrame,
-             .max = kMaxFrame,
-             .repeatable = true}),
+        entry<R, &R::reference_frames>({.key = "reference_frames",
+                                        .flag = "--reference-frame",
+                                        .help = "Frame on which the texture is placed; further "
+                                                "ones hold it in place; default the first frame",
+                                        .min = -kMaxFrame,
+                                        .max = kMaxFrame,
+                                        .repeatable = true}),
         entry<R, &R::motion, &MotionSource::files>(
             {.group = "motion",
              .key = "files",

@@ -75,11 +75,14 @@ Json frames_json(const JobResult& result) {
 
 }  // namespace
 
-std::string report_json(const JobSpec& spec, const JobResult& result) {
+Json settings_json(const Project& project) {
     Json regions = Json::array();
-    for (const auto& region : spec.project.regions) {
+    for (const auto& region : project.regions)
         regions.push_back(settings_of(*region, region_parameters()));
-    }
+    return {{"project", settings_of(project, project_parameters())}, {"regions", regions}};
+}
+
+std::string report_json(const JobSpec& spec, const JobResult& result) {
     const Json report{
         {"version", kVersion},
         {"backend",
@@ -102,8 +105,7 @@ std::string report_json(const JobSpec& spec, const JobResult& result) {
           {"total", result.seconds.total}}},
         {"peak_rss_bytes", result.peak_rss_bytes},
         {"textures", textures_json(result)},
-        {"settings",
-         {{"project", settings_of(spec.project, project_parameters())}, {"regions", regions}}},
+        {"settings", settings_json(spec.project)},
         {"movie", result.movie},
         {"warnings", result.warnings}};
     // Paths may hold bytes that are no UTF-8; they are replaced rather than refused.

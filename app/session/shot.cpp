@@ -138,6 +138,14 @@ class ShotOpener {
             WEFT_TRY(first, default_reference(region, plan));
             plan.reference_frames = {first};
         }
+        // Where the artist has put the texture back in place, it is anchored too.
+        for (const auto& [frame, pins] : region.corrections) {
+            for (const CorrectionPin& pin : pins)
+                plan.corrections[frame].push_back({{pin.from.x, pin.from.y}, {pin.to.x, pin.to.y}});
+            auto& frames = plan.reference_frames;
+            if (std::find(frames.begin(), frames.end(), frame) == frames.end())
+                frames.push_back(frame);
+        }
         plan.true_motion = !region.motion.files.empty();
         plan.motion_forward = region.motion.direction == MotionDirection::kForward;
         plan.placement = plane_placement(region.placement);

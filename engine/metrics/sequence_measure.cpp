@@ -70,6 +70,7 @@ struct SequenceMeasure::State {
     std::optional<MotionChain> chain;
     ImageF1 first_result;
     Kept before;
+    FlowField estimated;  // The last motion that was not given.
     SequenceMeasures total;
     IlluminationVariance light;
     std::int64_t outside_pixels = 0;
@@ -80,6 +81,7 @@ struct SequenceMeasure::State {
     void measure_outside(const MeasureFrame& f, FrameMeasures& out);
     Expected<FrameMeasures> add(const MeasureFrame& f);
     void measure_ideal(const MeasureFrame& f, Kept& now, FrameMeasures& out) const;
+    void render_ideal(const MeasureFrame& f, Kept& now) const;
     void measure_step(const FlowField& motion, MotionDirection direction, const Kept& now,
                       FrameMeasures& out) const;
     [[nodiscard]] bool chained() const { return options.measure_drift || texture != nullptr; }
@@ -123,6 +125,20 @@ void SequenceMeasure::State::measure_outside(const MeasureFrame& f, FrameMeasure
 
 void SequenceMeasure::State::measure_ideal(const MeasureFrame& f, Kept& now,
                                            FrameMeasures& out) const {
+    if (f.twin != nullptr) {
+        now.ideal = f.twin->state_->before.ideal;
+        now.ideal_region = f.twin->state_->before.ideal_region;
+    } else {
+        render_ideal(f, now);
+    }
+    const SharpnessKept kept = sharpness_kept(now.result, now.ideal, now.ideal_region);
+    out.sharpness_pixels = kept.pixels;
+    if (kept.pixels == 0) return;
+    out.sharpness_kept = kept.laplacian;
+    out.rms_contrast_kept = kept.contrast;
+}
+
+void SequenceMeasure::State::render_ideal(const MeasureFrame& f, Kept& now) const {
     FlowField ref = f.ref_from_cur != nullptr ? *f.ref_from_cur : chain->ref_from_cur();
     now.ideal_region = both_inside(eroded_inside(f.matte, 0), ref.valid);
     ref.valid = now.ideal_region;
@@ -134,11 +150,6 @@ void SequenceMeasure::State::measure_ideal(const MeasureFrame& f, Kept& now,
     } else {
         now.ideal = texture->render_luma(ref, placement);
     }
-    const SharpnessKept kept = sharpness_kept(now.result, now.ideal, now.ideal_region);
-    out.sharpness_pixels = kept.pixels;
-    if (kept.pixels == 0) return;
-    out.sharpness_kept = kept.laplacian;
-    out.rms_contrast_kept = kept.contrast;
 }
 
 void SequenceMeasure::State::measure_step(const FlowField& motion, MotionDirection direction,
@@ -173,13 +184,14 @@ Expected<FrameMeasures> SequenceMeasure::State::add(const MeasureFrame& f) {
     now.source = luma_8bit(f.source);
     now.matte = owned(f.matte);
     const bool first = total.frames == 0;
-    FlowField estimated;
     const FlowField* motion = f.motion;
     MotionDirection direction = f.direction;
     if (!first && motion == nullptr) {
-        estimated =
-            measuring_motion(before.source, now.source, before.matte, now.matte, options.estimator);
-        motion = &estimated;
+        if (f.twin == nullptr) {
+            estimated = measuring_motion(before.source, now.source, before.matte, now.matte,
+                                         options.estimator);
+        }
+        motion = f.twin != nullptr ? &f.twin->state_->estimated : &estimated;
         direction = MotionDirection::kForward;
         name_motion(name_of(options.estimator));
     } else if (!first) {

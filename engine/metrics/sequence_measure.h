@@ -34,6 +34,8 @@ struct MeasureOptions {
     bool measure_drift = true;
 };
 
+class SequenceMeasure;
+
 /// One frame. All of one size through the sequence; encoded RGB, 1.0 = white.
 struct MeasureFrame {
     int frame = 0;
@@ -47,6 +49,9 @@ struct MeasureFrame {
     /// motion, with the first frame as the reference. Rendered texture coordinates uv go in as
     /// uv − pixel, with plane_from_plate the identity.
     const FlowField* ref_from_cur = nullptr;
+    /// Another measure of the same clip that has added this frame just before: its estimated motion
+    /// and its ideal are taken over instead of being worked out again. Null: none.
+    const SequenceMeasure* twin = nullptr;
 };
 
 /// What was measured of one frame. Nothing where it cannot be said.

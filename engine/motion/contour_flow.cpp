@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <vector>
@@ -18,10 +19,6 @@ float median(std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
-}
-
-cv::Rect bounds(const cv::Mat& inside) {
-    return cv::boundingRect(inside);
 }
 
 // The luma of the frame before where the motion says, and whether that lay in the region.
@@ -82,8 +79,9 @@ cv::Mat outline_picture(const cv::Mat& luma, const cv::Mat& visible, float mean)
 float structure_to_noise(ViewU8x1 cur, ViewU8x1 cur_visible, ViewU8x1 prev, ViewU8x1 prev_visible,
                          const FlowField& prev_from_cur) {
     const cv::Mat inside = as_mat(cur_visible) >= 128;
-    const cv::Rect area = bounds(inside);
-    if (area.empty()) return 0;
+    const cv::Rect area = cv::boundingRect(inside);
+    constexpr float kUnknown = std::numeric_limits<float>::infinity();
+    if (area.empty()) return kUnknown;
     const Moved before = moved(prev, prev_visible, prev_from_cur.d, area);
     cv::Mat core = inside(area) & (before.visible > 250);
     cv::erode(core, core, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}));
@@ -108,7 +106,7 @@ float structure_to_noise(ViewU8x1 cur, ViewU8x1 cur_visible, ViewU8x1 prev, View
         }
     }
     constexpr std::size_t kEnough = 50;
-    if (slopes.size() < kEnough) return 0;
+    if (slopes.size() < kEnough) return kUnknown;
     constexpr float kQuantisation = 0.5f;
     return median(slopes) / (median(residuals) + kQuantisation);
 }
@@ -117,7 +115,8 @@ FlowField estimate_contour_flow(ViewU8x1 cur, ViewU8x1 cur_visible, ViewU8x1 pre
                                 ViewU8x1 prev_visible) {
     FlowField out(cur.size());
     std::fill_n(out.valid.data(), out.valid.height() * out.valid.stride(), std::uint8_t{0});
-    cv::Rect area = bounds(as_mat(cur_visible) >= 128) | bounds(as_mat(prev_visible) >= 128);
+    cv::Rect area = cv::boundingRect(as_mat(cur_visible) >= 128) |
+                    cv::boundingRect(as_mat(prev_visible) >= 128);
     if (area.empty()) return out;
     area -= cv::Point(kMargin_px, kMargin_px);
     area += cv::Size(2 * kMargin_px, 2 * kMargin_px);

@@ -10,7 +10,7 @@ namespace weft {
 /// slope of the luma over the median of |cur − prev(p + prev_from_cur)|, both in levels after a
 /// Gaussian of 1 px and against half a level of quantisation. Photographs and textured renderings
 /// have 2 to 20; at about 1 there is nothing but noise to follow. Luma 8 bit; `visible` as in
-/// SurfaceWalker, all of one size. Without enough pixels inside, 0. Pure.
+/// SurfaceWalker, all of one size. Infinity where too few pixels can be compared to tell. Pure.
 [[nodiscard]] float structure_to_noise(ViewU8x1 cur, ViewU8x1 cur_visible, ViewU8x1 prev,
                                        ViewU8x1 prev_visible, const FlowField& prev_from_cur);
 

@@ -136,6 +136,20 @@ LatticeField compose(const LatticeField& inner, const LatticeField& outer) {
     return out;
 }
 
+LatticeField inverse(const LatticeField& field) {
+    LatticeField out(field.full_size(), field.spacing());
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i) {
+            const Vec2 target = out.node_position(i, j);
+            Vec2 p = target - field.at(target);
+            for (int k = 0; k < 12; ++k)
+                p += 0.8f * (target - (p + field.at(p)));
+            out.set_node(i, j, p - target);
+        }
+    }
+    return out;
+}
+
 LatticeField mix(const LatticeField& a, const LatticeField& b, float weight) {
     assert(a.full_size() == b.full_size() && a.spacing() == b.spacing());
     LatticeField out = a;

@@ -2,6 +2,7 @@
 // What the pipeline needs to know of one region: plain settings, all paths and names resolved.
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "engine/lighting/shading.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/seam/seam.h"
+#include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
 #include "engine/temporal/temporal_mode.h"
 
@@ -34,6 +36,7 @@ struct RegionPlan {
     bool has_holdout = false;
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
+    std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.
     bool true_motion = false;
     bool motion_forward = true;  ///< A file of true motion points to the next frame, else back.
     PlanePlacement placement;

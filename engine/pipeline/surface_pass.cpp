@@ -169,15 +169,26 @@ class Follower {
         options.exact_motion = job.plan->true_motion;
         options.spacing_px =
             std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
+        std::optional<LatticeField> placed;
+        if (const auto* pins = pins_at(job, at.frame); pins && !base) {
+            placed = corrected(LatticeField(context_.source.size(), options.spacing_px), *pins);
+            base = &*placed;
+        }
         job.walker.emplace(at.views->luma, visible, options, base);
         job.last_shading.reset();
         job.last_visible = visible;
-        if (job.paper && !base) {
+        if (job.paper && at.frame == job.primary) {
             job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size());
             WEFT_TRY(picture, job.painter->start(at.frame, context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
         return {};
+    }
+
+    // What the artist put right on this frame, or null.
+    [[nodiscard]] static const std::vector<SurfacePin>* pins_at(const Job& job, int frame) {
+        const auto pins = job.plan->corrections.find(frame);
+        return job.coords && pins != job.plan->corrections.end() ? &pins->second : nullptr;
     }
 
     // At a reference frame whose coordinates an earlier leg found.
@@ -196,7 +207,12 @@ class Follower {
             job.walker->advance(at.views->luma, visible, *at.prev_from_cur);
         }
         job.last_visible = visible;
-        if (job.is_reference(at.frame)) job.walker->anchor_here(at.views->luma, visible);
+        if (const auto* pins = pins_at(job, at.frame)) {
+            const LatticeField placed = corrected(job.walker->ref_from_cur(), *pins);
+            job.walker->anchor_here(at.views->luma, visible, &placed);
+        } else if (job.is_reference(at.frame)) {
+            job.walker->anchor_here(at.views->luma, visible);
+        }
         if (job.painter) {
             WEFT_TRY(picture,
                      job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "engine/motion/contour_flow.h"
-#include "engine/motion/photometric_register.h"
+#include "engine/motion/relocalise.h"
 #include "engine/motion/surface_fit.h"
+#include "engine/temporal/anchors.h"
 #include "engine/temporal/stretch_limit.h"
 
 namespace weft {
@@ -18,6 +19,15 @@ Matte copy_of(ViewU8x1 v) {
     return out;
 }
 
+std::int64_t count_of(ViewU8x1 visible) {
+    std::int64_t count = 0;
+    for (int y = 0; y < visible.height(); ++y) {
+        const std::uint8_t* row = visible.row(y);
+        count += std::count_if(row, row + visible.width(), [](std::uint8_t m) { return m >= 128; });
+    }
+    return count;
+}
+
 }  // namespace
 
 struct SurfaceWalker::State {
@@ -25,15 +35,42 @@ struct SurfaceWalker::State {
     LatticeField ref_from_cur, prev_from_cur;
     Matte last_luma, last_visible;
 
-    // The frame that the present one is registered against.
-    RegistrationPicture anchor;
-    LatticeField ref_from_anchor, anchor_from_cur;
+    AnchorSet anchors;
+    LatticeField anchor_from_cur;  // of the present anchor
+    int since_older_tried = 0;     // frames
 
-    void become_anchor(ViewU8x1 luma, ViewU8x1 visible) {
-        anchor = registration_picture(luma, visible);
-        ref_from_anchor = ref_from_cur;
-        anchor_from_cur = LatticeField(luma.size(), options.spacing_px);
+    // While nothing of the surface is to be seen, and then until it is found again.
+    bool lost = false;
+    int hidden_for = 0, searched_for = 0;  // frames
+    std::int64_t largest_px = 0;           // the most that was visible of it in one frame
+
+    void become_anchor(RegistrationPicture picture) {
+        const int generation = anchors.empty() ? 0 : anchors.present().generation + 1;
+        anchors.add({std::move(picture), ref_from_cur, generation});
+        anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
     }
+    [[nodiscard]] Size frame_size() const { return last_luma.size(); }
+
+    // Where the frame is on an anchor by what is known of both on the reference frame.
+    [[nodiscard]] LatticeField predicted(const Anchor& anchor) const {
+        return compose(ref_from_cur, inverse(anchor.ref_from_anchor));
+    }
+    void follow(LatticeField step) {
+        prev_from_cur = std::move(step);
+        anchor_from_cur = compose(prev_from_cur, anchor_from_cur);
+        ref_from_cur = compose(anchor_from_cur, anchors.present().ref_from_anchor);
+    }
+    void correct(std::size_t anchor, LatticeField field) {
+        anchors.use(anchor);
+        anchor_from_cur = std::move(field);
+        ref_from_cur = compose(anchor_from_cur, anchors.present().ref_from_anchor);
+    }
+
+    [[nodiscard]] bool is_hidden(std::int64_t visible_px);
+    void wait_out_of_view();
+    void search(const RegistrationPicture& cur, std::int64_t visible_px);
+    void register_frame(const RegistrationPicture& cur, ViewU8x1 visible);
+    bool try_others(const RegistrationPicture& cur, int generation_below, double share_above);
 
     // Whether the picture inside the region tells less about its motion than its outline does.
     [[nodiscard]] bool has_no_structure(ViewU8x1 luma, ViewU8x1 visible,
@@ -67,33 +104,89 @@ struct SurfaceWalker::State {
         }
         return fit;
     }
-
-    // The share of the region that the anchor still explains; corrects anchor_from_cur on the way.
-    float register_against_anchor(ViewU8x1 luma, ViewU8x1 visible);
 };
 
-float SurfaceWalker::State::register_against_anchor(ViewU8x1 luma, ViewU8x1 visible) {
-    const RegistrationPicture cur = registration_picture(luma, visible);
-    RegistrationOptions fit;
-    fit.samples = options.quality == FlowQuality::kDraft ? 20000 : 60000;
-    fit.lattice_px = 3 * options.spacing_px / 2;
-    fit.iterations = 3;
-    const LatticeField smooth = register_lattice(anchor, cur, anchor_from_cur, fit);
-    const RegistrationFit smooth_fit = registration_fit(anchor, cur, smooth, fit);
-    fit.iterations = 10;
-    const PlanarRegistration plane = register_planar(anchor, cur, smooth, fit);
+bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
+    largest_px = std::max(largest_px, visible_px);
+    // A sliver tells nothing of the whole.
+    return visible_px < std::max<std::int64_t>(64, largest_px / 100);
+}
 
-    // A plane has few parameters and trembles least: it is taken where it explains the frame as
-    // well as the smooth field does, which has enough of them to follow some of the noise.
-    constexpr double kAsWell = 1.03;
-    const bool planar = plane.found && plane.fit.residual <= kAsWell * smooth_fit.residual &&
-                        kAsWell * plane.fit.share >= smooth_fit.share;
+// The surface goes on as it last moved; for a while, since nothing moves so for ever.
+void SurfaceWalker::State::wait_out_of_view() {
+    constexpr int kLongest = 24;
+    lost = true;
+    searched_for = 0;
+    const bool still = ++hidden_for > kLongest;
+    follow(still ? LatticeField(frame_size(), options.spacing_px) : prev_from_cur);
+}
+
+// The surface is in view again, roughly where it was heading or anywhere else.
+void SurfaceWalker::State::search(const RegistrationPicture& cur, std::int64_t visible_px) {
+    const auto accept = [&](std::size_t k, const Registered& found) {
+        if (!found.holds()) return false;
+        correct(k, found.anchor_from_cur);
+        lost = false;
+        hidden_for = 0;
+        return true;
+    };
+    const auto& all = anchors.all();
+    for (std::size_t k = all.size(); k-- > 0;) {
+        if (accept(k, register_against(all[k], cur, predicted(all[k]), options.quality))) return;
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto start = find_again(all[k].picture, cur, frame_size(), options.spacing_px);
+        if (start && accept(k, register_against(all[k], cur, *start, options.quality))) return;
+    }
+    // Enough of it has been in view for long enough: it does not look as it did.
+    constexpr int kLongest = 10;
+    if (++searched_for > kLongest && 2 * visible_px > largest_px) {
+        lost = false;
+        hidden_for = 0;
+        become_anchor(cur);
+    }
+}
+
+// Takes another anchor of an earlier generation where one explains the frame. Generations below
+// `generation_below` only; the share must exceed `share_above`.
+bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int generation_below,
+                                      double share_above) {
+    const auto& all = anchors.all();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (k == anchors.present_index() || all[k].generation >= generation_below) continue;
+        const Registered found = register_against(all[k], cur, predicted(all[k]), options.quality);
+        if (!found.holds() || found.fit.share < share_above) continue;
+        correct(k, found.anchor_from_cur);
+        return true;
+    }
+    return false;
+}
+
+void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8x1 visible) {
+    const Registered found =
+        register_against(anchors.present(), cur, anchor_from_cur, options.quality);
     // The chain is steady but drifts, the registration does not drift but trembles: the gains of
     // the (stationary) Kalman filters between them.
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
-    anchor_from_cur = planar ? mix(anchor_from_cur, plane.anchor_from_cur, kPlanarGain)
-                             : mix(anchor_from_cur, smooth, kSmoothGain);
-    return static_cast<float>(planar ? plane.fit.share : smooth_fit.share);
+    correct(anchors.present_index(),
+            mix(anchor_from_cur, found.anchor_from_cur, found.planar ? kPlanarGain : kSmoothGain));
+    if (limit_stretch(ref_from_cur, visible)) {
+        // The texture slid: older anchors would pull it back.
+        anchors.clear();
+        become_anchor(cur);
+        return;
+    }
+    constexpr double kEnough = 0.6;
+    if (found.fit.share < kEnough) {
+        if (!try_others(cur, anchors.present().generation + 1, kEnough)) become_anchor(cur);
+        return;
+    }
+    // An older anchor has less drift: where the view comes back to it, it is taken again.
+    constexpr int kEvery = 6;
+    if (anchors.present().generation > 0 && ++since_older_tried >= kEvery) {
+        since_older_tried = 0;
+        try_others(cur, anchors.present().generation, kEnough);
+    }
 }
 
 SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
@@ -105,7 +198,7 @@ SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalke
     state_->prev_from_cur = still;
     state_->last_luma = copy_of(luma);
     state_->last_visible = copy_of(visible);
-    state_->become_anchor(luma, visible);
+    state_->become_anchor(registration_picture(luma, visible));
 }
 
 SurfaceWalker::~SurfaceWalker() = default;
@@ -115,32 +208,46 @@ SurfaceWalker& SurfaceWalker::operator=(SurfaceWalker&&) noexcept = default;
 const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
                                            const FlowField& prev_from_cur) {
     State& s = *state_;
-    const bool by_outline =
-        !s.options.exact_motion && s.has_no_structure(luma, visible, prev_from_cur);
-    s.prev_from_cur =
-        by_outline ? s.fit_outline(luma, visible) : s.fit_motion(luma, visible, prev_from_cur);
-    s.last_luma = copy_of(luma);
-    s.last_visible = copy_of(visible);
-    s.anchor_from_cur = compose(s.prev_from_cur, s.anchor_from_cur);
+    const auto keep = [&]() -> const LatticeField& {
+        s.last_luma = copy_of(luma);
+        s.last_visible = copy_of(visible);
+        return s.ref_from_cur;
+    };
     if (s.options.exact_motion) {
-        s.ref_from_cur = compose(s.anchor_from_cur, s.ref_from_anchor);
-        return s.ref_from_cur;
+        s.follow(s.fit_motion(luma, visible, prev_from_cur));
+        return keep();
     }
-    if (by_outline) {
-        // Nothing inside to be registered by: the chain goes on alone.
-        s.ref_from_cur = compose(s.anchor_from_cur, s.ref_from_anchor);
-        return s.ref_from_cur;
+    const std::int64_t visible_px = count_of(visible);
+    const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
+    if (s.is_hidden(visible_px)) {
+        s.wait_out_of_view();
+        return keep();
     }
-    const float explained = s.register_against_anchor(luma, visible);
-    s.ref_from_cur = compose(s.anchor_from_cur, s.ref_from_anchor);
-    constexpr float kEnough = 0.6f;
-    const bool slid = limit_stretch(s.ref_from_cur, visible);
-    if (slid || explained < kEnough) s.become_anchor(luma, visible);
-    return s.ref_from_cur;
+    const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);
+    // What has just come into view has no motion yet.
+    s.follow(was_hidden   ? s.prev_from_cur
+             : by_outline ? s.fit_outline(luma, visible)
+                          : s.fit_motion(luma, visible, prev_from_cur));
+    // Without structure inside there is nothing to be registered by: the chain goes on alone.
+    if (!by_outline) {
+        const RegistrationPicture cur = registration_picture(luma, visible);
+        if (s.lost) {
+            s.search(cur, visible_px);
+        } else {
+            s.register_frame(cur, visible);
+        }
+    }
+    return keep();
 }
 
-void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible) {
-    state_->become_anchor(luma, visible);
+void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
+                                const LatticeField* ref_from_here) {
+    if (ref_from_here) {
+        state_->ref_from_cur = *ref_from_here;
+        // Older anchors would pull it back.
+        state_->anchors.clear();
+    }
+    state_->become_anchor(registration_picture(luma, visible));
 }
 
 const LatticeField& SurfaceWalker::ref_from_cur() const {

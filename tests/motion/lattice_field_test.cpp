@@ -161,5 +161,18 @@ TEST(LatticeField, HoldsTheSmallestFrames) {
     }
 }
 
+TEST(LatticeField, AnInverseLeadsBack) {
+    LatticeField field({320, 200}, 8);
+    for (int j = 0; j < field.nodes().height(); ++j) {
+        for (int i = 0; i < field.nodes().width(); ++i) {
+            const Vec2 p = field.node_position(i, j);
+            field.set_node(i, j, {5 + 6 * std::sin(p.y / 40), -3 + 0.1f * p.x});
+        }
+    }
+    const LatticeField round = compose(field, inverse(field));
+    for (const Vec2 p : {Vec2(40, 30), Vec2(160, 100), Vec2(290, 150)})
+        EXPECT_LT(glm::length(round.at(p)), 0.05f) << p.x << "," << p.y;
+}
+
 }  // namespace
 }  // namespace weft

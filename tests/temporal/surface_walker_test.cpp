@@ -202,6 +202,63 @@ TEST(SurfaceWalker, StandsStillWhereNothingIsVisible) {
     EXPECT_EQ(walker.ref_from_cur().at({100, 100}), Vec2(0, 0));
 }
 
+// A textured card that swings to and fro, and how a frame of it looks.
+struct Swing {
+    WaveTexture texture{12};
+    static Vec2 offset(int t) {
+        const auto s = static_cast<float>(t);
+        return {60 * std::sin(s / 7.0f), 14 * std::sin(s / 5.0f)};
+    }
+    static Vec2 to_card(Vec2 p, int t) { return p - offset(t); }
+    static Matte visible(int t) {
+        return draw(kFrame, [&](Vec2 p) {
+            const Vec2 q = to_card(p, t) - Vec2(128, 88);
+            return std::abs(q.x) < 50 && std::abs(q.y) < 45 ? 1.0f : 0.0f;
+        });
+    }
+    [[nodiscard]] Matte luma(int t) const {
+        return draw(kFrame, [&](Vec2 p) { return texture(to_card(p, t)); });
+    }
+    static float error(const LatticeField& ref_from_cur, int t) {
+        const Vec2 p = Vec2(128, 88) + offset(t);
+        float worst = 0;
+        for (const Vec2 q : {p + Vec2(-30, -20), p + Vec2(30, -20), p, p + Vec2(0, 25)})
+            worst = std::max(worst, distance(q + ref_from_cur.at(q), q - offset(t)));
+        return worst;
+    }
+};
+
+TEST(SurfaceWalker, FindsTheSurfaceAgainAfterItWasHidden) {
+    const Swing swing;
+    Matte before = swing.luma(0);
+    SurfaceWalker walker(before, Swing::visible(0), {});
+    for (int t = 1; t < 24; ++t) {
+        const Matte cur = swing.luma(t);
+        const bool hidden = t >= 4 && t < 15;
+        walker.advance(cur, hidden ? Matte(kFrame) : Swing::visible(t), flow_between(cur, before));
+        if (!hidden) {
+            EXPECT_LT(Swing::error(walker.ref_from_cur(), t), 0.15f) << t;
+        }
+        before = cur;
+    }
+}
+
+TEST(SurfaceWalker, WaitsForTheSurfaceWithoutForgettingIt) {
+    // Something else is in the matte for a while: it must not become what is followed.
+    const Swing swing;
+    const WaveTexture other(77);
+    Matte before = swing.luma(0);
+    SurfaceWalker walker(before, Swing::visible(0), {});
+    for (int t = 1; t < 16; ++t) {
+        const Matte cur = t == 6 || t == 7 ? draw(kFrame, [&](Vec2 p) { return other(p * 1.3f); })
+                                           : swing.luma(t);
+        const bool hidden = t == 4 || t == 5;
+        walker.advance(cur, hidden ? Matte(kFrame) : Swing::visible(t), flow_between(cur, before));
+        before = cur;
+    }
+    EXPECT_LT(Swing::error(walker.ref_from_cur(), 15), 0.15f);
+}
+
 TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
     const Shot shot;
     SurfaceWalker walker(shot.luma[0], Matte(kFrame), {});

@@ -1,0 +1,13 @@
+#pragma once
+// Measured figures as JSON (docs/CLI.md, `weft measure`).
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/session/measure_job.h"
+
+namespace weft {
+
+/// One result: the keys of `weft measure --json` but the warnings.
+[[nodiscard]] nlohmann::ordered_json measure_json(const MeasuredResult& result);
+
+}  // namespace weft

@@ -1,0 +1,35 @@
+#include "engine/temporal/anchors.h"
+
+namespace weft {
+
+Registered register_against(const Anchor& anchor, const RegistrationPicture& cur,
+                            const LatticeField& initial, FlowQuality quality) {
+    RegistrationOptions options;
+    options.samples = quality == FlowQuality::kDraft ? 20000 : 60000;
+    options.lattice_px = 3 * initial.spacing() / 2;
+    options.iterations = 3;
+    Registered out;
+    out.anchor_from_cur = register_lattice(anchor.picture, cur, initial, options);
+    out.fit = registration_fit(anchor.picture, cur, out.anchor_from_cur, options);
+    options.iterations = 10;
+    PlanarRegistration plane = register_planar(anchor.picture, cur, out.anchor_from_cur, options);
+    // A plane has few parameters and trembles least: it is taken where it explains the frame as
+    // well as the smooth field does, which has enough of them to follow some of the noise.
+    constexpr double kAsWell = 1.03;
+    out.planar = plane.found && plane.fit.residual <= kAsWell * out.fit.residual &&
+                 kAsWell * plane.fit.share >= out.fit.share;
+    if (out.planar) {
+        out.anchor_from_cur = std::move(plane.anchor_from_cur);
+        out.fit = plane.fit;
+    }
+    return out;
+}
+
+void AnchorSet::add(Anchor anchor) {
+    constexpr std::size_t kMost = 5;
+    if (anchors_.size() == kMost) anchors_.erase(anchors_.begin() + 1);
+    anchors_.push_back(std::move(anchor));
+    present_ = anchors_.size() - 1;
+}
+
+}  // namespace weft

@@ -1,0 +1,53 @@
+#pragma once
+// The frames that a walk is registered against.
+
+#include <vector>
+
+#include "engine/motion/lattice_field.h"
+#include "engine/motion/optical_flow.h"
+#include "engine/motion/photometric_register.h"
+
+namespace weft {
+
+/// A frame of the walk whose place on the reference frame is known.
+struct Anchor {
+    RegistrationPicture picture;
+    LatticeField ref_from_anchor;
+    int generation = 0;  ///< How many anchors lie between it and the reference frame.
+};
+
+/// A frame as one anchor explains it.
+struct Registered {
+    LatticeField anchor_from_cur;
+    RegistrationFit fit;
+    bool planar = false;  ///< By a homography.
+    /// Whether this is the surface at all: unrelated pictures leave a residual of about 0.7.
+    [[nodiscard]] bool holds() const { return fit.residual < 0.45 && fit.share > 0.5; }
+};
+
+/// Registers a frame against an anchor from an initial field: by a smooth correction, or by a
+/// homography where that explains the frame as well. Pure; deterministic.
+[[nodiscard]] Registered register_against(const Anchor& anchor, const RegistrationPicture& cur,
+                                          const LatticeField& initial, FlowQuality quality);
+
+/// The anchors of one walk: the first, which is the reference frame or what stands for it, and the
+/// latest few. Not thread-safe.
+class AnchorSet {
+  public:
+    /// Makes `anchor` the present one.
+    void add(Anchor anchor);
+    [[nodiscard]] const Anchor& present() const { return anchors_[present_]; }
+    void use(std::size_t index) { present_ = index; }
+    /// Drops all: what they say of the reference frame no longer holds.
+    void clear() { anchors_.clear(); }
+    [[nodiscard]] bool empty() const { return anchors_.empty(); }
+    [[nodiscard]] std::size_t present_index() const { return present_; }
+    /// All, oldest first.
+    [[nodiscard]] const std::vector<Anchor>& all() const { return anchors_; }
+
+  private:
+    std::vector<Anchor> anchors_;
+    std::size_t present_ = 0;
+};
+
+}  // namespace weft
