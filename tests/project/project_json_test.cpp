@@ -119,7 +119,10 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     wall.synthesis.seam = SeamMethod::kDynamicProgramming;
     wall.synthesis.overlap_px = 24;
     wall.temporal.mode = TemporalMode::kPaper;
-    wall.light = {LightSource::kImage, "E.png", LightForm::kLiteral, 0.5, {}};
+    wall.light.source = LightSource::kImage;
+    wall.light.image = "E.png";
+    wall.light.form = LightForm::kLiteral;
+    wall.light.strength = 0.5;
     wall.extra = {{"kept_too", "2"}};
     Region second;
     second.id = 2;

@@ -27,7 +27,10 @@ Region full_region() {
     r.motion = {"flow/####.flo", MotionDirection::kBackward, {}};
     r.synthesis = {SeamMethod::kDynamicProgramming, 24, 3, {}};
     r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};
-    r.light = {LightSource::kImage, "light.png", LightForm::kDetail, 0.75, {}};
+    r.light.source = LightSource::kImage;
+    r.light.image = "light.png";
+    r.light.form = LightForm::kDetail;
+    r.light.strength = 0.75;
     return r;
 }
 
