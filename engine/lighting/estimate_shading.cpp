@@ -89,8 +89,10 @@ void remove_remains(ImageF1& light, const SurfaceSample& s, float pattern, float
             rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
     }
     const ImageF1 none(light.size());
-    const float limit =
-        kRemains * std::min(deviation_between(rest, none, s.weight), most * pattern);
+    const float deviation = deviation_between(rest, none, s.weight);
+    // Where the surface's light is no quadratic, nothing says what is faint.
+    const float fits = std::clamp(2.0f - deviation / std::max(1e-6f, most * pattern), 0.0f, 1.0f);
+    const float limit = kRemains * deviation * fits;
     if (!(limit > 0)) return;
     parallel_rows(light.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -122,7 +124,8 @@ ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
         guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
     ImageF1 light = joint_bilateral(weighted(guide, s.weight), s.weight, guide,
                                     {kStepSigma * sigma, kStepRange});
-    remove_remains(light, s, deviation_between(s.luma, light, s.weight), kRemainsOfPattern);
+    remove_remains(light, s, deviation_between(s.luma, light, s.weight),
+                   kRemainsOfPattern * presence);
     return light;
 }
 
