@@ -28,6 +28,7 @@ constexpr float kStepRange = 0.4f;  // steps below are smooth shading that rolli
 constexpr float kStepSigma = 0.6f;  // times the blur's
 
 constexpr float kRemains = 3.0f;            // deviations
+constexpr float kRemainsOfPattern = 0.12f;  // the most that is left of a pattern's deviation
 
 constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // where a clip is the evidence
 
@@ -88,8 +89,10 @@ void remove_remains(ImageF1& light, const SurfaceSample& s, float pattern, float
             rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
     }
     const ImageF1 none(light.size());
-    const float limit =
-        kRemains * std::min(deviation_between(rest, none, s.weight), most * pattern);
+    const float deviation = deviation_between(rest, none, s.weight);
+    // Where the surface's light is no quadratic, nothing says what is faint.
+    const float fits = std::clamp(2.0f - deviation / std::max(1e-6f, most * pattern), 0.0f, 1.0f);
+    const float limit = kRemains * deviation * fits;
     if (!(limit > 0)) return;
     parallel_rows(light.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -121,6 +124,8 @@ ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
         guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
     ImageF1 light = joint_bilateral(weighted(guide, s.weight), s.weight, guide,
                                     {kStepSigma * sigma, kStepRange});
+    remove_remains(light, s, deviation_between(s.luma, light, s.weight),
+                   kRemainsOfPattern * presence);
     return light;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kTerms = 6;
 constexpr int kStep = 2;  // pixels: the fit is smooth
-constexpr int kRounds = 3;
+constexpr int kRounds = 8;
 constexpr double kCauchy = 0.1;  // ln units
 constexpr double kRidge = 1e-4;
 
@@ -60,7 +60,9 @@ QuadraticFit::QuadraticFit(const ImageF1& plane, const ImageF1& weight) {
                 const double value = plane.row(y)[x];
                 const Terms t = terms((x - centre_x_) * scale_, (y - centre_y_) * scale_);
                 if (round > 0) {
-                    const double away = (value - value_of(coefficients_, t)) / kCauchy;
+                    // From wide to narrow, so that an edge does not hold the fit where it began.
+                    const double scale = kCauchy * std::max(1, 1 << std::max(0, 4 - round));
+                    const double away = (value - value_of(coefficients_, t)) / scale;
                     w /= 1.0 + away * away;
                 }
                 total += w;

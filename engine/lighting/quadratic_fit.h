@@ -5,7 +5,7 @@
 
 namespace weft {
 
-/// The quadratic surface nearest to a plane where it is known, not bent by edges (three rounds of
+/// The quadratic surface nearest to a plane where it is known, not bent by edges (
 /// iteratively reweighted least squares, Holland & Welsch 1977, with Cauchy weights).
 class QuadraticFit {
   public:
