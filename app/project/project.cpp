@@ -126,6 +126,7 @@ Project map_paths(const Project& project,
             map(region.texture.plane);
             map(region.motion.files);
             map(region.light.image);
+            map(region.lines.files);
         });
     }
     return out;
@@ -144,6 +145,7 @@ std::size_t own_bytes(const Region& r) {
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
                          r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,
+                         r.lines.files, r.lines.extra,
                          r.extra);
 }
 

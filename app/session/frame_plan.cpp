@@ -77,6 +77,9 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     for (const MatteSource& holdout : *region.holdouts) {
         WEFT_CHECK_OK(check_pattern(holdout.files, "The holdout", all));
     }
+    if (plan.has_lines) {
+        WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames));
+    }
     if (plan.true_motion && plan.temporal != TemporalMode::kNone) {
         WEFT_CHECK_OK(check_pattern(region.motion.files, "The motion", motion_frames(plan, span)));
     }

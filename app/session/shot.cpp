@@ -144,6 +144,9 @@ class ShotOpener {
         plan.weight = static_cast<float>(region.temporal.weight);
         plan.light_source = region.light.source;
         plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        plan.has_lines = !region.lines.files.empty();
+        plan.extract_lines = region.lines.extract && !plan.has_lines;
+        plan.line_width_px = static_cast<float>(region.lines.width_px);
         if (options_.textures) {
             WEFT_CHECK_OK(add_texture(region, plan));
             WEFT_CHECK_OK(add_light_picture(region, plan));

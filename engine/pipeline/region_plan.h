@@ -51,6 +51,9 @@ struct RegionPlan {
     LightSource light_source = LightSource::kPlate;
     std::shared_ptr<const ImageF3> light_picture;  ///< Linear light; for kImage.
     LightOptions light;
+    // Ink on top: from a pass, or found in the plate.
+    bool has_lines = false, extract_lines = false;
+    float line_width_px = 4;
 };
 
 /// What holds for the whole shot.

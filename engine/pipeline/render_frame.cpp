@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/composite/composite.h"
+#include "engine/composite/line_layer.h"
 #include "engine/core/parallel.h"
 #include "engine/mask/edge_softening.h"
 #include "engine/pipeline/paper_walker.h"
@@ -41,6 +42,8 @@ class FrameRenderer {
                                                  const Recti& box) const;
     Status light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
                  ImageF3& texture);
+    // The region's ink, from its pass or found in the plate, over the lit texture.
+    Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture);
 
     const ShotSource& source_;
     const ShotPlan& plan_;
@@ -140,6 +143,23 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
     return {};
 }
 
+Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
+                              ImageF3& texture) {
+    const RegionPlan& region = region_of(plan_, index);
+    if (!region.has_lines && !region.extract_lines) return {};
+    Matte ink;
+    if (region.has_lines) {
+        WEFT_TRY(pass, source_.lines(index, frame_));
+        ink = std::move(pass);
+    } else {
+        if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
+        ink = extract_ink(views_->display, matte, {.width_px = region.line_width_px});
+    }
+    const ImageF3 plate = transformed(*plate_, *plan_.working_from_plate);
+    lay_lines(texture, plate.view().crop(box), ink.view().crop(box));
+    return {};
+}
+
 Status FrameRenderer::add(int index, const RegionScene& scene) {
     WEFT_TRY(matte, composite_matte(index));
     const Recti box = matte_bounds(matte);
@@ -151,6 +171,7 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     }
     WEFT_TRY(surface, texture(index, scene, box, inside));
     WEFT_CHECK_OK(light(index, scene, box, inside, surface));
+    WEFT_CHECK_OK(lay_ink(index, box, matte, surface));
 
     const ImageView<float, 3> area = canvas_.view().crop(box);
     const ImageF3 old_surface = unmix_surface(area, inside);
