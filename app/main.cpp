@@ -1,3 +1,43 @@
-#include "app/cli/cli.h"
+#include <cstdio>
+#include <filesystem>
 
-int main(int argc, char** argv) { return weft::run_cli(argc, argv); }
+#include "app/cli/cli.h"
+#include "app/cli/console.h"
+#include "app/editor/editor.h"
+
+namespace weft {
+namespace {
+
+int edit(const EditArguments& given) {
+    EditorOptions options;
+    options.project = given.project;
+    options.demo = given.demo;
+    options.assets = given.assets;
+    options.script = given.script;
+    options.screenshot = given.screenshot;
+    options.ui_scale = given.ui_scale;
+    options.light = given.light;
+    std::error_code error;
+    options.program = std::filesystem::read_symlink("/proc/self/exe", error).string();
+    constexpr int kLeast = 320, kMost = 16384;
+    if (std::sscanf(given.size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
+        options.width < kLeast || options.height < kLeast || options.width > kMost ||
+        options.height > kMost) {
+        return report_error({ErrorCode::kUsage,
+                             "--size " + given.size + " is no size. Write it like 1600x900.",
+                             {}});
+    }
+    const auto code = run_editor(options);
+    return code ? *code : report_error(code.error());
+}
+
+}  // namespace
+}  // namespace weft
+
+int main(int argc, char** argv) {
+    // Without a command it opens the editor, where there is a display to open it on.
+    char command[] = "edit";
+    char* with_edit[] = {argv[0], command, nullptr};
+    if (argc < 2 && weft::has_display()) return weft::run_cli(2, with_edit, weft::edit);
+    return weft::run_cli(argc, argv, weft::edit);
+}

@@ -1,24 +1,26 @@
 #include "gpu/cuda_backend.h"
 
-#include "gpu/cuda_probe.h"
+#include "gpu/cuda_device.h"
+#include "gpu/gpu_backend.h"
 
 namespace weft {
 namespace {
 
-Expected<std::shared_ptr<const Backend>> make_cuda() {
-    const CudaProbe probe = probe_cuda();
-    if (probe.devices == 0) {
-        return fail(ErrorCode::kNoBackend, "CUDA cannot be used here: " + probe.detail + ".");
-    }
-    return fail(ErrorCode::kNoBackend,
-                "CUDA cannot be used yet: " + probe.detail +
-                    " is there, but this version of Weft has no CUDA kernels.");
+BackendEntry entry(const std::string& name, int score, SearchStrategy strategy) {
+    return {
+        name, score, [=]() -> Expected<std::shared_ptr<const Backend>> {
+            WEFT_TRY(device, open_cuda_device());
+            return std::make_shared<const GpuBackend>(device, GpuBackendOptions{name, strategy, 0});
+        }};
 }
 
 }  // namespace
 
 void register_cuda(BackendRegistry& registry) {
-    registry.add({"cuda", 100, make_cuda});
+    registry.add(entry("cuda", 100, SearchStrategy::kTiled));
+    // The paper's strategies, to compare with. `auto` stops at the CPU before it comes to them.
+    registry.add(entry("cuda-candidate", -1, SearchStrategy::kCandidate));
+    registry.add(entry("cuda-pixel", -2, SearchStrategy::kPixel));
 }
 
 }  // namespace weft

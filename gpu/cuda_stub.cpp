@@ -1,10 +1,12 @@
 // Built where there is no nvcc, or where CUDA is not wanted.
-#include "gpu/cuda_probe.h"
+#include "gpu/cuda_device.h"
 
 namespace weft {
 
-CudaProbe probe_cuda() {
-    return {false, 0, "this build has no CUDA in it (nvcc was not found, or WEFT_CUDA is OFF)"};
+Expected<std::shared_ptr<Device>> open_cuda_device() {
+    return fail(ErrorCode::kNoBackend,
+                "CUDA cannot be used here: this build has no CUDA in it (nvcc was not found, or "
+                "WEFT_CUDA is OFF).");
 }
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "app/cli/region_flags.h"
+#include "app/cli/texture_commands.h"
 #include "app/session/report.h"
 
 namespace weft {
@@ -56,7 +57,7 @@ int parse(CLI::App& app, int argc, char** argv, int& exit) {
 
 }  // namespace
 
-int run_cli(int argc, char** argv) {
+int run_cli(int argc, char** argv, const EditCommand& edit) {
     // A write beyond the limit on a file's size then fails as on a full disk, with our message.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Weft replaces textures in animation.", "weft");
@@ -72,7 +73,10 @@ int run_cli(int argc, char** argv) {
     int exit = 0;
     add_render_commands(app, exit);
     add_project_commands(app, exit);
+    add_synth_commands(app, exit);
     add_tool_commands(app, exit);
+    add_edit_command(app, exit, edit);
+    add_texture_commands(app, exit);
     add_study_command(app, exit);
     try {
         const int code = parse(app, argc, argv, exit);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/console.h"
+#include "app/project/edit.h"
 #include "app/session/render_job.h"
 #include "app/session/study.h"
 #include "engine/metrics/measuring_motion.h"
@@ -31,12 +32,29 @@ int render_command(const Project& project, const RunOptions& run);
 int matte_command(const Project& project, const std::string& output, const RunOptions& run);
 
 struct SynthOptions {
-    std::string sample, output, source_map, texture_space;
+    std::vector<std::string> samples;
+    std::string output, source_map, texture_space;
+    std::string light;  ///< Picture of a wanted illumination; empty: none.
+    double light_weight = 0.1;
+    std::string isa;  ///< Empty: the best there is.
     PlaneOptions plane;
     int threads = 0;
     bool overwrite = false, json = false;
 };
 int synth_command(const SynthOptions& options);
+
+struct BenchOptions {
+    std::string sample;
+    std::vector<int> sizes;
+    int runs = 10;
+    int threads = 1;
+    std::string seams;  ///< Folder for pictures of the seams; empty: none.
+    /// Planes of other programs: only their repetition is measured.
+    std::vector<std::string> repetition_of;
+    std::string isa;
+    bool json = false;
+};
+int bench_command(const BenchOptions& options);
 
 struct MeasureCommandOptions {
     Project project;  ///< Plate, matte, placement, motion; paths resolved.
@@ -65,6 +83,7 @@ int new_command(const std::string& path, const Project& project, bool overwrite)
 int apply_command(const std::string& path, const std::string& actions, bool dry_run);
 /// A change of one region (or, without a name, a new one) in a project file.
 int region_add_command(const std::string& path, Region region);
+int region_correct_command(const std::string& path, const SetCorrection& edit);
 int region_list_command(const std::string& path, bool json);
 
 int demo_command(const std::string& assets, const std::string& given_output, const RunOptions& run);

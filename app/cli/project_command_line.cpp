@@ -1,5 +1,7 @@
 // weft new, region add|set|list, apply, info and validate.
 
+#include <cstdio>
+
 #include "app/cli/region_flags.h"
 #include "app/project/edit.h"
 #include "app/project/project_file.h"
@@ -54,7 +56,8 @@ void add_region_set(CLI::App& group, int& exit) {
     command->add_option("region", *region, "Name or id of the region")->required();
     const auto flags = std::make_shared<ProjectFlags>(
         *command, ProjectFlags::Which{false, false, false, true, true});
-    command->footer("Example:\n  weft region set shot.weft wall --rotate 12 --light-strength 0.7\n"
+    command->footer(
+        "Example:\n  weft region set shot.weft wall --rotate 12 --light-strength 0.7\n"
         "  weft region set shot.weft wall --enabled=false");
     command->callback([=, &exit] {
         auto project = load_project(*path);
@@ -78,11 +81,57 @@ void add_region_set(CLI::App& group, int& exit) {
     });
 }
 
+// "120,80:132,75": what shows at the first point belongs at the second.
+Expected<CorrectionPin> pin_from(const std::string& text) {
+    CorrectionPin pin;
+    int used = 0;
+    const int read = std::sscanf(text.c_str(), "%lf,%lf:%lf,%lf%n", &pin.from.x, &pin.from.y,
+                                 &pin.to.x, &pin.to.y, &used);
+    if (read != 4 || used != static_cast<int>(text.size()))
+        return fail(ErrorCode::kUsage,
+                    "The pin '" + text + "' is not of the form x,y:x,y (plate pixels: from, to).");
+    return pin;
+}
+
+void add_region_correct(CLI::App& group, int& exit) {
+    CLI::App* command = group.add_subcommand("correct", "Put a texture back in place on a frame");
+    const auto path = std::make_shared<std::string>(), region = std::make_shared<std::string>();
+    const auto frame = std::make_shared<int>(0);
+    const auto pins = std::make_shared<std::vector<std::string>>();
+    add_path(*command, *path);
+    command->add_option("region", *region, "Name or id of the region")->required();
+    command->add_option("frame", *frame, "Frame on which the texture is put right")->required();
+    command
+        ->add_option("--pin", *pins,
+                     "x,y:x,y in plate pixels: what shows at the first point belongs at the "
+                     "second; repeatable. Without pins the frame's correction is removed")
+        ->type_name("")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->footer(
+        "The frame becomes a reference frame of its own; between it and its neighbours the "
+        "difference is spread.\n"
+        "Example:\n  weft region correct shot.weft wall 1024 --pin 120,80:132,75 --pin "
+        "400,90:400,90");
+    command->callback([=, &exit] {
+        SetCorrection edit{{0, *region}, *frame, {}};
+        for (const std::string& text : *pins) {
+            const auto pin = pin_from(text);
+            if (!pin) {
+                exit = report_error(pin.error());
+                return;
+            }
+            edit.pins.push_back(*pin);
+        }
+        exit = region_correct_command(*path, edit);
+    });
+}
+
 void add_region(CLI::App& app, int& exit) {
     CLI::App* group = app.add_subcommand("region", "Add, change or list a project's regions");
     group->require_subcommand(1);
     add_region_add(*group, exit);
     add_region_set(*group, exit);
+    add_region_correct(*group, exit);
     CLI::App* list = group->add_subcommand("list", "List the regions, lowest layer first");
     const auto path = std::make_shared<std::string>();
     const auto json = std::make_shared<bool>(false);

@@ -78,6 +78,12 @@ int region_add_command(const std::string& path, Region region) {
     return saved(path, apply_edit(*project, AddRegion{std::move(region), {}}));
 }
 
+int region_correct_command(const std::string& path, const SetCorrection& edit) {
+    const auto project = load_project(path);
+    if (!project) return report_error(project.error());
+    return saved(path, apply_edit(*project, edit));
+}
+
 int region_list_command(const std::string& path, bool json) {
     const auto project = load_project(path);
     if (!project) return report_error(project.error());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/edit_command.h"
 #include "app/project/parameters.h"
 
 namespace weft {
@@ -50,7 +51,9 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders);
 // Each file of subcommands adds its own; `exit` receives the exit code of the one that ran.
 void add_render_commands(CLI::App& app, int& exit);
 void add_project_commands(CLI::App& app, int& exit);
+void add_synth_commands(CLI::App& app, int& exit);
 void add_tool_commands(CLI::App& app, int& exit);
+void add_edit_command(CLI::App& app, int& exit, const EditCommand& edit);
 void add_study_command(CLI::App& app, int& exit);
 
 }  // namespace weft

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/cli/commands.h"
@@ -8,6 +9,9 @@
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/seam/isa.h"
+#include "engine/synthesis/light_guide.h"
+#include "engine/synthesis/repetition.h"
 
 namespace weft {
 namespace {
@@ -25,19 +29,47 @@ Status write_plane(const std::string& path, const TexturePlane& plane) {
     return write_image(path, pixels, {}, write);
 }
 
-// The source map: R and G are the sample's x and y of each texel, B the sample's number (0).
+// The source map: R and G are the sample's x and y of each texel; B the sample's number, plus 256
+// times its orientation.
 Status write_source_map(const std::string& path, const TexturePlane& plane) {
     ImageF3 map(plane.source.size());
     for (int y = 0; y < map.height(); ++y) {
         for (int x = 0; x < map.width(); ++x) {
             for (int c = 0; c < 2; ++c)
                 map.pixel(x, y)[c] = static_cast<float>(plane.source.pixel(x, y)[c]);
+            if (plane.origin.empty()) continue;
+            const std::uint8_t* origin = plane.origin.pixel(x, y);
+            map.pixel(x, y)[2] = static_cast<float>(origin[0] + 256 * origin[1]);
         }
     }
     WriteOptions write;
     write.depth = PixelDepth::kFloat;
     WEFT_CHECK_OK(check_format(path, write));
     return write_image(path, map, {}, write);
+}
+
+Expected<ImageU8x3> read_sample(const std::string& path, const std::string& space_name) {
+    WEFT_TRY(picture, read_image(path));
+    const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
+    WEFT_TRY(space, parse_color_space(!space_name.empty() ? space_name
+                                      : is_float          ? "linear"
+                                                          : "srgb"));
+    WEFT_TRY(display_from_texture, make_color_transform(space, {"srgb"}));
+    return make_views(picture.rgb, *display_from_texture).display;
+}
+
+// V of the picture, stretched over the plane (nearest pixel: illumination is smooth).
+Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
+    Image<std::uint8_t, 1> out(plane);
+    for (int y = 0; y < plane.height; ++y) {
+        const int from_y = static_cast<int>(std::int64_t{y} * picture.height() / plane.height);
+        for (int x = 0; x < plane.width; ++x) {
+            const int from_x = static_cast<int>(std::int64_t{x} * picture.width() / plane.width);
+            const std::uint8_t* p = picture.pixel(from_x, from_y);
+            out.at(x, y) = std::max({p[0], p[1], p[2]});
+        }
+    }
+    return out;
 }
 
 Expected<TexturePlane> run(const SynthOptions& options) {
@@ -50,51 +82,89 @@ Expected<TexturePlane> run(const SynthOptions& options) {
     WriteOptions write;
     write.depth = default_depth(options.output, PixelDepth::kU8);
     WEFT_CHECK_OK(check_format(options.output, write));
-    WEFT_TRY(picture, read_image(options.sample));
-    const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
-    WEFT_TRY(space, parse_color_space(!options.texture_space.empty() ? options.texture_space
-                                      : is_float                     ? "linear"
-                                                                     : "srgb"));
-    WEFT_TRY(display_from_texture, make_color_transform(space, {"srgb"}));
-    const ImageU8x3 sample = make_views(picture.rgb, *display_from_texture).display;
-    if (const auto warning = sample_warning(sample))
-        print_warning(options.sample + ": " + *warning);
-    auto plane = grow_plane(sample, options.plane, cancel_on_signals());
-    if (!plane) return fail_in(std::move(plane).error(), options.sample);
+    std::vector<ImageU8x3> samples;
+    std::string names;
+    for (const std::string& path : options.samples) {
+        WEFT_TRY(sample, read_sample(path, options.texture_space));
+        if (const auto warning = sample_warning(sample)) print_warning(path + ": " + *warning);
+        samples.push_back(std::move(sample));
+        names += (names.empty() ? "" : ", ") + path;
+    }
+    PlaneOptions grow = options.plane;
+    ImageU8x3 guide;
+    Image<std::uint8_t, 1> known;
+    if (!options.light.empty()) {
+        WEFT_TRY(picture, read_sample(options.light, {}));
+        guide = light_guide(samples.front(), illumination(picture, grow.size));
+        known = Image<std::uint8_t, 1>(grow.size, 255);
+        grow.guide = PlaneGuide{guide, known, static_cast<float>(options.light_weight)};
+    }
+    auto plane = grow_plane(std::vector<ViewU8x3>(samples.begin(), samples.end()), grow,
+                            cancel_on_signals());
+    if (!plane) return fail_in(std::move(plane).error(), names);
     WEFT_CHECK_OK(write_plane(options.output, *plane));
     if (!options.source_map.empty()) WEFT_CHECK_OK(write_source_map(options.source_map, *plane));
     return plane;
+}
+
+nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repetition,
+                               const SynthOptions& options) {
+    const PlaneStats& s = plane.stats;
+    nlohmann::ordered_json period = nlohmann::ordered_json::array();
+    for (int i = 0; i < s.period.count; ++i) {
+        const Vec2i step = s.period.steps[static_cast<std::size_t>(i)];
+        period.push_back({step.x, step.y});
+    }
+    return {{"size", {plane.pixels.width(), plane.pixels.height()}},
+            {"seconds",
+             {{"search", s.search_s},
+              {"seam", s.seam_s},
+              {"refine", s.refine_s},
+              {"other", s.other_s},
+              {"total", s.total_s}}},
+            {"seam_energy", s.seam_energy},
+            {"seam_length_px", s.seam_length_px},
+            {"seam_energy_per_area", s.seam_energy_per_area},
+            {"peak_graph_bytes", s.peak_graph_bytes},
+            {"placements", s.placements},
+            {"refinements", s.refinements},
+            {"repetition", repetition.peak},
+            {"repetition_at", {repetition.peak_at.x, repetition.peak_at.y}},
+            {"verbatim", repetition.verbatim},
+            {"verbatim_at", {repetition.verbatim_at.x, repetition.verbatim_at.y}},
+            {"period", period},
+            {"period_correlation", repetition.own_period},
+            {"backend", "cpu"},
+            {"isa", isa_name(current_isa())},
+            {"threads", thread_count()},
+            {"seed", options.plane.seed}};
 }
 
 }  // namespace
 
 int synth_command(const SynthOptions& options) {
     set_thread_count(options.threads);
+    const auto isa = parse_isa(options.isa);
+    if (isa && !isa_available(*isa)) {
+        return report_error({ErrorCode::kNoBackend,
+                             "This processor lacks " + options.isa + ". Leave --isa out.",
+                             {}});
+    }
+    force_isa(isa);
     const auto plane = run(options);
     if (!plane) return report_error(plane.error());
-    const PlaneStats& s = plane->stats;
-    const nlohmann::ordered_json json{
-        {"size", {plane->pixels.width(), plane->pixels.height()}},
-        {"seconds",
-         {{"search", s.search_s}, {"seam", s.seam_s}, {"other", s.other_s}, {"total", s.total_s}}},
-        {"seam_energy", s.seam_energy},
-        {"seam_length_px", s.seam_length_px},
-        {"seam_energy_per_area", s.seam_energy_per_area},
-        {"peak_graph_bytes", s.peak_graph_bytes},
-        {"placements", s.placements},
-        {"backend", "cpu"},
-        {"threads", thread_count()},
-        {"seed", options.plane.seed}};
     if (options.json) {
-        print(stdout, json.dump(2) + "\n");
+        print(stdout, json_of(*plane, measure_repetition(*plane), options).dump(2) + "\n");
         return 0;
     }
+    const PlaneStats& s = plane->stats;
     char line[256];
     std::snprintf(line, sizeof line,
                   "%s %dx%d: %d placements, seam energy per area %.3f, %.3fs (search %.3f, seam "
-                  "%.3f, other %.3f)\n",
+                  "%.3f, refine %.3f, other %.3f)\n",
                   options.output.c_str(), plane->pixels.width(), plane->pixels.height(),
-                  s.placements, s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.other_s);
+                  s.placements, s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.refine_s,
+                  s.other_s);
     print(stdout, line);
     return 0;
 }

@@ -1,71 +1,10 @@
-// weft synth, measure, diff and demo.
+// weft measure, diff and demo.
 
 #include "app/cli/region_flags.h"
 #include "app/project/project_file.h"
 
 namespace weft {
 namespace {
-
-void add_synth(CLI::App& app, int& exit) {
-    CLI::App* command = app.add_subcommand("synth", "Grow a texture plane from a sample");
-    const auto options = std::make_shared<SynthOptions>();
-    const auto size = std::make_shared<std::string>("512x512");
-    command->add_option("sample", options->sample, "Picture of the texture")
-        ->required()
-        ->type_name("PATH");
-    command->add_option("-o,--output", options->output, "File to write")
-        ->required()
-        ->type_name("PATH");
-    command->add_option("--size", *size, "Width x height in texels [512x512]")->type_name("WxH");
-    const std::map<std::string, SeamMethod> seams{{"graphcut", SeamMethod::kGraphCut},
-                                                  {"dp", SeamMethod::kDynamicProgramming},
-                                                  {"none", SeamMethod::kNone}};
-    command->add_option("--seam", options->plane.seam, "graphcut, dp or none [graphcut]")
-        ->transform(CLI::CheckedTransformer(seams))
-        ->type_name("");
-    command
-        ->add_option("--overlap", options->plane.overlap_px, "Largest overlap of pieces, px [36]")
-        ->type_name("px");
-    command->add_option("--feather", options->plane.feather_px, "Blend across the seams, px [0]")
-        ->check(CLI::Range(0, 256))
-        ->type_name("px");
-    command
-        ->add_option("--refine", options->plane.refine_passes,
-                     "Rounds of new pieces over the worst seams [0]")
-        ->check(CLI::Range(0, 100))
-        ->type_name("");
-    command->add_flag("--tileable", options->plane.tileable, "Opposite borders join");
-    command->add_option("--seed", options->plane.seed, "Seed of all random choices [1]")
-        ->type_name("");
-    command
-        ->add_option("--source-map", options->source_map,
-                     "EXR of the sample's x, y that each texel shows")
-        ->type_name("PATH");
-    command->add_option("--texture-space", options->texture_space, "Colour space of the sample")
-        ->type_name("");
-    command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--overwrite", options->overwrite, "Replace files that exist");
-    command->add_flag("--json", options->json, "One JSON object on stdout");
-    command->footer(
-        "Examples:\n"
-        "  weft synth wool.jpg -o plane.png --size 1024x1024\n"
-        "  weft synth brick.jpg -o plane.png --size 2048x2048 --tileable --source-map map.exr "
-        "--json");
-    command->callback([=, &exit] {
-        int width = 0, height = 0;
-        char after = 0;
-        if (std::sscanf(size->c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 1 ||
-            height < 1) {
-            exit = report_error({ErrorCode::kUsage,
-                                 "Cannot read the size '" + *size + "'. Write it like 512x512.",
-                                 {}});
-            return;
-        }
-        options->plane.size = {width, height};
-        exit = synth_command(*options);
-    });
-}
 
 void add_measure(CLI::App& app, int& exit) {
     CLI::App* command =
@@ -144,7 +83,6 @@ void add_demo(CLI::App& app, int& exit) {
 }  // namespace
 
 void add_tool_commands(CLI::App& app, int& exit) {
-    add_synth(app, exit);
     add_measure(app, exit);
     add_diff(app, exit);
     add_demo(app, exit);

@@ -54,17 +54,20 @@ struct Choices<TemporalMode> {
 };
 template <>
 struct Choices<LightSource> {
-    static constexpr std::array<std::pair<LightSource, std::string_view>, 3> kNames{
+    static constexpr std::array<std::pair<LightSource, std::string_view>, 4> kNames{
         {{LightSource::kPlate, "plate"},
          {LightSource::kNone, "none"},
+         {LightSource::kPainted, "painted"},
          {LightSource::kImage, "image"}}};
 };
 template <>
 struct Choices<LightForm> {
-    static constexpr std::array<std::pair<LightForm, std::string_view>, 3> kNames{
+    static constexpr std::array<std::pair<LightForm, std::string_view>, 5> kNames{
         {{LightForm::kGain, "gain"},
          {LightForm::kDetail, "detail"},
-         {LightForm::kLiteral, "literal"}}};
+         {LightForm::kLiteral, "literal"},
+         {LightForm::kStatistics, "statistics"},
+         {LightForm::kHistogram, "histogram"}}};
 };
 
 template <class E>

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "app/project/parameter_entry.h"
 
 namespace weft {
 namespace {
@@ -168,6 +171,22 @@ Expected<Project> apply_one(const Project& project, const SetTexture& edit) {
     });
 }
 
+Expected<Project> apply_one(const Project& project, const SetCorrection& edit) {
+    for (const CorrectionPin& pin : edit.pins) {
+        for (const double v : {pin.from.x, pin.from.y, pin.to.x, pin.to.y}) {
+            if (!(std::abs(v) <= parameter_entry::kMaxPlatePx))
+                return fail(ErrorCode::kUsage, fmt::format("A pin lies at {} px, but must lie "
+                                                           "within {} px of the plate's corner",
+                                                           v, parameter_entry::kMaxPlatePx));
+        }
+    }
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        region.corrections.erase(edit.frame);
+        if (!edit.pins.empty()) region.corrections.emplace(edit.frame, edit.pins);
+        return {};
+    });
+}
+
 std::string name_of_region(const Project& project, const RegionRef& ref) {
     const Region* region = ref.id != 0 ? region_by_id(project, ref.id) : nullptr;
     return region && !region->name.empty() ? region->name
@@ -197,6 +216,13 @@ std::vector<Edit> region_edits(const Region& before, const Region& after) {
     // A matte is set whole, its parameters with it.
     if (before.matte != after.matte) edits.emplace_back(SetMatte{ref, *after.matte});
     if (before.holdouts != after.holdouts) edits.emplace_back(SetHoldouts{ref, *after.holdouts});
+    for (const auto& [frame, pins] : before.corrections)
+        if (!after.corrections.contains(frame)) edits.emplace_back(SetCorrection{ref, frame, {}});
+    for (const auto& [frame, pins] : after.corrections) {
+        const auto was = before.corrections.find(frame);
+        if (was == before.corrections.end() || was->second != pins)
+            edits.emplace_back(SetCorrection{ref, frame, pins});
+    }
     for (const Parameter<Region>& parameter : region_parameters()) {
         const ParameterValue value = parameter.read(after);
         if (parameter.group != "matte" && value != parameter.read(before))
@@ -234,6 +260,11 @@ std::string edit_label(const Project& before, const Edit& edit) {
         }
         std::string operator()(const SetHoldouts& e) const {
             return "Set the holdouts of " + name(e.region);
+        }
+        std::string operator()(const SetCorrection& e) const {
+            return fmt::format("{} {} of {}",
+                               e.pins.empty() ? "Remove correction" : "Correct frame", e.frame,
+                               name(e.region));
         }
         std::string operator()(const SetTexture& e) const {
             return "Set the texture of " + name(e.region);

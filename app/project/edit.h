@@ -93,9 +93,17 @@ struct SetTexture {
     bool operator==(const SetTexture&) const = default;
 };
 
+/// Puts the texture back in place on a frame; without pins the frame's correction goes.
+struct SetCorrection {
+    RegionRef region;
+    int frame = 0;
+    std::vector<CorrectionPin> pins;
+    bool operator==(const SetCorrection&) const = default;
+};
+
 using Edit = std::variant<SetPlate, SetOutput, SetProjectParameter, AddRegion, RemoveRegion,
                           MoveRegion, RenameRegion, SetRegionParameter, SetMatte, SetMatteKeyframe,
-                          RemoveMatteKeyframe, SetHoldouts, SetTexture>;
+                          RemoveMatteKeyframe, SetHoldouts, SetTexture, SetCorrection>;
 
 /// The project after the edit; the one before is untouched and shares what did not change. Errors:
 /// Usage (no such region, frame or parameter; a value out of range). Pure, thread-safe.

@@ -204,6 +204,20 @@ void write(OrderedJson& object, const SetTexture& edit) {
     object["texture"] = write_group("texture", region);
 }
 
+Status read(ObjectReader& object, SetCorrection& edit) {
+    WEFT_TRY(region, read_region_ref(object));
+    WEFT_TRY(frame, read_frame(object));
+    WEFT_TRY(json, required(object, "pins"));
+    WEFT_TRY(pins, read_pins(*json, object.path_of("pins")));
+    edit = {std::move(region), frame, std::move(pins)};
+    return {};
+}
+void write(OrderedJson& object, const SetCorrection& edit) {
+    object["region"] = write_region_ref(edit.region);
+    object["frame"] = edit.frame;
+    object["pins"] = write_pins(edit.pins);
+}
+
 // ---- by name ---------------------------------------------------------------------------------
 
 /// In the order of the variant.
@@ -211,7 +225,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Edit>> kNames{
     "set_plate",     "set_output",         "set_project_parameter", "add_region",
     "remove_region", "move_region",        "rename_region",         "set_region_parameter",
     "set_matte",     "set_matte_keyframe", "remove_matte_keyframe", "set_holdouts",
-    "set_texture"};
+    "set_texture",   "set_correction"};
 
 template <std::size_t I = 0>
 Expected<Edit> read_named(std::string_view name, ObjectReader& object) {

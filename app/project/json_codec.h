@@ -102,6 +102,10 @@ void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> tab
 [[nodiscard]] Expected<MatteSource> read_matte_source(const Json& json, const std::string& path);
 [[nodiscard]] Expected<std::vector<MatteSource>> read_holdouts(const Json& json,
                                                                const std::string& path);
+/// At least one pin. Errors: Unreadable with the path.
+[[nodiscard]] Expected<std::vector<CorrectionPin>> read_pins(const Json& json,
+                                                             const std::string& path);
+[[nodiscard]] OrderedJson write_pins(const std::vector<CorrectionPin>& pins);
 /// Of the current schema version. Errors: Unreadable with the path; two regions of one id.
 [[nodiscard]] Expected<Project> read_project(const Json& json);
 [[nodiscard]] OrderedJson write_project(const Project& project);

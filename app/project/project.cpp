@@ -126,6 +126,8 @@ Project map_paths(const Project& project,
             map(region.texture.plane);
             map(region.motion.files);
             map(region.light.image);
+            map(region.light.albedo);
+            map(region.light.lighting);
             map(region.lines.files);
         });
     }
@@ -141,12 +143,15 @@ std::size_t own_bytes(const MatteSource& matte) {
 }
 
 std::size_t own_bytes(const Region& r) {
-    return sizeof r + r.reference_frames.capacity() * sizeof(int) +
+    std::size_t pins = 0;
+    for (const auto& [frame, list] : r.corrections)
+        pins += 64 + list.capacity() * sizeof(CorrectionPin);
+    return sizeof r + pins + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
                          r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,
-                         r.lines.files, r.lines.extra,
-                         r.extra);
+                         r.light.strength_keys, r.light.lamps, r.light.albedo, r.light.lighting,
+                         r.finish.extra, r.lines.files, r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {

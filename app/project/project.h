@@ -109,8 +109,8 @@ struct Placement {
     double scale = 1;       ///< Plate pixels per sample pixel at the placement's origin.
     double rotate_deg = 0;  ///< Counter-clockwise as seen on screen.
     PlatePoint offset_px;
-    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which scale,
-    /// rotation and offset act.
+    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
+    /// scale, rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
     Extras extra;
     bool operator==(const Placement&) const = default;
@@ -145,8 +145,29 @@ struct LightParams {
     std::string image;  ///< The illumination picture of kImage.
     LightForm form = LightForm::kGain;
     double strength = 1;  ///< λ
+    std::string strength_keys;  ///< λ over time, "1:1 24:0.3"; empty: `strength` throughout.
+    std::string lamps;          ///< Painted light (engine/lighting/painted_light.h).
+    double cast = 0;            ///< How far the light's colour is taken over.
+    double highlights = 0;      ///< How much of the old surface's gloss is kept.
+    std::string albedo;         ///< Pattern of the artist's unlit colour.
+    std::string lighting;       ///< Pattern of the artist's lighting pass.
     Extras extra;
     bool operator==(const LightParams&) const = default;
+};
+
+/// On one frame, what the texture shows at `from` belongs at `to`; plate pixels. `from` == `to`
+/// holds a place.
+struct CorrectionPin {
+    PlatePoint from, to;
+    bool operator==(const CorrectionPin&) const = default;
+};
+
+/// What makes the new texture look as if it had gone through the plate's camera.
+struct FinishParams {
+    double grain = 1;  ///< Of the plate's grain; 0: none.
+    double focus = 1;  ///< Of the plate's blur; 0: none.
+    Extras extra;
+    bool operator==(const FinishParams&) const = default;
 };
 
 /// The ink lines that stay on top of the new texture.
@@ -170,10 +191,12 @@ struct Region {
     TextureSource texture;
     Placement placement;
     std::vector<int> reference_frames;  ///< The first holds the placement; empty: the first frame.
+    std::map<int, std::vector<CorrectionPin>> corrections;  ///< By frame; each has a pin or more.
     MotionSource motion;
     SynthesisParams synthesis;
     TemporalParams temporal;
     LightParams light;
+    FinishParams finish;
     LineParams lines;
     Extras extra;
     bool operator==(const Region&) const = default;

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/project/json_codec.h"
+#include "app/project/parameter_entry.h"
 #include "app/project/project_json.h"
 
 namespace weft::json_codec {
 namespace {
 
-constexpr std::int64_t kMaxFrame = 100'000'000;
+constexpr std::int64_t kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 
 /// A nested object of a region or a project, by the member that holds it.
 template <class Owner>
@@ -29,6 +31,7 @@ constexpr std::array kRegionGroups{
     group<Region, &Region::texture>("texture"),   group<Region, &Region::placement>("placement"),
     group<Region, &Region::motion>("motion"),     group<Region, &Region::synthesis>("synthesis"),
     group<Region, &Region::temporal>("temporal"), group<Region, &Region::light>("light"),
+    group<Region, &Region::finish>("finish"),
     group<Region, &Region::lines>("lines"),
 };
 constexpr std::array kProjectGroups{
@@ -84,6 +87,25 @@ Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json, const st
     return out;
 }
 
+Expected<std::map<int, std::vector<CorrectionPin>>> read_corrections(const Json& json,
+                                                                     const std::string& path) {
+    if (!json.is_array())
+        return fail_at(path,
+                       fmt::format("This is {}, but must be a list of corrections", type_of(json)));
+    std::map<int, std::vector<CorrectionPin>> out;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        const Json* list = object.take("pins");
+        if (!list || list->empty()) return fail_at(object.path(), "A correction needs its pins");
+        WEFT_TRY(pins, read_pins(*list, object.path_of("pins")));
+        if (!out.emplace(static_cast<int>(frame), std::move(pins)).second)
+            return fail_at(object.path(),
+                           fmt::format("Frame {} has two corrections; remove one", frame));
+    }
+    return out;
+}
+
 Expected<std::vector<Region>> read_regions(const Json& json, const std::string& path) {
     if (!json.is_array())
         return fail_at(path,
@@ -128,6 +150,42 @@ Expected<std::vector<MatteSource>> read_holdouts(const Json& json, const std::st
     return out;
 }
 
+Expected<std::vector<CorrectionPin>> read_pins(const Json& json, const std::string& path) {
+    constexpr std::size_t kMostPins = 1000;
+    if (!json.is_array() || json.size() > kMostPins)
+        return fail_at(path, fmt::format("This is {}, but must be a list of at most {} pins",
+                                         type_of(json), kMostPins));
+    std::vector<CorrectionPin> out;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const std::string where = fmt::format("{}[{}]", path, i);
+        WEFT_TRY(object, ObjectReader::open(json[i], where));
+        const auto point = [&](std::string_view key) -> Expected<PlatePoint> {
+            const Json* value = object.take(key);
+            const bool fits = value && value->is_array() && value->size() == 2 &&
+                              (*value)[0].is_number() && (*value)[1].is_number();
+            const PlatePoint p =
+                fits ? PlatePoint{(*value)[0].get<double>(), (*value)[1].get<double>()}
+                     : PlatePoint{};
+            if (!fits || !(std::abs(p.x) <= parameter_entry::kMaxPlatePx) ||
+                !(std::abs(p.y) <= parameter_entry::kMaxPlatePx))
+                return fail_at(object.path_of(key), "This must be a point of the plate: [x, y]");
+            return p;
+        };
+        WEFT_TRY(from, point("from"));
+        WEFT_TRY(to, point("to"));
+        WEFT_CHECK_OK(object.expect_no_rest());
+        out.push_back({from, to});
+    }
+    return out;
+}
+
+OrderedJson write_pins(const std::vector<CorrectionPin>& pins) {
+    OrderedJson list = OrderedJson::array();
+    for (const CorrectionPin& pin : pins)
+        list.push_back({{"from", {pin.from.x, pin.from.y}}, {"to", {pin.to.x, pin.to.y}}});
+    return list;
+}
+
 Expected<Region> read_region(const Json& json, const std::string& path) {
     WEFT_TRY(object, ObjectReader::open(json, path));
     Region region;
@@ -143,6 +201,10 @@ Expected<Region> read_region(const Json& json, const std::string& path) {
     if (const Json* holdouts = object.take("holdouts")) {
         WEFT_TRY(sources, read_holdouts(*holdouts, object.path_of("holdouts")));
         region.holdouts = std::move(sources);
+    }
+    if (const Json* corrections = object.take("corrections")) {
+        WEFT_TRY(read, read_corrections(*corrections, object.path_of("corrections")));
+        region.corrections = std::move(read);
     }
     WEFT_CHECK_OK(read_groups(object, kRegionGroups, region_parameters(), region));
     region.extra = object.rest();
@@ -232,6 +294,8 @@ OrderedJson write_region(const Region& region) {
     write_parameters(object, region_parameters(), "", region);
     object["matte"] = write_matte_source(*region.matte);
     if (!region.holdouts->empty()) object["holdouts"] = write_holdouts(*region.holdouts);
+    for (const auto& [frame, pins] : region.corrections)
+        object["corrections"].push_back({{"frame", frame}, {"pins", write_pins(pins)}});
     for (const Group<Region>& known : kRegionGroups)
         object[std::string(known.name)] = write_one_group(known, region_parameters(), region);
     write_extras(object, region.extra);

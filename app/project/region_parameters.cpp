@@ -105,13 +105,13 @@ std::vector<Parameter<Region>> make_region_table() {
              .min = -kMaxPlatePx,
              .max = kMaxPlatePx,
              .optional = true}),
-        entry<R, &R::reference_frames>(
-            {.key = "reference_frames",
-             .flag = "--reference-frame",
-             .help = "Frame on which the texture is placed; further ones hold it in place; default the first frame",
-             .min = -kMaxFrame,
-             .max = kMaxFrame,
-             .repeatable = true}),
+        entry<R, &R::reference_frames>({.key = "reference_frames",
+                                        .flag = "--reference-frame",
+                                        .help = "Frame on which the texture is placed; further "
+                                                "ones hold it in place; default the first frame",
+                                        .min = -kMaxFrame,
+                                        .max = kMaxFrame,
+                                        .repeatable = true}),
         entry<R, &R::motion, &MotionSource::files>(
             {.group = "motion",
              .key = "files",
@@ -185,6 +185,57 @@ std::vector<Parameter<Region>> make_region_table() {
                                                      .help = "Strength of the light (λ)",
                                                      .min = 0,
                                                      .max = 1}),
+        entry<R, &R::light, &LightParams::strength_keys>(
+            {.group = "light",
+             .key = "strength_keys",
+             .flag = "--light-keys",
+             .help = "Strength of the light over time, FRAME:λ between spaces, instead of one"}),
+        entry<R, &R::light, &LightParams::lamps>(
+            {.group = "light",
+             .key = "lamps",
+             .flag = "--lamps",
+             .help = "Painted light: point X,Y RADIUS GAIN; directional ANGLE GAIN; gradient X,Y "
+                     "X,Y GAIN GAIN; keys as FRAME: … | FRAME: …"}),
+        entry<R, &R::light, &LightParams::cast>(
+            {.group = "light",
+             .key = "cast",
+             .flag = "--light-cast",
+             .help = "How far the colour of the light is taken over as well",
+             .min = 0,
+             .max = 1}),
+        entry<R, &R::light, &LightParams::highlights>(
+            {.group = "light",
+             .key = "highlights",
+             .flag = "--highlights",
+             .help = "How much of the old surface's gloss is kept",
+             .min = 0,
+             .max = 2}),
+        entry<R, &R::light, &LightParams::albedo>(
+            {.group = "light",
+             .key = "albedo",
+             .flag = "--albedo",
+             .help = "Pattern of a pass of the plate's unlit colour: gives the exact light",
+             .is_path = true}),
+        entry<R, &R::light, &LightParams::lighting>(
+            {.group = "light",
+             .key = "lighting",
+             .flag = "--lighting",
+             .help = "Pattern of a pass of the plate's light alone: gives the exact light",
+             .is_path = true}),
+        entry<R, &R::finish, &FinishParams::grain>(
+            {.group = "finish",
+             .key = "grain",
+             .flag = "--grain",
+             .help = "How much of the plate's grain is put on the texture (final quality)",
+             .min = 0,
+             .max = 2}),
+        entry<R, &R::finish, &FinishParams::focus>(
+            {.group = "finish",
+             .key = "focus",
+             .flag = "--focus",
+             .help = "How far the texture is blurred as the plate is (final quality)",
+             .min = 0,
+             .max = 2}),
         entry<R, &R::lines, &LineParams::files>(
             {.group = "lines",
              .key = "files",

@@ -40,7 +40,63 @@ std::vector<int> motion_frames(const RegionPlan& plan, const FrameSpan& span) {
                                : frames_between(span.first + 1, span.last);
 }
 
+// Those of `frames` for which the pattern has a file; all of them for a still or no pattern.
+Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> frames) {
+    if (text.empty()) return frames;
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    if (pattern.is_single()) return frames;
+    WEFT_TRY(present, pattern.list_frames());
+    std::vector<int> both;
+    std::set_intersection(frames.begin(), frames.end(), present.begin(), present.end(),
+                          std::back_inserter(both));
+    return both;
+}
+
+// The run of frames around `reference`, at most `reach` to each side, for which all files are there.
+Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
+                               int reach) {
+    std::vector<int> frames = plate.frames();
+    std::vector<std::string> patterns{region.matte->files, region.motion.files};
+    for (const MatteSource& holdout : *region.holdouts)
+        patterns.push_back(holdout.files);
+    for (const std::string& pattern : patterns) {
+        WEFT_TRY(left, with_files(pattern, std::move(frames)));
+        frames = std::move(left);
+    }
+    const auto has = [&](int f) { return std::binary_search(frames.begin(), frames.end(), f); };
+    FrameSpan run{reference, reference};
+    while (run.first > reference - reach && has(run.first - 1))
+        --run.first;
+    while (run.last < reference + reach && has(run.last + 1))
+        ++run.last;
+    return run;
+}
+
 }  // namespace
+
+Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& plan,
+                                        const FrameReader& plate) {
+    if (!(plan.grain > 0)) return std::vector<int>{};
+    constexpr int kReach = 3;
+    const int reference = plan.reference_frames.front();
+    WEFT_TRY(run, run_around(region, plate, reference, kReach));
+    if (run.last == reference) return std::vector<int>{};
+    return frames_between(reference, run.last);
+}
+
+Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
+                                          const ShotPlan& shot, const FrameReader& plate) {
+    if (!plan.estimates_light() || shot.quality == FlowQuality::kDraft) return std::vector<int>{};
+    constexpr int kReach = 48, kMostFrames = 12;
+    const int reference = plan.reference_frames.front();
+    WEFT_TRY(run, run_around(region, plate, reference, kReach));
+    const auto [first, last] = run;
+    const int steps = std::min(last - first, kMostFrames - 1);
+    std::vector<int> chosen{first};
+    for (int k = 1; k <= steps; ++k)
+        chosen.push_back(first + (last - first) * k / steps);
+    return chosen;
+}
 
 std::string frames_text(const std::vector<int>& frames) {
     const std::string list = format_frame_list(frames);
@@ -76,6 +132,9 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     if (!plan.propagated()) WEFT_CHECK_OK(check_pattern(region.matte->files, "The matte", all));
     for (const MatteSource& holdout : *region.holdouts) {
         WEFT_CHECK_OK(check_pattern(holdout.files, "The holdout", all));
+    }
+    for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
+        if (!pass.empty()) WEFT_CHECK_OK(check_pattern(pass, "The lighting pass", all));
     }
     if (plan.has_lines) {
         WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames));

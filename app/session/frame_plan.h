@@ -22,6 +22,20 @@ namespace weft {
 [[nodiscard]] Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
                                  const FrameReader& plate);
 
+/// The frames from which a region's old texture is told from light, up to twelve: all over the run
+/// of frames, within 48 of the first reference frame, for which everything is there. They do not
+/// depend on what is rendered. None where the plate gives no light, or in draft quality. Errors:
+/// those of the patterns.
+[[nodiscard]] Expected<std::vector<int>> light_evidence(const Region& region,
+                                                        const RegionPlan& plan,
+                                                        const ShotPlan& shot,
+                                                        const FrameReader& plate);
+
+/// The frames that grain is measured on: the first reference frame and up to three after it. None
+/// where it is not wanted, or there is no frame after. Errors: those of the patterns.
+[[nodiscard]] Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& plan,
+                                                      const FrameReader& plate);
+
 /// "frames 4-9 and 12"; long lists are cut.
 [[nodiscard]] std::string frames_text(const std::vector<int>& frames);
 

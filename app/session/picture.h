@@ -21,9 +21,7 @@ struct Picture {
     Image<std::uint16_t, 3> half;  ///< H×W×3, or empty.
     /// Red, green, blue of a pixel as the display encodes them; values above 1 stay.
     [[nodiscard]] Vec3 at(int x, int y) const;
-    [[nodiscard]] std::size_t size_bytes() const {
-        return srgb.size_bytes() + half.size_bytes();
-    }
+    [[nodiscard]] std::size_t size_bytes() const { return srgb.size_bytes() + half.size_bytes(); }
 };
 using PicturePtr = std::shared_ptr<const Picture>;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/color/color_space.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
 
@@ -55,6 +56,24 @@ class ProjectSource final : public ShotSource {
     [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
         WEFT_TRY(pattern, SequencePattern::parse(at(region).motion.files));
         return read_flow(pattern.path_for(frame), size());
+    }
+
+    [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
+        const LightParams& light = at(region).light;
+        const std::string& given = light.lighting.empty() ? light.albedo : light.lighting;
+        WEFT_TRY(pattern, SequencePattern::parse(given));
+        const std::string path = pattern.is_single() ? given : pattern.path_for(frame);
+        WEFT_TRY(picture, read_image(path));
+        if (picture.rgb.size() != size()) {
+            return fail(ErrorCode::kUnreadable,
+                        path + " is " + std::to_string(picture.rgb.width()) + " x " +
+                            std::to_string(picture.rgb.height()) +
+                            ", but the plate is not. Give a pass of the plate's size.");
+        }
+        const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
+        WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
+        to_linear->apply(picture.rgb);
+        return std::move(picture.rgb);
     }
 
   private:

@@ -88,6 +88,12 @@ class ShotOpener {
         WEFT_TRY(out_from_working, make_color_transform(working, out));
         WEFT_TRY(out_from_plate, make_color_transform(plate, out));
         WEFT_TRY(working_from_display, make_color_transform({kSrgb}, working));
+        WEFT_TRY(display_from_working, make_color_transform(working, {kSrgb}));
+        plan.display_from_working = display_from_working;
+        const PixelDepth depth = shot_.plate->depth();
+        plan.plate_quantum = depth == PixelDepth::kU8    ? 1.0f / 255.0f
+                             : depth == PixelDepth::kU16 ? 1.0f / 65535.0f
+                                                         : 0.0f;
         plan.working_from_plate = working_from_plate;
         plan.display_from_plate = display_from_plate;
         plan.out_from_working = out_from_working;
@@ -132,6 +138,14 @@ class ShotOpener {
             WEFT_TRY(first, default_reference(region, plan));
             plan.reference_frames = {first};
         }
+        // Where the artist has put the texture back in place, it is anchored too.
+        for (const auto& [frame, pins] : region.corrections) {
+            for (const CorrectionPin& pin : pins)
+                plan.corrections[frame].push_back({{pin.from.x, pin.from.y}, {pin.to.x, pin.to.y}});
+            auto& frames = plan.reference_frames;
+            if (std::find(frames.begin(), frames.end(), frame) == frames.end())
+                frames.push_back(frame);
+        }
         plan.true_motion = !region.motion.files.empty();
         plan.motion_forward = region.motion.direction == MotionDirection::kForward;
         plan.placement = plane_placement(region.placement);
@@ -144,6 +158,14 @@ class ShotOpener {
         plan.weight = static_cast<float>(region.temporal.weight);
         plan.light_source = region.light.source;
         plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        WEFT_CHECK_OK(add_light(region.light, plan));
+        const bool final = shot_.plan.quality == FlowQuality::kFinal;
+        plan.grain = final ? static_cast<float>(region.finish.grain) : 0.0f;
+        plan.focus = final ? static_cast<float>(region.finish.focus) : 0.0f;
+        WEFT_TRY(metered, grain_frames(region, plan, *shot_.plate));
+        plan.grain_frames = std::move(metered);
+        WEFT_TRY(evidence, light_evidence(region, plan, shot_.plan, *shot_.plate));
+        plan.light_evidence = std::move(evidence);
         plan.has_lines = !region.lines.files.empty();
         plan.extract_lines = region.lines.extract && !plan.has_lines;
         plan.line_width_px = static_cast<float>(region.lines.width_px);
@@ -217,6 +239,25 @@ class ShotOpener {
         plan.working_from_texture = working_from_texture;
         plan.display_from_texture = display_from_texture;
         plan.working_from_display = working_from_display_;
+        return {};
+    }
+
+    static Status add_light(const LightParams& light, RegionPlan& plan) {
+        auto keys = parse_keyed_number(light.strength_keys);
+        if (!keys) return fail_in(std::move(keys).error(), "--light-keys");
+        plan.strength_keys = std::move(*keys);
+        for (auto& [frame, values] : plan.strength_keys.keys)
+            values[0] = std::clamp(values[0], 0.0f, 1.0f);
+        auto lamps = parse_lamps(light.lamps);
+        if (!lamps) return fail_in(std::move(lamps).error(), "--lamps");
+        plan.lamps = std::move(*lamps);
+        if (light.source == LightSource::kPainted && plan.lamps.empty())
+            return fail(ErrorCode::kUsage, "Painted light needs lamps. Give them with --lamps.");
+        plan.cast = static_cast<float>(light.cast);
+        plan.highlights = static_cast<float>(light.highlights);
+        plan.light_pass = !light.lighting.empty() ? RegionPlan::Pass::kLighting
+                          : !light.albedo.empty() ? RegionPlan::Pass::kAlbedo
+                                                  : RegionPlan::Pass::kNone;
         return {};
     }
 

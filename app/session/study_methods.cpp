@@ -87,6 +87,8 @@ class Planner {
                 region.light.source = LightSource::kNone;
                 region.lines = LineParams{};
             }
+            // Grain is fresh in every frame, as the plate's is: it is no flicker of the method.
+            region.finish.grain = region.finish.focus = 0;
             change(region);
         });
         methods_.push_back(std::move(method));

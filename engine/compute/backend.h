@@ -4,23 +4,13 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "engine/compute/plane_pyramid.h"
+#include "engine/compute/frame_canvas.h"
+#include "engine/compute/plane_search.h"
 #include "engine/core/image.h"
 
 namespace weft {
-
-/// How finely a pixel's footprint on the plane is sampled.
-enum class SampleQuality { kDraft, kFinal };
-
-/// One frame's texture: every pixel whose matte is above 0 gets the mean of the plane over the
-/// pixel's footprint, which is the parallelogram that the coordinates' Jacobian spans.
-struct SampleRequest {
-    const PlanePyramid* plane = nullptr;
-    ViewF2 coords;   ///< H×W×2 texels of the plane (TextureCoords::uv).
-    ViewU8x1 matte;  ///< H×W
-    SampleQuality quality = SampleQuality::kFinal;
-};
 
 /// Operations on plain descriptors. Thread-safe: one backend serves many frames at a time.
 class Backend {
@@ -28,8 +18,19 @@ class Backend {
     virtual ~Backend() = default;
     [[nodiscard]] virtual std::string name() const = 0;         ///< As in --backend.
     [[nodiscard]] virtual std::string description() const = 0;  ///< Device, for the report.
+    /// What happened that a report should tell, such as that the CPU took over; each thing once.
+    [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+
     /// `out`: H×W×3, in the pyramid's space; pixels with matte 0 are left as they are.
     virtual void sample_plane(const SampleRequest& request, ImageView<float, 3> out) const = 0;
+
+    /// A search that keeps the plane on the backend's device. Null where there is none that is
+    /// faster than the CPU's own (engine/synthesis), or where it does not fit; remarks() says why.
+    [[nodiscard]] virtual std::unique_ptr<PlaneSearch> open_plane_search(
+        const PlaneSearchSetup& setup) const;
+    /// A frame on the backend's device, in linear light. Null where the frame is to be composited
+    /// on the CPU (engine/lighting, engine/composite); remarks() says why.
+    [[nodiscard]] virtual std::unique_ptr<FrameCanvas> open_frame(ViewF3 frame) const;
 };
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "engine/core/parallel.h"
@@ -74,6 +75,8 @@ int wrapped_index(int i, int n, WrapMode wrap) {
 
 PlanePyramid::PlanePyramid(ViewF3 linear, WrapMode wrap) : size_(linear.size()), wrap_(wrap) {
     if (linear.empty()) return;
+    static std::atomic<std::uint64_t> identities{0};
+    identity_ = ++identities;
     Level plane(size_);
     for (int y = 0; y < linear.height(); ++y) {
         for (int x = 0; x < linear.width(); ++x) {

@@ -1,6 +1,7 @@
 #pragma once
 // A texture plane prepared for filtered sampling.
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/compute/wrap_mode.h"
@@ -23,11 +24,15 @@ class PlanePyramid {
     [[nodiscard]] WrapMode wrap() const { return wrap_; }
     [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
     [[nodiscard]] bool empty() const { return levels_.empty(); }
+    /// Names the texels: pyramids with one identity hold the same ones, and within a process no
+    /// other texels ever get it. 0 is the empty pyramid.
+    [[nodiscard]] std::uint64_t identity() const { return empty() ? 0 : identity_; }
 
   private:
     Size size_;
     WrapMode wrap_ = WrapMode::kRepeat;
     std::vector<Level> levels_;
+    std::uint64_t identity_ = 0;
 };
 
 /// The index that `i` stands for on an axis of n texels; any i.

@@ -7,6 +7,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/shading.h"
+#include "engine/lighting/shading_lookup.h"
 
 namespace weft {
 namespace {
@@ -15,32 +16,6 @@ constexpr float kMinGain = 0.125f, kMaxGain = 8.0f;
 constexpr float kBaseSigma_px = 12.0f;  // of B, the base of the texture's V
 constexpr float kMinBase = 0.02f;       // display V
 constexpr int kBand = 8;
-
-// The shading at the plate pixels [x0, x0 + out.size()) of row y, bilinear between the small
-// picture's pixel centres.
-void upsample_row(const Shading& s, int x0, int y, std::vector<float>& blended,
-                  std::vector<float>& out) {
-    const float scale = 1.0f / static_cast<float>(s.downscale);
-    const int last_x = s.value.width() - 1, last_y = s.value.height() - 1;
-    const auto place = [scale](int pixel, int last) {
-        return std::clamp((static_cast<float>(pixel) + 0.5f) * scale - 0.5f, 0.0f,
-                          static_cast<float>(last));
-    };
-    const float fy = place(y, last_y);
-    const int j = static_cast<int>(fy);
-    const float* above = s.value.row(j);
-    const float* below = s.value.row(std::min(j + 1, last_y));
-    const float share = fy - static_cast<float>(j);
-    blended.resize(static_cast<std::size_t>(last_x) + 2);
-    for (int i = 0; i <= last_x; ++i)
-        blended[static_cast<std::size_t>(i)] = above[i] + share * (below[i] - above[i]);
-    blended[static_cast<std::size_t>(last_x) + 1] = blended[static_cast<std::size_t>(last_x)];
-    for (std::size_t x = 0; x < out.size(); ++x) {
-        const float fx = place(x0 + static_cast<int>(x), last_x);
-        const auto i = static_cast<std::size_t>(fx);
-        out[x] = blended[i] + (fx - static_cast<float>(i)) * (blended[i + 1] - blended[i]);
-    }
-}
 
 bool usable(float light) {
     return std::isfinite(light) && light > 0;
@@ -108,17 +83,42 @@ void display_row(float* rgb, const std::uint8_t* matte, const std::vector<float>
 
 }  // namespace
 
+void shading_row(const Shading& s, int x0, int y, std::vector<float>& blended,
+                 std::vector<float>& out) {
+    const float scale = 1.0f / static_cast<float>(s.downscale);
+    const int last_x = s.value.width() - 1, last_y = s.value.height() - 1;
+    const auto place = [scale](int pixel, int last) {
+        return std::clamp((static_cast<float>(pixel) + 0.5f) * scale - 0.5f, 0.0f,
+                          static_cast<float>(last));
+    };
+    const float fy = place(y, last_y);
+    const int j = static_cast<int>(fy);
+    const float* above = s.value.row(j);
+    const float* below = s.value.row(std::min(j + 1, last_y));
+    const float share = fy - static_cast<float>(j);
+    blended.resize(static_cast<std::size_t>(last_x) + 2);
+    for (int i = 0; i <= last_x; ++i)
+        blended[static_cast<std::size_t>(i)] = above[i] + share * (below[i] - above[i]);
+    blended[static_cast<std::size_t>(last_x) + 1] = blended[static_cast<std::size_t>(last_x)];
+    for (std::size_t x = 0; x < out.size(); ++x) {
+        const float fx = place(x0 + static_cast<int>(x), last_x);
+        const auto i = static_cast<std::size_t>(fx);
+        out[x] = blended[i] + (fx - static_cast<float>(i)) * (blended[i + 1] - blended[i]);
+    }
+}
+
 void apply_light(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const Shading& shading,
                  float reference, const LightOptions& options) {
     const float strength = std::clamp(options.strength, 0.0f, 1.0f);
-    if (texture.empty() || shading.value.empty() || !(strength > 0)) return;
+    if (texture.empty() || shading.value.empty() || !(strength > 0) || is_transfer(options.form))
+        return;
     if (options.form == LightForm::kGain && !usable(reference)) return;
     ImageF1 base;
     if (options.form == LightForm::kDetail) base = texture_base(texture, matte);
     parallel_rows(texture.height(), kBand, [&](int y0, int y1) {
         std::vector<float> blended, light(static_cast<std::size_t>(texture.width()));
         for (int y = y0; y < y1; ++y) {
-            upsample_row(shading, origin.x, origin.y + y, blended, light);
+            shading_row(shading, origin.x, origin.y + y, blended, light);
             if (options.form == LightForm::kGain)
                 gain_row(texture.row(y), matte.row(y), light, reference, strength);
             else

@@ -7,6 +7,7 @@
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
+#include "engine/lighting/quadratic_fit.h"
 #include "engine/lighting/reflectance.h"
 #include "engine/lighting/shading.h"
 #include "engine/lighting/surface_sample.h"
@@ -25,6 +26,9 @@ constexpr float kMinRange = 0.06f, kMaxRange = 0.3f;  // ln units
 constexpr int kRollings = 3;
 constexpr float kStepRange = 0.4f;  // steps below are smooth shading that rolling has terraced
 constexpr float kStepSigma = 0.6f;  // times the blur's
+
+constexpr float kRemains = 3.0f;            // deviations
+constexpr float kRemainsOfPattern = 0.12f;  // the most that is left of a pattern's deviation
 
 // A surface whose lightness varies by less than the first (a deviation, ln units) has no pattern,
 // and what varies is its own shading: wrinkles, facets. From the second on all of it is pattern.
@@ -72,6 +76,32 @@ float pattern_presence(float deviation) {
     return t * t * (3.0f - 2.0f * t);
 }
 
+// What a blur leaves of a pattern is wide and faint, and looks like light. Differences from the
+// surface's smooth light (a quadratic) that are no larger than such remains are taken for them; the
+// non-negative garrote (Gao 1998) takes the faint ones out and leaves shadows as they are.
+void remove_remains(ImageF1& light, const SurfaceSample& s) {
+    const QuadraticFit smooth(light, s.weight);
+    ImageF1 rest(light.size());
+    for (int y = 0; y < light.height(); ++y) {
+        for (int x = 0; x < light.width(); ++x)
+            rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
+    }
+    const ImageF1 none(light.size());
+    const float pattern = deviation_between(s.luma, light, s.weight);
+    const float limit = kRemains * std::min(deviation_between(rest, none, s.weight),
+                                            kRemainsOfPattern * pattern);
+    if (!(limit > 0)) return;
+    parallel_rows(light.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < light.width(); ++x) {
+                const float r = rest.row(y)[x];
+                const float t = r * r > 0 ? limit * limit / (r * r) : 1.0f;
+                light.row(y)[x] -= r * std::min(1.0f, t);
+            }
+        }
+    });
+}
+
 // Rolling guidance (Zhang et al. 2014, eq. 5): the blur takes the pattern away, filtering the
 // unblurred luma under the guidance of the result brings back the edges of what is wider.
 ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
@@ -89,36 +119,48 @@ ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
                                  std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
     for (int i = 0; i < kRollings; ++i)
         guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
-    return joint_bilateral(weighted(guide, s.weight), s.weight, guide,
-                           {kStepSigma * sigma, kStepRange});
+    ImageF1 light = joint_bilateral(weighted(guide, s.weight), s.weight, guide,
+                                    {kStepSigma * sigma, kStepRange});
+    remove_remains(light, s);
+    return light;
+}
+
+// pattern_px in pixels of the small picture.
+float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) {
+    return std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale));
 }
 
 }  // namespace
 
-Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
-    const int d = std::clamp(options.downscale, 1, 16);
-    Shading shading{ImageF1(reduced_size(linear.size(), d), 1.0f), d, linear.size()};
-    SurfaceSample sample = sample_surface(linear, visible, d);
-    if (sample.box.empty()) return shading;
-    const float pattern_px = std::max(1.0f, options.pattern_px / static_cast<float>(d));
-    if (options.chromaticity)
-        remove_chromatic_reflectance(sample, static_cast<int>(kChromaWindow * pattern_px) + 1);
-    const ImageF1 luma = without_pattern(sample, pattern_px);
+SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
+    SurfaceSample sample = sample_surface(linear, visible, std::clamp(options.downscale, 1, 16));
+    if (options.chromaticity && !sample.box.empty()) {
+        remove_chromatic_reflectance(
+            sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1);
+    }
+    return sample;
+}
 
+ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
+    return without_pattern(sample, small_pattern(sample, options));
+}
+
+Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample) {
+    Shading shading{ImageF1(reduced_size(sample.full, sample.downscale), 1.0f), sample.downscale,
+                    sample.full};
+    if (sample.box.empty()) return shading;
     shading.inside = Matte(shading.value.size());
-    Matte known(shading.value.size());
     parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < sample.box.width(); ++x) {
                 if (sample.weight.row(y)[x] == 0) continue;
                 const int u = x + sample.box.x0, v = y + sample.box.y0;
-                shading.value.row(v)[u] = luma.row(y)[x];
+                shading.value.row(v)[u] = log.row(y)[x];
                 shading.inside.row(v)[u] = 255;
-                known.row(v)[u] = 255;
             }
         }
     });
-    fill_unknown(shading.value, known);
+    fill_unknown(shading.value, shading.inside);
     parallel_rows(shading.value.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             float* row = shading.value.row(y);
@@ -127,6 +169,11 @@ Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& 
         }
     });
     return shading;
+}
+
+Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
+    const SurfaceSample sample = light_sample(linear, visible, options);
+    return shading_from_log(sample.box.empty() ? ImageF1() : log_shading(sample, options), sample);
 }
 
 }  // namespace weft

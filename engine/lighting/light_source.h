@@ -3,6 +3,6 @@
 namespace weft {
 
 /// Where the light on a new texture comes from.
-enum class LightSource { kPlate, kNone, kImage };
+enum class LightSource { kPlate, kNone, kPainted, kImage };
 
 }  // namespace weft

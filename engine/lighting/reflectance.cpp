@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lighting/masked_filters.h"
+#include "engine/lighting/quadratic_fit.h"
 
 namespace weft {
 namespace {
@@ -20,6 +21,9 @@ constexpr float kMinWeight = 1e-3f;
 // Share of the differences' energy that colour must explain: below the first the relation is chance
 // or the bluish tint of shadows and is left alone, from the second on it is taken whole.
 constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
+// Share of the explained variance that is wide: up to the first it is the light's tint, from the
+// second on patches of paint.
+constexpr double kTint = 0.1, kPaint = 0.25;
 
 struct Standard {
     float mean = 0;
@@ -27,7 +31,8 @@ struct Standard {
 };
 
 // Weighted mean and deviation; sums by row, in order, so that threads do not matter.
-Standard standard_of(const ImageF1& plane, const ImageF1& weight) {
+Standard standard_of(const ImageF1& plane, const ImageF1& weight,
+                     float min_deviation = kMinDeviation) {
     struct Sums {
         double w = 0, v = 0, v2 = 0;
     };
@@ -49,7 +54,7 @@ Standard standard_of(const ImageF1& plane, const ImageF1& weight) {
     const double mean = all.v / all.w;
     const double deviation = std::sqrt(std::max(0.0, all.v2 / all.w - mean * mean));
     return {static_cast<float>(mean),
-            1.0f / std::max(kMinDeviation, static_cast<float>(deviation))};
+            1.0f / std::max(min_deviation, static_cast<float>(deviation))};
 }
 
 using Terms = std::array<ImageF1, kTerms>;
@@ -182,6 +187,27 @@ std::array<double, kTerms> trusted_coefficients(const Terms& differences, const 
     return coefficients;
 }
 
+// Light that other objects throw back tints a surface, wide and faint. What of the explained part is
+// so beside the rest is left to the light.
+void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
+    const QuadraticFit fit(explained, weight);
+    ImageF1 wide(explained.size());
+    for (int y = 0; y < wide.height(); ++y) {
+        for (int x = 0; x < wide.width(); ++x)
+            wide.row(y)[x] = fit.at(x, y);
+    }
+    const auto variance = [&](const ImageF1& plane) {
+        const float inverse = standard_of(plane, weight, 1e-6f).inverse_deviation;
+        return 1.0 / (static_cast<double>(inverse) * inverse);
+    };
+    const double share = variance(wide) / std::max(1e-12, variance(explained));
+    const double t = std::clamp((kPaint - share) / (kPaint - kTint), 0.0, 1.0);
+    const auto keep = static_cast<float>(t * t * (3.0 - 2.0 * t));
+    const float mean = standard_of(wide, weight).mean;
+    for (std::size_t i = 0; i < wide.size_bytes() / sizeof(float); ++i)
+        explained.data()[i] -= keep * (wide.data()[i] - mean);
+}
+
 }  // namespace
 
 void remove_chromatic_reflectance(SurfaceSample& sample, int window_px) {
@@ -207,6 +233,7 @@ void remove_chromatic_reflectance(SurfaceSample& sample, int window_px) {
             }
         }
     });
+    keep_tint_of_light(explained, sample.weight);
     const float mean = standard_of(explained, sample.weight).mean;
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
         if (sample.weight.data()[i] > 0) sample.luma.data()[i] -= explained.data()[i] - mean;

@@ -4,14 +4,22 @@
 #include <optional>
 
 #include "engine/core/image.h"
+#include "engine/lighting/surface_sample.h"
 
 namespace weft {
 
 enum class LightForm {
     kGain,    ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [1/8, 8].
     kDetail,  ///< Display V: (λ Φ + (1−λ) B) · (V_T / B), B the base of the texture's V.
-    kLiteral  ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
+    kLiteral,  ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
+    // Baselines, without a shading (plate_transfer.h); apply_light does nothing for them.
+    kStatistics,  ///< Mean and deviation of the old surface's luma.
+    kHistogram    ///< Its histogram.
 };
+/// Whether a form transfers statistics instead of a shading.
+[[nodiscard]] constexpr bool is_transfer(LightForm form) {
+    return form == LightForm::kStatistics || form == LightForm::kHistogram;
+}
 // V is max(R, G, B) under the sRGB curve, Φ the shading under it, B a Gaussian (σ 12 px) of V
 // inside the matte, at least 0.02; V changes by scaling the encoded R, G, B with V'/V.
 
@@ -44,6 +52,15 @@ struct Shading {
 [[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible,
                                        const ShadingOptions& options);
 
+/// The two halves of estimate_shading: the plate as the estimate sees it, the colour of the
+/// surface's paint taken out, and the light in it.
+[[nodiscard]] SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible,
+                                         const ShadingOptions& options);
+/// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
+[[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
+/// Makes a Shading of it.
+[[nodiscard]] Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample);
+
 /// Steady in time: mixes the shading with the previous frame's, moved along the motion, where the
 /// two agree within noise; where they do not (a moving shadow, a change of light) the new one
 /// stands. `prev_from_cur`: full-size motion of the surface, pixels; where it is NaN the new one
@@ -57,6 +74,12 @@ struct Shading {
 
 /// From an illumination picture E, stretched over `box` of a plate of `full` size (the paper).
 [[nodiscard]] Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full);
+
+/// The artist's passes, exact at full size: a lighting pass is the shading itself; with an albedo
+/// pass it is what the plate has beyond it (linear light, the plate's size). Where neither says
+/// anything (black or not finite) it is continued from around.
+[[nodiscard]] Shading shading_from_lighting(ViewF3 lighting);
+[[nodiscard]] Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo);
 
 struct LightOptions {
     LightForm form = LightForm::kGain;

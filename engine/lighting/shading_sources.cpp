@@ -42,7 +42,46 @@ bool any_visible(ViewU8x1 visible, int x0, int y0, int d) {
     return false;
 }
 
+float luminance(const float* p) {
+    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+}
+
+// A shading at full size from what `value` says of a pixel; not above 0: nothing.
+template <class Value>
+Shading full_shading(Size size, const Value& value) {
+    Shading shading{ImageF1(size, 1.0f), 1, size};
+    if (size.empty()) return shading;
+    Matte known(size);
+    parallel_rows(size.height, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const float light = value(x, y);
+                if (!(std::isfinite(light) && light > 0)) continue;
+                shading.value.row(y)[x] = light;
+                known.row(y)[x] = 255;
+            }
+        }
+    });
+    fill_unknown(shading.value, known);
+    for (std::size_t i = 0; i < shading.value.size_bytes() / sizeof(float); ++i)
+        shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
+    return shading;
+}
+
 }  // namespace
+
+Shading shading_from_lighting(ViewF3 lighting) {
+    return full_shading(lighting.size(),
+                        [&](int x, int y) { return luminance(lighting.pixel(x, y)); });
+}
+
+Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo) {
+    constexpr float kBlack = 0.004f;  // an 8-bit albedo says nothing below
+    return full_shading(linear_plate.size(), [&](int x, int y) {
+        const float paint = luminance(albedo.pixel(x, y));
+        return paint > kBlack ? luminance(linear_plate.pixel(x, y)) / paint : 0.0f;
+    });
+}
 
 float median_shading(const Shading& shading, ViewU8x1 visible) {
     std::vector<float> values;

@@ -114,6 +114,8 @@ float floor_of(const SurfaceSample& s) {
 
 SurfaceSample sample_surface(ViewF3 linear, ViewU8x1 visible, int downscale) {
     SurfaceSample s;
+    s.downscale = downscale;
+    s.full = linear.size();
     const Recti full = covered_box(visible);
     if (full.empty()) return s;
     const int d = downscale;

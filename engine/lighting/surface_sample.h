@@ -14,6 +14,8 @@ struct SurfaceSample {
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
     float floor = 0;     ///< Keeps black from weighing more than it should; linear light.
+    int downscale = 1;   ///< Plate pixels a side of one pixel here.
+    Size full;           ///< Size of the plate.
 };
 
 /// Size of the small picture.

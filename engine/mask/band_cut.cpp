@@ -31,11 +31,11 @@ int color_distance(ViewU8x3 frame, int x0, int y0, int x1, int y1) {
 }
 
 // 1 / (2 mean ‖ΔI‖²) over the band (Rother et al. 2004, eq. 5).
-float contrast_scale(ViewU8x3 frame, ViewF1 phi, float band_px) {
+float contrast_scale(ViewU8x3 frame, ViewU8x1 undecided) {
     std::int64_t sum = 0, n = 0;
     for (int y = 0; y + 1 < frame.height(); ++y) {
         for (int x = 0; x + 1 < frame.width(); ++x) {
-            if (std::abs(phi.row(y)[x]) >= band_px) continue;
+            if (undecided.row(y)[x] == 0) continue;
             sum += color_distance(frame, x, y, x + 1, y) + color_distance(frame, x, y, x, y + 1);
             n += 2;
         }
@@ -46,12 +46,13 @@ float contrast_scale(ViewU8x3 frame, ViewF1 phi, float band_px) {
 
 // The pixels to be decided, numbered in scan order (−1: decided by the prior).
 struct Band {
-    Band(ViewF1 prior_phi, float band_px) : labels(prior_phi.size()), node(prior_phi.size(), -1) {
+    Band(ViewF1 prior_phi, ViewU8x1 undecided)
+        : labels(prior_phi.size()), node(prior_phi.size(), -1) {
         for (int y = 0; y < prior_phi.height(); ++y) {
             for (int x = 0; x < prior_phi.width(); ++x) {
                 const float phi = prior_phi.row(y)[x];
                 labels.row(y)[x] = phi > 0 ? 1 : 0;
-                if (std::abs(phi) < band_px) node.row(y)[x] = nodes++;
+                if (undecided.row(y)[x] != 0) node.row(y)[x] = nodes++;
             }
         }
     }
@@ -90,12 +91,12 @@ void link_pixel(cv::detail::GCGraph<int>& graph, std::vector<Terminal>& terminal
 
 }  // namespace
 
-Image<std::uint8_t, 1> cut_band(ViewU8x3 frame, ViewF1 log_odds, ViewF1 prior_phi, float band_px,
-                                float smoothness) {
+Image<std::uint8_t, 1> cut_band(ViewU8x3 frame, ViewF1 log_odds, ViewF1 prior_phi,
+                                ViewU8x1 undecided, float smoothness) {
     const int w = frame.width(), h = frame.height();
-    Band band(prior_phi, band_px);
+    Band band(prior_phi, undecided);
     if (band.nodes == 0) return std::move(band.labels);
-    const float beta = contrast_scale(frame, prior_phi, band_px);
+    const float beta = contrast_scale(frame, undecided);
     const auto nodes = static_cast<unsigned>(band.nodes);
     cv::detail::GCGraph<int> graph(nodes, 8 * nodes);
     for (unsigned i = 0; i < nodes; ++i)

@@ -6,12 +6,12 @@
 namespace weft {
 
 /// `log_odds` (H×W): evidence for inside (positive) or outside at each pixel, natural logarithm;
-/// `prior_phi`: signed distance of the expected boundary, pixels; only pixels nearer than `band_px`
-/// to it are decided, the others keep its sign. The boundary costs least along edges of `frame`
-/// (contrast- sensitive 8-neighbour terms, Boykov & Jolly 2001; weight `smoothness` in log-odds per
-/// pixel of length). Returns 1 inside, 0 outside. Deterministic.
+/// `prior_phi`: signed distance of the expected boundary, pixels; only `undecided` pixels
+/// (non-zero) are decided, the others keep its sign. The boundary costs least along edges of
+/// `frame` (contrast- sensitive 8-neighbour terms, Boykov & Jolly 2001; weight `smoothness` in
+/// log-odds per pixel of length). Returns 1 inside, 0 outside. Deterministic.
 [[nodiscard]] Image<std::uint8_t, 1> cut_band(ViewU8x3 frame, ViewF1 log_odds, ViewF1 prior_phi,
-                                              float band_px, float smoothness);
+                                              ViewU8x1 undecided, float smoothness);
 
 /// Turns parts of `labels` that hang on nothing back: inside parts that touch nothing of the sure
 /// inside (`prior_phi` ≥ `core_px`), and outside parts that touch nothing of the sure outside, when

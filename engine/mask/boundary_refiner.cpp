@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/core/parallel.h"
 #include "engine/mask/band_cut.h"
@@ -22,7 +23,9 @@ constexpr float kShapeReachPx = 4;    // shape prior: distance for one unit of l
 constexpr float kTrustedReachPx = 6;  // what it grows by where colours are trusted
 constexpr float kGrowthPenalty = 0.5f;  // log odds against surface beyond the expected boundary
 constexpr float kSmoothness = 2;
-constexpr float kIslandBands = 4;  // islands up to this many bands² are removed
+constexpr float kWideWeight = 1;
+constexpr float kContradiction = 1.0f;  // mean log odds that open up what seemed settled
+constexpr float kIslandBands = 4;       // islands up to this many bands² are removed
 
 // Evidence for inside at every pixel of the band: the colours' where they separate, and the
 // shape's, which holds the more firmly the less the colours say (SnapCut eq. 3–5, as a sum of log
@@ -33,13 +36,14 @@ struct Evidence {
 };
 
 Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colors,
-                         ViewF1 further_odds, float band_px) {
+                         ViewF1 further_odds, ViewF1 wide_odds, ViewU8x1 undecided, float band_px) {
     Evidence e{ImageF1(frame.size()), ImageF1(frame.size())};
     parallel_rows(frame.height(), 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < frame.width(); ++x) {
-                const float d = phi.row(y)[x];
-                if (std::abs(d) >= band_px) continue;
+                if (undecided.row(y)[x] == 0) continue;
+                // Far from where it is expected the shape says no more than at the band's end.
+                const float d = std::clamp(phi.row(y)[x], -band_px, band_px);
                 const std::uint8_t* c = frame.pixel(x, y);
                 const ColorProbability p = colors.at(x, y, Vec3(c[0], c[1], c[2]));
                 const float q = std::clamp(p.inside, 0.01f, 0.99f);
@@ -49,11 +53,41 @@ Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colo
                                        d / (kShapeReachPx + kTrustedReachPx * trust) -
                                        kGrowthPenalty * std::clamp(-d / 3, 0.0f, 1.0f);
                 if (!further_odds.empty()) e.log_odds.row(y)[x] += further_odds.row(y)[x];
+                if (!wide_odds.empty()) e.log_odds.row(y)[x] += kWideWeight * wide_odds.row(y)[x];
                 e.separability.row(y)[x] = p.separability;
             }
         }
     });
     return e;
+}
+
+// The band, and what hangs together with it and is contradicted by the evidence.
+Matte undecided_pixels(ViewF1 phi, ViewF1 wide_odds, float band_px, float reach_px) {
+    const int w = phi.width(), h = phi.height();
+    Matte undecided(phi.size());
+    std::vector<Vec2i> open;
+    const ImageF1 mean = wide_odds.empty() ? ImageF1() : smooth_distance(wide_odds, 3);
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            if (std::abs(phi.row(y)[x]) >= band_px) continue;
+            undecided.row(y)[x] = 1;
+            if (!mean.empty() && std::abs(phi.row(y)[x]) >= band_px - 2) open.emplace_back(x, y);
+        }
+    }
+    while (!open.empty()) {
+        const Vec2i p = open.back();
+        open.pop_back();
+        for (const Vec2i step : {Vec2i(1, 0), Vec2i(-1, 0), Vec2i(0, 1), Vec2i(0, -1)}) {
+            const Vec2i q = p + step;
+            if (q.x < 0 || q.y < 0 || q.x >= w || q.y >= h) continue;
+            const float d = phi.row(q.y)[q.x], odds = mean.row(q.y)[q.x];
+            if (undecided.row(q.y)[q.x] != 0 || std::abs(d) >= reach_px) continue;
+            if ((d > 0 ? -odds : odds) < kContradiction) continue;
+            undecided.row(q.y)[q.x] = 1;
+            open.push_back(q);
+        }
+    }
+    return undecided;
 }
 
 BoundaryEvidence weigh(ViewF1 expected, ViewF1 found, const Evidence& e, float band_px) {
@@ -116,10 +150,12 @@ std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px) {
 }
 
 RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const LocalColorField& colors,
-                                ViewF1 further_odds, const RefineScale& scale) {
-    const Evidence evidence =
-        gather_evidence(frame, expected_phi, colors, further_odds, scale.band_px);
-    auto labels = cut_band(frame, evidence.log_odds, expected_phi, scale.band_px, kSmoothness);
+                                ViewF1 further_odds, ViewF1 wide_odds, const RefineScale& scale) {
+    const Matte undecided =
+        undecided_pixels(expected_phi, wide_odds, scale.band_px, scale.limit_px - 1);
+    const Evidence evidence = gather_evidence(frame, expected_phi, colors, further_odds, wide_odds,
+                                              undecided, scale.band_px);
+    auto labels = cut_band(frame, evidence.log_odds, expected_phi, undecided, kSmoothness);
     remove_islands(labels, expected_phi, scale.band_px,
                    static_cast<int>(kIslandBands * scale.band_px * scale.band_px));
     RefinedBoundary result;

@@ -36,9 +36,10 @@ struct RefinedBoundary {
 [[nodiscard]] std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px);
 
 /// `frame`, `expected_phi` and `further_odds` (more log odds for inside, 0: none; may be empty) are
-/// of one size. Deterministic for any number of threads.
+/// of one size. So are `wide_odds` (may be empty): where these contradict what is expected, pixels
+/// further than the band from it are decided too. Deterministic for any number of threads.
 [[nodiscard]] RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi,
                                               const LocalColorField& colors, ViewF1 further_odds,
-                                              const RefineScale& scale);
+                                              ViewF1 wide_odds, const RefineScale& scale);
 
 }  // namespace weft

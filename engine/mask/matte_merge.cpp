@@ -79,7 +79,8 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
         w.source_centers = {w.center};
     const LocalColorField colors(std::move(windows), {{part, joint.agreed, 1.5f, 1.0f, 1.0f}},
                                  scale.window_half_px, scale.sample_stride, part.size());
-    const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.votes, scale);
+    const RefinedBoundary found =
+        refine_boundary(part, joint.expected, colors, joint.votes, ViewF1(), scale);
     for (int y = 0; y < area.height(); ++y) {
         std::copy(found.matte.row(y), found.matte.row(y) + area.width(),
                   merged.matte.pixel(area.x0, area.y0 + y));

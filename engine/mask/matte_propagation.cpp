@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/mask/background_motion.h"
+#include "engine/mask/background_plate.h"
 #include "engine/mask/boundary_refiner.h"
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/shape_transport.h"
@@ -69,7 +71,7 @@ Vec2i rounded(float x, float y) {
 
 Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     if (bounds.empty()) return bounds;
-    const int margin = static_cast<int>(scale.band_px) + scale.window_half_px + 4;
+    const int margin = static_cast<int>(scale.limit_px) + 4;
     return bounds.grown(margin).intersected(rect_of(frame));
 }
 
@@ -82,6 +84,7 @@ struct MatteWalker::State {
     ImageF1 key_phi;
     ImageF2 key_from_prev;  ///< Where each pixel's surface lay on the keyframe, pixels.
     RefineScale scale;
+    BackgroundPlate plate;
     float confidence = 1;
 
     LocalColorField learn_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
@@ -91,8 +94,9 @@ struct MatteWalker::State {
 MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key) {
     const RefineScale scale(frame.size());
     ImageF1 phi = smooth_distance(signed_distance(inside_of(key), scale.limit_px), 1);
-    state_ = std::make_unique<State>(
-        State{copy_of(frame), phi, copy_of(frame), phi, own_places(frame.size()), scale, 1.0f});
+    state_ = std::make_unique<State>(State{copy_of(frame), phi, copy_of(frame), phi,
+                                           own_places(frame.size()), scale,
+                                           BackgroundPlate(frame, phi), 1.0f});
 }
 
 MatteWalker::~MatteWalker() = default;
@@ -123,6 +127,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     const Recti area =
         working_area(transported_bounds(s.phi, prev_from_cur), s.scale, frame.size());
     ImageF1 phi(frame.size(), -s.scale.limit_px);
+    s.plate.move(background_motion(s.phi, prev_from_cur, s.scale.band_px));
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
     } else {
@@ -134,7 +139,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
             match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
                             Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
                            s.scale.band_px);
-        const RefinedBoundary found = refine_boundary(part, shape.phi, colors, matched, s.scale);
+        const RefinedBoundary found = refine_boundary(part, shape.phi, colors, matched,
+                                                      s.plate.odds(part, shape.phi, area), s.scale);
         // What each frame loses depends on how often its boundary had to be guessed. The result
         // ranks frames by how well they came out; it is not calibrated to be the overlap itself.
         const BoundaryEvidence& e = found.evidence;
@@ -146,6 +152,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         paste(s.key_from_prev, key_from_cur, area);
     }
     estimate.confidence = s.confidence;
+    s.plate.learn(frame, phi);
     s.phi = std::move(phi);
     s.frame = copy_of(frame);
     return estimate;

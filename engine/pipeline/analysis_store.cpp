@@ -137,6 +137,35 @@ Bytes encode(const Shading& shading) {
         .take();
 }
 
+// Luma is a natural logarithm.
+constexpr float kLumaSteps = kLogSteps * 1.44269504f;
+
+Bytes encode(const SurfaceSample& s) {
+    const std::size_t n = s.luma.size_bytes() / sizeof(float);
+    std::vector<std::int16_t> luma(n);
+    std::vector<std::uint8_t> weight(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        luma[i] = static_cast<std::int16_t>(
+            std::clamp(std::floor(s.luma.data()[i] * kLumaSteps + 0.5f), -32768.0f, 32767.0f));
+        // Above 0 stays above 0: it says where the surface is.
+        const float w = s.weight.data()[i];
+        weight[i] = static_cast<std::uint8_t>(
+            w > 0 ? std::clamp(w * 255.0f + 0.5f, 1.0f, 255.0f) : 0.0f);
+    }
+    return Writer()
+        .value(s.full)
+        .value(s.downscale)
+        .value(s.box)
+        .value(s.floor)
+        .raw(luma.data(), n * sizeof luma[0])
+        .raw(weight.data(), n)
+        .take();
+}
+
+Bytes encode(const GrainModel& grain) {
+    return Writer().value(grain.deviation).value(grain.kernel).value(grain.mix).take();
+}
+
 Bytes encode(const ImageU8x3& picture) {
     return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
 }
@@ -184,6 +213,40 @@ Expected<Shading> decode_shading(const Bytes& bytes) {
     out.value = ImageF1(size);
     std::transform(codes.begin(), codes.end(), out.value.data(), from_log_code);
     return out;
+}
+
+Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
+    Reader reader(bytes);
+    SurfaceSample s;
+    reader.value(s.full).value(s.downscale).value(s.box).value(s.floor);
+    if (!reader.ok() || !sane(s.full) || s.downscale < 1 || s.downscale > kLargestSide ||
+        !(s.floor >= 0)) {
+        return damaged("light");
+    }
+    if (s.box.empty()) return s;
+    const Recti frame = rect_of(reduced_size(s.full, s.downscale));
+    if (s.box.intersected(frame) != s.box || !reader.holds(area(s.box.size()), 3)) {
+        return damaged("light");
+    }
+    s.weight = s.luma = ImageF1(s.box.size());
+    const std::size_t n = s.luma.size_bytes() / sizeof(float);
+    std::vector<std::int16_t> luma(n);
+    std::vector<std::uint8_t> weight(n);
+    if (!reader.raw(luma.data(), n * sizeof luma[0]).raw(weight.data(), n).complete())
+        return damaged("light");
+    for (std::size_t i = 0; i < n; ++i) {
+        s.luma.data()[i] = static_cast<float>(luma[i]) / kLumaSteps;
+        s.weight.data()[i] = static_cast<float>(weight[i]) / 255.0f;
+    }
+    return s;
+}
+
+Expected<GrainModel> decode_grain(const Bytes& bytes) {
+    Reader reader(bytes);
+    GrainModel grain;
+    reader.value(grain.deviation).value(grain.kernel).value(grain.mix);
+    if (!reader.complete()) return damaged("grain");
+    return grain;
 }
 
 Expected<ImageU8x3> decode_picture(const Bytes& bytes) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/composite/grain.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
 #include "engine/lighting/shading.h"
@@ -20,7 +21,9 @@ enum class AnalysisKind : std::uint8_t {
     kMatte,         ///< Propagated and merged, with its confidence.
     kCoords,        ///< ref_from_cur
     kCoordsOneWay,  ///< The same between two references, as the first of them found it.
+    kLightSample,  ///< The plate as the estimate of light sees it (only while light is estimated).
     kShading,
+    kGrain,        ///< At the reference frame.
     kPaperTexture  ///< The paper mode's synthesised picture.
 };
 
@@ -64,11 +67,16 @@ struct StoredMatte {
 [[nodiscard]] Bytes encode(const StoredMatte& matte);
 [[nodiscard]] Bytes encode(const LatticeField& field);
 [[nodiscard]] Bytes encode(const Shading& shading);  ///< 16 bit, logarithmic: steps of 0.03%.
+/// Luma in 16 bit as above, weights in 8 bit; chromaticities are left out.
+[[nodiscard]] Bytes encode(const SurfaceSample& sample);
+[[nodiscard]] Bytes encode(const GrainModel& grain);
 [[nodiscard]] Bytes encode(const ImageU8x3& picture);
 /// Errors: RenderFailed when the bytes are not what the encoder wrote.
 [[nodiscard]] Expected<StoredMatte> decode_matte(const Bytes& bytes);
 [[nodiscard]] Expected<LatticeField> decode_lattice(const Bytes& bytes);
 [[nodiscard]] Expected<Shading> decode_shading(const Bytes& bytes);
+[[nodiscard]] Expected<SurfaceSample> decode_light_sample(const Bytes& bytes);
+[[nodiscard]] Expected<GrainModel> decode_grain(const Bytes& bytes);
 [[nodiscard]] Expected<ImageU8x3> decode_picture(const Bytes& bytes);
 
 }  // namespace weft

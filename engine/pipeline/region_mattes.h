@@ -12,7 +12,8 @@ namespace weft {
 [[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
                                             int region, int frame);
 
-/// The frames that a region's analysis spans: its frames to render, references and matte keyframes.
+/// The frames that a region's analysis spans: its frames to render, references, matte keyframes
+/// and the evidence of light and grain.
 struct FrameSpan {
     int first = 0, last = 0;
 };

@@ -2,6 +2,7 @@
 // What the pipeline needs to know of one region: plain settings, all paths and names resolved.
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,9 +11,11 @@
 #include "engine/compute/backend.h"
 #include "engine/core/image.h"
 #include "engine/lighting/light_source.h"
+#include "engine/lighting/painted_light.h"
 #include "engine/lighting/shading.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/seam/seam.h"
+#include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
 #include "engine/temporal/temporal_mode.h"
 
@@ -33,6 +36,7 @@ struct RegionPlan {
     bool has_holdout = false;
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
+    std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.
     bool true_motion = false;
     bool motion_forward = true;  ///< A file of true motion points to the next frame, else back.
     PlanePlacement placement;
@@ -51,6 +55,31 @@ struct RegionPlan {
     LightSource light_source = LightSource::kPlate;
     std::shared_ptr<const ImageF3> light_picture;  ///< Linear light; for kImage.
     LightOptions light;
+    KeyedNumbers strength_keys;  ///< λ over time, instead of light.strength.
+    std::vector<Lamp> lamps;     ///< For kPainted.
+    float cast = 0;              ///< How far the light's colour is taken over, 0–1.
+    float highlights = 0;        ///< How much of the old surface's gloss is kept.
+    enum class Pass { kNone, kAlbedo, kLighting };
+    Pass light_pass = Pass::kNone;  ///< A pass of the artist's that gives the plate's light.
+    /// λ on a frame.
+    [[nodiscard]] float strength_at(int frame) const {
+        return strength_keys.empty() ? light.strength : strength_keys.at(frame)[0];
+    }
+    [[nodiscard]] bool lights() const {
+        return light_source != LightSource::kNone &&
+               (light.strength > 0 || !strength_keys.empty() || cast > 0 || highlights > 0);
+    }
+    /// Whether the plate's shading has to be estimated.
+    [[nodiscard]] bool estimates_light() const {
+        return light_source == LightSource::kPlate && lights() && light_pass == Pass::kNone &&
+               !is_transfer(light.form);
+    }
+    /// Frames whose evidence tells the old texture from light, ascending; empty: each frame stands
+    /// for itself. They do not depend on what part of a shot is rendered.
+    std::vector<int> light_evidence;
+    // Finish: what the plate's camera does to a picture.
+    float grain = 0, focus = 0;     ///< Strengths; 0: none.
+    std::vector<int> grain_frames;  ///< Grain is measured on these, from the reference on.
     // Ink on top: from a pass, or found in the plate.
     bool has_lines = false, extract_lines = false;
     float line_width_px = 4;
@@ -63,7 +92,8 @@ struct ShotPlan {
     std::uint64_t seed = 1;
     bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
-        out_from_plate;
+        out_from_plate, display_from_working;
+    float plate_quantum = 0;  ///< The step of the plate's codes, of 1; 0: floating point.
     std::vector<RegionPlan> regions;  ///< Lowest layer first.
 };
 

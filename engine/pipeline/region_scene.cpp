@@ -5,6 +5,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
 
@@ -35,14 +36,23 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
     return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
 }
 
-// S₀: the plate's median shading inside the matte, on the reference frame.
-Expected<float> reference_shading(const ShotSource& source, const ShotPlan& plan,
-                                  const AnalysisStore& store, int region, int frame) {
-    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kShading}));
-    WEFT_TRY(shading, decode_shading(bytes));
-    WEFT_TRY(extent, extent_matte(source, plan, store, region, frame));
-    WEFT_TRY(holdout, holdout_matte(source, plan, region, frame));
-    return median_shading(shading, without_holdout(extent, holdout));
+// S₀, the plate's median shading inside the matte on the reference frame, and the light's colour
+// there. Painted light is relative to 1.
+Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
+                            const AnalysisStore& store, int index, int frame, RegionScene& scene) {
+    const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
+    const bool from_plate = region.light_source == LightSource::kPlate &&
+                            (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
+    if (!from_plate) return {};
+    WEFT_TRY(plate, source.plate(frame));
+    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(shading, region_shading(source, region, store, index, frame, working));
+    WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
+    WEFT_TRY(holdout, holdout_matte(source, plan, index, frame));
+    const Matte visible = without_holdout(extent, holdout);
+    scene.reference_shading = median_shading(*shading, visible);
+    if (region.cast > 0) scene.reference_colour = light_colour(working, visible, *shading);
+    return {};
 }
 
 }  // namespace
@@ -93,10 +103,13 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         scene.plane = std::move(plane);
     }
     const int reference = region.reference_frames.front();
-    if (region.light_source == LightSource::kPlate && region.light.strength > 0) {
-        WEFT_TRY(median, reference_shading(source, plan, store, region_index, reference));
-        scene.reference_shading = median;
-    } else if (region.light_source == LightSource::kImage) {
+    if (region.grain > 0 && !region.grain_frames.empty()) {
+        WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kGrain}));
+        WEFT_TRY(grain, decode_grain(bytes));
+        scene.grain = grain;
+    }
+    WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
+    if (region.light_source == LightSource::kImage) {
         WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
         scene.picture_light =
             shading_from_image(*region.light_picture, matte_bounds(extent), source.size());

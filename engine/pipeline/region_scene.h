@@ -7,6 +7,7 @@
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
+#include "engine/lighting/plate_transfer.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
@@ -19,6 +20,8 @@ struct RegionScene {
     Mat3 plane_from_plate{1};
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
+    LightColour reference_colour;  ///< Of the plate's light on the reference frame.
+    GrainModel grain;
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
 };
 

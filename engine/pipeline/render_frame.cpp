@@ -5,11 +5,15 @@
 #include <optional>
 
 #include "engine/composite/composite.h"
+#include "engine/composite/focus.h"
 #include "engine/composite/line_layer.h"
 #include "engine/core/parallel.h"
+#include "engine/core/rng.h"
+#include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
 
@@ -27,7 +31,8 @@ class FrameRenderer {
           backend_(backend),
           frame_(frame),
           plate_(std::move(plate)),
-          canvas_(transformed(*plate_, *plan.working_from_plate)),
+          working_(transformed(*plate_, *plan.working_from_plate)),
+          canvas_(working_),
           touched_(plate_->size()) {}
 
     Status add(int index, const RegionScene& scene);
@@ -42,6 +47,11 @@ class FrameRenderer {
                                                  const Recti& box) const;
     Status light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
                  ImageF3& texture);
+    // What the plate's camera does to a picture: its blur before light, which has it already, and
+    // its grain after.
+    void match_focus(int index, const Recti& box, const Matte& matte, ImageF3& texture) const;
+    void put_grain(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
+                   ImageF3& texture) const;
     // The region's ink, from its pass or found in the plate, over the lit texture.
     Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture);
 
@@ -51,7 +61,8 @@ class FrameRenderer {
     const Backend& backend_;
     int frame_;
     std::shared_ptr<const ImageF3> plate_;
-    ImageF3 canvas_;  // working space; layers go over it
+    const ImageF3 working_;  // the plate in the working space
+    ImageF3 canvas_;         // layers go over it
     Matte touched_;
     std::optional<PlateViews> views_;
     bool lit_ = false;
@@ -129,18 +140,53 @@ Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, co
 Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box,
                             const Matte& matte, ImageF3& texture) {
     const RegionPlan& region = region_of(plan_, index);
-    if (region.light_source == LightSource::kNone || region.light.strength <= 0) return {};
-    lit_ = true;
+    if (!region.lights()) return {};
+    LightOptions options = region.light;
+    options.strength = region.strength_at(frame_);
     const Vec2i origin(box.x0, box.y0);
-    if (scene.picture_light) {
-        apply_light(texture, origin, matte, *scene.picture_light, scene.reference_shading,
-                    region.light);
+    const ViewF3 old_surface = working_.view().crop(box);
+    lit_ = true;
+    if (is_transfer(options.form)) {
+        if (options.form == LightForm::kStatistics)
+            transfer_statistics(texture, old_surface, matte, options.strength);
+        else
+            match_histogram(texture, old_surface, matte, options.strength);
         return {};
     }
-    WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kShading}));
-    WEFT_TRY(shading, decode_shading(bytes));
-    apply_light(texture, origin, matte, shading, scene.reference_shading, region.light);
+    if (scene.picture_light) {
+        apply_light(texture, origin, matte, *scene.picture_light, scene.reference_shading, options);
+        return {};
+    }
+    WEFT_TRY(shading, region_shading(source_, region, store_, index, frame_, working_));
+    if (!shading) return {};
+    apply_light(texture, origin, matte, *shading, scene.reference_shading, options);
+    if (region.cast > 0) {
+        WEFT_TRY(whole, composite_matte(index));
+        apply_cast(texture, origin, matte, *shading, scene.reference_shading,
+                   light_colour(working_, whole, *shading), scene.reference_colour, region.cast);
+    }
+    add_highlights(texture, origin, old_surface, matte, *shading, region.highlights);
     return {};
+}
+
+void FrameRenderer::match_focus(int index, const Recti& box, const Matte& matte,
+                                ImageF3& texture) const {
+    const float strength = region_of(plan_, index).focus;
+    if (!(strength > 0)) return;
+    const float plate_px = edge_blur_px(working_.view().crop(box), matte);
+    if (!(plate_px > 0)) return;
+    blur_inside(texture, matte, strength * blur_between(edge_blur_px(texture, matte), plate_px));
+}
+
+void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& box,
+                              const Matte& matte, ImageF3& texture) const {
+    const RegionPlan& region = region_of(plan_, index);
+    if (!(region.grain > 0) || !scene.grain.present()) return;
+    const auto frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
+    ImageF3 display = transformed(texture, *plan_.display_from_working);
+    add_grain(display, matte, {box.x0, box.y0}, scene.grain, region.grain,
+              mix64(mix64(mix64(plan_.seed) ^ region.random_key) ^ frame));
+    texture = transformed(display, *region.working_from_display);
 }
 
 Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
@@ -155,8 +201,7 @@ Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
         ink = extract_ink(views_->display, matte, {.width_px = region.line_width_px});
     }
-    const ImageF3 plate = transformed(*plate_, *plan_.working_from_plate);
-    lay_lines(texture, plate.view().crop(box), ink.view().crop(box));
+    lay_lines(texture, working_.view().crop(box), ink.view().crop(box));
     return {};
 }
 
@@ -170,7 +215,10 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
         std::copy(row, row + box.width(), inside.row(y));
     }
     WEFT_TRY(surface, texture(index, scene, box, inside));
+    match_focus(index, box, inside, surface);
     WEFT_CHECK_OK(light(index, scene, box, inside, surface));
+    put_grain(index, scene, box, inside, surface);
+    // The ink has the plate's grain already.
     WEFT_CHECK_OK(lay_ink(index, box, matte, surface));
 
     const ImageView<float, 3> area = canvas_.view().crop(box);

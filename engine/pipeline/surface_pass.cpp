@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/temporal/surface_walker.h"
@@ -17,16 +18,21 @@ struct Job {
     FrameSpan span;
     std::vector<int> references;  // ascending
     int primary = 0;              // the reference that holds the placement
-    bool coords = false, shading = false, paper = false;
+    bool coords = false, shading = false, paper = false, grain = false;
 
     std::optional<SurfaceWalker> walker;
     std::optional<Shading> last_shading;
     std::optional<PaperWalker> painter;
     Matte last_visible;
+    std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
+    ImageF3 last_display;
+    Matte last_metered;
 
     [[nodiscard]] bool is_reference(int frame) const {
         return std::binary_search(references.begin(), references.end(), frame);
     }
+    // Light is estimated from several frames at once, after the legs.
+    [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }
     // Between two references what the first leg finds is not final: blend() makes it so.
     [[nodiscard]] AnalysisKind coords_kind(int frame) const {
         const bool between =
@@ -39,7 +45,7 @@ struct Job {
             if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
             if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
         }
-        return true;
+        return !grain || store.has({region, primary, AnalysisKind::kGrain});
     }
 };
 
@@ -58,8 +64,9 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
         // Further references anchor coordinates; nothing else is carried from them.
         if (!job.coords) job.references = {job.primary};
         job.paper = region.temporal == TemporalMode::kPaper;
-        job.shading = region.light_source == LightSource::kPlate && region.light.strength > 0;
-        if ((job.coords || job.paper || job.shading) && !job.complete(store)) {
+        job.shading = region.estimates_light();
+        job.grain = region.grain > 0 && !region.grain_frames.empty();
+        if ((job.coords || job.paper || job.shading || job.grain) && !job.complete(store)) {
             jobs.push_back(std::move(job));
         }
     }
@@ -115,6 +122,7 @@ class Follower {
         WEFT_TRY(visible, visible_at(job, at));
         WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
                                               : advance(job, at, visible));
+        WEFT_CHECK_OK(measure_grain(job, at, visible));
         return keep_all(job, at, visible);
     }
 
@@ -125,7 +133,7 @@ class Follower {
         if (at.frame >= job.primary && job.is_reference(at.frame)) {
             WEFT_CHECK_OK(restart(job, at, visible));
             // What the first leg left at the primary reference is where the past begins.
-            if (at.frame == job.primary && job.shading) {
+            if (at.frame == job.primary && job.shading && !job.gathers_light()) {
                 WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kShading}));
                 WEFT_TRY(shading, decode_shading(bytes));
                 job.last_shading = std::move(shading);
@@ -161,15 +169,26 @@ class Follower {
         options.exact_motion = job.plan->true_motion;
         options.spacing_px =
             std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
+        std::optional<LatticeField> placed;
+        if (const auto* pins = pins_at(job, at.frame); pins && !base) {
+            placed = corrected(LatticeField(context_.source.size(), options.spacing_px), *pins);
+            base = &*placed;
+        }
         job.walker.emplace(at.views->luma, visible, options, base);
         job.last_shading.reset();
         job.last_visible = visible;
-        if (job.paper && !base) {
+        if (job.paper && at.frame == job.primary) {
             job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size());
             WEFT_TRY(picture, job.painter->start(at.frame, context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
         return {};
+    }
+
+    // What the artist put right on this frame, or null.
+    [[nodiscard]] static const std::vector<SurfacePin>* pins_at(const Job& job, int frame) {
+        const auto pins = job.plan->corrections.find(frame);
+        return job.coords && pins != job.plan->corrections.end() ? &pins->second : nullptr;
     }
 
     // At a reference frame whose coordinates an earlier leg found.
@@ -188,7 +207,12 @@ class Follower {
             job.walker->advance(at.views->luma, visible, *at.prev_from_cur);
         }
         job.last_visible = visible;
-        if (job.is_reference(at.frame)) job.walker->anchor_here(at.views->luma, visible);
+        if (const auto* pins = pins_at(job, at.frame)) {
+            const LatticeField placed = corrected(job.walker->ref_from_cur(), *pins);
+            job.walker->anchor_here(at.views->luma, visible, &placed);
+        } else if (job.is_reference(at.frame)) {
+            job.walker->anchor_here(at.views->luma, visible);
+        }
         if (job.painter) {
             WEFT_TRY(picture,
                      job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
@@ -209,14 +233,19 @@ class Follower {
     }
 
     Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
-        if (job.coords) {
+        if (job.coords || job.gathers_light()) {
             WEFT_CHECK_OK(
                 keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
         }
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
         const Size size = working.size();
-        Shading shading = estimate_shading(working, visible, shading_options(context_.plan, size));
+        const ShadingOptions options = shading_options(context_.plan, size);
+        if (job.gathers_light()) {
+            return keep(job, at.frame, AnalysisKind::kLightSample,
+                        encode(light_sample(working, visible, options)));
+        }
+        Shading shading = estimate_shading(working, visible, options);
         if (job.last_shading) {
             shading = steady_shading(shading, *job.last_shading,
                                      job.walker->prev_from_cur().dense(rect_of(size)));
@@ -224,6 +253,24 @@ class Follower {
         WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kShading, encode(shading)));
         job.last_shading = std::move(shading);
         return {};
+    }
+
+    Status measure_grain(Job& job, const SweepFrame& at, const Matte& visible) {
+        if (!job.grain || at.frame > job.plan->grain_frames.back()) return {};
+        ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
+        if (at.frame == job.primary) {
+            job.meter.emplace(context_.plan.plate_quantum);
+        } else {
+            job.meter->add(display, job.last_display, visible, job.last_metered,
+                           job.walker->prev_from_cur().dense(rect_of(display.size())));
+        }
+        job.last_display = std::move(display);
+        job.last_metered = visible;
+        if (at.frame < job.plan->grain_frames.back()) return {};
+        const GrainModel grain = job.meter->model();
+        job.meter.reset();
+        job.last_display = {};
+        return keep(job, job.primary, AnalysisKind::kGrain, encode(grain));
     }
 
     // Between two references the histories from both are carried and their difference is spread
@@ -284,7 +331,12 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     };
     WEFT_CHECK_OK(run(legs.forward, &Follower::forward));
     WEFT_CHECK_OK(run(legs.backward, &Follower::backward));
-    return run(legs.again, &Follower::again);
+    WEFT_CHECK_OK(run(legs.again, &Follower::again));
+    for (const Job& job : jobs) {
+        if (job.gathers_light())
+            WEFT_CHECK_OK(estimate_light(context, job.region, {job.span.first, job.span.last}, store));
+    }
+    return {};
 }
 
 }  // namespace weft

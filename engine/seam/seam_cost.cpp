@@ -17,7 +17,7 @@ float distance(const std::uint8_t* a, const std::uint8_t* b) {
 
 }  // namespace
 
-void fill_seam_costs(ViewU8x3 a, ViewU8x3 b, SeamProblem& problem) {
+void fill_seam_costs(ViewU8x3 a, ViewU8x3 b, SeamProblem& problem, float gradient_floor) {
     const int w = problem.cells.width(), h = problem.cells.height();
     problem.right = Image<std::int32_t, 1>(w, h, 0);
     problem.down = Image<std::int32_t, 1>(w, h, 0);
@@ -27,8 +27,8 @@ void fill_seam_costs(ViewU8x3 a, ViewU8x3 b, SeamProblem& problem) {
             out[static_cast<std::size_t>(x)] = distance(a.pixel(x, y), b.pixel(x, y));
         }
     };
-    const auto cost = [](float sum, float gradient) {
-        const float v = sum / (gradient + kGradientFloor) * static_cast<float>(kSeamCostScale);
+    const auto cost = [=](float sum, float gradient) {
+        const float v = sum / (gradient + gradient_floor) * static_cast<float>(kSeamCostScale);
         return static_cast<std::int32_t>(v + 0.5f);
     };
     if (h > 0) mismatch(0, here);
@@ -52,6 +52,37 @@ void fill_seam_costs(ViewU8x3 a, ViewU8x3 b, SeamProblem& problem) {
             }
         }
         here.swap(below);
+    }
+}
+
+void fill_paper_costs(ViewU8x3 a, ViewU8x3 b, ViewU8x3 target, ViewU8x1 known,
+                      SeamProblem& problem) {
+    const int w = problem.cells.width(), h = problem.cells.height();
+    problem.right = Image<std::int32_t, 1>(w, h, 0);
+    problem.down = Image<std::int32_t, 1>(w, h, 0);
+    // Twice I, so that (A+B)/2 stays an integer.
+    const auto twice = [&](int x, int y, int c) {
+        const bool given = !known.empty() && known.at(x, y) != 0;
+        return given ? 2 * target.at(x, y, c) : a.at(x, y, c) + b.at(x, y, c);
+    };
+    const auto cost = [&](int x, int y, int qx, int qy) {
+        std::int64_t sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            const int d = twice(x, y, c) - twice(qx, qy, c);
+            sum += d * d;
+        }
+        constexpr std::int64_t kUnit = std::int64_t{4} * 255 * 255;
+        return static_cast<std::int32_t>((sum * kSeamCostScale + kUnit / 2) / kUnit);
+    };
+    const auto takes_part = [&](int x, int y) {
+        return problem.cells.at(x, y) != SeamCell::kOutside;
+    };
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            if (!takes_part(x, y)) continue;
+            if (x + 1 < w && takes_part(x + 1, y)) problem.right.at(x, y) = cost(x, y, x + 1, y);
+            if (y + 1 < h && takes_part(x, y + 1)) problem.down.at(x, y) = cost(x, y, x, y + 1);
+        }
     }
 }
 

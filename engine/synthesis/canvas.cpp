@@ -4,14 +4,19 @@
 
 namespace weft {
 
-std::optional<Vec2i> Canvas::first_unfilled() {
-    for (; scan_.y < size().height; ++scan_.y, scan_.x = 0) {
-        const std::uint8_t* row = filled_.row(scan_.y);
-        for (; scan_.x < size().width; ++scan_.x) {
-            if (!row[scan_.x]) return scan_;
+void Canvas::set_run(Vec2i p, int count, const std::uint8_t* rgb, Vec2i from) {
+    while (count > 0) {
+        const auto at = resolve(p.x, p.y);
+        const int n = at ? std::min(count, size().width - at->x) : 1;
+        if (at) {
+            std::copy_n(rgb, 3 * n, pixels_.pixel(at->x, at->y));
+            std::fill_n(filled_.pixel(at->x, at->y), n, std::uint8_t{1});
+            std::int32_t* s = source_.pixel(at->x, at->y);
+            for (int i = 0; i < n; ++i)
+                s[2 * i] = from.x + i, s[2 * i + 1] = from.y;
         }
+        p.x += n, from.x += n, rgb += 3 * n, count -= n;
     }
-    return std::nullopt;
 }
 
 Block copy_block(const Canvas& canvas, const Recti& rect) {

@@ -9,7 +9,8 @@
 namespace weft {
 
 /// Pixels, where they came from, and which are there yet. On a torus positions wrap around; on a
-/// plane what lies outside is never filled. Not thread-safe.
+/// plane what lies outside is never filled. Threads may work on different pixels at
+/// once.
 class Canvas {
   public:
     Canvas(Size size, bool torus)
@@ -33,20 +34,28 @@ class Canvas {
     /// 1 where a stored row is filled, else 0.
     [[nodiscard]] const std::uint8_t* filled_row(int y) const { return filled_.row(y); }
 
-    /// The first unfilled pixel in scanline order; nothing when all are filled. Pixels never become
-    /// unfilled, so the search goes on where it last ended.
-    [[nodiscard]] std::optional<Vec2i> first_unfilled();
-
     /// Shows sample pixel `from` with the colour `rgb` at `p`, a stored position.
     void set(Vec2i p, const std::uint8_t* rgb, Vec2i from) {
         std::uint8_t* out = pixels_.pixel(p.x, p.y);
         out[0] = rgb[0], out[1] = rgb[1], out[2] = rgb[2];
         std::int32_t* s = source_.pixel(p.x, p.y);
         s[0] = from.x, s[1] = from.y;
-        filled_count_ += filled_.at(p.x, p.y) == 0;
         filled_.at(p.x, p.y) = 1;
     }
-    [[nodiscard]] std::int64_t filled_count() const { return filled_count_; }
+    /// The same for `count` neighbours from (x, y) on, which may lie anywhere.
+    void set_run(Vec2i p, int count, const std::uint8_t* rgb, Vec2i from);
+
+    /// Pixels that no patch may change any more, at stored positions.
+    void lock(Vec2i p) {
+        if (locked_.empty()) locked_ = Image<std::uint8_t, 1>(size(), 0);
+        locked_.at(p.x, p.y) = 1;
+    }
+    [[nodiscard]] bool any_locked() const { return !locked_.empty(); }
+    [[nodiscard]] bool locked(int x, int y) const {
+        if (locked_.empty()) return false;
+        const auto p = resolve(x, y);
+        return p && locked_.at(p->x, p->y) != 0;
+    }
 
     ImageU8x3& pixels() { return pixels_; }
     Image<std::int32_t, 2>& source() { return source_; }
@@ -63,8 +72,7 @@ class Canvas {
     ImageU8x3 pixels_;
     Image<std::int32_t, 2> source_;
     Image<std::uint8_t, 1> filled_;
-    std::int64_t filled_count_ = 0;
-    Vec2i scan_{0, 0};
+    Image<std::uint8_t, 1> locked_;  ///< Empty: none.
 };
 
 /// A copy of a rectangle of the canvas, which may reach over its borders.

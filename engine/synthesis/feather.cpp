@@ -44,13 +44,11 @@ Image<std::uint8_t, 1> near_seams(ImageView<const std::int32_t, 2> source, int r
 
 }  // namespace
 
-ImageU8x3 feather_seams(ViewU8x3 sample, ImageView<const std::int32_t, 2> source, int radius_px,
-                        bool wrap) {
+ImageU8x3 feather_seams(const SampleAtlas& atlas, ImageView<const std::int32_t, 2> source,
+                        int radius_px, bool wrap) {
     const int w = source.width(), h = source.height();
     const Image<std::uint8_t, 1> blended = near_seams(source, radius_px + 1, wrap);
-    const auto in_sample = [&](Vec2i s) {
-        return s.x >= 0 && s.y >= 0 && s.x < sample.width() && s.y < sample.height();
-    };
+    const ViewU8x3 sample = atlas.pixels();
     ImageU8x3 out(w, h);
     const auto blend = [&](int x, int y) {
         std::array<int, 3> sum{};
@@ -61,7 +59,7 @@ ImageU8x3 feather_seams(ViewU8x3 sample, ImageView<const std::int32_t, 2> source
                 if (!wrap && (qx < 0 || qy < 0 || qx >= w || qy >= h)) continue;
                 const std::int32_t* s = source.pixel(wrapped(qx, w), wrapped(qy, h));
                 const Vec2i continued{s[0] - dx, s[1] - dy};
-                if (!in_sample(continued)) continue;
+                if (!atlas.page_of({s[0], s[1]}).rect.contains(continued.x, continued.y)) continue;
                 const int weight = (radius_px + 1 - std::abs(dx)) * (radius_px + 1 - std::abs(dy));
                 const std::uint8_t* rgb = sample.pixel(continued.x, continued.y);
                 for (std::size_t c = 0; c < 3; ++c)

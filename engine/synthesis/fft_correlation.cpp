@@ -4,41 +4,16 @@
 
 #include "engine/synthesis/fft_correlation.h"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
+
+#include "engine/synthesis/fftw_memory.h"
 
 namespace weft {
 namespace {
 
-// FFTW's planner is the one part of it that is not thread-safe.
-std::mutex& planner_mutex() {
-    static std::mutex mutex;
-    return mutex;
-}
-
-// The smallest even size ≥ n without prime factors above 5.
-int fast_size(int n) {
-    for (n += n % 2;; n += 2) {
-        int rest = n;
-        for (const int f : {2, 3, 5}) {
-            while (rest % f == 0)
-                rest /= f;
-        }
-        if (rest == 1) return n;
-    }
-}
-
-using Floats = std::unique_ptr<float[], void (*)(void*)>;
-
-Floats make_floats(std::size_t count) {
-    auto* p = static_cast<float*>(fftwf_malloc(count * sizeof(float)));
-    if (!p) throw std::bad_alloc();
-    return {p, fftwf_free};
-}
+using Floats = FftwFloats;
 
 // Sums over rectangles of exact integers.
 class Integral {
@@ -71,30 +46,28 @@ class Integral {
 }  // namespace
 
 struct FftCorrelation::Plans {
-    fftwf_plan forward = nullptr, backward = nullptr;
+    FftwPlan forward, backward;
     std::size_t padded_row = 0, count = 0;  ///< Floats of an in-place row, of the whole.
 
     explicit Plans(Size fft)
         : padded_row(2 * static_cast<std::size_t>(fft.width / 2 + 1)),
           count(padded_row * static_cast<std::size_t>(fft.height)) {
-        const Floats work = make_floats(count);
+        const Floats work = make_fftw_floats(count);
         auto* spectrum = reinterpret_cast<fftwf_complex*>(work.get());
-        const std::lock_guard lock(planner_mutex());
-        forward = fftwf_plan_dft_r2c_2d(fft.height, fft.width, work.get(), spectrum, FFTW_ESTIMATE);
-        backward =
-            fftwf_plan_dft_c2r_2d(fft.height, fft.width, spectrum, work.get(), FFTW_ESTIMATE);
-        if (!forward || !backward) throw std::bad_alloc();
-    }
-    ~Plans() {
-        const std::lock_guard lock(planner_mutex());
-        fftwf_destroy_plan(forward);
-        fftwf_destroy_plan(backward);
+        forward = make_fftw_plan([&] {
+            return fftwf_plan_dft_r2c_2d(fft.height, fft.width, work.get(), spectrum,
+                                         FFTW_ESTIMATE);
+        });
+        backward = make_fftw_plan([&] {
+            return fftwf_plan_dft_c2r_2d(fft.height, fft.width, spectrum, work.get(),
+                                         FFTW_ESTIMATE);
+        });
     }
     void run_forward(float* data) const {
-        fftwf_execute_dft_r2c(forward, data, reinterpret_cast<fftwf_complex*>(data));
+        fftwf_execute_dft_r2c(forward.get(), data, reinterpret_cast<fftwf_complex*>(data));
     }
     void run_backward(float* data) const {
-        fftwf_execute_dft_c2r(backward, reinterpret_cast<fftwf_complex*>(data), data);
+        fftwf_execute_dft_c2r(backward.get(), reinterpret_cast<fftwf_complex*>(data), data);
     }
 };
 
@@ -109,7 +82,7 @@ FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     : sample_size_(sample.size()), block_(block), lo_(lo), hi_(hi) {
     // Circular wrap must not bring a sample pixel over a block pixel that it does not reach.
     const auto size = [](int s, int b, int l, int h) {
-        return fast_size(std::max({b, s + std::max(h, 0), b - l}));
+        return fast_fft_size(std::max({b, s + std::max(h, 0), b - l}));
     };
     fft_ = {size(sample.width(), block.width, lo.x, hi.x),
             size(sample.height(), block.height, lo.y, hi.y)};
@@ -126,7 +99,7 @@ FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
         mean_[c] = static_cast<int>(total[c] / area);
 
     for (std::size_t c = 0; c < 4; ++c) {
-        Floats data = make_floats(plans_->count);
+        Floats data = make_fftw_floats(plans_->count);
         std::fill_n(data.get(), plans_->count, 0.0f);
         for (int y = 0; y < sample.height(); ++y) {
             float* out = data.get() + static_cast<std::size_t>(y) * plans_->padded_row;
@@ -154,7 +127,7 @@ FftCorrelation::~FftCorrelation() = default;
 FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target) const {
     Weighted out{{}, {}, Integral(block_), Integral(block_)};
     for (int c = 0; c < 4; ++c) {
-        out.data.push_back(make_floats(plans_->count));
+        out.data.push_back(make_fftw_floats(plans_->count));
         std::fill_n(out.data.back().get(), plans_->count, 0.0f);
     }
     std::vector<std::uint64_t> weight_row(static_cast<std::size_t>(block_.width));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/seam/isa.h"
+
 namespace weft {
 namespace {
 
@@ -38,10 +40,11 @@ std::uint64_t squared_differences_any(const std::uint8_t* a, const std::uint8_t*
 
 using SumFn = std::uint64_t (*)(const std::uint8_t*, const std::uint8_t*, int);
 
-SumFn fastest_sum() {
+SumFn sum_for(Isa isa) {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return squared_differences_avx2;
+    if (isa != Isa::kScalar) return squared_differences_avx2;
 #endif
+    (void)isa;
     return squared_differences_any;
 }
 
@@ -83,7 +86,7 @@ std::vector<OverlapScorer::Run> OverlapScorer::runs_of(ViewU8x1 mask) {
 }
 
 OverlapCost OverlapScorer::sum(const std::vector<Run>& runs, ViewU8x3 picture, Vec2i t) const {
-    static const SumFn sum_of = fastest_sum();
+    const SumFn sum_of = sum_for(current_isa());
     OverlapCost cost;
     for (const Run& r : runs) {
         if (r.y < t.y || r.y >= t.y + sample_.height()) continue;

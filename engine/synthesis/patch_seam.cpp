@@ -1,36 +1,54 @@
 #include "engine/synthesis/patch_seam.h"
 
+#include <algorithm>
+
 #include "engine/seam/seam_cost.h"
 
 namespace weft {
 namespace {
 
-// The patch's part of the sample.
-ViewU8x3 new_picture(ViewU8x3 sample, const Patch& patch) {
+// The patch's part of the atlas.
+ViewU8x3 new_picture(ViewU8x3 atlas, const Patch& patch) {
     const Recti r = patch.rect;
-    return sample.crop({r.x0 - patch.origin.x, r.y0 - patch.origin.y, r.x1 - patch.origin.x,
-                        r.y1 - patch.origin.y});
+    return atlas.crop({r.x0 - patch.origin.x, r.y0 - patch.origin.y, r.x1 - patch.origin.x,
+                       r.y1 - patch.origin.y});
 }
 
+// Ties by the four neighbours; the outermost pixels of the patch look into the canvas.
 Image<SeamCell, 1> tie_overlap(const Canvas& canvas, ViewU8x1 filled, ViewU8x1 inside,
                                const Recti& rect) {
     const int w = rect.width(), h = rect.height();
     Image<SeamCell, 1> cells(w, h, SeamCell::kOutside);
+    // 1 where a pixel of the patch is to be filled still.
+    Image<std::uint8_t, 1> empty(w + 2, h + 2, 0);
     for (int y = 0; y < h; ++y) {
+        const std::uint8_t *f = filled.row(y), *in = inside.row(y);
+        std::uint8_t* e = empty.pixel(1, y + 1);
+        for (int x = 0; x < w; ++x)
+            e[x] = static_cast<std::uint8_t>(in[x] & (f[x] ^ 1));
+    }
+    for (int y = 0; y < h; ++y) {
+        const std::uint8_t* f = filled.row(y);
+        const std::uint8_t *above = empty.pixel(1, y), *e = empty.pixel(1, y + 1),
+                           *below = empty.pixel(1, y + 2);
+        SeamCell* out = cells.row(y);
         for (int x = 0; x < w; ++x) {
-            if (!filled.at(x, y)) continue;
-            bool old_outside = false, empty_inside = false;
-            for (const Vec2i d : {Vec2i{1, 0}, Vec2i{-1, 0}, Vec2i{0, 1}, Vec2i{0, -1}}) {
-                const int nx = x + d.x, ny = y + d.y;
-                if (nx >= 0 && ny >= 0 && nx < w && ny < h) {
-                    empty_inside |= inside.at(nx, ny) != 0 && filled.at(nx, ny) == 0;
-                } else {
-                    old_outside |= canvas.filled(rect.x0 + nx, rect.y0 + ny);
-                }
-            }
-            cells.at(x, y) = old_outside    ? SeamCell::kOld
-                             : empty_inside ? SeamCell::kNew
-                                            : SeamCell::kFree;
+            const bool beside_empty = (above[x] | below[x] | e[x - 1] | e[x + 1]) != 0;
+            out[x] = !f[x] ? SeamCell::kOutside : beside_empty ? SeamCell::kNew : SeamCell::kFree;
+        }
+    }
+    const auto tie_to_outside = [&](int x, int y, int dx, int dy) {
+        if (filled.row(y)[x] && canvas.filled(rect.x0 + x + dx, rect.y0 + y + dy)) {
+            cells.at(x, y) = SeamCell::kOld;
+        }
+    };
+    for (int x = 0; x < w; ++x)
+        tie_to_outside(x, 0, 0, -1), tie_to_outside(x, h - 1, 0, 1);
+    for (int y = 0; y < h; ++y)
+        tie_to_outside(0, y, -1, 0), tie_to_outside(w - 1, y, 1, 0);
+    for (int y = 0; y < h && canvas.any_locked(); ++y) {
+        for (int x = 0; x < w; ++x) {
+            if (canvas.locked(rect.x0 + x, rect.y0 + y)) cells.at(x, y) = SeamCell::kOld;
         }
     }
     return cells;
@@ -54,43 +72,56 @@ SeamResult solve_by(SeamMethod method, const SeamProblem& problem) {
 
 }  // namespace
 
-SeamProblem overlap_problem(const Canvas& canvas, const Block& block, ViewU8x3 sample,
-                            const Patch& patch, const PlaneGuide* guide) {
+SeamProblem overlap_problem(const Canvas& canvas, const Block& block, ViewU8x3 atlas,
+                            const Patch& patch, const PlaneOptions& options, float gradient_floor) {
     const Recti local = within(block, patch.rect);
     SeamProblem problem;
     problem.cells = tie_overlap(canvas, block.filled.view().crop(local),
                                 block.inside.view().crop(local), patch.rect);
-    const ViewU8x3 a = block.pixels.view().crop(local), b = new_picture(sample, patch);
-    fill_seam_costs(a, b, problem);
-    if (guide) {
-        ImageU8x3 target(patch.rect.size());
-        Matte known(patch.rect.size(), 0);
+    const ViewU8x3 a = block.pixels.view().crop(local), b = new_picture(atlas, patch);
+    ImageU8x3 target;
+    Matte known;
+    if (options.guide) {
+        target = ImageU8x3(patch.rect.size());
+        known = Matte(patch.rect.size(), 0);
         for (int y = 0; y < target.height(); ++y) {
             for (int x = 0; x < target.width(); ++x) {
                 const auto p = canvas.resolve(patch.rect.x0 + x, patch.rect.y0 + y);
-                if (!p || !guide->known.at(p->x, p->y)) continue;
+                if (!p || !options.guide->known.at(p->x, p->y)) continue;
                 known.at(x, y) = 255;
-                for (int c = 0; c < 3; ++c)
-                    target.at(x, y, c) = guide->target.at(p->x, p->y, c);
+                std::copy_n(options.guide->target.pixel(p->x, p->y), 3, target.pixel(x, y));
             }
         }
-        fill_data_costs(a, b, target, known, guide->weight, problem);
+        fill_data_costs(a, b, target, known, options.guide->weight, problem);
+    }
+    if (options.seam_cost == SeamCost::kPaper) {
+        fill_paper_costs(a, b, target, known, problem);
+    } else {
+        fill_seam_costs(a, b, problem, gradient_floor);
     }
     return problem;
 }
 
-std::size_t lay_patch(Canvas& canvas, const Block& block, ViewU8x3 sample, const Patch& patch,
-                      SeamMethod method, const PlaneGuide* guide) {
-    const SeamProblem problem = overlap_problem(canvas, block, sample, patch, guide);
-    const SeamResult seam = solve_by(method, problem);
-    for (int y = patch.rect.y0; y < patch.rect.y1; ++y) {
-        for (int x = patch.rect.x0; x < patch.rect.x1; ++x) {
-            const int lx = x - patch.rect.x0, ly = y - patch.rect.y0;
-            if (problem.cells.at(lx, ly) != SeamCell::kOutside && !seam.labels.at(lx, ly)) continue;
-            const auto p = canvas.resolve(x, y);
-            if (!p) continue;
-            const Vec2i from{x - patch.origin.x, y - patch.origin.y};
-            canvas.set(*p, sample.pixel(from.x, from.y), from);
+std::size_t lay_patch(Canvas& canvas, const Block& block, ViewU8x3 atlas, const Patch& patch,
+                      const PlaneOptions& options, float gradient_floor) {
+    const SeamProblem problem =
+        overlap_problem(canvas, block, atlas, patch, options, gradient_floor);
+    const SeamResult seam = solve_by(options.seam, problem);
+    const Recti& r = patch.rect;
+    const auto shows_new = [&](int x, int y) {
+        return problem.cells.row(y)[x] == SeamCell::kOutside || seam.labels.row(y)[x] != 0;
+    };
+    for (int y = 0; y < r.height(); ++y) {
+        for (int x = 0; x < r.width();) {
+            if (!shows_new(x, y)) {
+                ++x;
+                continue;
+            }
+            const int start = x;
+            while (x < r.width() && shows_new(x, y))
+                ++x;
+            const Vec2i from{r.x0 + start - patch.origin.x, r.y0 + y - patch.origin.y};
+            canvas.set_run({r.x0 + start, r.y0 + y}, x - start, atlas.pixel(from.x, from.y), from);
         }
     }
     return seam.graph_bytes;

@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// A patch to lay: sample pixel p − origin shows at canvas position p, for p in `rect`, which lies
+/// A patch to lay: atlas pixel p − origin shows at canvas position p, for p in `rect`, which lies
 /// inside `block` and, but for a torus, inside the canvas.
 struct Patch {
     Recti rect;
@@ -18,13 +18,14 @@ struct Patch {
 
 /// The overlap of a patch with what the canvas shows. Overlap pixels with a filled neighbour
 /// outside of the patch are tied to the old side, others with an unfilled one inside it to the new
-/// side.
-[[nodiscard]] SeamProblem overlap_problem(const Canvas& canvas, const Block& block, ViewU8x3 sample,
-                                          const Patch& patch, const PlaneGuide* guide);
+/// side. Costs and guide are those of the options.
+[[nodiscard]] SeamProblem overlap_problem(const Canvas& canvas, const Block& block, ViewU8x3 atlas,
+                                          const Patch& patch, const PlaneOptions& options,
+                                          float gradient_floor = kGradientFloor);
 
-/// Finds the seam by `method` and puts the patch's side of it into the canvas. Returns the bytes
-/// that the solver took.
-std::size_t lay_patch(Canvas& canvas, const Block& block, ViewU8x3 sample, const Patch& patch,
-                      SeamMethod method, const PlaneGuide* guide);
+/// Finds the seam by the options' method and puts the patch's side of it into the canvas. Returns
+/// the bytes that the solver took.
+std::size_t lay_patch(Canvas& canvas, const Block& block, ViewU8x3 atlas, const Patch& patch,
+                      const PlaneOptions& options, float gradient_floor = kGradientFloor);
 
 }  // namespace weft

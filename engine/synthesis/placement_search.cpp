@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <numeric>
 #include <optional>
 
+#include "engine/seam/isa.h"
+#include "engine/synthesis/direct_search.h"
 #include "engine/synthesis/fft_correlation.h"
 
 namespace weft {
@@ -11,8 +15,17 @@ namespace {
 
 // Measured on x86-64: a transform's nominal operation, and one byte of a direct comparison.
 constexpr double kFftOperation_ns = 0.055;
-constexpr double kDirectByte_ns = 0.05;
 constexpr int kTransforms = 5;
+double direct_byte_ns() {
+    switch (current_isa()) {
+        case Isa::kAvx512:
+            return 0.004;
+        case Isa::kAvx2:
+            return 0.016;
+        default:
+            return 0.2;
+    }
+}
 
 bool better(const OverlapCost& a, const OverlapCost& b) {
     return !at_most(b, a);
@@ -20,8 +33,12 @@ bool better(const OverlapCost& a, const OverlapCost& b) {
 
 }  // namespace
 
+struct PlacementSearch::Once {
+    std::once_flag direct, fft;
+};
+
 PlacementSearch::PlacementSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
-    : sample_(sample), block_(block), lo_(lo), hi_(hi) {}
+    : sample_(sample), block_(block), lo_(lo), hi_(hi), once_(std::make_unique<Once>()) {}
 PlacementSearch::~PlacementSearch() = default;
 PlacementSearch::PlacementSearch(PlacementSearch&&) noexcept = default;
 
@@ -48,26 +65,33 @@ std::vector<std::uint8_t> PlacementSearch::allowed(const std::vector<Vec2i>& for
 
 Shortlist PlacementSearch::find(const MatchTarget& target, const std::vector<Vec2i>& forbidden,
                                 SearchMethod method) {
-    const OverlapScorer scorer(target, sample_);
     const std::vector<std::uint8_t> ok = allowed(forbidden);
     if (method == SearchMethod::kFastest) {
-        const double n = static_cast<double>(sample_.width() + hi_.x) * (sample_.height() + hi_.y);
-        const double fft_ns = kFftOperation_ns * kTransforms * 5 * n * std::log2(n);
-        const double direct_ns = kDirectByte_ns * 3 * static_cast<double>(scorer.pixels()) *
-                                 static_cast<double>(count());
-        method = fft_ns < direct_ns ? SearchMethod::kFft : SearchMethod::kDirect;
+        method = direct_is_faster(target) ? SearchMethod::kDirect : SearchMethod::kFft;
     }
-    return method == SearchMethod::kFft ? find_fft(scorer, target, ok) : find_direct(scorer, ok);
+    return method == SearchMethod::kFft ? find_fft(target, ok) : find_direct(target, ok);
 }
 
-Shortlist PlacementSearch::find_direct(const OverlapScorer& scorer,
-                                       const std::vector<std::uint8_t>& ok) const {
-    std::vector<OverlapCost> costs(count());
+bool PlacementSearch::direct_is_faster(const MatchTarget& target) const {
+    double pixels = 0;
+    for (const ViewU8x1& mask : {target.filled, target.guide_known}) {
+        for (int y = 0; y < mask.height(); ++y)
+            pixels +=
+                static_cast<double>(std::accumulate(mask.row(y), mask.row(y) + mask.width(), 0));
+    }
+    const double n = static_cast<double>(sample_.width() + hi_.x) * (sample_.height() + hi_.y);
+    const double fft_ns = kFftOperation_ns * kTransforms * 5 * n * std::log2(n);
+    return direct_byte_ns() * 3 * pixels * static_cast<double>(count()) < fft_ns;
+}
+
+Shortlist PlacementSearch::find_direct(const MatchTarget& target,
+                                       const std::vector<std::uint8_t>& ok) {
+    std::call_once(once_->direct,
+                   [&] { direct_ = std::make_unique<DirectSearch>(sample_, block_, lo_, hi_); });
+    const std::vector<OverlapCost> costs = direct_->costs(target);
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < count(); ++i) {
-        if (!ok[i]) continue;
-        costs[i] = scorer.cost(translation(i));
-        if (!best || better(costs[i], costs[*best])) best = i;
+        if (ok[i] && (!best || better(costs[i], costs[*best]))) best = i;
     }
     Shortlist list{{}, translation(*best), costs[*best]};
     for (std::size_t i = 0; i < count(); ++i) {
@@ -80,9 +104,11 @@ Shortlist PlacementSearch::find_direct(const OverlapScorer& scorer,
 
 // The estimates decide what they can decide for certain; what lies within their error of the best
 // or of the limit is scored exactly.
-Shortlist PlacementSearch::find_fft(const OverlapScorer& scorer, const MatchTarget& target,
+Shortlist PlacementSearch::find_fft(const MatchTarget& target,
                                     const std::vector<std::uint8_t>& ok) {
-    if (!fft_) fft_ = std::make_unique<FftCorrelation>(sample_, block_, lo_, hi_);
+    const OverlapScorer scorer(target, sample_);
+    std::call_once(once_->fft,
+                   [&] { fft_ = std::make_unique<FftCorrelation>(sample_, block_, lo_, hi_); });
     const FftCorrelation::Estimate estimate = fft_->estimate(target);
     const auto mean = [&](std::size_t i, double error) {
         const auto weight = static_cast<double>(std::max<std::uint64_t>(estimate.weight[i], 1));
@@ -98,7 +124,7 @@ Shortlist PlacementSearch::find_fft(const OverlapScorer& scorer, const MatchTarg
     OverlapCost best_cost;
     for (std::size_t i = 0; i < count(); ++i) {
         if (!ok[i] || mean(i, -estimate.error) > ceiling) continue;
-        if (++scored > too_many) return find_direct(scorer, ok);
+        if (++scored > too_many) return find_direct(target, ok);
         const OverlapCost cost = scorer.cost(translation(i));
         if (!best || better(cost, best_cost)) best = i, best_cost = cost;
     }
@@ -111,7 +137,7 @@ Shortlist PlacementSearch::find_fft(const OverlapScorer& scorer, const MatchTarg
     for (std::size_t i = 0; i < count(); ++i) {
         if (!ok[i] || mean(i, -estimate.error) > limit + slack) continue;
         if (mean(i, estimate.error) > limit - slack) {
-            if (++scored > too_many) return find_direct(scorer, ok);
+            if (++scored > too_many) return find_direct(target, ok);
             if (!at_most(scorer.cost(translation(i)), best_cost, kGoodNumerator,
                          kGoodDenominator)) {
                 continue;

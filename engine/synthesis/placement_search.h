@@ -10,6 +10,7 @@
 
 namespace weft {
 
+class DirectSearch;
 class FftCorrelation;
 
 enum class SearchMethod { kFastest, kFft, kDirect };  ///< All give the same result.
@@ -26,8 +27,8 @@ struct Shortlist {
 inline constexpr std::uint32_t kGoodNumerator = 110, kGoodDenominator = 100;
 
 /// Searches one sample (or one window of it) over blocks of one size, with the translations
-/// t ∈ [lo, hi], t being where the sample's origin lies in the block. Transforms of the sample are
-/// made once, at the first search by FFT. Not thread-safe.
+/// t ∈ [lo, hi], t being where the sample's origin lies in the block. What a search
+/// method needs of the sample is prepared once, at its first use. Thread-safe.
 class PlacementSearch {
   public:
     PlacementSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi);
@@ -42,14 +43,18 @@ class PlacementSearch {
     [[nodiscard]] std::size_t count() const;
     [[nodiscard]] Vec2i translation(std::size_t index) const;
     [[nodiscard]] std::vector<std::uint8_t> allowed(const std::vector<Vec2i>& forbidden) const;
-    [[nodiscard]] Shortlist find_direct(const OverlapScorer& scorer,
-                                        const std::vector<std::uint8_t>& allowed) const;
-    [[nodiscard]] Shortlist find_fft(const OverlapScorer& scorer, const MatchTarget& target,
+    [[nodiscard]] Shortlist find_direct(const MatchTarget& target,
+                                        const std::vector<std::uint8_t>& allowed);
+    [[nodiscard]] Shortlist find_fft(const MatchTarget& target,
                                      const std::vector<std::uint8_t>& allowed);
+    [[nodiscard]] bool direct_is_faster(const MatchTarget& target) const;
 
     ViewU8x3 sample_;
     Size block_;
     Vec2i lo_, hi_;
+    struct Once;
+    std::unique_ptr<Once> once_;
+    std::unique_ptr<DirectSearch> direct_;
     std::unique_ptr<FftCorrelation> fft_;
 };
 

@@ -9,23 +9,18 @@
 namespace weft {
 namespace {
 
-// ‖A−B‖ at one pixel, A and B given by their sample positions.
-double mismatch(ViewU8x3 sample, Vec2i a, Vec2i b) {
-    const auto at = [&](Vec2i s) {
-        return sample.pixel(std::clamp(s.x, 0, sample.width() - 1),
-                            std::clamp(s.y, 0, sample.height() - 1));
-    };
-    const std::uint8_t *pa = at(a), *pb = at(b);
+// ‖A−B‖ at one pixel.
+double distance(const std::uint8_t* a, const std::uint8_t* b) {
     int sum = 0;
     for (int c = 0; c < 3; ++c)
-        sum += (pa[c] - pb[c]) * (pa[c] - pb[c]);
+        sum += (a[c] - b[c]) * (a[c] - b[c]);
     return std::sqrt(static_cast<double>(sum));
 }
 
 }  // namespace
 
-PlaneEnergy texel_energy(ViewU8x3 sample, ImageView<const std::int32_t, 2> source, Vec2i at,
-                         bool wrap) {
+PlaneEnergy texel_energy(const SampleAtlas& atlas, ImageView<const std::int32_t, 2> source,
+                         Vec2i at, bool wrap) {
     const int w = source.width(), h = source.height();
     const std::int32_t* s = source.pixel(at.x, at.y);
     const Vec2i p{s[0], s[1]};
@@ -34,7 +29,9 @@ PlaneEnergy texel_energy(ViewU8x3 sample, ImageView<const std::int32_t, 2> sourc
         const std::int32_t* other = source.pixel(x, y);
         const Vec2i q{other[0], other[1]};
         if (q == p + step) return;
-        sum.energy += mismatch(sample, p, q - step) + mismatch(sample, p + step, q);
+        const ViewU8x3 pixels = atlas.pixels();
+        sum.energy += distance(pixels.pixel(p.x, p.y), atlas.continued(q - step, q)) +
+                      distance(atlas.continued(p + step, p), pixels.pixel(q.x, q.y));
         ++sum.length_px;
     };
     if (at.x + 1 < w || (wrap && w > 1)) pair((at.x + 1) % w, at.y, {1, 0});
@@ -42,13 +39,14 @@ PlaneEnergy texel_energy(ViewU8x3 sample, ImageView<const std::int32_t, 2> sourc
     return sum;
 }
 
-PlaneEnergy recount_energy(ViewU8x3 sample, ImageView<const std::int32_t, 2> source, bool wrap) {
+PlaneEnergy recount_energy(const SampleAtlas& atlas, ImageView<const std::int32_t, 2> source,
+                           bool wrap) {
     std::vector<PlaneEnergy> rows(static_cast<std::size_t>(source.height()));
     parallel_rows(source.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             PlaneEnergy& row = rows[static_cast<std::size_t>(y)];
             for (int x = 0; x < source.width(); ++x) {
-                const PlaneEnergy part = texel_energy(sample, source, {x, y}, wrap);
+                const PlaneEnergy part = texel_energy(atlas, source, {x, y}, wrap);
                 row.energy += part.energy;
                 row.length_px += part.length_px;
             }

@@ -1,41 +1,60 @@
 #pragma once
 // After the first sweep: further blocks over the worst seams (Kwatra et al. 2003, sections 3.1, 4).
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/core/rng.h"
 #include "engine/synthesis/canvas.h"
 #include "engine/synthesis/placement_search.h"
+#include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_plane.h"
 
 namespace weft {
 
+/// ε of the seam cost in refinement, 8-bit units: larger than in the first sweep, so that cuts come
+/// nearer to the energy that is counted, ‖A−B‖ alone, and still follow edges.
+inline constexpr float kRefineGradientFloor = 64;
+
 /// Refines a filled canvas. Each block is cut into the plane so that its border joins what is there
 /// and the seams that it covers vanish: an old seam's pair of pixels has its cost when both stay
 /// old, none when both become new. Whatever does not lower the recounted energy is undone, so the
-/// energy never rises. Guides take no part. Not thread-safe.
+/// energy never rises. Guides take no part.
 class Refiner {
   public:
-    Refiner(ViewU8x3 sample, const PlaneOptions& options, Canvas& canvas, PlaneStats& stats);
+    Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas);
 
-    /// One round over the plane's worst blocks. Returns how much energy it took away.
-    double pass(int index);
+    /// One round over the plane's worst places, which are so far apart that they are worked on at
+    /// once. Returns how much energy it took away, and adds to the refinements and peak bytes.
+    double pass(int index, PlaneStats& stats);
 
   private:
-    [[nodiscard]] std::vector<Vec2i> worst_blocks() const;
-    [[nodiscard]] double energy_around(const Recti& rect) const;
-    double refine_block(const Recti& rect, Rng& rng);
-    [[nodiscard]] std::optional<Vec2i> find_origin(const Block& block, Rng& rng);
-    [[nodiscard]] SeamProblem problem_for(const Block& block, Vec2i origin) const;
+    // A part of the atlas in which one search looks for a block's place.
+    struct Window {
+        Recti rect;
+        std::unique_ptr<PlacementSearch> search;
+    };
+    struct Outcome {
+        double gained = 0;
+        int laid = 0;
+        std::size_t graph_bytes = 0;
+    };
 
-    ViewU8x3 sample_;
+    [[nodiscard]] std::vector<Vec2i> worst_blocks(Vec2i shift) const;
+    [[nodiscard]] std::vector<Vec2i> apart(const std::vector<Vec2i>& corners) const;
+    [[nodiscard]] double energy_around(const Recti& rect) const;
+    [[nodiscard]] Outcome refine_block(const Recti& rect, Rng rng);
+    [[nodiscard]] std::optional<Vec2i> find_origin(const Block& block, Rng& rng) const;
+    [[nodiscard]] SeamProblem problem_for(const Block& block, Vec2i origin) const;
+    [[nodiscard]] Vec2i source_at(int x, int y) const;
+
+    const SampleAtlas& atlas_;
     const PlaneOptions& options_;
     Canvas& canvas_;
-    PlaneStats& stats_;
-    Size block_, window_;
-    std::vector<Vec2i> window_starts_;
-    std::vector<std::optional<PlacementSearch>> searches_;
+    Size block_;
+    std::vector<Window> windows_;
 };
 
 }  // namespace weft

@@ -1,71 +1,204 @@
 #include "engine/synthesis/sweep.h"
 
 #include <algorithm>
+#include <chrono>
+#include <climits>
 #include <cmath>
-#include <cstdlib>
+#include <mutex>
 
+#include "engine/core/parallel.h"
 #include "engine/synthesis/contact.h"
+#include "engine/synthesis/stage_timer.h"
 
 namespace weft {
 namespace {
 
-constexpr int kLeastOverlap = 12;
-constexpr int kLargestPatch = 200;
-constexpr int kLargestWindow = 488;  // With the slack of the default overlap a transform of 512.
 constexpr std::uint32_t kWeightUnit = 256;
-
-std::int64_t step_key(Vec2i d) {
-    if (d.y < 0 || (d.y == 0 && d.x < 0)) d = {-d.x, -d.y};
-    return static_cast<std::int64_t>(d.y) * (std::int64_t{1} << 32) + d.x;
-}
+constexpr std::size_t kPagesPerStep = 2;
+constexpr double kAlignTolerance_px = 2;
 
 }  // namespace
 
-SweepAxis make_sweep_axis(int sample_px, int plane_px, bool torus, int overlap_px) {
-    SweepAxis a;
-    a.window = std::min(sample_px, kLargestWindow);
-    a.overlap = std::min(overlap_px, sample_px / 2);
-    int patch = std::min(a.window, kLargestPatch);
-    if (torus) {
-        patch = std::min(patch, std::max(1, plane_px - 2));
-        a.overlap = std::min(a.overlap, patch / 3);
+Sweep::Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas)
+    : atlas_(atlas), options_(options), canvas_(canvas) {
+    if (options.align && atlas.pages().size() == 1) period_ = find_period(atlas.pixels());
+    const Size plane = options.size;
+    if (canvas.torus() && (!period_.holds({plane.width, 0}, kAlignTolerance_px) ||
+                           !period_.holds({0, plane.height}, kAlignTolerance_px))) {
+        period_ = {};
     }
-    a.min_overlap = a.overlap >= 2 * kLeastOverlap
-                        ? kLeastOverlap
-                        : std::min(a.overlap, std::max(4, a.overlap / 2));
-    int slack = a.overlap - a.min_overlap;
-    a.block = patch + slack;
-    if (torus && a.block > plane_px - 2) {
-        slack = std::clamp(plane_px - 2 - patch, 0, slack);
-        a.block = patch + slack;
-    }
-    a.lo = a.block - slack - a.window;
-    a.hi = a.overlap - a.min_overlap;
-    const int room = sample_px - a.window;
-    const int windows = room == 0 ? 1 : 1 + (2 * room + a.window - 1) / a.window;
-    for (int i = 0; i < windows; ++i) {
-        a.window_starts.push_back(windows == 1 ? 0 : room * i / (windows - 1));
-    }
-    return a;
+    make_axes();
+    make_places();
+    make_bands();
 }
 
-Sweep::Sweep(ViewU8x3 sample, const PlaneOptions& options, Canvas& canvas, PlaneStats& stats)
-    : sample_(sample),
-      options_(options),
-      canvas_(canvas),
-      stats_(stats),
-      x_(make_sweep_axis(sample.width(), options.size.width, options.tileable, options.overlap_px)),
-      y_(make_sweep_axis(sample.height(), options.size.height, options.tileable,
-                         options.overlap_px)),
-      searches_(x_.window_starts.size() * y_.window_starts.size()) {}
+Sweep::~Sweep() = default;
+
+void Sweep::make_axes() {
+    Size common = atlas_.pages().front().rect.size();
+    for (const SampleAtlas::Page& page : atlas_.pages()) {
+        common.width = std::min(common.width, page.rect.width());
+        common.height = std::min(common.height, page.rect.height());
+    }
+    const Size period = period_.axis_px();
+    x_ = make_sweep_axis(common.width, options_.size.width, canvas_.torus(), options_.overlap_px,
+                         period.width);
+    y_ = make_sweep_axis(common.height, options_.size.height, canvas_.torus(), options_.overlap_px,
+                         period.height);
+}
+
+void Sweep::make_places() {
+    for (std::size_t i = 0; i < atlas_.pages().size(); ++i) {
+        const Recti& page = atlas_.pages()[i].rect;
+        for (const int y : window_starts(page.height(), y_.window)) {
+            for (const int x : window_starts(page.width(), x_.window)) {
+                Place place;
+                place.page = i;
+                place.window = {page.x0 + x, page.y0 + y, page.x0 + x + x_.window,
+                                page.y0 + y + y_.window};
+                place.search = std::make_unique<PlacementSearch>(
+                    atlas_.pixels().crop(place.window), Size{x_.block, y_.block},
+                    Vec2i{x_.lo, y_.lo}, Vec2i{x_.hi, y_.hi});
+                places_.push_back(std::move(place));
+            }
+        }
+    }
+}
 
 // At the border of a plane there is nothing to overlap, so the block starts there and only leaves
 // room for the sample's freedom.
-Block Sweep::next_block(Vec2i first) const {
-    const bool torus = canvas_.torus();
-    const int x0 = first.x - (first.x == 0 && !torus ? x_.hi : x_.overlap);
-    const int y0 = first.y - (first.y == 0 && !torus ? y_.hi : y_.overlap);
-    return copy_block(canvas_, {x0, y0, x0 + x_.block, y0 + y_.block});
+void Sweep::make_bands() {
+    const int height = canvas_.size().height;
+    for (int y = 0; y < height;) {
+        Band& band = bands_.emplace_back();
+        const int back = y == 0 && !canvas_.torus() ? y_.hi : y_.overlap;
+        band.block_y0 = y - back;
+        band.y0 = y;
+        y += y_.advance + y_.overlap - back;
+        band.y1 = std::min(y, height);
+        band.placed.reserve(static_cast<std::size_t>(canvas_.size().width / x_.advance) + 2);
+    }
+}
+
+bool Sweep::run(PlaneStats& stats, const CancelToken& cancel, const ProgressFn& progress) {
+    const double start_s = stage_clock_s();
+    cancel_ = &cancel;
+    std::mutex progress_mutex;
+    const Size size = canvas_.size();
+    const auto area = static_cast<std::int64_t>(size.width) * size.height;
+    std::int64_t done = 0;
+    for_each_band([&](std::size_t i) {
+        grow_band(i);
+        if (!progress || stopped_) return;
+        const std::lock_guard lock(progress_mutex);
+        done += static_cast<std::int64_t>(bands_[i].y1 - bands_[i].y0) * size.width;
+        progress({"synthesise", done, area, 0, 0});
+    });
+    double search_s = 0, seam_s = 0, busy_s = 0;
+    for (const Band& band : bands_) {
+        search_s += band.search_s, seam_s += band.seam_s, busy_s += band.busy_s;
+        stats.placements += band.count;
+        stats.peak_graph_bytes = std::max(stats.peak_graph_bytes, band.peak_bytes);
+    }
+    const double share = busy_s > 0 ? std::min(1.0, (stage_clock_s() - start_s) / busy_s) : 0;
+    stats.search_s += search_s * share;
+    stats.seam_s += seam_s * share;
+    stats.period = period_;
+    return !stopped_;
+}
+
+// In any number of threads, each band behind the one above. Bands start in order, so that the one
+// that others wait for is always at work.
+template <class GrowBand>
+void Sweep::for_each_band(GrowBand grow) {
+    const auto run = [&](std::size_t i) {
+        std::atomic<int>& done_x = bands_[i].done_x;
+        const auto finish = [&] {
+            done_x.store(INT_MAX, std::memory_order_release);
+            done_x.notify_all();
+        };
+        try {
+            grow(i);
+        } catch (...) {
+            stopped_ = true;
+            finish();
+            throw;
+        }
+        finish();
+    };
+    // On a torus a band meets itself, so that it must be whole before the next one starts.
+    if (canvas_.torus()) {
+        for (std::size_t i = 0; i < bands_.size(); ++i)
+            run(i);
+    } else {
+        parallel_for(bands_.size(), run);
+    }
+}
+
+bool Sweep::cut_again(Canvas& canvas, float gradient_floor, PlaneStats& stats,
+                      const CancelToken& cancel) {
+    cancel_ = &cancel;
+    for (Band& band : bands_)
+        band.done_x = INT_MIN;
+    for_each_band([&](std::size_t i) { lay_band_again(i, canvas, gradient_floor); });
+    for (const Band& band : bands_)
+        stats.peak_graph_bytes = std::max(stats.peak_graph_bytes, band.peak_bytes);
+    return !stopped_;
+}
+
+void Sweep::lay_band_again(std::size_t index, Canvas& canvas, float gradient_floor) {
+    Band& band = bands_[index];
+    for (const Placed& p : band.placed) {
+        if (!canvas.torus()) wait_for(index, p.rect.x1 + 1);
+        if (cancel_->cancelled()) stopped_ = true;
+        if (stopped_) return;
+        const std::size_t bytes = lay_patch(canvas, copy_block(canvas, p.rect), atlas_.pixels(),
+                                            {p.rect, p.origin}, options_, gradient_floor);
+        band.peak_bytes = std::max(band.peak_bytes, bytes);
+        // The next patch may reach back further than its right end does.
+        band.done_x.store(p.rect.x1 - x_.overlap - 1, std::memory_order_release);
+        band.done_x.notify_all();
+    }
+}
+
+void Sweep::grow_band(std::size_t index) {
+    Band& band = bands_[index];
+    for (int x = 0; x < canvas_.size().width; ++x) {
+        // What is above must be there before the band can tell what it lacks.
+        if (!canvas_.torus()) wait_for(index, x - x_.overlap + x_.block + x_.window);
+        if (cancel_->cancelled()) stopped_ = true;
+        if (stopped_) break;
+        if (column_filled(band, x)) continue;
+        const StageTimer busy(band.busy_s);
+        x = lay(index, x) - 1;
+        band.done_x.store(x - x_.overlap, std::memory_order_release);
+        band.done_x.notify_all();
+    }
+}
+
+bool Sweep::column_filled(const Band& band, int x) const {
+    for (int y = band.y0; y < band.y1; ++y) {
+        if (!canvas_.filled(x, y)) return false;
+    }
+    return true;
+}
+
+// Returns when the band above neither reads nor writes anything to the left of x any more.
+void Sweep::wait_for(std::size_t index, int x) {
+    if (index == 0) return;
+    const std::atomic<int>& done_x = bands_[index - 1].done_x;
+    constexpr int kSpins = 2000;  // A placement takes some 100 µs; waking a thread costs 50.
+    for (int i = 0; i < kSpins && done_x.load(std::memory_order_acquire) < x; ++i) {
+    }
+    for (int seen = done_x.load(std::memory_order_acquire); seen < x;
+         seen = done_x.load(std::memory_order_acquire)) {
+        done_x.wait(seen, std::memory_order_acquire);
+    }
+}
+
+Block Sweep::next_block(const Band& band, int x) const {
+    const int x0 = x - (x == 0 && !canvas_.torus() ? x_.hi : x_.overlap);
+    return copy_block(canvas_, {x0, band.block_y0, x0 + x_.block, band.block_y0 + y_.block});
 }
 
 Sweep::GuideBlock Sweep::copy_guide(const Recti& rect) const {
@@ -75,88 +208,103 @@ Sweep::GuideBlock Sweep::copy_guide(const Recti& rect) const {
             const auto p = canvas_.resolve(rect.x0 + x, rect.y0 + y);
             if (!p || !options_.guide->known.at(p->x, p->y)) continue;
             out.known.at(x, y) = 1;
-            for (int c = 0; c < 3; ++c) {
-                out.pixels.at(x, y, c) = options_.guide->target.at(p->x, p->y, c);
-            }
+            std::copy_n(options_.guide->target.pixel(p->x, p->y), 3, out.pixels.pixel(x, y));
         }
     }
     return out;
 }
 
-// Besides copies: translations with more thin contact than need be.
-std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas) const {
-    std::vector<Vec2i> out = congruent(to_canvas);
+// The placements that the block's may be compared with: in bands above those that start within a
+// window's width of its right end, which wait_for() has seen finished.
+PlacementMemory Sweep::memory(std::size_t index, const Recti& block) const {
+    std::vector<Placed> out;
+    const Recti reach{block.x0 - 2 * x_.window, block.y0 - 2 * y_.window, block.x1 + x_.window,
+                      block.y1};
+    const int turns = canvas_.torus() ? 1 : 0;
+    const Size plane = canvas_.size();
+    for (std::size_t i = 0; i <= index; ++i) {
+        if (turns == 0 && bands_[i].block_y0 + y_.block < reach.y0) continue;
+        const int count = bands_[i].count.load(std::memory_order_acquire);
+        for (int k = 0; k < count; ++k) {
+            const Placed& p = bands_[i].placed[static_cast<std::size_t>(k)];
+            for (int ky = -turns; ky <= turns; ++ky) {
+                for (int kx = -turns; kx <= turns; ++kx) {
+                    const Vec2i d{kx * plane.width, ky * plane.height};
+                    const Recti r{p.rect.x0 + d.x, p.rect.y0 + d.y, p.rect.x1 + d.x,
+                                  p.rect.y1 + d.y};
+                    if (r.x0 > reach.x1 || r.x1 < reach.x0 || r.y1 < reach.y0) continue;
+                    out.push_back({p.origin + d, r});
+                }
+            }
+        }
+    }
+    return PlacementMemory(std::move(out), {x_.window, y_.window});
+}
+
+// Translations at which the sample would only continue an earlier placement (no new texture comes
+// of them, and their error is 0), fall out of step, or merely touch what is there. Each rule leaves
+// something of what the ones before it left.
+std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
+                                    const PlacementMemory& memory) const {
+    const int columns = x_.hi - x_.lo + 1, rows = y_.hi - y_.lo + 1;
+    Image<std::uint8_t, 1> bad(columns, rows, 0);
+    for (const Placed& p : memory.earlier()) {
+        const Vec2i t = p.origin - to_canvas - Vec2i{x_.lo, y_.lo};
+        if (rect_of(bad.size()).contains(t.x, t.y)) bad.at(t.x, t.y) = 1;
+    }
+    if (period_.count > 0) forbid_misaligned(block.rect, to_canvas, memory, bad);
+    // Bands keep the overlap above and to the left; only on a torus, or where something was there
+    // before, can a patch touch what it meets from the other side.
+    if (canvas_.torus() || canvas_.any_locked()) forbid_thin_contacts(block, bad);
+    std::vector<Vec2i> out;
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
+            if (bad.at(x, y)) out.push_back({x + x_.lo, y + y_.lo});
+        }
+    }
+    return out;
+}
+
+// In step with the placements that the block overlaps: over more than a neighbour's distance the
+// error of the period, found on a small sample, would add up.
+void Sweep::forbid_misaligned(const Recti& block, Vec2i to_canvas, const PlacementMemory& memory,
+                              Image<std::uint8_t, 1>& bad) const {
+    std::vector<Vec2i> neighbours;
+    for (const Placed& p : memory.earlier()) {
+        if (!p.rect.intersected(block).empty()) neighbours.push_back(to_canvas - p.origin);
+    }
+    Image<std::uint8_t, 1> out = bad;
+    bool any = false;
+    for (int y = 0; y < bad.height(); ++y) {
+        for (int x = 0; x < bad.width(); ++x) {
+            const Vec2i t{x + x_.lo, y + y_.lo};
+            const bool aligned = std::all_of(neighbours.begin(), neighbours.end(), [&](Vec2i d) {
+                return period_.holds(t + d, kAlignTolerance_px);
+            });
+            out.at(x, y) |= !aligned;
+            any |= out.at(x, y) == 0;
+        }
+    }
+    if (any) bad = std::move(out);
+}
+
+void Sweep::forbid_thin_contacts(const Block& block, Image<std::uint8_t, 1>& bad) const {
     const std::vector<std::uint32_t> thin =
         thin_contacts(canvas_, block, {x_.window, y_.window}, {x_.lo, y_.lo}, {x_.hi, y_.hi},
                       {x_.min_overlap, y_.min_overlap});
-    const std::uint32_t limit = 2 * *std::min_element(thin.begin(), thin.end());
-    std::size_t i = 0;
-    for (int ty = y_.lo; ty <= y_.hi; ++ty) {
-        for (int tx = x_.lo; tx <= x_.hi; ++tx, ++i) {
-            if (thin[i] > limit) out.push_back({tx, ty});
-        }
+    std::uint32_t least = ~std::uint32_t{0};
+    for (std::size_t i = 0; i < thin.size(); ++i) {
+        if (!bad.data()[i]) least = std::min(least, thin[i]);
     }
-    return out;
-}
-
-// Translations at which the sample would only continue an earlier placement: no new texture comes
-// of them, and their error is 0. On a torus a whole turn is the same translation.
-std::vector<Vec2i> Sweep::congruent(Vec2i to_canvas) const {
-    std::vector<Vec2i> out;
-    const int turns = canvas_.torus() ? 1 : 0;
-    const Vec2i turn{options_.size.width, options_.size.height};
-    for (const Vec2i origin : origins_) {
-        for (int ky = -turns; ky <= turns; ++ky) {
-            for (int kx = -turns; kx <= turns; ++kx) {
-                out.push_back(origin + Vec2i{kx, ky} * turn - to_canvas);
-            }
-        }
+    for (std::size_t i = 0; i < thin.size(); ++i) {
+        if (thin[i] > 2 * least) bad.data()[i] = 1;
     }
-    return out;
 }
 
-// Whether the step from a neighbouring placement has been made before: equal steps are what an eye
-// sees as a grid of repeats.
-bool Sweep::repeats_a_step(Vec2i origin) const {
-    return std::any_of(origins_.begin(), origins_.end(), [&](Vec2i o) {
-        const Vec2i d = origin - o;
-        return std::abs(d.x) < sample_.width() && std::abs(d.y) < sample_.height() &&
-               steps_.count(step_key(d)) != 0;
-    });
-}
-
-void Sweep::remember(Vec2i origin) {
-    for (const Vec2i o : origins_) {
-        const Vec2i d = origin - o;
-        if (std::abs(d.x) < sample_.width() && std::abs(d.y) < sample_.height()) {
-            steps_.insert(step_key(d));
-        }
-    }
-    origins_.push_back(origin);
-}
-
-Vec2i Sweep::pick(const Shortlist& list, Vec2i to_canvas, Rng& rng) const {
-    std::vector<Vec2i> fresh;
-    std::copy_if(list.good.begin(), list.good.end(), std::back_inserter(fresh),
-                 [&](Vec2i t) { return !repeats_a_step(t + to_canvas); });
-    const std::vector<Vec2i>& from = fresh.empty() ? list.good : fresh;
-    return from[rng.below(from.size())];
-}
-
-Sweep::Choice Sweep::choose(Vec2i first, Rng& rng) {
+Sweep::Choice Sweep::choose(std::size_t index, int x, Rng& rng) {
     Choice choice;
-    choice.block = next_block(first);
+    choice.block = next_block(bands_[index], x);
     const Block& block = choice.block;
-    const auto wx = static_cast<std::size_t>(rng.below(x_.window_starts.size()));
-    const auto wy = static_cast<std::size_t>(rng.below(y_.window_starts.size()));
-    const Vec2i start{x_.window_starts[wx], y_.window_starts[wy]};
-    choice.window = {start.x, start.y, start.x + x_.window, start.y + y_.window};
-    auto& search = searches_[wy * x_.window_starts.size() + wx];
-    if (!search) {
-        search.emplace(sample_.crop(choice.window), block.rect.size(), Vec2i{x_.lo, y_.lo},
-                       Vec2i{x_.hi, y_.hi});
-    }
-
     MatchTarget target{block.pixels, block.filled, {}, {}, 1, 0};
     GuideBlock guide;
     if (options_.guide) {
@@ -167,36 +315,51 @@ Sweep::Choice Sweep::choose(Vec2i first, Rng& rng) {
         target.guide_weight =
             static_cast<std::uint32_t>(std::lround(options_.guide->weight * kWeightUnit));
     }
-    const Vec2i to_canvas = Vec2i{block.rect.x0, block.rect.y0} - start;
-    const Shortlist list = search->find(target, forbidden(block, to_canvas));
-    choice.origin = pick(list, to_canvas, rng) + to_canvas;
+    const PlacementMemory earlier = memory(index, block.rect);
+    Shortlist best;
+    const Place* where = nullptr;
+    const std::size_t tries = std::min(kPagesPerStep, atlas_.pages().size());
+    for (std::size_t i = 0; i < tries; ++i) {
+        const Place& place = places_[rng.below(places_.size())];
+        const Vec2i to_canvas{block.rect.x0 - place.window.x0, block.rect.y0 - place.window.y0};
+        Shortlist list = place.search->find(target, forbidden(block, to_canvas, earlier));
+        if (where && at_most(best.best_cost, list.best_cost)) continue;
+        best = std::move(list);
+        where = &place;
+    }
+    const Vec2i to_canvas{block.rect.x0 - where->window.x0, block.rect.y0 - where->window.y0};
+    for (Vec2i& t : best.good)
+        t += to_canvas;
+    const std::vector<Vec2i> good = earlier.least_repetitive(best.good, block.rect);
+    choice.origin = good[rng.below(good.size())];
+    const Recti& w = where->window;
+    choice.window = {choice.origin.x + w.x0, choice.origin.y + w.y0, choice.origin.x + w.x1,
+                     choice.origin.y + w.y1};
     return choice;
 }
 
-bool Sweep::step() {
-    const auto first = canvas_.first_unfilled();
-    if (!first) return false;
+// Returns where the band goes on.
+int Sweep::lay(std::size_t index, int x) {
+    Band& band = bands_[index];
+    const int number = band.count.load(std::memory_order_relaxed);
     Rng rng(options_.seed, options_.region, options_.frame,
-            static_cast<std::uint64_t>(stats_.placements));
+            (static_cast<std::uint64_t>(index) << 32) + static_cast<std::uint64_t>(number));
     Choice choice;
     {
-        const StageTimer timer(stats_.search_s);
-        choice = choose(*first, rng);
+        const StageTimer timer(band.search_s);
+        choice = choose(index, x, rng);
     }
-    const Recti& w = choice.window;
-    Patch patch{choice.block.rect.intersected({choice.origin.x + w.x0, choice.origin.y + w.y0,
-                                               choice.origin.x + w.x1, choice.origin.y + w.y1}),
-                choice.origin};
+    Patch patch{choice.block.rect.intersected(choice.window), choice.origin};
     if (!canvas_.torus()) patch.rect = patch.rect.intersected(rect_of(canvas_.size()));
     {
-        const StageTimer timer(stats_.seam_s);
-        const std::size_t bytes = lay_patch(canvas_, choice.block, sample_, patch, options_.seam,
-                                            options_.guide ? &*options_.guide : nullptr);
-        stats_.peak_graph_bytes = std::max(stats_.peak_graph_bytes, bytes);
+        const StageTimer timer(band.seam_s);
+        const std::size_t bytes =
+            lay_patch(canvas_, choice.block, atlas_.pixels(), patch, options_);
+        band.peak_bytes = std::max(band.peak_bytes, bytes);
     }
-    remember(patch.origin);
-    ++stats_.placements;
-    return true;
+    band.placed.push_back({patch.origin, patch.rect});
+    band.count.store(number + 1, std::memory_order_release);
+    return patch.rect.x1;
 }
 
 }  // namespace weft

@@ -1,87 +1,105 @@
 #pragma once
-// The first sweep: placements in scanline order until every texel is filled.
+// The first sweep: placements row by row until every texel is filled.
 
-#include <chrono>
-#include <optional>
-#include <unordered_set>
+#include <atomic>
+#include <deque>
+#include <limits>
+#include <memory>
 #include <vector>
 
+#include "engine/core/cancel.h"
+#include "engine/core/progress.h"
 #include "engine/core/rng.h"
 #include "engine/synthesis/canvas.h"
 #include "engine/synthesis/patch_seam.h"
+#include "engine/synthesis/placement_memory.h"
 #include "engine/synthesis/placement_search.h"
+#include "engine/synthesis/sample_atlas.h"
+#include "engine/synthesis/sweep_axis.h"
+#include "engine/synthesis/texture_period.h"
 #include "engine/synthesis/texture_plane.h"
 
 namespace weft {
 
-/// One axis of the placements. A block starts `overlap` before the first unfilled pixel and the
-/// sample's window may lie on it at t ∈ [lo, hi], so that it reaches back over what is there by
-/// min_overlap … overlap and fills all but `hi` px of the rest.
-struct SweepAxis {
-    int overlap = 0, min_overlap = 0;
-    int block = 0;
-    int window = 0;  ///< Of a larger sample only a window takes part in one search.
-    int lo = 0, hi = 0;
-    std::vector<int> window_starts;
-};
-
-/// `plane_px` bounds the block on a torus, which must not meet itself. `overlap_px` is clamped to
-/// half the sample.
-[[nodiscard]] SweepAxis make_sweep_axis(int sample_px, int plane_px, bool torus, int overlap_px);
-
-/// Adds up the wall-clock time that a scope takes.
-class StageTimer {
-  public:
-    explicit StageTimer(double& total_s) : total_s_(total_s) {}
-    ~StageTimer() {
-        total_s_ +=
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-    StageTimer(const StageTimer&) = delete;
-    StageTimer& operator=(const StageTimer&) = delete;
-
-  private:
-    double& total_s_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Grows one canvas. Not thread-safe.
+/// Grows one canvas. The plane is divided into bands as high as every patch fills for certain. In
+/// each the next patch covers the leftmost column that is not filled yet and reaches back over what
+/// is to its left and above. A patch sees the bands above only as far as they are finished beyond
+/// its reach, so that several bands grow at once with the result of growing one after another.
 class Sweep {
   public:
-    Sweep(ViewU8x3 sample, const PlaneOptions& options, Canvas& canvas, PlaneStats& stats);
+    Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas);
+    ~Sweep();
 
-    /// Lays one patch over the first unfilled pixel. False when there is none.
-    bool step();
+    /// Fills the canvas by up to thread_count() threads; false when it was cancelled. Adds to the
+    /// stage times (shares of the wall clock), placements and peak bytes.
+    [[nodiscard]] bool run(PlaneStats& stats, const CancelToken& cancel,
+                           const ProgressFn& progress);
+
+    /// Lays the same patches in the same order into an empty canvas, cutting under another ε of the
+    /// gradient-normalised cost. False when it was cancelled. Adds to the peak bytes alone.
+    [[nodiscard]] bool cut_again(Canvas& canvas, float gradient_floor, PlaneStats& stats,
+                                 const CancelToken& cancel);
+
+    [[nodiscard]] const TexturePeriod& period() const { return period_; }
 
   private:
-    // One placement that was found: the whole sample's origin on the canvas.
-    struct Choice {
-        Block block;
-        Vec2i origin{0, 0};
-        Recti window;  ///< The part of the sample that was searched.
+    // A window of a page that one search covers.
+    struct Place {
+        std::size_t page = 0;
+        Recti window;  ///< In the atlas.
+        const SweepAxis *x = nullptr, *y = nullptr;
+        std::unique_ptr<PlacementSearch> search;
+    };
+    struct Band {
+        int y0 = 0, y1 = 0;
+        int block_y0 = 0;
+        std::vector<Placed> placed;  ///< Never reallocated while the sweep runs.
+        std::atomic<int> count{0};
+        /// Nothing to the left of it is read or written by this band any more.
+        std::atomic<int> done_x{std::numeric_limits<int>::min()};
+        double search_s = 0, seam_s = 0, busy_s = 0;
+        std::size_t peak_bytes = 0;
     };
     struct GuideBlock {
         ImageU8x3 pixels;
         Image<std::uint8_t, 1> known;
     };
+    // One placement that was found.
+    struct Choice {
+        Block block;
+        Vec2i origin{0, 0};
+        Recti window;  ///< On the canvas.
+    };
 
-    [[nodiscard]] Choice choose(Vec2i first_unfilled, Rng& rng);
-    [[nodiscard]] Block next_block(Vec2i first_unfilled) const;
+    void make_axes();
+    void make_places();
+    void make_bands();
+    void grow_band(std::size_t index);
+    [[nodiscard]] bool column_filled(const Band& band, int x) const;
+    void lay_band_again(std::size_t index, Canvas& canvas, float gradient_floor);
+    template <class GrowBand>
+    void for_each_band(GrowBand grow);
+    void wait_for(std::size_t index, int x);
+    int lay(std::size_t index, int x);
+    [[nodiscard]] Choice choose(std::size_t index, int x, Rng& rng);
+    [[nodiscard]] Block next_block(const Band& band, int x) const;
     [[nodiscard]] GuideBlock copy_guide(const Recti& rect) const;
-    [[nodiscard]] std::vector<Vec2i> forbidden(const Block& block, Vec2i to_canvas) const;
-    [[nodiscard]] std::vector<Vec2i> congruent(Vec2i to_canvas) const;
-    [[nodiscard]] Vec2i pick(const Shortlist& list, Vec2i to_canvas, Rng& rng) const;
-    [[nodiscard]] bool repeats_a_step(Vec2i origin) const;
-    void remember(Vec2i origin);
+    [[nodiscard]] PlacementMemory memory(std::size_t index, const Recti& block) const;
+    [[nodiscard]] std::vector<Vec2i> forbidden(const Block& block, Vec2i to_canvas,
+                                               const PlacementMemory& memory) const;
+    void forbid_misaligned(const Recti& block, Vec2i to_canvas, const PlacementMemory& memory,
+                           Image<std::uint8_t, 1>& bad) const;
+    void forbid_thin_contacts(const Block& block, Image<std::uint8_t, 1>& bad) const;
 
-    ViewU8x3 sample_;
+    const SampleAtlas& atlas_;
     const PlaneOptions& options_;
     Canvas& canvas_;
-    PlaneStats& stats_;
-    SweepAxis x_, y_;
-    std::vector<std::optional<PlacementSearch>> searches_;  ///< One for each window.
-    std::vector<Vec2i> origins_;              ///< Where the whole sample's origin was laid.
-    std::unordered_set<std::int64_t> steps_;  ///< From a placement to its neighbours.
+    TexturePeriod period_;
+    SweepAxis x_, y_;  ///< Of the smallest page; all others fit it.
+    std::vector<Place> places_;
+    std::deque<Band> bands_;
+    std::atomic<bool> stopped_{false};
+    const CancelToken* cancel_ = nullptr;
 };
 
 }  // namespace weft

@@ -5,14 +5,16 @@
 
 #include "engine/synthesis/canvas.h"
 #include "engine/synthesis/feather.h"
+#include "engine/synthesis/grow_canvas.h"
 #include "engine/synthesis/plane_energy.h"
-#include "engine/synthesis/refine.h"
-#include "engine/synthesis/sweep.h"
+#include "engine/synthesis/sample_atlas.h"
+#include "engine/synthesis/stage_timer.h"
 
 namespace weft {
 namespace {
 
 constexpr int kLeastOverlap = 12;
+constexpr std::size_t kMostSamples = 64;
 constexpr int kLargestSide = 16384;
 constexpr float kLargestGuideWeight = 1000.0f;
 
@@ -20,8 +22,13 @@ std::string text_of(Size s) {
     return std::to_string(s.width) + "x" + std::to_string(s.height);
 }
 
-Status check(ViewU8x3 sample, const PlaneOptions& o) {
-    WEFT_CHECK_OK(check_sample(sample.size(), o.overlap_px));
+Status check(const std::vector<ViewU8x3>& samples, const PlaneOptions& o) {
+    if (samples.empty() || samples.size() > kMostSamples) {
+        return fail(ErrorCode::kUsage, "A texture plane grows from 1 to 64 samples, not from " +
+                                           std::to_string(samples.size()) + ".");
+    }
+    for (const ViewU8x3& sample : samples)
+        WEFT_CHECK_OK(check_sample(sample.size(), o.overlap_px));
     if (o.size.width < 1 || o.size.height < 1 || o.size.width > kLargestSide ||
         o.size.height > kLargestSide) {
         return fail(ErrorCode::kUsage, "The texture plane's size is " + text_of(o.size) +
@@ -42,34 +49,42 @@ tl::unexpected<Error> stopped(const CancelToken& cancel) {
     return fail(static_cast<ErrorCode>(cancel.reason()), "Growing the texture plane was stopped.");
 }
 
-Expected<TexturePlane> grow(ViewU8x3 sample, const PlaneOptions& options, const CancelToken& cancel,
-                            const ProgressFn& progress) {
+// From positions in the atlas to the samples as they were given.
+void name_sources(const SampleAtlas& atlas, TexturePlane& plane) {
+    if (atlas.pages().size() == 1) return;
+    plane.origin = Image<std::uint8_t, 2>(plane.source.size());
+    for (int y = 0; y < plane.source.height(); ++y) {
+        for (int x = 0; x < plane.source.width(); ++x) {
+            std::int32_t* s = plane.source.pixel(x, y);
+            const SampleAtlas::Place place = atlas.place_of({s[0], s[1]});
+            s[0] = place.at.x, s[1] = place.at.y;
+            plane.origin.pixel(x, y)[0] = static_cast<std::uint8_t>(place.sample);
+            plane.origin.pixel(x, y)[1] = static_cast<std::uint8_t>(place.orientation);
+        }
+    }
+}
+
+Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, const PlaneOptions& options,
+                            const CancelToken& cancel, const ProgressFn& progress) {
     TexturePlane plane;
     PlaneStats& stats = plane.stats;
     {
         const StageTimer total(stats.total_s);
+        const SampleAtlas atlas(samples, options.orientations);
         Canvas canvas(options.size, options.tileable);
-        Sweep sweep(sample, options, canvas, stats);
-        const auto area = static_cast<std::int64_t>(options.size.width) * options.size.height;
-        while (sweep.step()) {
-            if (cancel.cancelled()) return stopped(cancel);
-            if (progress) progress({"synthesise", canvas.filled_count(), area, 0, 0});
-        }
-        Refiner refiner(sample, options, canvas, stats);
-        for (int pass = 0; pass < options.refine_passes; ++pass) {
-            if (cancel.cancelled()) return stopped(cancel);
-            if (refiner.pass(pass) <= 0) break;
-        }
-        const PlaneEnergy energy = recount_energy(sample, canvas.source(), options.tileable);
+        if (!grow_canvas(atlas, options, canvas, stats, cancel, progress)) return stopped(cancel);
+        const PlaneEnergy energy = recount_energy(atlas, canvas.source(), options.tileable);
         stats.seam_energy = energy.energy;
         stats.seam_length_px = energy.length_px;
-        stats.seam_energy_per_area = energy.energy / static_cast<double>(area);
-        plane.pixels = options.feather_px > 0 ? feather_seams(sample, canvas.source(),
+        stats.seam_energy_per_area = energy.energy / static_cast<double>(options.size.width) /
+                                     static_cast<double>(options.size.height);
+        plane.pixels = options.feather_px > 0 ? feather_seams(atlas, canvas.source(),
                                                               options.feather_px, options.tileable)
                                               : std::move(canvas.pixels());
         plane.source = std::move(canvas.source());
+        name_sources(atlas, plane);
     }
-    stats.other_s = stats.total_s - stats.search_s - stats.seam_s;
+    stats.other_s = stats.total_s - stats.search_s - stats.seam_s - stats.refine_s;
     return plane;
 }
 
@@ -94,15 +109,20 @@ Status check_sample(Size sample, int overlap_px) {
     return {};
 }
 
-Expected<TexturePlane> grow_plane(ViewU8x3 sample, const PlaneOptions& options,
+Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples, const PlaneOptions& options,
                                   const CancelToken& cancel, const ProgressFn& progress) {
-    WEFT_CHECK_OK(check(sample, options));
+    WEFT_CHECK_OK(check(samples, options));
     try {
-        return grow(sample, options, cancel, progress);
+        return grow(samples, options, cancel, progress);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::kNoSpace, "There is not enough memory for a texture plane of " +
                                              text_of(options.size) + " px. Use a smaller size.");
     }
+}
+
+Expected<TexturePlane> grow_plane(ViewU8x3 sample, const PlaneOptions& options,
+                                  const CancelToken& cancel, const ProgressFn& progress) {
+    return grow_plane(std::vector<ViewU8x3>{sample}, options, cancel, progress);
 }
 
 std::optional<std::string> sample_warning(ViewU8x3 sample) {

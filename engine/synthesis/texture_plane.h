@@ -5,12 +5,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/cancel.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
 #include "engine/seam/seam.h"
+#include "engine/seam/seam_cost.h"
+#include "engine/synthesis/sample_atlas.h"
+#include "engine/synthesis/texture_period.h"
 
 namespace weft {
 
@@ -22,32 +26,45 @@ struct PlaneGuide {
     float weight = 1.0f;
 };
 
+/// Rounds of refinement that a plane gets unless told otherwise. In the first all cuts are made
+/// again, in the others further blocks are laid over the worst seams. Neither other seam methods
+/// nor guided planes are refined.
+inline constexpr int kDefaultRefinePasses = 2;
+
 struct PlaneOptions {
     Size size{512, 512};  ///< Texels.
     SeamMethod seam = SeamMethod::kGraphCut;
+    SeamCost seam_cost = SeamCost::kGradient;
     int overlap_px = 36;  ///< Largest overlap along the sweep, 12 … sample/2.
     int feather_px = 0;   ///< Blend across the seams, 0 is off.
     std::uint64_t seed = 1;
     std::uint64_t region = 0, frame = 0;  ///< Further keys of the random numbers.
     bool tileable = false;                ///< Opposite borders join along cut seams.
     std::optional<PlaneGuide> guide;
-    int refine_passes = 0;  ///< Rounds of blocks over the worst seams, 0 is off.
+    int refine_passes = kDefaultRefinePasses;  ///< Rounds of blocks over the worst seams, 0 is off.
+    Orientations orientations;  ///< Turned and mirrored samples besides upright ones.
+    bool align = true;          ///< Keep a texture that repeats by itself (bricks, tiles) in step.
 };
 
-/// Times in seconds of wall clock; total includes planning and cold caches.
+/// Times in seconds of wall clock; total includes planning and cold caches. Where several threads
+/// work, a stage has its share of the time that they took together.
 struct PlaneStats {
-    double search_s = 0, seam_s = 0, other_s = 0, total_s = 0;
+    double search_s = 0, seam_s = 0, refine_s = 0, other_s = 0, total_s = 0;
     double seam_energy = 0;  ///< Σ over seam pixel pairs of ‖A−B‖(p) + ‖A−B‖(q), 8-bit units.
     std::int64_t seam_length_px = 0;  ///< Neighbouring pairs that are not neighbours in the source.
     double seam_energy_per_area = 0;
     std::size_t peak_graph_bytes = 0;
-    int placements = 0;
+    int placements = 0;   ///< Of the first sweep.
+    int refinements = 0;  ///< Blocks that refinement laid over seams.
+    TexturePeriod period;
 };
 
 struct TexturePlane {
     ImageU8x3 pixels;  ///< In the sample's encoding.
-    Image<std::int32_t, 2>
-        source;  ///< Which sample pixel (x, y) each texel shows (before feathering).
+    /// Which sample pixel (x, y) each texel shows (before feathering), and of which sample in which
+    /// orientation (see SampleAtlas::Page); `origin` is empty where there is one upright sample.
+    Image<std::int32_t, 2> source;
+    Image<std::uint8_t, 2> origin;
     PlaneStats stats;
 };
 
@@ -55,10 +72,14 @@ struct TexturePlane {
 /// do.
 [[nodiscard]] Status check_sample(Size sample, int overlap_px);
 
-/// Grows a plane. Deterministic: the same sample and options give the same bytes, whatever the
-/// number of threads. Errors: Usage when the sample is smaller than twice 12 px on a side or than
-/// the overlap, or the size is not in [1, 16384]; NoSpace; cancelled. A constant-colour sample is
-/// not an error: the plane is that colour.
+/// Grows a plane. Deterministic: the same samples and options give the same bytes, whatever the
+/// number of threads. Errors: Usage when there is no sample or more than 64, when a sample is
+/// smaller than twice 12 px on a side or than the overlap, or the size is not in [1, 16384];
+/// NoSpace; cancelled. A constant-colour sample is not an error: the plane is that colour.
+[[nodiscard]] Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples,
+                                                const PlaneOptions& options,
+                                                const CancelToken& cancel = {},
+                                                const ProgressFn& progress = {});
 [[nodiscard]] Expected<TexturePlane> grow_plane(ViewU8x3 sample, const PlaneOptions& options,
                                                 const CancelToken& cancel = {},
                                                 const ProgressFn& progress = {});

@@ -240,7 +240,13 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     return keep();
 }
 
-void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible) {
+void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
+                                const LatticeField* ref_from_here) {
+    if (ref_from_here) {
+        state_->ref_from_cur = *ref_from_here;
+        // Older anchors would pull it back.
+        state_->anchors.clear();
+    }
     state_->become_anchor(registration_picture(luma, visible));
 }
 

@@ -42,7 +42,9 @@ class SurfaceWalker {
     /// surface's motion is continued.
     const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur);
     /// Makes the present frame, whose pictures these are, the anchor: further reference frames.
-    void anchor_here(ViewU8x1 luma, ViewU8x1 visible);
+    /// With `ref_from_here` the surface lies there from now on, whatever the walk has found.
+    void anchor_here(ViewU8x1 luma, ViewU8x1 visible,
+                     const LatticeField* ref_from_here = nullptr);
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;
     /// The surface's motion of the last step, defined everywhere.

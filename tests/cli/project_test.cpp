@@ -91,6 +91,19 @@ TEST_F(ProjectFile, AFlagCanBeTakenBack) {
     EXPECT_TRUE(enabled());
 }
 
+TEST_F(ProjectFile, ACorrectionIsSetAndRemoved) {
+    make_project(1);
+    add_card();
+    const std::string before = bytes(kProject);
+    expect_success(run({"region", "correct", kProject, "card", "3", "--pin", "60,50:64,50.5"}));
+    EXPECT_THAT(bytes(kProject), HasSubstr("corrections"));
+    EXPECT_THAT(bytes(kProject), HasSubstr("50.5"));
+    expect_failure(run({"region", "correct", kProject, "card", "3", "--pin", "60,50"}), 2,
+                   {"60,50", "x,y:x,y"});
+    expect_success(run({"region", "correct", kProject, "card", "3"}));
+    EXPECT_EQ(bytes(kProject), before);
+}
+
 TEST_F(ProjectFile, ARefusedChangeLeavesTheFile) {
     make_project(1);
     add_card();

@@ -88,5 +88,15 @@ TEST(BackendRegistry, AnUnknownNameListsTheKnownOnes) {
     }
 }
 
+TEST(Backend, WithoutADeviceLeavesSearchesAndFramesToItsCaller) {
+    const NamedBackend plain("plain");
+    EXPECT_EQ(plain.open_plane_search({}), nullptr);
+    EXPECT_EQ(plain.open_frame({}), nullptr);
+    EXPECT_THAT(plain.remarks(), IsEmpty());
+    const auto cpu = make_cpu_backend();
+    EXPECT_EQ(cpu->open_plane_search({}), nullptr);
+    EXPECT_EQ(cpu->open_frame({}), nullptr);
+}
+
 }  // namespace
 }  // namespace weft

@@ -105,5 +105,20 @@ TEST(PlanePyramid, DoesNotDependOnThreads) {
     EXPECT_EQ(one.levels(), three.levels());
 }
 
+TEST(PlanePyramid, ItsIdentityNamesItsTexels) {
+    const ImageF3 texels = noise({9, 7});
+    const PlanePyramid first(texels, WrapMode::kRepeat), second(texels, WrapMode::kRepeat);
+    EXPECT_NE(first.identity(), 0u);
+    EXPECT_NE(first.identity(), second.identity());
+    PlanePyramid copy = first;
+    EXPECT_EQ(copy.identity(), first.identity());
+    const PlanePyramid moved = std::move(copy);
+    EXPECT_EQ(moved.identity(), first.identity());
+    EXPECT_EQ(copy.identity(), 0u);  // NOLINT: what is left is empty, and has no name.
+    copy = second;
+    EXPECT_EQ(copy.identity(), second.identity());
+    EXPECT_EQ(PlanePyramid().identity(), 0u);
+}
+
 }  // namespace
 }  // namespace weft

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gpu/cuda_probe.h"
+#include "gpu/cuda_device.h"
 
 namespace weft {
 namespace {
@@ -11,39 +11,48 @@ namespace {
 using testing::HasSubstr;
 using testing::SizeIs;
 
-TEST(CudaProbe, SaysWhatItFoundOrWhyNot) {
-    const CudaProbe probe = probe_cuda();
-    EXPECT_FALSE(probe.detail.empty());
-    EXPECT_GE(probe.devices, 0);
-    if (!probe.compiled) {
-        EXPECT_EQ(probe.devices, 0);
-        EXPECT_THAT(probe.detail, HasSubstr("no CUDA in it"));
-    }
+BackendRegistry with_cuda() {
+    BackendRegistry registry;
+    register_cuda(registry);
+    return registry;
+}
+
+TEST(CudaBackend, IsRegisteredWithThePapersStrategiesBehindTheCpu) {
+    EXPECT_THAT(with_cuda().names(),
+                testing::ElementsAre("cuda", "cpu", "cuda-candidate", "cuda-pixel"));
 }
 
 TEST(CudaBackend, TheRegistryRepeatsTheReason) {
-    BackendRegistry registry;
-    register_cuda(registry);
-    EXPECT_THAT(registry.names(), testing::ElementsAre("cuda", "cpu"));
-    const CudaProbe probe = probe_cuda();
-    const auto choice = registry.choose("cuda");
-    ASSERT_FALSE(choice);
-    EXPECT_EQ(choice.error().code, ErrorCode::kNoBackend);
-    EXPECT_THAT(choice.error().text(), HasSubstr(probe.detail));
-    EXPECT_THAT(choice.error().text(), HasSubstr("Usable here: cpu"));
-    EXPECT_THAT(choice.error().text(),
-                HasSubstr(probe.devices > 0 ? "no CUDA kernels" : "cannot be used here"));
+    const auto device = open_cuda_device();
+    if (device) GTEST_SKIP() << "There is a GPU here: " << (*device)->description();
+    EXPECT_EQ(device.error().code, ErrorCode::kNoBackend);
+    for (const std::string name : {"cuda", "cuda-candidate", "cuda-pixel"}) {
+        const auto choice = with_cuda().choose(name);
+        ASSERT_FALSE(choice);
+        EXPECT_EQ(choice.error().code, ErrorCode::kNoBackend);
+        EXPECT_THAT(choice.error().text(), HasSubstr("CUDA cannot be used here: "));
+        EXPECT_THAT(choice.error().text(), HasSubstr(device.error().text()));
+        EXPECT_THAT(choice.error().text(), HasSubstr("Usable here: cpu;"));
+    }
 }
 
-TEST(CudaBackend, AutoGoesOnToTheCpuAndSaysWhy) {
-    BackendRegistry registry;
-    register_cuda(registry);
-    const auto choice = registry.choose("auto");
+TEST(CudaBackend, AutoGoesOnToTheCpuAndSaysWhyOnce) {
+    const auto device = open_cuda_device();
+    if (device) GTEST_SKIP() << "There is a GPU here: " << (*device)->description();
+    const auto choice = with_cuda().choose("auto");
     ASSERT_TRUE(choice);
     EXPECT_EQ(choice->backend->name(), "cpu");
     ASSERT_THAT(choice->passed_over, SizeIs(1));
-    EXPECT_THAT(choice->passed_over[0], HasSubstr("cuda: "));
-    EXPECT_THAT(choice->passed_over[0], HasSubstr(probe_cuda().detail));
+    EXPECT_EQ(choice->passed_over[0], "cuda: " + device.error().text());
+}
+
+TEST(CudaBackend, AutoTakesAGpuThatIsThere) {
+    const auto device = open_cuda_device();
+    if (!device) GTEST_SKIP() << "Not tested here: " << device.error().text();
+    const auto choice = with_cuda().choose("auto");
+    ASSERT_TRUE(choice);
+    EXPECT_EQ(choice->backend->name(), "cuda");
+    EXPECT_EQ(choice->backend->description(), (*device)->description());
 }
 
 }  // namespace

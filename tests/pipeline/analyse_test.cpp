@@ -101,6 +101,47 @@ TEST(Analysis, TwoReferencesAreBlendedBetweenAndKeptThemselves) {
         EXPECT_LT(coords_error(two, frame, 2), 0.2f) << frame;
 }
 
+TEST(Analysis, ACorrectionHoldsFromItsFrameOnAndIsSpreadBeforeIt) {
+    const MemoryShot shot = make_wall();
+    RegionPlan region = region_from({2, 8});
+    region.corrections[8] = {{{80, 60}, {86, 60}}};
+    MemoryAnalysisStore plain, moved;
+    analyse(shot, make_plan(region_from({2, 8})), plain);
+    analyse(shot, make_plan(region), moved);
+    // How far the texture stands from where it would be without the correction, on each frame.
+    const auto shift = [&](int frame) {
+        const Vec2 p(90, 60);
+        return distance(p + stored_coords(moved, frame).at(p),
+                        p + stored_coords(plain, frame).at(p));
+    };
+    EXPECT_EQ(shift(1), 0);
+    EXPECT_EQ(shift(2), 0);
+    EXPECT_GT(shift(5), 1.5f);
+    EXPECT_LT(shift(5), 4.5f);
+    EXPECT_NEAR(shift(8), 6, 0.5);
+    EXPECT_NEAR(shift(10), 6, 0.6);
+    EXPECT_LT(shift(3), shift(5));
+    EXPECT_LT(shift(5), shift(7));
+}
+
+TEST(Analysis, ACorrectionBeforeThePlacementIsSpreadToo) {
+    const MemoryShot shot = make_wall();
+    RegionPlan region = region_from({8, 3});
+    region.corrections[3] = {{{80, 60}, {80, 65}}};
+    MemoryAnalysisStore plain, moved;
+    analyse(shot, make_plan(region_from({8, 3})), plain);
+    analyse(shot, make_plan(region), moved);
+    const auto shift = [&](int frame) {
+        const Vec2 p(90, 60);
+        return distance(stored_coords(moved, frame).at(p), stored_coords(plain, frame).at(p));
+    };
+    EXPECT_EQ(shift(8), 0);
+    EXPECT_EQ(shift(10), 0);
+    EXPECT_NEAR(shift(3), 5, 0.5);
+    EXPECT_NEAR(shift(1), 5, 0.6);
+    EXPECT_GT(shift(5), shift(7));
+}
+
 TEST(Analysis, TheFirstReferenceHoldsThePlacementWhereverItLies) {
     const MemoryShot shot = make_wall();
     MemoryAnalysisStore store;

@@ -31,7 +31,8 @@ std::vector<Edit> every_edit() {
             SetMatteKeyframe{{7, {}}, 40, "b.png"},
             RemoveMatteKeyframe{{7, {}}, 1},
             SetHoldouts{{7, {}}, {painted}},
-            SetTexture{{7, {}}, region.texture}};
+            SetTexture{{7, {}}, region.texture},
+            SetCorrection{{7, {}}, 12, {{{1, 2}, {3, 4.5}}}}};
 }
 
 TEST(Edits, EachSurvivesJson) {

@@ -23,6 +23,7 @@ Region full_region() {
     r.placement.offset_px = {3, -4.25};
     r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
     r.reference_frames = {12, 40};
+    r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
     r.motion = {"flow/####.flo", MotionDirection::kBackward, {}};
     r.synthesis = {SeamMethod::kDynamicProgramming, 24, 3, {}};
     r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};

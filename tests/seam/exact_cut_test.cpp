@@ -184,6 +184,35 @@ TEST(ExactCut, MaxFlowEqualsOpenCv) {
     }
 }
 
+// A block whose whole border is old over old seams: data terms pull parts of its inside to the new
+// side, as in refinement. Its graph has no two arcs, so that it is a max-flow's.
+TEST(ExactCut, InteriorPatchesEqualOpenCv) {
+    Rng rng(7);
+    int laid = 0;
+    for (int i = 0; i < 400; ++i) {
+        SeamProblem p = empty_problem(18, 16);
+        for (int y = 0; y < 16; ++y) {
+            for (int x = 0; x < 18; ++x) {
+                const bool border = x == 0 || y == 0 || x == 17 || y == 15;
+                p.cells.at(x, y) = border ? SeamCell::kOld : SeamCell::kFree;
+            }
+        }
+        draw_arcs(p, rng, Costs::kTies);
+        p.old_cost = p.new_cost = Image<std::int32_t, 1>(p.cells.size(), 0);
+        const int seam = 4 + static_cast<int>(rng.below(10));
+        for (int y = 0; y < 16; ++y)
+            p.old_cost.at(seam, y) = static_cast<std::int32_t>(rng.below(i % 3 ? 12 : 3));
+        EXPECT_FALSE(solve_planar_dual(p));
+        const SeamResult cut = solve_seam(p);
+        expect_exact(p, cut);
+        ASSERT_EQ(cut.energy, opencv_value(p)) << i;
+        ASSERT_LE(cut.energy, solve_direct(p).energy);
+        laid += count_old(p, cut.labels) < 18 * 16;
+    }
+    EXPECT_GT(laid, 100);
+    EXPECT_LT(laid, 400);
+}
+
 TEST(ExactCut, LargestCostsDoNotOverflow) {
     Rng rng(6);
     SeamProblem p = strip(8, 40, rng, Costs::kDistinct);

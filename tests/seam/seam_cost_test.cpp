@@ -68,6 +68,39 @@ TEST(SeamCost, LargestCostFitsInThirtyTwoBits) {
     EXPECT_NEAR(p.right.at(0, 0), 2 * 255 * std::sqrt(3.0) / kGradientFloor * kSeamCostScale, 4.0);
 }
 
+TEST(SeamCost, ThePapersVariantIsItsFormula) {
+    Rng rng(9);
+    ImageU8x3 a(7, 5), b(7, 5), target(7, 5);
+    Matte known(7, 5, 0);
+    for (ImageU8x3* picture : {&a, &b, &target}) {
+        for (int y = 0; y < 5; ++y) {
+            for (int i = 0; i < 21; ++i)
+                picture->row(y)[i] = static_cast<std::uint8_t>(rng.below(256));
+        }
+    }
+    for (int x = 0; x < 4; ++x)
+        known.at(x, 2) = 255;
+    SeamProblem p;
+    p.cells = Image<SeamCell, 1>(7, 5, SeamCell::kFree);
+    fill_paper_costs(a, b, target, known, p);
+    const auto wanted = [&](int x, int y, int c) {
+        return known.at(x, y) ? static_cast<double>(target.at(x, y, c))
+                              : (a.at(x, y, c) + b.at(x, y, c)) / 2.0;
+    };
+    for (int y = 0; y < 5; ++y) {
+        for (int x = 0; x < 7; ++x) {
+            for (const Vec2i d : {Vec2i{1, 0}, Vec2i{0, 1}}) {
+                if (x + d.x >= 7 || y + d.y >= 5) continue;
+                double sum = 0;
+                for (int c = 0; c < 3; ++c)
+                    sum += std::pow(wanted(x, y, c) - wanted(x + d.x, y + d.y, c), 2);
+                EXPECT_NEAR((d.x ? p.right : p.down).at(x, y), sum / (255 * 255) * kSeamCostScale,
+                            0.51);
+            }
+        }
+    }
+}
+
 TEST(SeamCost, DataTermsPullTowardsTheTarget) {
     Rng rng(24);
     const ImageU8x3 a(8, 8, 60), b(8, 8, 70), target(8, 8, 69);

@@ -226,7 +226,7 @@ TEST(TexturePlane, StatisticsAreHonest) {
     const PlaneStats& s = plane.stats;
     EXPECT_GT(s.search_s, 0);
     EXPECT_GT(s.seam_s, 0);
-    EXPECT_NEAR(s.search_s + s.seam_s + s.other_s, s.total_s, 1e-9);
+    EXPECT_NEAR(s.search_s + s.seam_s + s.refine_s + s.other_s, s.total_s, 1e-9);
     EXPECT_GE(s.placements, 9);
     // The graph is confined to one patch's overlap.
     EXPECT_GT(s.peak_graph_bytes, 10'000u);

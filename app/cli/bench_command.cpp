@@ -1,0 +1,246 @@
+#include <time.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/cli/commands.h"
+#include "engine/color/color_space.h"
+#include "engine/core/parallel.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/seam/isa.h"
+#include "engine/synthesis/repetition.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSamplePx = 96;
+
+double cpu_s() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Mean and deviation of a quantity over runs.
+struct Figure {
+    double sum = 0, squares = 0;
+    int n = 0;
+    void add(double v) { sum += v, squares += v * v, ++n; }
+    [[nodiscard]] double mean() const { return sum / n; }
+    [[nodiscard]] double deviation() const {
+        return n < 2 ? 0 : std::sqrt(std::max(0.0, (squares - sum * sum / n) / (n - 1)));
+    }
+};
+
+struct Runs {
+    Figure search, seam, refine, other, total, cpu, energy;
+    std::size_t graph_bytes = 0;
+    TexturePlane last;
+};
+
+Expected<Runs> measure(ViewU8x3 sample, const PlaneOptions& options, int runs) {
+    Runs out;
+    for (int i = 0; i < runs; ++i) {
+        const double start = cpu_s();
+        WEFT_TRY(plane, grow_plane(sample, options, cancel_on_signals()));
+        out.cpu.add(cpu_s() - start);
+        const PlaneStats& s = plane.stats;
+        out.search.add(s.search_s), out.seam.add(s.seam_s), out.refine.add(s.refine_s);
+        out.other.add(s.other_s), out.total.add(s.total_s), out.energy.add(s.seam_energy_per_area);
+        out.graph_bytes = std::max(out.graph_bytes, s.peak_graph_bytes);
+        out.last = std::move(plane);
+    }
+    return out;
+}
+
+nlohmann::ordered_json json_of(const Figure& f) {
+    return {{"mean", f.mean()}, {"deviation", f.deviation()}};
+}
+
+nlohmann::ordered_json json_of(const Runs& r) {
+    return {{"search_s", json_of(r.search)},
+            {"seam_s", json_of(r.seam)},
+            {"refine_s", json_of(r.refine)},
+            {"other_s", json_of(r.other)},
+            {"total_s", json_of(r.total)},
+            {"cpu_s", json_of(r.cpu)},
+            {"seam_energy_per_area", r.energy.mean()},
+            {"peak_graph_bytes", r.graph_bytes}};
+}
+
+std::string line_of(const std::string& name, const Runs& r) {
+    char text[256];
+    const auto percent = [&](const Figure& f) { return 100 * f.mean() / r.total.mean(); };
+    std::snprintf(text, sizeof text,
+                  "%-22s %8.1f ± %5.1f ms  cpu %8.1f ms  search %4.1f%%  seam %4.1f%%  refine "
+                  "%4.1f%%  other %4.1f%%  energy/area %.3f  graph %zu bytes\n",
+                  name.c_str(), 1e3 * r.total.mean(), 1e3 * r.total.deviation(), 1e3 * r.cpu.mean(),
+                  percent(r.search), percent(r.seam), percent(r.refine), percent(r.other),
+                  r.energy.mean(), r.graph_bytes);
+    return text;
+}
+
+// The plane with each texel next to a seam in red.
+Status write_seams(const std::string& path, const TexturePlane& plane) {
+    ImageF3 out(plane.pixels.size());
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            const std::int32_t* p = plane.source.pixel(x, y);
+            bool seam = false;
+            if (x + 1 < out.width()) seam |= p[2] != p[0] + 1 || p[3] != p[1];
+            if (y + 1 < out.height()) {
+                const std::int32_t* q = plane.source.pixel(x, y + 1);
+                seam |= q[0] != p[0] || q[1] != p[1] + 1;
+            }
+            const std::uint8_t* rgb = plane.pixels.pixel(x, y);
+            for (int c = 0; c < 3; ++c) {
+                out.pixel(x, y)[c] =
+                    seam ? (c == 0 ? 1.0f : 0.0f) : static_cast<float>(rgb[c]) / 255.0f;
+            }
+        }
+    }
+    WriteOptions write;
+    write.depth = PixelDepth::kU8;
+    return write_image(path, out, {}, write);
+}
+
+Expected<ImageU8x3> read_picture(const std::string& path) {
+    WEFT_TRY(picture, read_image(path));
+    WEFT_TRY(display, make_color_transform({"srgb"}, {"srgb"}));
+    return make_views(picture.rgb, *display).display;
+}
+
+Expected<ImageU8x3> middle_of(const std::string& path) {
+    WEFT_TRY(whole, read_picture(path));
+    const int w = std::min(kSamplePx, whole.width()), h = std::min(kSamplePx, whole.height());
+    const int x0 = (whole.width() - w) / 2, y0 = (whole.height() - h) / 2;
+    ImageU8x3 sample(w, h);
+    for (int y = 0; y < h; ++y)
+        std::copy_n(whole.pixel(x0, y0 + y), 3 * w, sample.row(y));
+    return sample;
+}
+
+class Bench {
+  public:
+    Bench(const BenchOptions& options, const ImageU8x3& sample)
+        : options_(options), sample_(sample) {}
+
+    Expected<nlohmann::ordered_json> run() {
+        WEFT_CHECK_OK(sizes());
+        WEFT_CHECK_OK(overlaps());
+        WEFT_CHECK_OK(methods());
+        return std::move(json_);
+    }
+
+  private:
+    Status add(const char* group, const std::string& name, const PlaneOptions& plane, int runs) {
+        WEFT_TRY(result, measure(sample_, plane, runs));
+        const Repetition repetition = measure_repetition(result.last);
+        nlohmann::ordered_json entry = json_of(result);
+        entry["repetition"] = repetition.peak;
+        json_[group][name] = std::move(entry);
+        if (!options_.json) print(stdout, line_of(name, result));
+        last_ = std::move(result.last);
+        return {};
+    }
+
+    Status sizes() {
+        for (const int refine : {0, kDefaultRefinePasses}) {
+            for (const int side : options_.sizes) {
+                PlaneOptions plane;
+                plane.size = {side, side};
+                plane.refine_passes = refine;
+                const std::string name = std::to_string(side) + "x" + std::to_string(side) +
+                                         (refine ? " refined" : " one sweep");
+                WEFT_CHECK_OK(add("sizes", name, plane, options_.runs));
+            }
+        }
+        return {};
+    }
+
+    Status overlaps() {
+        for (int overlap = 12; overlap <= 60; overlap += 12) {
+            if (overlap > std::min(sample_.width(), sample_.height())) break;
+            PlaneOptions plane;
+            plane.overlap_px = overlap;
+            plane.refine_passes = 0;
+            WEFT_CHECK_OK(add("overlaps", "overlap " + std::to_string(overlap), plane,
+                              std::min(options_.runs, 3)));
+        }
+        return {};
+    }
+
+    Status methods() {
+        const std::vector<std::pair<std::string, SeamMethod>> all{
+            {"graphcut", SeamMethod::kGraphCut},
+            {"dp", SeamMethod::kDynamicProgramming},
+            {"none", SeamMethod::kNone}};
+        for (const auto& [name, method] : all) {
+            PlaneOptions plane;
+            plane.seam = method;
+            plane.refine_passes = 0;
+            WEFT_CHECK_OK(add("methods", name, plane, std::min(options_.runs, 3)));
+            if (options_.seams.empty()) continue;
+            WEFT_CHECK_OK(write_seams(options_.seams + "/seams_" + name + ".png", last_));
+        }
+        return {};
+    }
+
+    const BenchOptions& options_;
+    const ImageU8x3& sample_;
+    nlohmann::ordered_json json_;
+    TexturePlane last_;
+};
+
+int report_repetition(const BenchOptions& options, const ImageU8x3& sample) {
+    nlohmann::ordered_json json;
+    for (const std::string& path : options.repetition_of) {
+        const auto picture = read_picture(path);
+        if (!picture) return report_error(picture.error());
+        const Repetition r = measure_repetition(picture->view(), find_period(sample));
+        json[path] = r.peak;
+        if (!options.json) print(stdout, path + ": repetition " + std::to_string(r.peak) + "\n");
+    }
+    if (options.json) print(stdout, json.dump(2) + "\n");
+    return 0;
+}
+
+}  // namespace
+
+int bench_command(const BenchOptions& options) {
+    set_thread_count(options.threads);
+    const auto isa = parse_isa(options.isa);
+    if (isa && !isa_available(*isa)) {
+        return report_error({ErrorCode::kNoBackend,
+                             "This processor lacks " + options.isa + ". Leave --isa out.",
+                             {}});
+    }
+    force_isa(isa);
+    const auto sample = middle_of(options.sample);
+    if (!sample) return report_error(sample.error());
+    if (!options.repetition_of.empty()) return report_repetition(options, *sample);
+    if (!options.seams.empty()) {
+        std::error_code ignored;  // Writing the pictures says what is wrong.
+        std::filesystem::create_directories(options.seams, ignored);
+    }
+    if (!options.json) {
+        print(stdout, std::string(isa_name(current_isa())) + ", " + std::to_string(thread_count()) +
+                          " thread(s), overlap 36 px, sample " + std::to_string(sample->width()) +
+                          "x" + std::to_string(sample->height()) + "\n");
+    }
+    auto result = Bench(options, *sample).run();
+    if (!result) return report_error(result.error());
+    if (options.json) {
+        (*result)["isa"] = isa_name(current_isa());
+        (*result)["threads"] = thread_count();
+        print(stdout, result->dump(2) + "\n");
+    }
+    return 0;
+}
+
+}  // namespace weft

@@ -1,0 +1,36 @@
+#include "app/cli/edit_command.h"
+
+#include <memory>
+
+#include "app/cli/region_flags.h"
+
+namespace weft {
+
+void add_edit_command(CLI::App& app, int& exit, const EditCommand& edit) {
+    CLI::App* command = app.add_subcommand("edit", "Open the editor");
+    const auto given = std::make_shared<EditArguments>();
+    given->assets = WEFT_ASSETS_DIR;
+    command->add_option("project", given->project, "Project file (.weft), frames or a movie")
+        ->type_name("PATH");
+    command->add_flag("--demo", given->demo, "Open the demo shot");
+    command->add_flag("--light", given->light, "The light theme");
+    command
+        ->add_option("--ui-scale", given->ui_scale, "Size of the interface; default the screen's")
+        ->check(CLI::Range(0.0, 4.0));
+    command->add_option("--script", given->script, "Steps to carry out without a window (JSON)")
+        ->type_name("PATH");
+    command
+        ->add_option("--screenshot", given->screenshot,
+                     "Write a picture of the window here, without opening one")
+        ->type_name("PATH");
+    command->add_option("--size", given->size, "Size of that picture; default 1600x900")
+        ->type_name("WxH");
+    command->footer(
+        "Examples:\n"
+        "  weft edit shot.weft\n"
+        "  weft edit 'frames/####.exr'\n"
+        "  weft edit --demo --screenshot demo.png --size 1600x900");
+    command->callback([=, &exit] { exit = edit(*given); });
+}
+
+}  // namespace weft

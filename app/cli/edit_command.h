@@ -1,0 +1,21 @@
+#pragma once
+#include <functional>
+#include <string>
+
+namespace weft {
+
+/// What `weft edit` was given. The editor itself lies above the command line and is handed in.
+struct EditArguments {
+    std::string project;     ///< A project or a plate; empty: the welcome screen.
+    bool demo = false;       ///< Open the demo shot.
+    std::string assets;      ///< Folder of what Weft brings along.
+    std::string script;      ///< Steps to carry out without a window.
+    std::string screenshot;  ///< Picture of the last of them.
+    std::string size = "1600x900";
+    double ui_scale = 0;  ///< 0: the monitor's.
+    bool light = false;
+};
+/// Returns the exit code.
+using EditCommand = std::function<int(const EditArguments&)>;
+
+}  // namespace weft

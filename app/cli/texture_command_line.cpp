@@ -1,0 +1,238 @@
+// How the arguments of weft texture are written.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/cli/texture_commands.h"
+
+namespace weft {
+namespace {
+
+using Common = std::shared_ptr<TextureCommandOptions>;
+
+CLI::App* add(CLI::App& group, const std::string& name, const std::string& help,
+              const Common& common) {
+    CLI::App* command = group.add_subcommand(name, help);
+    command->add_option("--db", common->db, "Library file; default: the user's own")
+        ->type_name("FILE");
+    command->add_flag("--json", common->json, "One JSON object on stdout");
+    command->add_option("--threads", common->threads, "Threads to use; 0 is one a processor")
+        ->check(CLI::Range(0, 1024));
+    return command;
+}
+
+void add_build(CLI::App& group, int& exit) {
+    const auto common = std::make_shared<TextureCommandOptions>();
+    const auto options = std::make_shared<BuildOptions>();
+    const auto estimate = std::make_shared<bool>(false), no_starter = std::make_shared<bool>(false);
+    CLI::App* command = add(group, "build", "Make the full library out of Debian packages", common);
+    command
+        ->add_option("--packages", options->packages,
+                     "Packages to take pictures from; 'none' for the starter textures alone")
+        ->delimiter(',');
+    command->add_option("--work", options->work_folder, "Folder for downloads")->type_name("PATH");
+    command
+        ->add_option("--per-picture", options->most_per_picture, "Most samples of one picture [30]")
+        ->check(CLI::Range(1, 1000));
+    command->add_flag("--no-starter", *no_starter, "Without the procedural starter textures");
+    command->add_flag("--keep-downloads", options->keep_downloads,
+                      "Keep the packages for another build");
+    command->add_flag("--estimate", *estimate, "Only say what it will take");
+    command->footer(
+        "Interrupted, it goes on where it stopped when it is run again. Nothing is installed.\n"
+        "Examples:\n  weft texture build --estimate\n  weft texture build --packages "
+        "ufoai-textures,openarena-081-textures");
+    command->callback([=, &exit] {
+        options->starter = !*no_starter;
+        std::erase(options->packages, "none");
+        exit = texture_build_command(*common, *options, *estimate);
+    });
+}
+
+void add_import(CLI::App& group, int& exit) {
+    const auto common = std::make_shared<TextureCommandOptions>();
+    const auto options = std::make_shared<ImportOptions>();
+    const auto paths = std::make_shared<std::vector<std::string>>();
+    const auto watch = std::make_shared<bool>(false);
+    CLI::App* command = add(group, "import", "Add your own pictures", common);
+    command->add_option("paths", *paths, "Files and folders")->required()->type_name("PATH");
+    command->add_option("--material", options->material,
+                        "What they are; default: from their names");
+    command->add_option("--tags", options->tags, "Words to find them by")->delimiter(',');
+    command->add_option("--author", options->author, "Who made them");
+    command->add_option("--licence,--license", options->licence, "Their licence [unknown]");
+    command
+        ->add_option("--per-picture", options->most_per_picture, "Most samples of one picture [30]")
+        ->check(CLI::Range(1, 1000));
+    command->add_flag("--strict", options->strict, "Leave out what looks like no texture");
+    command->add_flag("--keep-originals", options->keep_originals,
+                      "Copy the pictures into the library");
+    command->add_flag("--watch", *watch,
+                      "Go on importing what is added to the folder, until interrupted");
+    command->footer("Example:\n  weft texture import ~/textures --author 'Ada' --licence CC0-1.0");
+    command->callback(
+        [=, &exit] { exit = texture_import_command(*common, *paths, *options, *watch); });
+}
+
+void add_filters(CLI::App& command, TextureSearchOptions& options) {
+    command.add_option("--material", options.query.materials, "Only these materials")
+        ->delimiter(',');
+    command.add_option("--origin", options.origins, "procedural, package or file")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"procedural", "package", "file"}));
+    command.add_option("--package", options.query.packages, "Only from these packages")
+        ->delimiter(',');
+    command.add_option("--licence,--license", options.query.licences, "Only under these licences")
+        ->delimiter(',');
+    command
+        .add_option("--exclude-licences,--exclude-licenses", options.query.excluded_licences,
+                    "Not under these licences or families (GPL, CC-BY-SA, copyleft)")
+        ->delimiter(',');
+    command.add_option("--category", options.query.categories, "Only from these folders")
+        ->delimiter(',');
+    command.add_option("--collection", options.query.collection, "Only from this collection");
+    command.add_flag("--favourites", options.query.favourites_only, "Only favourites");
+    command.add_option("--rating", options.query.min_rating, "At least so many stars")
+        ->check(CLI::Range(0, 5));
+    command
+        .add_option("--sort", options.sort,
+                    "relevance, name, material, newest, rating, brightness, hue or scale")
+        ->check(CLI::IsMember(
+            {"relevance", "name", "material", "newest", "rating", "brightness", "hue", "scale"}));
+    command.add_flag("--descending", options.query.descending, "Turn the order round");
+    command.add_option("--count", options.query.limit, "Results to show [20]")
+        ->check(CLI::Range(0, 1000000));
+    command.add_option("--offset", options.query.offset, "Results to leave out at the front")
+        ->check(CLI::Range(0, 100000000));
+}
+
+void add_search(CLI::App& group, int& exit) {
+    for (const bool list : {false, true}) {
+        const auto common = std::make_shared<TextureCommandOptions>();
+        const auto options = std::make_shared<TextureSearchOptions>();
+        const auto words = std::make_shared<std::vector<std::string>>();
+        options->query.limit = 20;
+        CLI::App* command = add(group, list ? "list" : "search",
+                                list ? "List samples" : "Find samples by words", common);
+        if (!list) {
+            command->add_option("words", *words, "What to look for")->required();
+            command->footer(
+                "Example:\n  weft texture search \"rough grey stone\" --exclude-licences GPL");
+        }
+        add_filters(*command, *options);
+        command->callback([=, &exit] {
+            for (const std::string& word : *words)
+                options->query.text += (options->query.text.empty() ? "" : " ") + word;
+            exit = texture_search_command(*common, *options);
+        });
+    }
+}
+
+void add_similar(CLI::App& group, int& exit) {
+    const auto common = std::make_shared<TextureCommandOptions>();
+    const auto what = std::make_shared<std::string>();
+    const auto count = std::make_shared<int>(20);
+    CLI::App* command =
+        add(group, "similar", "Find samples that look like one, or like a picture", common);
+    command->add_option("what", *what, "Id of a sample, or a picture")
+        ->required()
+        ->type_name("ID|PATH");
+    command->add_option("--count", *count, "Results to show [20]")->check(CLI::Range(1, 100000));
+    command->callback([=, &exit] { exit = texture_similar_command(*common, *what, *count); });
+}
+
+void add_recommend(CLI::App& group, int& exit) {
+    const auto common = std::make_shared<TextureCommandOptions>();
+    const auto o = std::make_shared<TextureRecommendOptions>();
+    CLI::App* command = add(group, "recommend", "Suggest textures for regions of a frame", common);
+    command->add_option("--plate", o->plate, "Frame, sequence or movie")
+        ->required()
+        ->type_name("PATH");
+    command->add_option("--frame", o->frame, "Number of the frame; default: the first");
+    command
+        ->add_option("--matte", o->mattes,
+                     "Matte of a region (of that frame); several for several regions")
+        ->required()
+        ->type_name("PATH");
+    command->add_option("--keep", o->keeps, "For each matte: id of a texture to keep, or -")
+        ->delimiter(',');
+    command->add_option("--material", o->materials, "For each matte: the wanted material, or -")
+        ->delimiter(',');
+    command->add_option("--like", o->wish.like, "More like this sample")->type_name("ID");
+    const auto range = CLI::Range(-1.0, 1.0);
+    command->add_option("--warmer", o->wish.warmer, "-1 colder … 1 warmer")->check(range);
+    command->add_option("--brighter", o->wish.brighter, "-1 darker … 1 brighter")->check(range);
+    command->add_option("--rougher", o->wish.rougher, "-1 smoother … 1 rougher")->check(range);
+    command->add_option("--larger", o->wish.larger, "-1 finer … 1 larger structure")->check(range);
+    command->add_option("--count", o->count, "Suggestions for each region [12]")
+        ->check(CLI::Range(1, 100));
+    command->add_option("--diversity", o->diversity, "0 the best … 1 the most different [0.35]")
+        ->check(CLI::Range(0.0, 1.0));
+    command
+        ->add_option("--exclude-licences,--exclude-licenses", o->excluded_licences,
+                     "Not under these")
+        ->delimiter(',');
+    command->add_option("--sheet", o->sheet, "Write a picture of the suggestions")
+        ->type_name("PATH");
+    command->footer(
+        "Example:\n  weft texture recommend --plate 'frames/####.png' --matte masks/1001.png "
+        "--warmer 0.5");
+    command->callback([=, &exit] { exit = texture_recommend_command(*common, *o); });
+}
+
+void add_rest(CLI::App& group, int& exit) {
+    const auto info = std::make_shared<TextureCommandOptions>();
+    const auto id = std::make_shared<std::string>();
+    CLI::App* command = add(group, "info", "Everything known about a sample", info);
+    command->add_option("id", *id, "Id, or its first 6 digits")->required()->type_name("ID");
+    command->callback([=, &exit] { exit = texture_info_command(*info, *id); });
+
+    const auto stats = std::make_shared<TextureCommandOptions>();
+    add(group, "stats", "How many samples of what", stats)->callback([=, &exit] {
+        exit = texture_stats_command(*stats);
+    });
+    const auto verify = std::make_shared<TextureCommandOptions>();
+    add(group, "verify", "Check every sample of the library", verify)->callback([=, &exit] {
+        exit = texture_verify_command(*verify);
+    });
+    const auto train = std::make_shared<TextureCommandOptions>();
+    add(group, "train", "Learn the descriptor anew from the library", train)->callback([=, &exit] {
+        exit = texture_train_command(*train);
+    });
+
+    const auto common = std::make_shared<TextureCommandOptions>();
+    const auto o = std::make_shared<TextureExportOptions>();
+    command = add(group, "export", "Write samples as pictures, with their credits", common);
+    command->add_option("ids", o->ids, "Ids of samples")->type_name("ID");
+    command->add_option("--search", o->text, "Instead of ids: what these words find");
+    command
+        ->add_option("--origin", o->origins,
+                     "With --search or --random: procedural, package or file")
+        ->delimiter(',');
+    command->add_option("-o,--output", o->output, "Folder; with --sheet a picture")
+        ->required()
+        ->type_name("PATH");
+    command->add_flag("--sheet", o->sheet, "One picture of all of them");
+    command->add_flag("--originals", o->originals, "The larger pictures");
+    command->add_option("--count", o->count, "Most samples [100]")->check(CLI::Range(1, 1000000));
+    command->add_option("--columns", o->columns, "Columns of the sheet [20]")
+        ->check(CLI::Range(1, 200));
+    command->add_option("--random", o->seed, "Choose at random with this seed");
+    command->footer("Example:\n  weft texture export --random 7 --count 400 --sheet -o sheet.png");
+    command->callback([=, &exit] { exit = texture_export_command(*common, *o); });
+}
+
+}  // namespace
+
+void add_texture_commands(CLI::App& app, int& exit) {
+    CLI::App* group = app.add_subcommand("texture", "Browse, search and build the texture library");
+    group->require_subcommand(1);
+    add_build(*group, exit);
+    add_import(*group, exit);
+    add_search(*group, exit);
+    add_similar(*group, exit);
+    add_recommend(*group, exit);
+    add_rest(*group, exit);
+}
+
+}  // namespace weft

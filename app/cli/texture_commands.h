@@ -1,0 +1,76 @@
+#pragma once
+// weft texture …: the texture library from the command line.
+
+#include <string>
+#include <vector>
+
+#include "texture_db/build.h"
+#include "texture_db/import.h"
+#include "texture_db/library.h"
+
+namespace CLI {
+class App;
+}
+
+namespace weft {
+
+/// Adds `weft texture` with all its subcommands.
+void add_texture_commands(CLI::App& app, int& exit);
+
+/// What every `weft texture` subcommand takes.
+struct TextureCommandOptions {
+    std::string db;  ///< Empty: the default library.
+    bool json = false;
+    int threads = 0;
+};
+
+struct TextureSearchOptions {
+    SearchQuery query;
+    std::string sort = "relevance";
+    std::vector<std::string> origins;
+};
+
+struct TextureRecommendOptions {
+    std::string plate;
+    int frame = -1;  ///< Number of the plate's frame; -1: the first.
+    std::vector<std::string> mattes;
+    std::vector<std::string> keeps;      ///< One for each matte, "-" for none.
+    std::vector<std::string> materials;  ///< Likewise.
+    RecommendWish wish;
+    int count = 12;
+    float diversity = 0.35f;
+    std::vector<std::string> excluded_licences;
+    std::string sheet;  ///< Picture of the suggestions to write.
+};
+
+struct TextureExportOptions {
+    std::vector<std::string> ids;
+    std::string text;    ///< Instead of ids: what a search finds.
+    std::string output;  ///< Folder, or a picture with sheet.
+    bool sheet = false, originals = false;
+    int count = 100;
+    int columns = 20;
+    std::uint64_t seed = 0;  ///< Other than 0: a random choice.
+    std::vector<std::string> origins;
+};
+
+// Each returns the exit code.
+int texture_build_command(const TextureCommandOptions& common, const BuildOptions& options,
+                          bool estimate);
+int texture_import_command(const TextureCommandOptions& common,
+                           const std::vector<std::string>& paths, const ImportOptions& options,
+                           bool watch);
+int texture_search_command(const TextureCommandOptions& common,
+                           const TextureSearchOptions& options);
+int texture_similar_command(const TextureCommandOptions& common, const std::string& what,
+                            int count);
+int texture_recommend_command(const TextureCommandOptions& common,
+                              const TextureRecommendOptions& options);
+int texture_info_command(const TextureCommandOptions& common, const std::string& id);
+int texture_stats_command(const TextureCommandOptions& common);
+int texture_export_command(const TextureCommandOptions& common,
+                           const TextureExportOptions& options);
+int texture_verify_command(const TextureCommandOptions& common);
+int texture_train_command(const TextureCommandOptions& common);
+
+}  // namespace weft

@@ -1,0 +1,22 @@
+#include "app/editor/editor.h"
+
+#include <cstdlib>
+
+#include "app/editor/run_modes.h"
+
+namespace weft {
+
+bool has_display() {
+    const auto set = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && *value;
+    };
+    return set("DISPLAY") || set("WAYLAND_DISPLAY");
+}
+
+Expected<int> run_editor(const EditorOptions& options) {
+    if (!options.script.empty() || !options.screenshot.empty()) return run_offscreen(options);
+    return run_window(options);
+}
+
+}  // namespace weft

@@ -1,0 +1,117 @@
+#include "app/editor/editor_app.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+namespace weft {
+namespace {
+
+SessionOptions session_options(const EditorOptions& options) {
+    SessionOptions out;
+    out.program = options.program;
+    out.assets = options.assets;
+    out.state_folder = editor_state_folder();
+    out.offer_recovery = options.script.empty();
+    return out;
+}
+
+// Beside the other data of the user.
+std::string library_path() {
+    const char* data = std::getenv("XDG_DATA_HOME");
+    const char* home = std::getenv("HOME");
+    const std::filesystem::path base =
+        data && *data ? std::filesystem::path(data)
+                      : std::filesystem::path(home && *home ? home : "/tmp") / ".local/share";
+    std::error_code error;
+    std::filesystem::create_directories(base / "weft", error);
+    return (base / "weft" / "textures.db").string();
+}
+
+}  // namespace
+
+EditorApp::EditorApp(const EditorOptions& options)
+    : options_(options), settings_path_(editor_settings_path()) {
+    settings_ = load_editor_settings(settings_path_);
+    if (options_.light) settings_.dark = false;
+    saved_settings_ = settings_;
+    session_ = std::make_unique<Session>(session_options(options_), &settings_);
+    shell_ = std::make_unique<Shell>(settings_, pictures_);
+    shell_->textures().open_library(library_path());
+    shell_->job_log = [this](int id) { return session_->job_log(id); };
+    shell_->dismiss_notice = [this](int id) { session_->dismiss(id); };
+}
+
+EditorApp::~EditorApp() = default;
+
+Status EditorApp::start() {
+    WEFT_CHECK_OK(pictures_.make_shaders());
+    if (options_.demo) session_->act(OpenDemo{});
+    if (!options_.project.empty()) session_->act(OpenAny{options_.project});
+    return {};
+}
+
+bool EditorApp::update_look(double monitor_scale) {
+    const double scale = options_.ui_scale > 0    ? options_.ui_scale
+                         : settings_.ui_scale > 0 ? settings_.ui_scale
+                                                  : monitor_scale;
+    if (scale == scale_ && dark_ == settings_.dark && grey_ == settings_.grey_surround)
+        return false;
+    const bool fonts = scale != scale_;
+    scale_ = scale;
+    dark_ = settings_.dark;
+    grey_ = settings_.grey_surround;
+    shell_->set_look(dark_, grey_, static_cast<float>(std::clamp(scale, 0.75, 4.0)));
+    return fonts;
+}
+
+void EditorApp::frame(double now_s) {
+    const auto start = std::chrono::steady_clock::now();
+    pictures_.begin_frame();
+    std::vector<std::string> folders = settings_.texture_folders;
+    for (const char* own : {"textures", "demo/textures"}) {
+        const std::string path = (std::filesystem::path(options_.assets) / own).string();
+        folders.push_back(path);
+    }
+    shell_->textures().look_in(std::move(folders));
+    session_->update(now_s);
+    ImGui::NewFrame();
+    const std::vector<Action> actions = shell_->draw(session_->view());
+    ImGui::Render();
+    for (const Action& action : actions)
+        session_->act(action);
+    // Settings are few; they are written a while after they changed.
+    if (now_s - settings_checked_s_ > 2) {
+        settings_checked_s_ = now_s;
+        if (!(settings_ == saved_settings_) && options_.script.empty()) {
+            saved_settings_ = settings_;
+            if (const Status saved = save_editor_settings(settings_path_, settings_); !saved)
+                session_->notify(NoticeKind::kWarning, saved.error().text());
+        }
+    }
+    times_.last_ms =
+        1000.0 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    times_.worst_ms = std::max(times_.worst_ms, times_.last_ms);
+    times_.sum_ms += times_.last_ms;
+    ++times_.frames;
+#ifndef NDEBUG
+    constexpr double kWatchdogMs = 30;
+    if (times_.last_ms > kWatchdogMs)
+        std::fprintf(stderr, "weft: a frame of the interface took %.0f ms\n", times_.last_ms);
+#endif
+}
+
+bool EditorApp::idle() const {
+    return !session_->busy() && !shell_->waiting();
+}
+
+std::uint64_t EditorApp::news() const {
+    return session_->news() + shell_->textures().arrivals();
+}
+
+void EditorApp::close() {
+    session_->close_cleanly();
+    if (options_.script.empty()) (void)save_editor_settings(settings_path_, settings_);
+}
+
+}  // namespace weft

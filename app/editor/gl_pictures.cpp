@@ -1,0 +1,281 @@
+#define GL_GLEXT_PROTOTYPES
+#include "app/editor/gl_pictures.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/editor/shader_sources.h"
+
+extern char** environ;
+
+namespace weft {
+namespace {
+
+constexpr std::size_t kBudgetBytes = std::size_t{1} << 30;
+
+GLuint compile(GLenum kind, const char* source, std::string& log) {
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint good = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good) return shader;
+    char text[1024] = "";
+    glGetShaderInfoLog(shader, sizeof text, nullptr, text);
+    log += text;
+    return 0;
+}
+
+GLuint link(const char* vertex, const char* fragment, std::string& log) {
+    const GLuint v = compile(GL_VERTEX_SHADER, vertex, log);
+    const GLuint f = compile(GL_FRAGMENT_SHADER, fragment, log);
+    if (!v || !f) return 0;
+    const GLuint program = glCreateProgram();
+    glAttachShader(program, v);
+    glAttachShader(program, f);
+    glLinkProgram(program);
+    glDeleteShader(v);
+    glDeleteShader(f);
+    GLint good = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &good);
+    return good ? program : 0;
+}
+
+GLint at(GLuint program, const char* name) {
+    return glGetUniformLocation(program, name);
+}
+
+}  // namespace
+
+struct GlPictures::Order {
+    const GlPictures* host = nullptr;
+    bool is_matte = false;
+    PictureDraw picture;
+    MatteDraw matte;
+    GLuint a = 0, b = 0;
+};
+
+GlPictures::GlPictures() = default;
+
+GlPictures::~GlPictures() {
+    for (const auto* textures : {&pictures_, &mattes_})
+        for (const auto& [key, texture] : *textures)
+            glDeleteTextures(1, &texture.id);
+    if (picture_program_) glDeleteProgram(picture_program_);
+    if (matte_program_) glDeleteProgram(matte_program_);
+    if (quad_buffer_) glDeleteBuffers(1, &quad_buffer_);
+    if (quad_) glDeleteVertexArrays(1, &quad_);
+}
+
+Status GlPictures::make_shaders() {
+    std::string log;
+    picture_program_ = link(shaders::kViewerVert, shaders::kPictureFrag, log);
+    matte_program_ = link(shaders::kViewerVert, shaders::kMatteFrag, log);
+    if (!picture_program_ || !matte_program_) {
+        return fail(ErrorCode::kRenderFailed,
+                    "The display needs OpenGL 3.3, which this driver does not give. " + log);
+    }
+    constexpr float kCorners[] = {0, 0, 1, 0, 0, 1, 1, 1};
+    glGenVertexArrays(1, &quad_);
+    glGenBuffers(1, &quad_buffer_);
+    glBindVertexArray(quad_);
+    glBindBuffer(GL_ARRAY_BUFFER, quad_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, sizeof kCorners, kCorners, GL_STATIC_DRAW);
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+    glBindVertexArray(0);
+    return {};
+}
+
+void GlPictures::begin_frame() {
+    ++frame_;
+    orders_.clear();
+    trim();
+}
+
+void GlPictures::trim() {
+    while (bytes_ > kBudgetBytes) {
+        const auto oldest = std::min_element(
+            pictures_.begin(), pictures_.end(),
+            [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+        if (oldest == pictures_.end() || oldest->second.used + 1 >= frame_) return;
+        glDeleteTextures(1, &oldest->second.id);
+        bytes_ -= oldest->second.bytes;
+        pictures_.erase(oldest);
+    }
+}
+
+unsigned GlPictures::texture_of(const PicturePtr& picture, bool smooth) {
+    if (!picture || picture->size.empty()) return 0;
+    Texture& texture = pictures_[picture->id];
+    texture.used = frame_;
+    if (!texture.id) {
+        glGenTextures(1, &texture.id);
+        glBindTexture(GL_TEXTURE_2D, texture.id);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+        const int w = picture->size.width, h = picture->size.height;
+        // The driver turns sRGB codes into linear light before it filters.
+        if (!picture->srgb.empty())
+            glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8, w, h, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                         picture->srgb.data());
+        else
+            glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, w, h, 0, GL_RGB, GL_HALF_FLOAT,
+                         picture->half.data());
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        glGenerateMipmap(GL_TEXTURE_2D);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        texture.bytes = picture->size_bytes() * 4 / 3;
+        bytes_ += texture.bytes;
+    }
+    glBindTexture(GL_TEXTURE_2D, texture.id);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+    return texture.id;
+}
+
+ImTextureID GlPictures::texture(const PicturePtr& picture) {
+    if (!picture || picture->size.empty() || picture->srgb.empty()) return nullptr;
+    // ImGui's own shader shows codes as they stand: these textures hold them undecoded.
+    Texture& texture = pictures_[picture->id | (std::uint64_t{1} << 63)];
+    texture.used = frame_;
+    if (!texture.id) {
+        glGenTextures(1, &texture.id);
+        glBindTexture(GL_TEXTURE_2D, texture.id);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture->size.width, picture->size.height, 0,
+                     GL_RGB, GL_UNSIGNED_BYTE, picture->srgb.data());
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        texture.bytes = picture->size_bytes();
+        bytes_ += texture.bytes;
+    }
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id));
+}
+
+unsigned GlPictures::matte_texture(std::uint64_t key, const MatteDraw& draw, ViewU8x1 pixels) {
+    Texture& texture = mattes_[key];
+    texture.used = frame_;
+    const bool fresh = texture.id == 0 || !(texture.size == pixels.size());
+    if (!fresh && texture.version == draw.version) return texture.id;
+    if (texture.id == 0) glGenTextures(1, &texture.id);
+    glBindTexture(GL_TEXTURE_2D, texture.id);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(pixels.stride()));
+    const Recti part = draw.changed.intersected(rect_of(pixels.size()));
+    if (fresh || part.empty()) {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, pixels.width(), pixels.height(), 0, GL_RED,
+                     GL_UNSIGNED_BYTE, pixels.data());
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    } else {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, part.x0, part.y0, part.width(), part.height(), GL_RED,
+                        GL_UNSIGNED_BYTE, pixels.pixel(part.x0, part.y0));
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    texture.version = draw.version;
+    texture.size = pixels.size();
+    return texture.id;
+}
+
+void GlPictures::draw(ImDrawList& list, const PictureDraw& draw) {
+    Order& order = orders_.emplace_back();
+    order.host = this;
+    order.picture = draw;
+    order.a = texture_of(draw.a, draw.smooth);
+    order.b = texture_of(draw.b, draw.smooth);
+    if (!order.a) return;
+    list.AddCallback(run, &order);
+    list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
+void GlPictures::draw(ImDrawList& list, const MatteDraw& draw) {
+    if (draw.pixels.empty()) return;
+    Order& order = orders_.emplace_back();
+    order.host = this;
+    order.is_matte = true;
+    order.matte = draw;
+    order.a = matte_texture(draw.key, draw, draw.pixels);
+    if (!draw.where.empty()) order.b = matte_texture(draw.key + 1, draw, draw.where);
+    list.AddCallback(run, &order);
+    list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
+void GlPictures::run(const ImDrawList*, const ImDrawCmd* command) {
+    const Order& order = *static_cast<const Order*>(command->UserCallbackData);
+    order.host->execute(order);
+}
+
+void GlPictures::execute(const Order& order) const {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float sx = io.DisplayFramebufferScale.x, sy = io.DisplayFramebufferScale.y;
+    const auto clip = [&](ImVec2 min, ImVec2 max) {
+        const float height = io.DisplaySize.y * sy;
+        glScissor(static_cast<GLint>(min.x * sx), static_cast<GLint>(height - max.y * sy),
+                  std::max(0, static_cast<GLint>((max.x - min.x) * sx)),
+                  std::max(0, static_cast<GLint>((max.y - min.y) * sy)));
+    };
+    const auto place = [&](GLuint program, ImVec2 min, ImVec2 max) {
+        glUseProgram(program);
+        glUniform4f(at(program, "place"), min.x, min.y, max.x, max.y);
+        glUniform2f(at(program, "screen"), io.DisplaySize.x, io.DisplaySize.y);
+    };
+    const auto bind = [&](GLenum unit, GLuint texture, GLuint program, const char* name) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        glBindTexture(GL_TEXTURE_2D, texture);
+        glUniform1i(at(program, name), static_cast<GLint>(unit));
+    };
+    glBindVertexArray(quad_);
+    if (order.is_matte) {
+        const MatteDraw& m = order.matte;
+        clip(m.clip_min, m.clip_max);
+        place(matte_program_, m.min, m.max);
+        bind(1, order.b ? order.b : order.a, matte_program_, "where_matte");
+        bind(0, order.a, matte_program_, "matte");
+        const ImVec4 tint = ImGui::ColorConvertU32ToFloat4(m.color);
+        glUniform4f(at(matte_program_, "tint"), tint.x, tint.y, tint.z, tint.w);
+        glUniform1f(at(matte_program_, "opacity"), m.opacity);
+        glUniform1i(at(matte_program_, "outline"), m.outline);
+        glUniform1i(at(matte_program_, "heat"), m.heat);
+        glUniform1i(at(matte_program_, "limited"), order.b != 0);
+        glEnable(GL_BLEND);
+    } else {
+        const PictureDraw& p = order.picture;
+        clip(p.clip_min, p.clip_max);
+        place(picture_program_, p.min, p.max);
+        bind(1, order.b ? order.b : order.a, picture_program_, "picture_b");
+        bind(0, order.a, picture_program_, "picture_a");
+        glUniform1i(at(picture_program_, "mode"), static_cast<GLint>(p.mode));
+        glUniform1f(at(picture_program_, "wipe"), p.wipe);
+        glUniform1f(at(picture_program_, "gain"), std::exp2(p.display.exposure));
+        glUniform1f(at(picture_program_, "inverse_gamma"), 1.0f / std::max(0.01f, p.display.gamma));
+        glUniform1i(at(picture_program_, "channel"), static_cast<GLint>(p.display.channel));
+        glDisable(GL_BLEND);
+    }
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+void GlPictures::reveal(const std::string& path) {
+    std::string program = "xdg-open", folder = path;
+    char* arguments[] = {program.data(), folder.data(), nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    pid_t pid = -1;
+    (void)posix_spawnp(&pid, "xdg-open", &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+}
+
+}  // namespace weft

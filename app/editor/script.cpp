@@ -1,0 +1,238 @@
+#include "app/editor/script.h"
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "ui/robot.h"
+#include "ui/view_map.h"
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPatienceS = 60;
+
+class ScriptRunner {
+  public:
+    ScriptRunner(EditorApp& app, std::function<void()> frame,
+                 std::function<Status(const std::string&)> write)
+        : app_(app),
+          frame_(frame),
+          write_(std::move(write)),
+          robot_(app.shell(), std::move(frame)) {}
+
+    Status step(const Json& step);
+    Status settle(double patience_s);
+
+  private:
+    [[nodiscard]] const SessionView& view() const { return app_.session().view(); }
+    [[nodiscard]] bool reached(const std::string& what) const;
+    Status wait_for(const std::string& what, double patience_s);
+    Status select(const std::string& name);
+    [[nodiscard]] ImVec2 on_screen(const Json& point) const;
+    static Status missing(const std::string& name) {
+        return fail(ErrorCode::kRenderFailed, "There is no '" + name + "' on the screen.");
+    }
+
+    EditorApp& app_;
+    std::function<void()> frame_;
+    std::function<Status(const std::string&)> write_;
+    Robot robot_;
+};
+
+bool ScriptRunner::reached(const std::string& what) const {
+    const SessionView& v = view();
+    if (what == "plate") return v.plate_picture != nullptr;
+    if (what == "mattes") {
+        for (const RegionMatteView& matte : v.mattes)
+            if (matte.kind == RegionMatteView::Kind::kLoading) return false;
+        return !v.matte_busy;
+    }
+    if (what == "result") return v.result_current && !v.stages.approximate;
+    if (what == "stages") return v.stages.stages[0] != nullptr;
+    if (what == "overlay") return v.overlay_picture != nullptr;
+    if (what == "analysis") return !v.preview.analysing && v.result_current;
+    if (what == "failure") return v.preview.state == PreviewView::State::kFailed;
+    if (what == "report") return v.report.state == QualityReport::State::kDone;
+    if (what == "jobs") {
+        for (const JobView& job : v.jobs)
+            if (job.state == JobState::kRunning || job.state == JobState::kWaiting) return false;
+        return true;
+    }
+    if (what == "job_frame") return !v.jobs.empty() && v.jobs.back().thumbnail != nullptr;
+    return false;
+}
+
+Status ScriptRunner::wait_for(const std::string& what, double patience_s) {
+    const auto start = Clock::now();
+    while (!reached(what)) {
+        if (std::chrono::duration<double>(Clock::now() - start).count() > patience_s)
+            return fail(ErrorCode::kRenderFailed,
+                        "'" + what + "' did not come within " + std::to_string(patience_s) + " s.");
+        frame_();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    robot_.frames(3);
+    return {};
+}
+
+// Until nothing new has come for a while: thumbnails and pictures arrive one by one.
+Status ScriptRunner::settle(double patience_s) {
+    const auto start = Clock::now();
+    auto quiet_since = start;
+    std::uint64_t news = app_.news();
+    for (;;) {
+        frame_();
+        std::this_thread::sleep_for(std::chrono::milliseconds(15));
+        const auto now = Clock::now();
+        if (app_.news() != news || !app_.idle()) {
+            news = app_.news();
+            quiet_since = now;
+        }
+        const auto seconds = [&](Clock::time_point from) {
+            return std::chrono::duration<double>(now - from).count();
+        };
+        if (seconds(quiet_since) > 0.4 || seconds(start) > patience_s) break;
+    }
+    robot_.frames(3);
+    return {};
+}
+
+Status ScriptRunner::select(const std::string& name) {
+    for (const Leaf<Region>& region : view().project.regions) {
+        if (region->name != name) continue;
+        app_.session().act(SelectRegion{region->id});
+        robot_.frames(2);
+        return {};
+    }
+    return fail(ErrorCode::kRenderFailed, "There is no region '" + name + "'.");
+}
+
+ImVec2 ScriptRunner::on_screen(const Json& point) const {
+    const ViewerState& s = app_.shell().state().viewer;
+    const DrawnItem* canvas = robot_.find("Viewer/Canvas");
+    if (!canvas) return {0, 0};
+    const ViewMap map{canvas->min, canvas->max, s.center, s.zoom};
+    return map.to_screen({point.at(0).get<float>(), point.at(1).get<float>()});
+}
+
+Status ScriptRunner::step(const Json& step) {
+    const double patience = step.value("timeout", kPatienceS);
+    const auto text = [&](const char* key) { return step.at(key).get<std::string>(); };
+    if (step.contains("click") || step.contains("double_click")) {
+        const bool twice = step.contains("double_click");
+        const std::string name = text(twice ? "double_click" : "click");
+        if (!robot_.click(name, twice ? 2 : 1)) return missing(name);
+    } else if (step.contains("hover")) {
+        if (!robot_.hover(text("hover"))) return missing(text("hover"));
+        robot_.frames(4);
+    } else if (step.contains("drag")) {
+        const auto by = step.at("by");
+        if (!robot_.drag(text("drag"), {by.at(0).get<float>(), by.at(1).get<float>()}))
+            return missing(text("drag"));
+    } else if (step.contains("drag_onto")) {
+        const auto pair = step.at("drag_onto");
+        if (!robot_.drag_onto(pair.at(0), pair.at(1))) return missing(pair.at(0));
+    } else if (step.contains("stroke")) {
+        std::vector<ImVec2> points;
+        for (const Json& point : step.at("stroke"))
+            points.push_back(on_screen(point));
+        robot_.stroke(points);
+    } else if (step.contains("point")) {
+        robot_.move(on_screen(step.at("point")));
+    } else if (step.contains("press_at")) {
+        robot_.move(on_screen(step.at("press_at")));
+        robot_.press();
+        robot_.release();
+    } else if (step.contains("wheel")) {
+        robot_.wheel(step.at("wheel").get<float>());
+    } else if (step.contains("type")) {
+        robot_.type(text("type"));
+    } else if (step.contains("key")) {
+        if (!robot_.key(text("key")))
+            return fail(ErrorCode::kUnreadable, "There is no key '" + text("key") + "'.");
+    } else if (step.contains("hold")) {
+        robot_.hold(text("hold"), step.value("down", true));
+        robot_.frames(2);
+    } else if (step.contains("workspace")) {
+        if (!robot_.click("Top/" + text("workspace"))) return missing(text("workspace"));
+    } else if (step.contains("select")) {
+        return select(text("select"));
+    } else if (step.contains("frame")) {
+        app_.session().act(GoToFrame{step.at("frame").get<int>()});
+        robot_.frames(3);
+    } else if (step.contains("open")) {
+        app_.session().act(OpenAny{text("open")});
+        robot_.frames(2);
+    } else if (step.contains("demo")) {
+        app_.session().act(OpenDemo{});
+        robot_.frames(2);
+    } else if (step.contains("texture")) {
+        app_.session().act(ApplyTexture{text("texture"), 0});
+        robot_.frames(2);
+    } else if (step.contains("notice")) {
+        app_.session().notify(NoticeKind::kError, text("notice"));
+        robot_.frames(2);
+    } else if (step.contains("wait")) {
+        const auto start = Clock::now();
+        const double wait = step.at("wait").get<double>();
+        while (std::chrono::duration<double>(Clock::now() - start).count() < wait) {
+            frame_();
+            std::this_thread::sleep_for(std::chrono::milliseconds(15));
+        }
+    } else if (step.contains("wait_for")) {
+        return wait_for(text("wait_for"), patience);
+    } else if (step.contains("settle")) {
+        return settle(patience);
+    } else if (step.contains("items")) {
+        std::ofstream out(text("items"));
+        for (const DrawnItem& item : app_.shell().items())
+            out << item.name << " " << item.min.x << " " << item.min.y << " " << item.max.x << " "
+                << item.max.y << "\n";
+    } else if (step.contains("times")) {
+        const FrameTimes& t = app_.times();
+        std::ofstream out(text("times"), std::ios::app);
+        out << step.value("label", "") << ": mean " << t.sum_ms / std::max(1, t.frames)
+            << " ms, worst " << t.worst_ms << " ms, " << t.frames << " frames\n";
+    } else if (step.contains("reset_times")) {
+        app_.reset_times();
+    } else if (step.contains("screenshot")) {
+        robot_.frames(2);
+        return write_(text("screenshot"));
+    } else {
+        return fail(ErrorCode::kUnreadable, "This step is not known: " + step.dump());
+    }
+    return {};
+}
+
+}  // namespace
+
+Status run_script(const std::string& path, EditorApp& app, const std::function<void()>& frame,
+                  const std::function<Status(const std::string&)>& write) {
+    ScriptRunner runner(app, frame, write);
+    if (path.empty()) return runner.settle(30);
+    std::ifstream file(path);
+    if (!file) return fail(ErrorCode::kUnreadable, "The script " + path + " cannot be read.");
+    const Json script = Json::parse(file, nullptr, false);
+    if (!script.is_array())
+        return fail(ErrorCode::kUnreadable, "The script " + path + " is no JSON list of steps.");
+    frame();
+    int number = 0;
+    for (const Json& step : script) {
+        ++number;
+        try {
+            if (Status done = runner.step(step); !done)
+                return fail_in(done.error(), path + ", step " + std::to_string(number));
+        } catch (const Json::exception& error) {
+            return fail(ErrorCode::kUnreadable,
+                        path + ", step " + std::to_string(number) + ": " + error.what());
+        }
+    }
+    return {};
+}
+
+}  // namespace weft

@@ -1,0 +1,10 @@
+#pragma once
+// The files of shaders/, built in.
+
+namespace weft::shaders {
+
+extern const char* const kViewerVert;
+extern const char* const kPictureFrag;
+extern const char* const kMatteFrag;
+
+}  // namespace weft::shaders

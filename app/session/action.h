@@ -1,0 +1,210 @@
+#pragma once
+// What an artist can ask the session to do. Panels and scripts emit these; Session::act() carries
+// them out. Changes of the document travel as edits, so that there is one undo history.
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/project/edit.h"
+#include "app/session/paint.h"
+#include "app/session/preview.h"
+
+namespace weft {
+
+// ---- the document ----
+/// An edit, as one step of the history.
+struct DoEdit {
+    Edit edit;
+    bool operator==(const DoEdit&) const = default;
+};
+/// The same while a control is being dragged: shown, but no step of the history until DoEdit.
+struct TryEdit {
+    Edit edit;
+    bool operator==(const TryEdit&) const = default;
+};
+struct Undo {
+    bool operator==(const Undo&) const = default;
+};
+struct Redo {
+    bool operator==(const Redo&) const = default;
+};
+struct GoToHistory {
+    std::size_t position = 0;
+    bool operator==(const GoToHistory&) const = default;
+};
+struct NewProject {
+    bool operator==(const NewProject&) const = default;
+};
+struct OpenProject {
+    std::string path;
+    bool operator==(const OpenProject&) const = default;
+};
+struct OpenDemo {
+    bool operator==(const OpenDemo&) const = default;
+};
+/// A folder, a pattern, a movie, a picture or a project file, as it was dropped or chosen.
+struct OpenAny {
+    std::string path;
+    bool operator==(const OpenAny&) const = default;
+};
+struct Save {
+    bool operator==(const Save&) const = default;
+};
+struct SaveAs {
+    std::string path;
+    bool operator==(const SaveAs&) const = default;
+};
+struct CloseProject {
+    bool operator==(const CloseProject&) const = default;
+};
+struct Recover {
+    bool accept = true;
+    bool operator==(const Recover&) const = default;
+};
+
+// ---- where the artist is ----
+struct SelectRegion {
+    RegionId region = 0;
+    bool operator==(const SelectRegion&) const = default;
+};
+/// Only this region is shown in the preview; 0: all.
+struct SoloRegion {
+    RegionId region = 0;
+    bool operator==(const SoloRegion&) const = default;
+};
+struct LockRegion {
+    RegionId region = 0;
+    bool locked = false;
+    bool operator==(const LockRegion&) const = default;
+};
+struct GoToFrame {
+    int frame = 0;
+    bool operator==(const GoToFrame&) const = default;
+};
+/// By so many frames of the plate.
+struct StepFrames {
+    int count = 1;
+    bool operator==(const StepFrames&) const = default;
+};
+/// To the previous (−1) or next (1) painted keyframe or reference frame.
+struct StepKeyframe {
+    int direction = 1;
+    bool operator==(const StepKeyframe&) const = default;
+};
+/// 1 forwards, −1 backwards, 0 stop.
+struct Play {
+    int direction = 1;
+    bool operator==(const Play&) const = default;
+};
+/// The marked range; unset ends are the shot's.
+struct MarkRange {
+    std::optional<int> in, out;
+    bool operator==(const MarkRange&) const = default;
+};
+
+// ---- mattes ----
+struct BeginStroke {
+    Brush brush;
+    Vec2 at{0, 0};
+    float pressure = 1;
+    bool operator==(const BeginStroke&) const = default;
+};
+struct ContinueStroke {
+    Vec2 at{0, 0};
+    float pressure = 1;
+    bool operator==(const ContinueStroke&) const = default;
+};
+struct EndStroke {
+    bool operator==(const EndStroke&) const = default;
+};
+struct FillPolygon {
+    std::vector<Vec2> points;
+    bool subtract = false;
+    bool operator==(const FillPolygon&) const = default;
+};
+struct FloodSelect {
+    Vec2i at{0, 0};
+    int tolerance = 24;
+    bool subtract = false;
+    bool operator==(const FloodSelect&) const = default;
+};
+struct GrowMatte {
+    float px = 1;
+    bool operator==(const GrowMatte&) const = default;
+};
+struct FeatherMatte {
+    float px = 2;
+    bool operator==(const FeatherMatte&) const = default;
+};
+struct ClearMatte {
+    bool operator==(const ClearMatte&) const = default;
+};
+/// Makes the matte shown on this frame a painted keyframe (a correction of a propagated one).
+struct KeyMatteHere {
+    bool operator==(const KeyMatteHere&) const = default;
+};
+/// The painted keyframe of one frame to another.
+struct CopyKeyframe {
+    int from = 0, to = 0;
+    bool operator==(const CopyKeyframe&) const = default;
+};
+/// Leaves the files of the selected region's matte and paints on from what they show here.
+struct PaintInstead {
+    bool operator==(const PaintInstead&) const = default;
+};
+struct PauseAnalysis {
+    bool paused = true;
+    bool operator==(const PauseAnalysis&) const = default;
+};
+
+// ---- textures, preview ----
+/// To a region (0: the selected one).
+struct ApplyTexture {
+    std::string path;
+    RegionId region = 0;
+    bool operator==(const ApplyTexture&) const = default;
+};
+struct ShowOverlay {
+    Overlay overlay = Overlay::kNone;
+    bool operator==(const ShowOverlay&) const = default;
+};
+/// The pictures of the steps before the final one, too.
+struct ShowStages {
+    bool shown = false;
+    bool operator==(const ShowStages&) const = default;
+};
+struct SetPreviewQuality {
+    Quality quality = Quality::kDraft;
+    bool operator==(const SetPreviewQuality&) const = default;
+};
+
+// ---- jobs ----
+struct SubmitJob {
+    std::string frames;  ///< As in a frame list; empty: all.
+    std::string output, movie;
+    bool overwrite = false, skip_existing = false;
+    bool operator==(const SubmitJob&) const = default;
+};
+enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };
+struct CommandJob {
+    int id = 0;
+    JobCommand command = JobCommand::kCancel;
+    bool operator==(const CommandJob&) const = default;
+};
+/// Measures the finished frames of an output against the plate, for the review.
+struct MeasureResult {
+    std::string pattern;
+    bool operator==(const MeasureResult&) const = default;
+};
+
+using Action =
+    std::variant<DoEdit, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
+                 OpenAny, Save, SaveAs, CloseProject, Recover, SelectRegion, SoloRegion, LockRegion,
+                 GoToFrame, StepFrames, StepKeyframe, Play, MarkRange, BeginStroke, ContinueStroke,
+                 EndStroke, FillPolygon, FloodSelect, GrowMatte, FeatherMatte, ClearMatte,
+                 KeyMatteHere, CopyKeyframe, PaintInstead, PauseAnalysis, ApplyTexture, ShowOverlay,
+                 ShowStages, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+
+}  // namespace weft

@@ -1,0 +1,76 @@
+#pragma once
+// Renders as child processes: `weft render` on a snapshot of the project, so that neither side can
+// take the other with it, and a render goes on when the editor is closed.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/project/project.h"
+#include "app/session/picture.h"
+#include "engine/core/error.h"
+
+namespace weft {
+
+enum class JobState : std::uint8_t { kWaiting, kRunning, kPaused, kDone, kCancelled, kFailed };
+
+struct RenderRequest {
+    Project project;    ///< With absolute paths.
+    std::string label;  ///< "Frames 1001-1048 to out/####.png"
+    std::vector<int> frames;
+    bool overwrite = false, skip_existing = false;
+    std::string backend = "auto";
+};
+
+struct JobView {
+    int id = 0;
+    JobState state = JobState::kWaiting;
+    std::string label, output, stage, error;
+    int done = 0, total = 0;  ///< Frames rendered; of the analysis while `stage` says so.
+    int newest_frame = 0;     ///< 0: none yet.
+    bool has_frame = false;
+    double elapsed_s = 0, left_s = 0, frames_per_minute = 0;
+    PicturePtr thumbnail;  ///< Of the newest frame.
+    std::string log_path, movie;
+};
+
+/// One job runs at a time, the others wait in order. Thread-safe; nothing blocks.
+class ChildJobs {
+  public:
+    /// `program`: the weft to run. `folder`: for snapshots and logs; made where it is missing.
+    ChildJobs(std::string program, std::string folder);
+    /// Leaves running jobs alone unless cancel_all() was called.
+    ~ChildJobs();
+
+    /// Errors: the snapshot cannot be written.
+    [[nodiscard]] Expected<int> submit(const RenderRequest& request);
+    void cancel(int id);
+    void pause(int id);
+    void resume(int id);
+    /// Again, keeping the frames that are there.
+    void retry(int id);
+    /// Takes a finished one off the list.
+    void remove(int id);
+    void cancel_all();
+
+    [[nodiscard]] std::vector<JobView> views() const;
+    [[nodiscard]] bool busy() const;
+    /// Grows with every news.
+    [[nodiscard]] std::uint64_t changes() const;
+    /// The last lines of a job's log.
+    [[nodiscard]] std::string log_tail(int id, std::size_t most_bytes = 8192) const;
+
+  private:
+    struct Job;
+    struct Shared;
+    static void run(const std::shared_ptr<Shared>& shared, const std::shared_ptr<Job>& job);
+    static void start_next(const std::shared_ptr<Shared>& shared);
+
+    std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace weft

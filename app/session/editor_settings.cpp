@@ -1,0 +1,78 @@
+#include "app/session/editor_settings.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/media/atomic_file.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string xdg_folder(const char* variable, const char* below_home) {
+    if (const char* given = std::getenv(variable); given && *given)
+        return (fs::path(given) / "weft").string();
+    const char* home = std::getenv("HOME");
+    return (fs::path(home && *home ? home : "/tmp") / below_home / "weft").string();
+}
+
+template <class T>
+void take(const Json& json, const char* key, T& into) {
+    try {
+        if (json.contains(key)) into = json.at(key).get<T>();
+    } catch (const Json::exception&) {
+        // A value of another type: the default stays.
+    }
+}
+
+}  // namespace
+
+std::string editor_settings_path() {
+    return xdg_folder("XDG_CONFIG_HOME", ".config") + "/editor.json";
+}
+
+std::string editor_state_folder() {
+    return xdg_folder("XDG_STATE_HOME", ".local/state");
+}
+
+EditorSettings load_editor_settings(const std::string& path) {
+    EditorSettings out;
+    std::ifstream file(path);
+    if (!file) return out;
+    const Json json = Json::parse(file, nullptr, false);
+    if (!json.is_object()) return out;
+    take(json, "dark", out.dark);
+    take(json, "grey_surround", out.grey_surround);
+    take(json, "ui_scale", out.ui_scale);
+    take(json, "keys", out.keys);
+    take(json, "sizes", out.sizes);
+    take(json, "recent", out.recent);
+    take(json, "favourites", out.favourites);
+    take(json, "recent_textures", out.recent_textures);
+    take(json, "texture_folders", out.texture_folders);
+    take(json, "tour_seen", out.tour_seen);
+    return out;
+}
+
+Status save_editor_settings(const std::string& path, const EditorSettings& s) {
+    std::error_code error;
+    fs::create_directories(fs::path(path).parent_path(), error);
+    const Json json{{"dark", s.dark},
+                    {"grey_surround", s.grey_surround},
+                    {"ui_scale", s.ui_scale},
+                    {"keys", s.keys},
+                    {"sizes", s.sizes},
+                    {"recent", s.recent},
+                    {"favourites", s.favourites},
+                    {"recent_textures", s.recent_textures},
+                    {"texture_folders", s.texture_folders},
+                    {"tour_seen", s.tour_seen}};
+    return write_file_atomically(path,
+                                 json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace weft

@@ -1,0 +1,36 @@
+#pragma once
+// What the editor remembers between sessions; no part of any project.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/core/error.h"
+
+namespace weft {
+
+struct EditorSettings {
+    bool dark = true;
+    bool grey_surround = false;  ///< 18% grey around the picture instead of near black.
+    double ui_scale = 0;         ///< 0: the monitor's.
+    std::map<std::string, std::string> keys;  ///< Command → "Ctrl+Shift+P"; only what differs.
+    std::map<std::string, double> sizes;      ///< Of panels, by name, in unscaled pixels.
+    std::vector<std::string> recent;          ///< Project files, the newest first.
+    std::vector<std::string> favourites;      ///< Textures, by path.
+    std::vector<std::string> recent_textures;
+    std::vector<std::string> texture_folders;
+    bool tour_seen = false;
+    bool operator==(const EditorSettings&) const = default;
+};
+
+/// $XDG_CONFIG_HOME/weft/editor.json, or ~/.config/weft/editor.json.
+[[nodiscard]] std::string editor_settings_path();
+/// $XDG_STATE_HOME/weft, or ~/.local/state/weft: recovery files, job logs, unsaved mattes.
+[[nodiscard]] std::string editor_state_folder();
+
+/// The defaults when there is no such file or it cannot be read.
+[[nodiscard]] EditorSettings load_editor_settings(const std::string& path);
+/// Whole or not at all. Errors: NoSpace, Unreadable.
+[[nodiscard]] Status save_editor_settings(const std::string& path, const EditorSettings& settings);
+
+}  // namespace weft

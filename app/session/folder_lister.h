@@ -1,0 +1,42 @@
+#pragma once
+// What a folder holds, as a file browser shows it: numbered pictures as one entry.
+
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/error.h"
+
+namespace weft {
+
+enum class EntryKind : std::uint8_t { kFolder, kSequence, kMovie, kPicture, kProject, kOther };
+
+struct FolderEntry {
+    EntryKind kind = EntryKind::kOther;
+    std::string name;     ///< "plate.####.exr"
+    std::string path;     ///< What to open: a pattern for a sequence.
+    std::string detail;   ///< "1001–1048, 48 frames"
+    std::string preview;  ///< A picture that shows what it is; empty: none.
+};
+
+/// Errors: Unreadable. Folders first, then by name.
+[[nodiscard]] Expected<std::vector<FolderEntry>> list_folder(const std::string& folder);
+
+/// Lists in the background. One thread calls.
+class FolderLister {
+  public:
+    /// The entries of a folder; null while they are being read.
+    [[nodiscard]] const std::vector<FolderEntry>* entries(const std::string& folder);
+    [[nodiscard]] const std::string& error() const { return error_; }
+    void refresh() { folder_.clear(); }
+    [[nodiscard]] bool busy() const { return pending_.valid(); }
+
+  private:
+    std::string folder_, error_;
+    std::vector<FolderEntry> entries_;
+    bool ready_ = false;
+    std::future<Expected<std::vector<FolderEntry>>> pending_;
+};
+
+}  // namespace weft

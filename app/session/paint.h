@@ -1,0 +1,55 @@
+#pragma once
+// Painting on mattes: pure functions on pixels, used by the editor's tools.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/core/geometry.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+struct Brush {
+    float radius_px = 24;
+    float hardness = 0.8f;  ///< 1: a hard edge; 0: falls off from the centre.
+    float opacity = 1;      ///< Of the whole stroke, however often it crosses itself.
+    bool subtract = false;
+    bool operator==(const Brush&) const = default;
+};
+
+/// One stroke on a matte. The pixels under a stroke never change twice: crossing itself adds
+/// nothing, so opacity is that of the stroke.
+class Stroke {
+  public:
+    Stroke(const Matte& before, const Brush& brush);
+    /// Paints from the last point to `to` (the first call makes a dot), `pressure` in (0, 1] scales
+    /// the radius. Returns what changed of `matte`.
+    Recti move_to(Vec2 to, float pressure, Matte& matte);
+    [[nodiscard]] const Recti& touched() const { return touched_; }
+
+  private:
+    Matte before_, coverage_;
+    Brush brush_;
+    std::optional<Vec2> last_;
+    float last_radius_ = 0;
+    Recti touched_;
+};
+
+/// Adds or removes the inside of a closed polygon (even-odd), its edge anti-aliased.
+[[nodiscard]] Matte fill_polygon(const Matte& before, const std::vector<Vec2>& points,
+                                 bool subtract);
+/// Adds or removes the connected area whose colour is within `tolerance` (0–255 a channel) of the
+/// seed's.
+[[nodiscard]] Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolerance,
+                                 bool subtract);
+/// Grows (px > 0) or shrinks (px < 0) by a distance.
+[[nodiscard]] Matte grow_matte(const Matte& before, float px);
+/// Softens the edge over about `px` to either side.
+[[nodiscard]] Matte feather_matte(const Matte& before, float px);
+/// What the scribbles suggest: `keep` and `drop` mark surely inside and outside (above 127); found
+/// on a crop around them at up to 512 px. The rest of `before` stays.
+[[nodiscard]] Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
+                                      const Matte& drop);
+
+}  // namespace weft

@@ -1,0 +1,110 @@
+#pragma once
+// Results on the screen while the artist works: the shot's analysis in one background thread, the
+// frames rendered from it in another. The newest request wins; what is shown is what a render
+// writes, or nothing.
+
+#include <array>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/project/project.h"
+#include "app/session/analysis_cache.h"
+#include "app/session/matte_shelf.h"
+#include "app/session/picture.h"
+#include "engine/core/cancel.h"
+
+namespace weft {
+
+/// The steps of the way to a frame, as the four-up view shows them.
+enum class Stage : std::uint8_t { kTexture, kLit, kFinal };
+inline constexpr int kStageCount = 3;
+
+/// What is drawn over the picture to judge the work by.
+enum class Overlay : std::uint8_t { kNone, kGrid, kStretch, kLight, kSeams, kMotion };
+
+struct PreviewRequest {
+    Project project;  ///< With absolute paths, and only the regions that can be shown.
+    int frame = 0;
+    std::vector<int> range;  ///< Frames to be analysed; empty: only what `frame` needs.
+    std::vector<int> fill;   ///< Frames to be rendered when idle, in this order.
+    bool stages = false;     ///< Also the pictures before the final one.
+    Overlay overlay = Overlay::kNone;
+    RegionId overlay_region = 0;
+};
+
+struct PreviewFrame {
+    std::array<PicturePtr, kStageCount> stages;  ///< By Stage; only the final one may be there.
+    /// The texture was grown for another scale; the right one is being made.
+    bool approximate = false;
+};
+
+/// A value in 0–255 for each pixel of the overlay's region, with a matte of where it holds.
+struct OverlayPicture {
+    Overlay kind = Overlay::kNone;
+    int frame = 0;
+    std::uint64_t id = 0;
+    Matte value, where;
+    float low = 0, high = 1;  ///< What 0 and 255 stand for.
+    std::string unit;
+    struct Arrow {
+        Vec2 at, to;
+    };
+    std::vector<Arrow> arrows;  ///< Motion since the reference frame, in pixels.
+};
+
+struct PreviewView {
+    enum class State : std::uint8_t { kIdle, kOpening, kAnalysing, kGrowing, kRendering, kFailed };
+    State state = State::kIdle;  ///< Of the wanted frame.
+    std::string error;
+    bool analysing = false;  ///< In the background, whatever the wanted frame waits for.
+    int done = 0, total = 0;
+    double seconds_left = 0;  ///< 0: not known yet.
+    std::vector<std::string> warnings;
+    std::uint64_t changes = 0;  ///< Grows with every news.
+    double frame_seconds = 0;   ///< What the last frame took to render.
+};
+
+/// All functions return at once. Thread-safe.
+class Preview {
+  public:
+    explicit Preview(AnalysisCacheOptions cache, std::size_t budget_bytes = std::size_t{512} << 20);
+    ~Preview();
+
+    void request(PreviewRequest request);
+    /// Forgets the shot and stops all work.
+    void clear();
+    /// Stops the analysis until the next request that changes it, or resume().
+    void pause();
+    void resume();
+    [[nodiscard]] bool paused() const;
+
+    [[nodiscard]] PreviewView view() const;
+    /// Of the newest request's content only.
+    [[nodiscard]] PreviewFrame frame(int frame) const;
+    [[nodiscard]] bool has(int frame) const;
+    [[nodiscard]] std::shared_ptr<const OverlayPicture> overlay() const;
+    /// How sure the propagation was, by frame; empty for mattes that come from files.
+    [[nodiscard]] std::map<int, float> confidence(RegionId region) const;
+    /// Reads a propagated matte; to be called in the background. Error: not propagated yet.
+    [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int frame) const;
+    /// Changes whenever propagated mattes may have changed.
+    [[nodiscard]] std::uint64_t matte_version() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// What a frame's pixels depend on, as text: equal for projects that give the same pixels.
+[[nodiscard]] std::string pixel_key(const Project& project);
+/// The same for the analysis.
+[[nodiscard]] std::string analysis_key(const Project& project);
+
+}  // namespace weft

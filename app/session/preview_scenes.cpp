@@ -1,0 +1,84 @@
+#include "app/session/preview_scenes.h"
+
+#include "engine/core/hash.h"
+
+namespace weft {
+
+std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
+                                                        const std::string& analysis) {
+    std::vector<Keys> keys;
+    for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
+        const RegionPlan& plan = shot.plan.regions[k];
+        const Region& region = *shot.project.regions[shot.region_index[k]];
+        Hasher hasher;
+        hasher.text(shot.textures[k].id).text(shot.spaces.textures[k].name);
+        hasher.value(plan.random_key).value(shot.plan.seed).value(static_cast<int>(plan.temporal));
+        hasher.value(static_cast<int>(plan.seam)).value(plan.overlap_px).value(plan.feather_px);
+        hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
+        // The light that the scene is relative to comes from the analysis.
+        hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
+        hasher.value(plan.light.strength > 0);
+        Keys key;
+        key.texture = hasher.finish().hex();
+        const Size size = plane_size(plan.placement, shot.source->size());
+        key.exact = key.texture + (plan.texture->is_plane ? std::string()
+                                                          : " " + std::to_string(size.width) + "x" +
+                                                                std::to_string(size.height));
+        keys.push_back(std::move(key));
+    }
+    return keys;
+}
+
+bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
+    const std::vector<Keys> wanted = keys_of(shot, analysis);
+    std::vector<RegionScene> scenes(wanted.size());
+    std::vector<Keys> keys(wanted.size());
+    std::vector<bool> taken(keys_.size(), false);
+    // Exact matches first, then planes of another size.
+    for (const bool by_texture : {false, true}) {
+        for (std::size_t k = 0; k < wanted.size(); ++k) {
+            for (std::size_t old = 0; old < keys_.size() && keys[k].exact.empty(); ++old) {
+                const bool fits = by_texture ? keys_[old].texture == wanted[k].texture
+                                             : keys_[old].exact == wanted[k].exact;
+                if (taken[old] || !fits || keys_[old].exact.empty()) continue;
+                taken[old] = true;
+                scenes[k] = std::move(scenes_[old]);
+                keys[k] = keys_[old];
+            }
+        }
+    }
+    scenes_ = std::move(scenes);
+    keys_ = std::move(keys);
+    exact_ = keys_ == wanted;
+    bool usable = true;
+    for (std::size_t k = 0; k < scenes_.size(); ++k) {
+        if (keys_[k].exact.empty()) {
+            usable = false;
+            continue;
+        }
+        if (auto placed = plane_from_plate(shot.plan.regions[k].placement))
+            scenes_[k].plane_from_plate = *placed;
+    }
+    return usable;
+}
+
+Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,
+                               const std::string& analysis, const CancelToken& cancel) {
+    const std::vector<Keys> wanted = keys_of(shot, analysis);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        if (keys_[k] == wanted[k]) continue;
+        auto scene = make_scene(*shot.source, shot.plan, store, static_cast<int>(k), cancel, {});
+        if (!scene) {
+            const Region& region = *shot.project.regions[shot.region_index[k]];
+            return fail_in(std::move(scene).error(),
+                           "Region '" + region.name + "' with " + shot.textures[k].path);
+        }
+        scenes_[k] = std::move(*scene);
+        keys_[k] = wanted[k];
+        break;
+    }
+    exact_ = keys_ == wanted;
+    return {};
+}
+
+}  // namespace weft

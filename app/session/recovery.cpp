@@ -1,0 +1,147 @@
+#include "app/session/recovery.h"
+
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+
+#include "app/project/project_file.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A key of the snapshot's own, as JSON text: the path it belongs to.
+constexpr const char* kPathKey = "recovered_from";
+
+std::string json_text(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+std::string unquoted(const std::string& json) {
+    std::string out;
+    for (std::size_t k = 1; k + 1 < json.size(); ++k) {
+        if (json[k] == '\\') ++k;
+        out += json[k];
+    }
+    return out;
+}
+
+std::string time_text(const std::string& file) {
+    struct stat info {};
+    if (stat(file.c_str(), &info) != 0) return {};
+    char text[64];
+    std::tm parts{};
+    localtime_r(&info.st_mtime, &parts);
+    std::strftime(text, sizeof text, "%e %B at %H:%M", &parts);
+    return text[0] == ' ' ? text + 1 : text;
+}
+
+}  // namespace
+
+RecoveryWriter::RecoveryWriter(std::string folder, std::function<void()> before_writing)
+    : file_((fs::path(folder) / ("recovery-" + std::to_string(getpid()) + ".weft")).string()),
+      before_writing_(std::move(before_writing)) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    thread_ = std::thread([this] { work(); });
+}
+
+RecoveryWriter::~RecoveryWriter() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+void RecoveryWriter::note(Project project, std::string project_path) {
+    {
+        const std::lock_guard lock(mutex_);
+        next_.emplace(std::move(project), std::move(project_path));
+        clear_ = false;
+    }
+    wake_.notify_all();
+}
+
+void RecoveryWriter::clear() {
+    {
+        const std::lock_guard lock(mutex_);
+        next_.reset();
+        clear_ = true;
+    }
+    wake_.notify_all();
+}
+
+void RecoveryWriter::flush() {
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, [&] { return !next_ && !clear_ && !busy_; });
+}
+
+std::string RecoveryWriter::take_error() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(error_, {});
+}
+
+void RecoveryWriter::work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        wake_.wait(lock, [&] { return stop_ || next_ || clear_; });
+        if (!next_ && !clear_) return;
+        auto snapshot = std::exchange(next_, std::nullopt);
+        const bool remove = std::exchange(clear_, false);
+        busy_ = true;
+        lock.unlock();
+        Status written;
+        if (remove) {
+            std::error_code error;
+            fs::remove(file_, error);
+        } else {
+            if (before_writing_) before_writing_();
+            snapshot->first.extra[kPathKey] = json_text(snapshot->second);
+            written = save_project(file_, snapshot->first);
+        }
+        lock.lock();
+        busy_ = false;
+        if (!written) error_ = written.error().text();
+        done_.notify_all();
+    }
+}
+
+std::vector<RecoveredProject> find_recoverable(const std::string& folder) {
+    std::vector<std::pair<fs::file_time_type, RecoveredProject>> found;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        int pid = 0;
+        if (std::sscanf(name.c_str(), "recovery-%d.weft", &pid) != 1) continue;
+        if (!name.ends_with(".weft") || pid == getpid()) continue;
+        if (kill(pid, 0) == 0) continue;  // its editor is still at work
+        auto project = load_project(it->path().string());
+        if (!project) continue;
+        RecoveredProject one{it->path().string(), {}, time_text(it->path().string()), *project};
+        if (const auto key = one.project.extra.find(kPathKey); key != one.project.extra.end()) {
+            one.project_path = unquoted(key->second);
+            one.project.extra.erase(key);
+        }
+        found.emplace_back(it->last_write_time(error), std::move(one));
+    }
+    std::sort(found.begin(), found.end(),
+              [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<RecoveredProject> out;
+    for (auto& entry : found)
+        out.push_back(std::move(entry.second));
+    return out;
+}
+
+}  // namespace weft

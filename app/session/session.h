@@ -1,0 +1,192 @@
+#pragma once
+// One artist at work on one shot: the document with its history, the pictures, the mattes, the
+// preview and the jobs. Takes actions, publishes a view.
+
+#include <future>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "app/project/history.h"
+#include "app/session/action.h"
+#include "app/session/editor_settings.h"
+#include "app/session/plate_player.h"
+#include "app/session/recovery.h"
+#include "app/session/session_view.h"
+
+namespace weft {
+
+struct Measuring;
+
+struct SessionOptions {
+    std::string program;       ///< The weft that renders jobs.
+    std::string assets;        ///< Folder with demo/demo.weft.
+    std::string state_folder;  ///< See editor_state_folder().
+    AnalysisCacheOptions cache;
+    std::size_t plate_budget_bytes = std::size_t{1} << 30;
+    bool offer_recovery = true;
+};
+
+/// Belongs to one thread, which is never kept waiting: files are read and frames made in the
+/// background.
+class Session {
+  public:
+    explicit Session(SessionOptions options, EditorSettings* settings = nullptr);
+    ~Session();
+
+    void act(const Action& action);
+    /// Takes in what the workers have done and moves time on. `now_s`: a clock that never goes
+    /// back.
+    void update(double now_s);
+    /// As of the last update().
+    [[nodiscard]] const SessionView& view() const { return view_; }
+    /// Whether something goes on by itself, so that the window must go on drawing.
+    [[nodiscard]] bool busy() const;
+    /// Grows with everything that workers report: what wakes a sleeping window.
+    [[nodiscard]] std::uint64_t news() const;
+    void dismiss(int notice);
+    void notify(NoticeKind kind, std::string text);
+    /// Waits until everything painted is on the disk: for tests and before leaving.
+    void flush();
+    [[nodiscard]] std::string job_log(int id) const { return jobs_.log_tail(id); }
+    /// The document as it was left must not be offered again.
+    void close_cleanly();
+    /// The texture files that the project and the demo know.
+    [[nodiscard]] const SessionOptions& options() const { return options_; }
+
+  private:
+    // ---- the document (session_document.cpp) ----
+    [[nodiscard]] const Project& document() const { return tried_ ? *tried_ : history_.current(); }
+    [[nodiscard]] Project resolved() const;
+    void edit(const Edit& edit, bool commit);
+    void commit(Project project, std::string label);
+    void start_document(Project project, std::string path);
+    void open_project(const std::string& path);
+    void open_demo();
+    void open_any(const std::string& path);
+    void save(const std::string& path);
+    void recover(bool accept);
+    void document_changed();
+    void open_plate_in_background();
+    void take_plate();
+    void remember_recent(const std::string& path);
+
+    // ---- frames ----
+    void go_to(int frame);
+    void step_keyframe(int direction);
+    void advance_playback(double now_s);
+    void want_frames();
+    [[nodiscard]] int index_of(int frame) const;
+    [[nodiscard]] std::pair<int, int> played_range() const;  ///< Indices, inclusive.
+
+    // ---- mattes (session_mattes.cpp) ----
+    [[nodiscard]] RegionMatteView matte_of(const Region& region, int frame);
+    [[nodiscard]] bool may_paint();
+    [[nodiscard]] std::optional<Matte> matte_to_paint_on();
+    void begin_stroke(const BeginStroke& action);
+    void end_stroke();
+    void keep_matte(Matte matte, RegionId region, int frame, const std::string& label);
+    void change_matte(std::function<Matte(const Matte&)> change, std::string label);
+    void take_changed_matte();
+    void paint_instead();
+    void copy_keyframe(int from, int to);
+    [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
+
+    // ---- preview, jobs ----
+    void request_preview();
+    void apply_texture(const std::string& path, RegionId region);
+    void fetch_texture(const std::string& path, RegionId region);
+    void take_texture();
+    void submit(const SubmitJob& action);
+    void command(const CommandJob& action);
+    void watch_jobs();
+    void measure(const std::string& pattern);
+
+    // ---- the view (session_view.cpp) ----
+    void show_document();
+    void show_plate();
+    void show_marks();
+    void show_mattes();
+    void show_result();
+
+    SessionOptions options_;
+    EditorSettings* settings_;
+    EditorSettings own_settings_;
+    SessionView view_;
+
+    bool open_ = false;
+    std::string path_;
+    History history_;
+    std::optional<Project> tried_;
+    std::uint64_t document_version_ = 1, shown_version_ = 0, requested_version_ = 0;
+    std::vector<RecoveredProject> recoverable_;
+
+    MatteShelf shelf_;
+    RecoveryWriter recovery_;
+    Preview preview_;
+    ChildJobs jobs_;
+
+    struct OpenedPlate {
+        std::shared_ptr<const FrameReader> reader;
+        std::shared_ptr<const ColorTransform> srgb, linear;
+        std::string space;
+    };
+    std::future<Expected<OpenedPlate>> opening_;
+    std::vector<std::future<Expected<OpenedPlate>>> abandoned_;
+    Plate opened_plate_;
+    std::string opened_plate_dir_;
+    std::shared_ptr<const FrameReader> reader_;
+    std::shared_ptr<PlatePlayer> player_;
+
+    int frame_ = 0;
+    int playing_ = 0;
+    double now_s_ = 0, frame_at_s_ = 0, fps_shown_at_s_ = 0;
+    int frames_shown_ = 0;
+    std::optional<int> mark_in_, mark_out_;
+
+    RegionId selected_ = 0, solo_ = 0;
+    std::set<RegionId> locked_;
+    struct Painting {
+        RegionId region = 0;
+        int frame = 0;
+        Matte canvas;
+        std::optional<Stroke> stroke;
+        std::uint64_t version = 0;
+        Recti changed;  // since the last view
+    };
+    std::optional<Painting> painting_;
+    struct Shown {
+        MattePtr matte;
+        std::uint64_t version = 0;
+    };
+    std::map<RegionId, Shown> shown_mattes_;
+    std::map<std::string, std::uint64_t> missed_mattes_;  // name → matte_version() when it failed
+    struct Changing {
+        std::future<Matte> matte;
+        RegionId region = 0;
+        int frame = 0;
+        std::string label;
+    };
+    std::optional<Changing> changing_;
+    int matte_serial_ = 0;
+    struct Fetching {
+        std::future<Expected<std::string>> path;
+        RegionId region = 0;
+    };
+    std::optional<Fetching> fetching_;  // a texture out of the library
+
+    int requested_frame_ = 0;
+    bool stages_ = false;
+    Overlay overlay_ = Overlay::kNone;
+    Quality preview_quality_ = Quality::kDraft;
+    bool request_due_ = false;
+    PicturePtr last_result_;
+    int last_result_frame_ = 0;
+
+    std::map<int, JobState> known_jobs_;
+    std::vector<Notice> notices_;
+    int last_notice_ = 0;
+    std::shared_ptr<Measuring> measuring_;
+};
+
+}  // namespace weft

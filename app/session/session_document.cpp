@@ -1,0 +1,259 @@
+// Opening, editing, saving and recovering the document.
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/project/project_file.h"
+#include "app/session/session.h"
+#include "engine/color/color_space.h"
+#include "engine/media/plates.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A path below the project's folder is written relative to it, so that the folder can be moved.
+std::string relative_to(const std::string& dir, const std::string& path) {
+    if (dir.empty() || !path.starts_with('/')) return path;
+    const fs::path relative = fs::path(path).lexically_relative(dir);
+    if (relative.empty() || relative.begin()->string() == "..") return path;
+    return relative.string();
+}
+
+Expected<Project> project_for_plate(const std::string& path) {
+    Project project;
+    project.plate.path = path;
+    project.name = fs::path(path).filename().string();
+    if (fs::is_directory(path)) {
+        WEFT_TRY(sequence, find_sequence(path));
+        project.plate.path = sequence.text();
+    } else if (!has_movie_extension(path) && fs::exists(path)) {
+        // One picture of a sequence stands for all of it.
+        if (auto sequence = find_sequence(fs::path(path).parent_path().string());
+            sequence && sequence->frame_of(path)) {
+            project.plate.path = sequence->text();
+        }
+    }
+    return project;
+}
+
+}  // namespace
+
+Project Session::resolved() const {
+    return resolve_paths(document(), project_dir(path_));
+}
+
+void Session::edit(const Edit& what, bool final) {
+    if (!open_) return;
+    auto changed = apply_edit(history_.current(), what);
+    if (!changed) {
+        notify(NoticeKind::kError, changed.error().text());
+        return;
+    }
+    if (!final) {
+        tried_ = std::move(*changed);
+        document_changed();
+        return;
+    }
+    commit(std::move(*changed), edit_label(history_.current(), what));
+    if (const auto* added = std::get_if<AddRegion>(&what)) {
+        const auto& regions = document().regions;
+        if (!regions.empty())
+            selected_ = added->index && *added->index < static_cast<int>(regions.size())
+                            ? regions[static_cast<std::size_t>(*added->index)]->id
+                            : regions.back()->id;
+    }
+}
+
+void Session::commit(Project project, std::string label) {
+    tried_.reset();
+    history_.push(std::move(project), std::move(label));
+    document_changed();
+    recovery_.note(resolved(), path_);
+}
+
+void Session::document_changed() {
+    ++document_version_;
+    request_due_ = true;
+    if (document().plate != opened_plate_ || project_dir(path_) != opened_plate_dir_)
+        open_plate_in_background();
+    if (!region_by_id(document(), selected_))
+        selected_ = document().regions.empty() ? 0 : document().regions.back()->id;
+}
+
+void Session::start_document(Project project, std::string path) {
+    preview_.clear();
+    painting_.reset();
+    tried_.reset();
+    shown_mattes_.clear();
+    last_result_.reset();
+    playing_ = 0;
+    mark_in_.reset();
+    mark_out_.reset();
+    solo_ = 0;
+    locked_.clear();
+    path_ = std::move(path);
+    history_ = History(std::move(project));
+    open_ = true;
+    selected_ = 0;
+    opened_plate_ = Plate{};
+    opened_plate_dir_ = "\n";  // no folder has this name: the plate is opened in any case
+    document_changed();
+}
+
+void Session::open_project(const std::string& path) {
+    auto project = load_project(path);
+    if (!project) {
+        notify(NoticeKind::kError, project.error().text());
+        return;
+    }
+    recovery_.clear();
+    start_document(std::move(*project), fs::absolute(path).string());
+    remember_recent(path_);
+}
+
+void Session::open_demo() {
+    const std::string path = (fs::path(options_.assets) / "demo" / "demo.weft").string();
+    auto project = load_project(path);
+    if (!project) {
+        notify(NoticeKind::kError, project.error().text());
+        return;
+    }
+    // A copy of one's own: the demo itself is never written to.
+    recovery_.clear();
+    start_document(resolve_paths(*project, project_dir(fs::absolute(path).string())), "");
+}
+
+void Session::open_any(const std::string& given) {
+    const std::string path = fs::absolute(given).string();
+    if (path.ends_with(".weft")) return open_project(path);
+    auto project = project_for_plate(path);
+    if (!project) {
+        notify(NoticeKind::kError, project.error().text());
+        return;
+    }
+    if (open_ && document().plate.path.empty()) {
+        edit(SetPlate{project->plate}, true);
+        return;
+    }
+    recovery_.clear();
+    start_document(std::move(*project), "");
+}
+
+void Session::save(const std::string& path) {
+    if (!open_) return;
+    if (path.empty()) {
+        notify(NoticeKind::kWarning, "Choose where to save this project.");
+        return;
+    }
+    end_stroke();
+    const std::string whole = fs::absolute(path).string();
+    Project project = history_.current();
+    if (whole != path_) {
+        const std::string dir = project_dir(whole);
+        project = map_paths(resolve_paths(project, project_dir(path_)),
+                            [&](const std::string& p) { return relative_to(dir, p); });
+    }
+    shelf_.flush();
+    if (const Status saved = save_project(whole, project); !saved) {
+        notify(NoticeKind::kError, saved.error().text());
+        return;
+    }
+    if (whole != path_) {
+        path_ = whole;
+        history_.push(std::move(project), "Save as " + fs::path(whole).filename().string());
+        document_changed();
+    }
+    history_.mark_saved();
+    recovery_.clear();
+    remember_recent(path_);
+    ++document_version_;
+    notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
+}
+
+void Session::remember_recent(const std::string& path) {
+    auto& recent = settings_->recent;
+    std::erase(recent, path);
+    recent.insert(recent.begin(), path);
+    constexpr std::size_t kMost = 12;
+    if (recent.size() > kMost) recent.resize(kMost);
+}
+
+void Session::recover(bool accept) {
+    if (recoverable_.empty()) return;
+    const RecoveredProject found = recoverable_.front();
+    std::error_code error;
+    if (accept) {
+        const std::string dir = project_dir(found.project_path);
+        const Project project =
+            map_paths(found.project, [&](const std::string& p) { return relative_to(dir, p); });
+        Project saved;
+        if (!found.project_path.empty()) {
+            if (auto loaded = load_project(found.project_path)) saved = std::move(*loaded);
+        }
+        start_document(std::move(saved), found.project_path);
+        commit(project, "Recover unsaved work");
+        recovery_.flush();  // only then may the old snapshot go
+    }
+    fs::remove(found.file, error);
+    recoverable_.erase(recoverable_.begin());
+}
+
+void Session::close_cleanly() {
+    end_stroke();
+    shelf_.flush();
+    recovery_.clear();
+    recovery_.flush();
+}
+
+void Session::open_plate_in_background() {
+    opened_plate_ = document().plate;
+    opened_plate_dir_ = project_dir(path_);
+    if (opening_.valid()) abandoned_.push_back(std::move(opening_));
+    player_.reset();
+    reader_.reset();
+    view_.plate = {};
+    Plate plate = opened_plate_;
+    plate.path = resolve_path(opened_plate_dir_, plate.path);
+    if (plate.path.empty()) return;
+    opening_ = std::async(std::launch::async, [plate]() -> Expected<OpenedPlate> {
+        OpenedPlate out;
+        WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
+        out.reader = reader;
+        out.space = !plate.space.empty()        ? plate.space
+                    : reader->display_encoded() ? "srgb"
+                                                : "linear";
+        WEFT_TRY(space, parse_color_space(out.space));
+        WEFT_TRY(srgb, make_color_transform(space, {"srgb"}));
+        WEFT_TRY(linear, make_color_transform(space, {"linear"}));
+        out.srgb = srgb;
+        out.linear = linear;
+        return out;
+    });
+}
+
+void Session::take_plate() {
+    const auto over = [](auto& future) {
+        return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    std::erase_if(abandoned_, over);
+    if (!opening_.valid() || !over(opening_)) return;
+    auto opened = opening_.get();
+    if (!opened) {
+        view_.plate.state = PlateView::State::kFailed;
+        view_.plate.error = opened.error().text();
+        return;
+    }
+    reader_ = opened->reader;
+    player_ = std::make_shared<PlatePlayer>(reader_, opened->srgb, opened->linear,
+                                            options_.plate_budget_bytes);
+    view_.plate.space = opened->space;
+    const auto& frames = reader_->frames();
+    if (!std::binary_search(frames.begin(), frames.end(), frame_)) frame_ = frames.front();
+    request_due_ = true;
+    ++document_version_;
+}
+
+}  // namespace weft

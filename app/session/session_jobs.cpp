@@ -1,0 +1,158 @@
+// Renders, and measuring what they gave.
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+
+#include "app/project/project_file.h"
+#include "app/session/background.h"
+#include "app/session/session.h"
+#include "app/session/session_measuring.h"
+#include "engine/core/frame_range.h"
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/metrics/sequence_measure.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the measuring thread needs, free of the session.
+struct MeasuringInputs {
+    std::shared_ptr<const FrameReader> plate;
+    std::string result_pattern;
+    std::function<Expected<Matte>(int)> matte;
+};
+
+Status measure_all(const MeasuringInputs& in, Measuring& shared) {
+    WEFT_TRY(result, open_plate(in.result_pattern, {}));
+    std::vector<int> frames;
+    for (const int frame : result->frames())
+        if (std::binary_search(in.plate->frames().begin(), in.plate->frames().end(), frame))
+            frames.push_back(frame);
+    {
+        const std::lock_guard lock(shared.mutex);
+        shared.report.total = static_cast<int>(frames.size());
+    }
+    MeasureOptions options;
+    options.estimator = MeasuringEstimator::kFarneback;
+    options.measure_drift = false;
+    SequenceMeasure measure(options);
+    for (const int frame : frames) {
+        if (shared.cancelled) return {};
+        WEFT_TRY(after, result->read(frame));
+        WEFT_TRY(before, in.plate->read(frame));
+        WEFT_TRY(matte, in.matte(frame));
+        MeasureFrame step;
+        step.frame = frame;
+        step.result = after.rgb;
+        step.source = before.rgb;
+        step.matte = matte;
+        WEFT_TRY(found, measure.add(step));
+        const std::lock_guard lock(shared.mutex);
+        ++shared.report.done;
+        shared.report.rows.push_back({frame, static_cast<float>(found.tde.value_or(0)),
+                                      static_cast<float>(found.source_tde.value_or(0)),
+                                      static_cast<float>(found.mean_v.value_or(0)),
+                                      static_cast<float>(found.source_mean_v.value_or(0))});
+    }
+    return {};
+}
+
+}  // namespace
+
+void Session::submit(const SubmitJob& action) {
+    if (!open_ || !reader_) {
+        notify(NoticeKind::kWarning, "Open a plate before rendering.");
+        return;
+    }
+    if (has_errors(validate(document()))) {
+        notify(NoticeKind::kError, validate(document()).front().text());
+        return;
+    }
+    end_stroke();
+    RenderRequest request;
+    auto frames = action.frames.empty() ? Expected<std::vector<int>>(reader_->frames())
+                                        : parse_frame_list(action.frames);
+    if (!frames) {
+        notify(NoticeKind::kError, frames.error().text());
+        return;
+    }
+    // What was painted last must be on the disk before the renderer reads it.
+    shelf_.flush();
+    request.project = resolve_paths(history_.current(), project_dir(path_));
+    request.project.output.path = fs::absolute(action.output).string();
+    request.project.output.movie =
+        action.movie.empty() ? std::string() : fs::absolute(action.movie).string();
+    request.frames = *frames;
+    request.overwrite = action.overwrite;
+    request.skip_existing = action.skip_existing;
+    request.label = (document().name.empty() ? "Shot" : document().name) + ", frames " +
+                    format_frame_list(*frames);
+    if (const auto id = jobs_.submit(request)) {
+        known_jobs_[*id] = JobState::kWaiting;
+        notify(NoticeKind::kInfo, "Rendering " + std::to_string(frames->size()) + " frames to " +
+                                      request.project.output.path + ".");
+    } else {
+        notify(NoticeKind::kError, id.error().text());
+    }
+}
+
+void Session::command(const CommandJob& action) {
+    switch (action.command) {
+        case JobCommand::kCancel:
+            return jobs_.cancel(action.id);
+        case JobCommand::kPause:
+            return jobs_.pause(action.id);
+        case JobCommand::kResume:
+            return jobs_.resume(action.id);
+        case JobCommand::kRetry:
+            return jobs_.retry(action.id);
+        case JobCommand::kRemove:
+            return jobs_.remove(action.id);
+    }
+}
+
+void Session::watch_jobs() {
+    for (const JobView& job : view_.jobs) {
+        JobState& known = known_jobs_[job.id];
+        if (known == job.state) continue;
+        known = job.state;
+        if (job.state == JobState::kDone) notify(NoticeKind::kGood, "Rendered: " + job.label + ".");
+        if (job.state == JobState::kFailed)
+            notify(NoticeKind::kError, "Render failed. " + job.error);
+    }
+}
+
+void Session::measure(const std::string& pattern) {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region || !reader_) {
+        notify(NoticeKind::kWarning, "Select the region that is to be measured.");
+        return;
+    }
+    if (measuring_) measuring_->cancelled = true;
+    measuring_ = std::make_shared<Measuring>();
+    measuring_->report.state = QualityReport::State::kMeasuring;
+    measuring_->report.pattern = pattern;
+    MeasuringInputs in{reader_, pattern, {}};
+    const MatteSource source =
+        *resolve_paths(document(), project_dir(path_))
+             .regions[find_region(document(), std::to_string(selected_)).value_or(0)]
+             ->matte;
+    const Size size = reader_->size();
+    in.matte = [this, source, size, id = region->id](int frame) -> Expected<Matte> {
+        if (source.files.empty()) return preview_.propagated_matte(id, frame);
+        WEFT_TRY(files, SequencePattern::parse(source.files));
+        return read_matte(files.path_for(frame), source.select, size);
+    };
+    measuring_->thread = std::thread([in, shared = measuring_.get()] {
+        lower_thread_priority();
+        const Status done = measure_all(in, *shared);
+        const std::lock_guard lock(shared->mutex);
+        shared->report.state = done ? QualityReport::State::kDone : QualityReport::State::kFailed;
+        if (!done) shared->report.error = done.error().text();
+    });
+}
+
+}  // namespace weft

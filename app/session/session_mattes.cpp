@@ -1,0 +1,234 @@
+// Painting, and the mattes that the view shows.
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/project/project_file.h"
+#include "app/session/session.h"
+#include "engine/core/hash.h"
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string select_text(const MatteSelect& select) {
+    return (select.value ? std::to_string(*select.value) : std::string()) + "/" + select.channel +
+           (select.invert ? "/inverted" : "");
+}
+
+// Stands for everything that a propagated matte depends on in the document.
+std::string keys_text(const MatteSource& matte) {
+    Hasher hasher;
+    for (const auto& [frame, key] : matte.keyframes)
+        hasher.value(frame).text(key.path);
+    return hasher.finish().hex();
+}
+
+}  // namespace
+
+RegionMatteView Session::matte_of(const Region& region, int frame) {
+    RegionMatteView out;
+    out.region = region.id;
+    if (painting_ && painting_->region == region.id && painting_->frame == frame) {
+        out.kind = RegionMatteView::Kind::kPainted;
+        out.pixels = painting_->canvas.view();
+        out.version = painting_->version;
+        out.changed = painting_->changed;
+        return out;
+    }
+    const MatteSource& source = *region.matte;
+    if (source.empty() || !reader_) return out;
+    const std::string dir = project_dir(path_);
+    const Size size = reader_->size();
+    std::string name;
+    MatteShelf::Reader read;
+    if (!source.files.empty()) {
+        out.kind = RegionMatteView::Kind::kFile;
+        const auto pattern = SequencePattern::parse(resolve_path(dir, source.files));
+        if (!pattern) {
+            out.kind = RegionMatteView::Kind::kFailed;
+            out.error = pattern.error().text();
+            return out;
+        }
+        const std::string path = pattern->path_for(frame);
+        name = path + "|" + select_text(source.select);
+        read = [path, select = source.select, size] { return read_matte(path, select, size); };
+    } else if (const auto key = source.keyframes.find(frame); key != source.keyframes.end()) {
+        out.kind = RegionMatteView::Kind::kPainted;
+        const std::string path = resolve_path(dir, key->second.path);
+        name = path;
+        read = [path, select = source.select, size] { return read_matte(path, select, size); };
+    } else {
+        out.kind = RegionMatteView::Kind::kPropagated;
+        name = "propagated " + std::to_string(region.id) + " " + std::to_string(frame) + " " +
+               keys_text(source);
+        read = [this, id = region.id, frame] { return preview_.propagated_matte(id, frame); };
+        // It may have come since it was last asked for.
+        if (!shelf_.error(name).empty()) {
+            const std::uint64_t now = preview_.matte_version();
+            std::uint64_t& tried = missed_mattes_[name];
+            if (tried != now) shelf_.forget(name);
+            tried = now;
+        }
+    }
+    out.keep = shelf_.get(name, read);
+    if (!out.keep) {
+        out.error = shelf_.error(name);
+        const bool propagated = out.kind == RegionMatteView::Kind::kPropagated;
+        out.kind = out.error.empty() || propagated ? RegionMatteView::Kind::kLoading
+                                                   : RegionMatteView::Kind::kFailed;
+        return out;
+    }
+    Shown& shown = shown_mattes_[region.id];
+    if (shown.matte != out.keep) shown = {out.keep, next_picture_id()};
+    out.version = shown.version;
+    out.pixels = out.keep->view();
+    return out;
+}
+
+bool Session::may_paint() {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region) {
+        notify(NoticeKind::kWarning, "Add a region first; then paint its matte.");
+    } else if (locked_.contains(selected_)) {
+        notify(NoticeKind::kWarning, "'" + region->name + "' is locked. Unlock it to paint.");
+    } else if (!region->matte->files.empty()) {
+        notify(NoticeKind::kWarning, "The matte of '" + region->name +
+                                         "' comes from files. Choose 'Paint instead' to make it "
+                                         "your own.");
+    } else if (!reader_) {
+        notify(NoticeKind::kWarning, "There is no plate to paint on yet.");
+    } else if (changing_) {
+        notify(NoticeKind::kWarning, "The last change of this matte is still being worked out.");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+std::optional<Matte> Session::matte_to_paint_on() {
+    const Region* region = region_by_id(document(), selected_);
+    const RegionMatteView shown = matte_of(*region, frame_);
+    if (shown.keep) return *shown.keep;
+    if (shown.kind == RegionMatteView::Kind::kLoading &&
+        region->matte->keyframes.contains(frame_)) {
+        notify(NoticeKind::kWarning, "This keyframe is still being read. Try again in a moment.");
+        return std::nullopt;
+    }
+    return Matte(reader_->size());
+}
+
+void Session::begin_stroke(const BeginStroke& action) {
+    end_stroke();
+    if (!open_ || !may_paint()) return;
+    auto before = matte_to_paint_on();
+    if (!before) return;
+    playing_ = 0;
+    painting_.emplace();
+    painting_->region = selected_;
+    painting_->frame = frame_;
+    painting_->canvas = *before;
+    painting_->stroke.emplace(*before, action.brush);
+    painting_->version = next_picture_id();
+    (void)painting_->stroke->move_to(action.at, action.pressure, painting_->canvas);
+    painting_->changed = rect_of(before->size());
+}
+
+void Session::end_stroke() {
+    if (!painting_) return;
+    const Painting done = std::move(*painting_);
+    painting_.reset();
+    if (!done.stroke || done.stroke->touched().empty()) return;
+    const Region* region = region_by_id(document(), done.region);
+    if (!region) return;
+    keep_matte(done.canvas, done.region, done.frame,
+               "Paint " + region->name + " on frame " + std::to_string(done.frame));
+}
+
+std::string Session::new_matte_path(RegionId region, int frame) {
+    const std::string name = "region" + std::to_string(region) + "_" + std::to_string(frame) + "_";
+    const fs::path folder =
+        path_.empty()
+            ? fs::path(options_.state_folder) / "unsaved" / std::to_string(getpid())
+            : fs::path(project_dir(path_)) / (fs::path(path_).stem().string() + "_mattes");
+    for (;;) {
+        // A new name for every version: undo finds the older one where it was.
+        const fs::path path = folder / (name + std::to_string(++matte_serial_) + ".png");
+        std::error_code error;
+        if (!fs::exists(path, error)) return path.string();
+    }
+}
+
+void Session::keep_matte(Matte matte, RegionId region, int frame, const std::string& label) {
+    const std::string path = new_matte_path(region, frame);
+    shelf_.write(path, std::make_shared<const Matte>(std::move(matte)));
+    std::string written = path;
+    if (!path_.empty()) written = fs::path(path).lexically_relative(project_dir(path_)).string();
+    auto changed = apply_edit(history_.current(), SetMatteKeyframe{{region, {}}, frame, written});
+    if (!changed) {
+        notify(NoticeKind::kError, changed.error().text());
+        return;
+    }
+    commit(std::move(*changed), label);
+}
+
+void Session::change_matte(std::function<Matte(const Matte&)> change, std::string label) {
+    end_stroke();
+    if (!open_ || !may_paint()) return;
+    auto before = matte_to_paint_on();
+    if (!before) return;
+    changing_.emplace();
+    changing_->region = selected_;
+    changing_->frame = frame_;
+    changing_->label = std::move(label);
+    changing_->matte = std::async(
+        std::launch::async,
+        [change = std::move(change), matte = std::move(*before)] { return change(matte); });
+}
+
+void Session::take_changed_matte() {
+    if (!changing_ ||
+        changing_->matte.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return;
+    Changing done = std::move(*changing_);
+    changing_.reset();
+    const Region* region = region_by_id(document(), done.region);
+    if (!region) return;
+    keep_matte(done.matte.get(), done.region, done.frame,
+               done.label + " on frame " + std::to_string(done.frame));
+}
+
+void Session::paint_instead() {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region || region->matte->files.empty() || !reader_) return;
+    const RegionMatteView shown = matte_of(*region, frame_);
+    if (!shown.keep) {
+        notify(NoticeKind::kWarning, "The matte of this frame is still being read.");
+        return;
+    }
+    const std::string path = new_matte_path(region->id, frame_);
+    shelf_.write(path, shown.keep);
+    MatteSource painted;
+    painted.keyframes[frame_] = {
+        path_.empty() ? path : fs::path(path).lexically_relative(project_dir(path_)).string(), {}};
+    edit(SetMatte{{region->id, {}}, painted}, true);
+    notify(NoticeKind::kInfo, "The matte of '" + region->name + "' is painted now: frame " +
+                                  std::to_string(frame_) +
+                                  " is its keyframe, the other frames follow from it.");
+}
+
+void Session::copy_keyframe(int from, int to) {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region || !region->matte->keyframes.contains(from)) {
+        notify(NoticeKind::kWarning, "There is no painted keyframe to copy.");
+        return;
+    }
+    // Files are never changed once written, so both may name the same one.
+    edit(SetMatteKeyframe{{region->id, {}}, to, region->matte->keyframes.at(from).path}, true);
+}
+
+}  // namespace weft

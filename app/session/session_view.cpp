@@ -1,0 +1,151 @@
+// Publishing what the panels see.
+#include <algorithm>
+#include <filesystem>
+
+#include "app/project/project_file.h"
+#include "app/session/session.h"
+#include "app/session/session_measuring.h"
+#include "engine/media/frame_reader.h"
+
+namespace weft {
+namespace {
+
+const char* depth_name(PixelDepth depth) {
+    switch (depth) {
+        case PixelDepth::kU8:
+            return "8 bit";
+        case PixelDepth::kU16:
+            return "16 bit";
+        case PixelDepth::kHalf:
+            return "16-bit float";
+        case PixelDepth::kFloat:
+            return "32-bit float";
+    }
+    return "";
+}
+
+}  // namespace
+
+void Session::show_document() {
+    view_.now_s = now_s_;
+    view_.open = open_;
+    view_.selected = selected_;
+    view_.solo = solo_;
+    view_.locked.assign(locked_.begin(), locked_.end());
+    view_.mark_in = mark_in_;
+    view_.mark_out = mark_out_;
+    view_.recent = settings_->recent;
+    view_.recovery.reset();
+    if (!recoverable_.empty())
+        view_.recovery = {recoverable_[0].project_path, recoverable_[0].when};
+    view_.modified = history_.modified();
+    if (shown_version_ == document_version_) return;
+    shown_version_ = document_version_;
+    view_.project = document();
+    view_.path = path_;
+    view_.title = !document().name.empty() ? document().name
+                  : !path_.empty()         ? std::filesystem::path(path_).stem().string()
+                                           : "Untitled";
+    view_.history = history_.labels();
+    view_.history_position = history_.position();
+    view_.undo_label = history_.undo_label();
+    view_.redo_label = history_.redo_label();
+    view_.issues = validate(document());
+    view_.unready.clear();
+    for (const Leaf<Region>& region : document().regions) {
+        if (region->matte->empty()) {
+            view_.unready[region->id] = "Paint its matte on the frame";
+        } else if (region->texture.sample.empty() && region->texture.plane.empty()) {
+            view_.unready[region->id] = "Choose a texture for it";
+        }
+    }
+}
+
+void Session::show_plate() {
+    PlateView& plate = view_.plate;
+    plate.path = resolve_path(project_dir(path_), document().plate.path);
+    plate.budget_bytes = options_.plate_budget_bytes;
+    if (opening_.valid()) plate.state = PlateView::State::kOpening;
+    if (document().plate.path.empty()) plate.state = PlateView::State::kNone;
+    view_.frame = frame_;
+    view_.playing = playing_;
+    view_.frame_error.clear();
+    view_.frame_file.clear();
+    if (!reader_) {
+        view_.plate_picture.reset();
+        return;
+    }
+    if (plate.state != PlateView::State::kOpen) {
+        plate.state = PlateView::State::kOpen;
+        plate.error.clear();
+        plate.size = reader_->size();
+        plate.frames = reader_->frames();
+        plate.depth = depth_name(reader_->depth());
+    }
+    plate.fps = document().plate.fps > 0 ? document().plate.fps
+                : reader_->fps() > 0     ? reader_->fps()
+                                         : 24;
+    plate.cached_bytes = player_->size_bytes();
+    // While a frame is decoded the last one stays: a black flash says nothing.
+    if (PicturePtr picture = player_->get(frame_)) view_.plate_picture = std::move(picture);
+    view_.frame_error = player_->error(frame_);
+    if (!view_.frame_error.empty()) view_.plate_picture.reset();
+    view_.frame_file = reader_->path_of(frame_);
+}
+
+void Session::show_mattes() {
+    view_.mattes.clear();
+    view_.painting = painting_.has_value();
+    view_.matte_busy = changing_.has_value();
+    if (!open_) return;
+    for (const Leaf<Region>& region : document().regions)
+        view_.mattes.push_back(matte_of(*region, frame_));
+}
+
+void Session::show_result() {
+    view_.preview = preview_.view();
+    view_.analysis_paused = preview_.paused();
+    view_.preview_quality = preview_quality_;
+    view_.overlay = overlay_;
+    view_.stages_shown = stages_;
+    view_.stages = preview_.frame(frame_);
+    const PicturePtr& final = view_.stages.stages[static_cast<std::size_t>(Stage::kFinal)];
+    view_.result_current = final != nullptr;
+    if (final) {
+        last_result_ = final;
+        last_result_frame_ = frame_;
+    }
+    // An older look at this very frame stays until the new one is there, marked as such.
+    view_.result_picture =
+        view_.result_wanted && last_result_frame_ == frame_ ? last_result_ : nullptr;
+    view_.overlay_picture = preview_.overlay();
+    if (view_.overlay_picture && view_.overlay_picture->frame != frame_)
+        view_.overlay_picture.reset();
+    if (measuring_) {
+        const std::lock_guard lock(measuring_->mutex);
+        view_.report = measuring_->report;
+    }
+}
+
+void Session::show_marks() {
+    const auto& frames = view_.plate.frames;
+    view_.marks.assign(reader_ ? frames.size() : 0, {});
+    if (!reader_) return;
+    const Region* region = region_by_id(document(), selected_);
+    const std::map<int, float> confidence = preview_.confidence(selected_);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        FrameMarks& mark = view_.marks[k];
+        const PlatePlayer::State state = player_->state(frames[k]);
+        mark.plate = state == PlatePlayer::State::kCached;
+        mark.failed = state == PlatePlayer::State::kFailed;
+        mark.result = preview_.has(frames[k]);
+        if (!region) continue;
+        mark.matte_key = region->matte->keyframes.contains(frames[k]);
+        mark.reference = std::find(region->reference_frames.begin(), region->reference_frames.end(),
+                                   frames[k]) != region->reference_frames.end();
+        if (const auto found = confidence.find(frames[k]); found != confidence.end())
+            mark.confidence = found->second;
+    }
+}
+
+}  // namespace weft

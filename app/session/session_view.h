@@ -1,0 +1,128 @@
+#pragma once
+// What the panels see of a session: plain values and shared immutable ones, made new by
+// Session::update().
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/project/project.h"
+#include "app/project/validate.h"
+#include "app/session/child_jobs.h"
+#include "app/session/matte_shelf.h"
+#include "app/session/picture.h"
+#include "app/session/preview.h"
+
+namespace weft {
+
+enum class NoticeKind : std::uint8_t { kGood, kInfo, kWarning, kError };
+
+/// A message to the artist. Errors stay until they are dismissed.
+struct Notice {
+    int id = 0;
+    NoticeKind kind = NoticeKind::kInfo;
+    std::string text;
+    double at_s = 0;  ///< On the session's clock.
+};
+
+struct PlateView {
+    enum class State : std::uint8_t { kNone, kOpening, kOpen, kFailed };
+    State state = State::kNone;
+    std::string path, error, space, depth;
+    Size size;
+    double fps = 24;
+    std::vector<int> frames;
+    std::size_t cached_bytes = 0, budget_bytes = 0;
+};
+
+/// What a frame has, for the timeline.
+struct FrameMarks {
+    bool plate = false, result = false, failed = false;
+    bool matte_key = false, reference = false;  ///< Of the selected region.
+    float confidence = -1;                      ///< Of its matte; below 0: not known.
+};
+
+/// A region's matte on the current frame.
+struct RegionMatteView {
+    RegionId region = 0;
+    enum class Kind : std::uint8_t { kNone, kLoading, kPainted, kPropagated, kFile, kFailed };
+    Kind kind = Kind::kNone;
+    ViewU8x1 pixels;            ///< Valid until the next update().
+    MattePtr keep;              ///< Owns `pixels`, but for a matte that is being painted.
+    std::uint64_t version = 0;  ///< Another number: other pixels.
+    Recti changed;              ///< Since the version before; only while painting.
+    std::string error;
+};
+
+struct RecoveryOffer {
+    std::string project_path;  ///< Empty: of a shot that was never saved.
+    std::string when;          ///< "today at 14:02"
+};
+
+/// Quality over time, from measuring a finished render.
+struct QualityReport {
+    enum class State : std::uint8_t { kNone, kMeasuring, kDone, kFailed };
+    State state = State::kNone;
+    std::string pattern, error;
+    int done = 0, total = 0;
+    struct Row {
+        int frame = 0;
+        float flicker = 0, flicker_plate = 0, brightness = 0, brightness_plate = 0;
+    };
+    std::vector<Row>
+        rows;  ///< Flicker: mean change of a surface point to the next frame, in codes.
+};
+
+struct SessionView {
+    double now_s = 0;
+    bool open = false;  ///< There is a document.
+    Project project;    ///< As it stands, with what is being tried.
+    std::string path, title;
+    bool modified = false, saving = false;
+    PlateView plate;
+
+    int frame = 0;
+    int playing = 0;  ///< As Play::direction.
+    double play_fps = 0;
+    std::optional<int> mark_in, mark_out;
+    std::vector<FrameMarks> marks;  ///< By index into plate.frames.
+
+    RegionId selected = 0, solo = 0;
+    std::vector<RegionId> locked;
+    std::vector<RegionMatteView> mattes;  ///< Of all regions, bottom up.
+    bool painting = false, matte_busy = false;
+
+    PicturePtr plate_picture, result_picture;
+    bool result_current = false;  ///< result_picture is of this frame and these settings.
+    bool result_wanted = false;   ///< There is something to render.
+    PreviewFrame stages;
+    std::string frame_error, frame_file;
+    PreviewView preview;
+    bool analysis_paused = false;
+    Quality preview_quality = Quality::kDraft;
+    Overlay overlay = Overlay::kNone;
+    std::shared_ptr<const OverlayPicture> overlay_picture;
+    bool stages_shown = false;
+
+    std::vector<std::string> history;
+    std::size_t history_position = 0;
+    std::string undo_label, redo_label;
+    std::vector<Issue> issues;
+    std::map<RegionId, std::string> unready;  ///< Why a region cannot be shown yet.
+
+    std::vector<JobView> jobs;
+    std::vector<Notice> notices;
+    std::optional<RecoveryOffer> recovery;
+    QualityReport report;
+    std::vector<std::string> recent;  ///< Project files, the newest first.
+    std::string backend = "CPU";
+
+    [[nodiscard]] const Region* selected_region() const { return region_by_id(project, selected); }
+    [[nodiscard]] bool is_locked(RegionId id) const {
+        return std::find(locked.begin(), locked.end(), id) != locked.end();
+    }
+};
+
+}  // namespace weft

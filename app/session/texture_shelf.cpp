@@ -1,0 +1,427 @@
+#include "app/session/texture_shelf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/session/background.h"
+#include "engine/media/image_files.h"
+#include "engine/media/plates.h"
+#include "texture_db/library.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string readable(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    std::replace(name.begin(), name.end(), '-', ' ');
+    if (!name.empty())
+        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    return name;
+}
+
+// The statistics that suggestions go by, over the pixels where `inside` says so.
+template <class Inside>
+void statistics(ViewU8x3 picture, Inside&& inside, float mean[3], float& contrast, float& grain) {
+    double sum[3] = {0, 0, 0}, luma_sum = 0, luma_square = 0, steps = 0;
+    std::int64_t count = 0, step_count = 0;
+    const auto luma = [&](int x, int y) {
+        const std::uint8_t* p = picture.pixel(x, y);
+        return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
+    };
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x + 1 < picture.width(); ++x) {
+            if (!inside(x, y)) continue;
+            for (int c = 0; c < 3; ++c)
+                sum[c] += picture.pixel(x, y)[c];
+            const double l = luma(x, y);
+            luma_sum += l;
+            luma_square += l * l;
+            ++count;
+            if (!inside(x + 1, y)) continue;
+            steps += std::abs(l - luma(x + 1, y));
+            ++step_count;
+        }
+    }
+    if (count == 0) return;
+    const auto n = static_cast<double>(count);
+    for (int c = 0; c < 3; ++c)
+        mean[c] = static_cast<float>(sum[c] / n);
+    contrast =
+        static_cast<float>(std::sqrt(std::max(0.0, luma_square / n - luma_sum * luma_sum / n / n)));
+    grain = step_count ? static_cast<float>(steps / static_cast<double>(step_count)) : 0;
+}
+
+}  // namespace
+
+TextureShelf::TextureShelf(std::size_t budget_bytes)
+    : budget_bytes_(budget_bytes), cards_(std::make_shared<const std::vector<TextureCard>>()) {
+    threads_.emplace_back([this] { work(); });
+}
+
+TextureShelf::~TextureShelf() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+        cancel_.cancel();
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_)
+        thread.join();
+}
+
+void TextureShelf::look_in(std::vector<std::string> folders) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (folders == folders_) return;
+        folders_ = folders;
+        to_scan_ = std::move(folders);
+        scan_due_ = true;
+    }
+    wake_.notify_all();
+}
+
+std::shared_ptr<const std::vector<TextureCard>> TextureShelf::cards() const {
+    const std::lock_guard lock(mutex_);
+    return cards_;
+}
+
+PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
+    const std::lock_guard lock(mutex_);
+    const std::string name = path + "@" + std::to_string(longest_px);
+    if (const auto found = kept_.find(name); found != kept_.end()) {
+        found->second.used = ++clock_;
+        return found->second.picture;
+    }
+    const auto same = [&](const Wish& w) { return w.path == path && w.longest_px == longest_px; };
+    if (const auto at = std::find_if(wishes_.begin(), wishes_.end(), same); at != wishes_.end())
+        wishes_.erase(at);
+    wishes_.push_back({path, longest_px});
+    constexpr std::size_t kMostWaiting = 200;
+    if (wishes_.size() > kMostWaiting) wishes_.pop_front();
+    wake_.notify_all();
+    return nullptr;
+}
+
+void TextureShelf::suggest_for(const std::string& key, PicturePtr plate,
+                               std::shared_ptr<const Matte> matte) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (key == ranked_key_ || key == rank_due_) return;
+        rank_due_ = key;
+        rank_plate_ = std::move(plate);
+        rank_matte_ = std::move(matte);
+    }
+    wake_.notify_all();
+}
+
+std::vector<TextureSuggestion> TextureShelf::suggestions(const std::string& key) const {
+    const std::lock_guard lock(mutex_);
+    return key == ranked_key_ ? ranked_ : std::vector<TextureSuggestion>{};
+}
+
+std::uint64_t TextureShelf::arrivals() const {
+    const std::lock_guard lock(mutex_);
+    return arrivals_;
+}
+
+void TextureShelf::scan(const std::vector<std::string>& folders) {
+    auto cards = std::make_shared<std::vector<TextureCard>>();
+    for (const std::string& folder : folders) {
+        std::error_code error;
+        fs::recursive_directory_iterator it(folder, error), end;
+        for (; !error && it != end; it.increment(error)) {
+            const std::string path = it->path().string();
+            if (!it->is_regular_file(error) || !has_picture_extension(path)) continue;
+            TextureCard card;
+            card.path = path;
+            card.name = readable(it->path().stem().string());
+            const fs::path parent = it->path().parent_path();
+            card.material =
+                parent == fs::path(folder) ? "Unsorted" : readable(parent.filename().string());
+            card.source = folder;
+            cards->push_back(std::move(card));
+        }
+    }
+    std::sort(cards->begin(), cards->end(), [](const TextureCard& a, const TextureCard& b) {
+        return std::tie(a.material, a.name, a.path) < std::tie(b.material, b.name, b.path);
+    });
+    folder_cards_ = std::move(*cards);
+    publish();
+}
+
+void TextureShelf::publish() {
+    auto cards = std::make_shared<std::vector<TextureCard>>(folder_cards_);
+    cards->insert(cards->end(), library_cards_.begin(), library_cards_.end());
+    const std::lock_guard lock(mutex_);
+    cards_ = std::move(cards);
+    ++arrivals_;
+}
+
+// ---- the library -----------------------------------------------------------------------------
+
+void TextureShelf::open_library(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    if (threads_.size() > 1) return;
+    threads_.emplace_back([this, path] { fill_library(path); });
+}
+
+std::string TextureShelf::activity() const {
+    const std::lock_guard lock(mutex_);
+    return activity_;
+}
+
+void TextureShelf::fill_library(const std::string& path) {
+    lower_thread_priority();
+    auto opened = TextureLibrary::open(path);
+    const auto say = [&](std::string text) {
+        const std::lock_guard lock(mutex_);
+        activity_ = std::move(text);
+        ++arrivals_;
+    };
+    if (!opened) return say(opened.error().text());
+    {
+        const std::lock_guard lock(mutex_);
+        library_ = *opened;
+        library_due_ = true;
+    }
+    wake_.notify_all();
+    const auto progress = [&](const ProgressEvent& event) {
+        const std::lock_guard lock(mutex_);
+        activity_ = "Making the starter textures, " + std::to_string(event.done) + " of " +
+                    std::to_string(event.total);
+        library_due_ |= event.done % 200 == 0;
+        ++arrivals_;
+        wake_.notify_all();
+    };
+    const Status filled = add_starter_textures(**opened, cancel_, progress);
+    say(filled || cancel_.cancelled() ? std::string() : filled.error().text());
+    const std::lock_guard lock(mutex_);
+    library_due_ = true;
+    wake_.notify_all();
+}
+
+void TextureShelf::take_library() {
+    SearchQuery all;
+    all.sort = TextureSort::kMaterial;
+    all.limit = 100'000;
+    all.facets = false;
+    const auto found = library_->search(all);
+    if (!found) return;
+    library_cards_.clear();
+    for (const SearchHit& hit : found->hits) {
+        TextureCard card;
+        card.path = "db:" + hit.id;
+        card.name = readable(hit.name);
+        card.material = readable(hit.material);
+        library_cards_.push_back(std::move(card));
+    }
+    publish();
+}
+
+TextureCard TextureShelf::details(const TextureCard& card) {
+    if (!card.path.starts_with("db:")) return card;
+    const std::lock_guard lock(mutex_);
+    if (const auto found = details_.find(card.path); found != details_.end()) return found->second;
+    details_due_ = card.path;
+    wake_.notify_all();
+    return card;
+}
+
+void TextureShelf::look_up(const std::string& path) {
+    const auto info = library_->info(path.substr(3));
+    if (!info) return;
+    TextureCard card;
+    card.path = path;
+    card.name = readable(info->name);
+    card.material = readable(info->material);
+    card.tags = info->tags;
+    card.author = info->author;
+    card.licence = info->licence;
+    card.source = info->package.empty() ? info->source : info->package;
+    card.size = info->original_size;
+    const std::lock_guard lock(mutex_);
+    details_[path] = std::move(card);
+    ++arrivals_;
+}
+
+std::shared_ptr<const std::vector<std::string>> TextureShelf::search(const std::string& words) {
+    const std::lock_guard lock(mutex_);
+    if (!library_ || words.empty()) return nullptr;
+    if (words == searched_) return search_result_;
+    search_due_ = words;
+    wake_.notify_all();
+    return nullptr;
+}
+
+void TextureShelf::search_library(const std::string& words) {
+    SearchQuery query;
+    query.text = words;
+    query.limit = 2000;
+    query.facets = false;
+    const auto found = library_->search(query);
+    auto paths = std::make_shared<std::vector<std::string>>();
+    if (found)
+        for (const SearchHit& hit : found->hits)
+            paths->push_back("db:" + hit.id);
+    const std::lock_guard lock(mutex_);
+    searched_ = words;
+    search_result_ = std::move(paths);
+    ++arrivals_;
+}
+
+void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte) {
+    RecommendRequest request;
+    request.plate = plate;
+    request.regions.push_back({"region", matte.view(), {}, {}});
+    const auto found = library_->recommend(request);
+    std::vector<TextureSuggestion> out;
+    if (found && !found->regions.empty()) {
+        for (const auto& one : found->regions[0].suggestions)
+            out.push_back({"db:" + one.id, one.reasons.empty() ? std::string() : one.reasons[0],
+                           one.score});
+    }
+    const std::lock_guard lock(mutex_);
+    ranked_key_ = key;
+    ranked_ = std::move(out);
+    ++arrivals_;
+}
+
+void TextureShelf::make_thumbnail(const Wish& wish) {
+    PicturePtr picture;
+    constexpr int kSample = 96;
+    if (wish.path.starts_with("db:")) {
+        std::shared_ptr<TextureLibrary> library;
+        {
+            const std::lock_guard lock(mutex_);
+            library = library_;
+        }
+        if (library) {
+            const std::string id = wish.path.substr(3);
+            auto pixels = library->thumbnail(id);
+            if (pixels && wish.longest_px > 2 * kSample) {
+                if (auto larger = library->original(id)) pixels = std::move(larger);
+            }
+            if (pixels) picture = make_picture(shrink(pixels->view(), wish.longest_px));
+        }
+    } else if (const auto image = read_image(wish.path)) {
+        const PicturePtr whole = make_picture(
+            image->rgb, image->depth == PixelDepth::kU8 || image->depth == PixelDepth::kU16,
+            nullptr, nullptr);
+        picture = make_picture(shrink(*whole, wish.longest_px));
+    }
+    const std::lock_guard lock(mutex_);
+    if (picture) bytes_ += picture->size_bytes();
+    kept_[wish.path + "@" + std::to_string(wish.longest_px)] = {picture, wish.longest_px, ++clock_};
+    ++arrivals_;
+    while (bytes_ > budget_bytes_ && kept_.size() > 1) {
+        const auto oldest = std::min_element(
+            kept_.begin(), kept_.end(),
+            [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+        if (oldest->second.picture) bytes_ -= oldest->second.picture->size_bytes();
+        kept_.erase(oldest);
+    }
+}
+
+const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
+    if (const auto found = looks_.find(path); found != looks_.end()) return &found->second;
+    const auto image = read_image(path);
+    if (!image) return nullptr;
+    const PicturePtr whole = make_picture(image->rgb, true, nullptr, nullptr);
+    const ImageU8x3 small = shrink(*whole, 256);
+    Look look;
+    statistics(
+        small.view(), [](int, int) { return true; }, look.mean, look.contrast, look.grain);
+    return &(looks_[path] = look);
+}
+
+void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte) {
+    const ImageU8x3 whole = shrink(plate, 1 << 20);
+    if (!library_cards_.empty() && whole.size() == matte.size()) return recommend(key, whole, matte);
+    Look surface;
+    if (whole.size() == matte.size()) {
+        statistics(
+            whole.view(), [&](int x, int y) { return matte.at(x, y) > 127; }, surface.mean,
+            surface.contrast, surface.grain);
+    }
+    const auto all = cards();
+    std::vector<TextureSuggestion> found;
+    constexpr std::size_t kMostLooked = 400;
+    for (std::size_t k = 0; k < std::min(all->size(), kMostLooked); ++k) {
+        const Look* look = look_of((*all)[k].path);
+        if (!look) continue;
+        float colour = 0;
+        for (int c = 0; c < 3; ++c)
+            colour += std::abs(look->mean[c] - surface.mean[c]) / 3.0f;
+        const float contrast = std::abs(look->contrast - surface.contrast);
+        const float grain = std::abs(look->grain - surface.grain);
+        TextureSuggestion one;
+        one.path = (*all)[k].path;
+        one.score = 1.0f / (1.0f + colour / 40.0f + contrast / 30.0f + grain / 12.0f);
+        one.reason = colour < 28                       ? "Close in colour"
+                     : contrast < 8                    ? "Similar contrast"
+                     : look->grain > surface.grain + 4 ? "Livelier grain"
+                     : look->grain < surface.grain - 4 ? "Calmer grain"
+                                                       : "A fresh contrast";
+        if (colour < 28 && contrast < 10) one.reason = "Close in colour and contrast";
+        found.push_back(std::move(one));
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const TextureSuggestion& a, const TextureSuggestion& b) { return a.score > b.score; });
+    constexpr std::size_t kShown = 8;
+    if (found.size() > kShown) found.resize(kShown);
+    const std::lock_guard lock(mutex_);
+    ranked_key_ = key;
+    ranked_ = std::move(found);
+    ++arrivals_;
+}
+
+void TextureShelf::work() {
+    lower_thread_priority();
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        wake_.wait(lock,
+                   [&] { return stop_ || scan_due_ || library_due_ || !wishes_.empty() || !rank_due_.empty() ||
+                   !search_due_.empty() || !details_due_.empty(); });
+        if (stop_) return;
+        if (scan_due_) {
+            scan_due_ = false;
+            const auto folders = to_scan_;
+            lock.unlock();
+            scan(folders);
+            lock.lock();
+        } else if (library_due_) {
+            library_due_ = false;
+            lock.unlock();
+            take_library();
+            lock.lock();
+        } else if (!search_due_.empty()) {
+            const std::string words = std::exchange(search_due_, {});
+            lock.unlock();
+            search_library(words);
+            lock.lock();
+        } else if (!details_due_.empty()) {
+            const std::string path = std::exchange(details_due_, {});
+            lock.unlock();
+            look_up(path);
+            lock.lock();
+        } else if (!wishes_.empty()) {
+            const Wish wish = wishes_.back();
+            wishes_.pop_back();
+            lock.unlock();
+            make_thumbnail(wish);
+            lock.lock();
+        } else {
+            const std::string key = std::exchange(rank_due_, {});
+            const PicturePtr plate = std::exchange(rank_plate_, nullptr);
+            const auto matte = std::exchange(rank_matte_, nullptr);
+            lock.unlock();
+            if (plate && matte) rank(key, *plate, *matte);
+            lock.lock();
+        }
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,116 @@
+#pragma once
+// The textures that the drawer shows: their cards at once, their thumbnails as they are asked for,
+// the visible ones first.
+
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/session/picture.h"
+#include "engine/core/cancel.h"
+
+namespace weft {
+
+class TextureLibrary;
+
+struct TextureCard {
+    std::string path;  ///< What is applied to a region.
+    std::string name, material;
+    std::vector<std::string> tags;
+    std::string author, licence, source;
+    Size size;  ///< 0 while unknown.
+};
+
+/// A texture that suits a region, and why.
+struct TextureSuggestion {
+    std::string path;
+    std::string reason;  ///< "Same colour, finer grain"
+    float score = 0;     ///< 0–1, higher suits better.
+};
+
+/// Thread-safe; nothing blocks.
+class TextureShelf {
+  public:
+    explicit TextureShelf(std::size_t budget_bytes = std::size_t{192} << 20);
+    ~TextureShelf();
+
+    /// Looks through these folders in the background; a sub-folder's name is the material.
+    void look_in(std::vector<std::string> folders);
+    /// Opens a texture library in the background, too, and fills an empty one with the starter
+    /// textures. Its textures are named "db:ID". Once.
+    void open_library(const std::string& path);
+    /// What is being done to the library ("Making the starter textures, 300 of 1700"), or nothing.
+    [[nodiscard]] std::string activity() const;
+    /// Everything known about a card; author, licence and tags of a library's texture come later.
+    [[nodiscard]] TextureCard details(const TextureCard& card);
+    /// Paths in the order of how well they answer the words; null while it is worked out, or without
+    /// a library.
+    [[nodiscard]] std::shared_ptr<const std::vector<std::string>> search(const std::string& words);
+    [[nodiscard]] std::shared_ptr<const std::vector<TextureCard>> cards() const;
+    /// Null while it is being made: asked for again every frame by what is visible. The newest wish
+    /// comes first.
+    [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
+    /// Ranks the cards for a surface that looks like this; empty while it is being worked out.
+    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte);
+    [[nodiscard]] std::vector<TextureSuggestion> suggestions(const std::string& key) const;
+    /// Grows whenever something arrives.
+    [[nodiscard]] std::uint64_t arrivals() const;
+
+  private:
+    struct Wish {
+        std::string path;
+        int longest_px = 0;
+    };
+    struct Look {
+        float mean[3] = {0, 0, 0};  ///< sRGB codes.
+        float contrast = 0, grain = 0;
+    };
+    void work();
+    void fill_library(const std::string& path);
+    void take_library();
+    void look_up(const std::string& path);
+    void search_library(const std::string& words);
+    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte);
+    void publish();
+    void scan(const std::vector<std::string>& folders);
+    void make_thumbnail(const Wish& wish);
+    void rank(const std::string& key, const Picture& plate, const Matte& matte);
+    [[nodiscard]] const Look* look_of(const std::string& path);
+
+    const std::size_t budget_bytes_;
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;
+    std::shared_ptr<const std::vector<TextureCard>> cards_;
+    std::vector<std::string> folders_, to_scan_;
+    bool scan_due_ = false, stop_ = false;
+    std::deque<Wish> wishes_;
+    struct Kept {
+        PicturePtr picture;  ///< Null: it cannot be read.
+        int longest_px = 0;
+        std::uint64_t used = 0;
+    };
+    std::map<std::string, Kept> kept_;
+    std::size_t bytes_ = 0;
+    std::uint64_t clock_ = 0, arrivals_ = 0;
+    std::string ranked_key_, rank_due_;
+    PicturePtr rank_plate_;
+    std::shared_ptr<const Matte> rank_matte_;
+    std::vector<TextureSuggestion> ranked_;
+    std::map<std::string, Look> looks_;  // of the working thread alone
+    std::shared_ptr<TextureLibrary> library_;
+    std::string activity_, search_due_, searched_;
+    bool library_due_ = false;
+    std::shared_ptr<const std::vector<std::string>> search_result_;
+    std::map<std::string, TextureCard> details_;
+    std::string details_due_;
+    std::vector<TextureCard> folder_cards_, library_cards_;  // of the working thread alone
+    CancelToken cancel_;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace weft

@@ -1,0 +1,185 @@
+#include "engine/composite/focus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+constexpr float kKnownBlur = 1.0f;       // px
+constexpr float kLeastGradient = 0.03f;  // of the display range per px: below, it may be grain
+constexpr float kStrongShare = 0.85f;    // quantile of gradients from which edges are strong
+constexpr float kSharper = 0.33f;        // quantile of the edges' blur
+constexpr std::size_t kFewestEdges = 60;
+constexpr float kSharpest = 0.3f, kMostBlurred = 6.0f;
+constexpr float kLeastBlur = 0.2f;
+constexpr float kAlike = 1.1f;
+
+std::vector<float> gaussian(float sigma) {
+    const int radius = std::max(1, static_cast<int>(std::ceil(3.0f * sigma)));
+    std::vector<float> kernel(static_cast<std::size_t>(2 * radius + 1));
+    float sum = 0;
+    for (int k = -radius; k <= radius; ++k) {
+        const float r = static_cast<float>(k) / sigma;
+        sum += kernel[static_cast<std::size_t>(k + radius)] = std::exp(-0.5f * r * r);
+    }
+    for (float& k : kernel)
+        k /= sum;
+    return kernel;
+}
+
+// Lightness as an eye weighs it, nearly: the square root.
+ImageF1 lightness(ViewF3 linear) {
+    ImageF1 out(linear.size());
+    parallel_rows(linear.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < linear.width(); ++x) {
+                const float* p = linear.pixel(x, y);
+                const float v = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+                out.row(y)[x] = v > 0 ? std::sqrt(std::min(v, 1.0f)) : 0.0f;  // NaN: 0
+            }
+        }
+    });
+    return out;
+}
+
+ImageF1 blurred(const ImageF1& plane, float sigma) {
+    const std::vector<float> kernel = gaussian(sigma);
+    const int r = static_cast<int>(kernel.size() / 2);
+    ImageF1 rows(plane.size()), out(plane.size());
+    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < plane.width(); ++x) {
+                float sum = 0;
+                for (int k = -r; k <= r; ++k)
+                    sum += kernel[static_cast<std::size_t>(k + r)] *
+                           plane.row(y)[std::clamp(x + k, 0, plane.width() - 1)];
+                rows.row(y)[x] = sum;
+            }
+        }
+    });
+    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int k = -r; k <= r; ++k) {
+                const float w = kernel[static_cast<std::size_t>(k + r)];
+                const float* from = rows.row(std::clamp(y + k, 0, plane.height() - 1));
+                for (int x = 0; x < plane.width(); ++x)
+                    out.row(y)[x] += w * from[x];
+            }
+        }
+    });
+    return out;
+}
+
+struct Gradient {
+    float x, y;
+    [[nodiscard]] float length() const { return std::sqrt(x * x + y * y); }
+};
+
+Gradient gradient(const ImageF1& plane, int x, int y) {
+    return {0.5f * (plane.row(y)[x + 1] - plane.row(y)[x - 1]),
+            0.5f * (plane.row(y + 1)[x] - plane.row(y - 1)[x])};
+}
+
+bool deep_inside(ViewU8x1 matte, int x, int y) {
+    constexpr int kRim = 3;
+    return matte.row(y)[x] == 255 && matte.row(y - kRim)[x] == 255 &&
+           matte.row(y + kRim)[x] == 255 && matte.row(y)[x - kRim] == 255 &&
+           matte.row(y)[x + kRim] == 255;
+}
+
+}  // namespace
+
+float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
+    const ImageF1 sharp = lightness(linear);
+    if (sharp.width() < 9 || sharp.height() < 9) return 0;
+    const ImageF1 soft = blurred(sharp, kKnownBlur);
+    const int w = sharp.width(), h = sharp.height();
+    ImageF1 length(sharp.size());
+    parallel_rows(h, 16, [&](int y0, int y1) {
+        for (int y = std::max(4, y0); y < std::min(h - 4, y1); ++y) {
+            for (int x = 4; x < w - 4; ++x)
+                length.row(y)[x] = deep_inside(matte, x, y) ? gradient(sharp, x, y).length() : 0.0f;
+        }
+    });
+    std::vector<float> lengths;
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            if (length.row(y)[x] > 0) lengths.push_back(length.row(y)[x]);
+        }
+    }
+    if (lengths.size() < kFewestEdges) return 0;
+    const auto strong = lengths.begin() + static_cast<std::ptrdiff_t>(
+                                              kStrongShare * static_cast<float>(lengths.size() - 1));
+    std::nth_element(lengths.begin(), strong, lengths.end());
+    const float least = std::max(kLeastGradient, *strong);
+
+    std::vector<float> blurs;
+    for (int y = 4; y < h - 4; ++y) {
+        for (int x = 4; x < w - 4; ++x) {
+            const float here = length.row(y)[x];
+            if (here < least) continue;
+            // Only where the gradient is greatest across the edge: the edge's middle.
+            const Gradient g = gradient(sharp, x, y);
+            const int u = std::abs(g.x) > 0.4f * std::abs(g.y) ? (g.x > 0 ? 1 : -1) : 0;
+            const int v = std::abs(g.y) > 0.4f * std::abs(g.x) ? (g.y > 0 ? 1 : -1) : 0;
+            if (gradient(sharp, x + u, y + v).length() > here ||
+                gradient(sharp, x - u, y - v).length() > here)
+                continue;
+            const float ratio = here / std::max(1e-6f, gradient(soft, x, y).length());
+            blurs.push_back(ratio > 1.0138f ? kKnownBlur / std::sqrt(ratio * ratio - 1.0f)
+                                            : kMostBlurred);
+        }
+    }
+    if (blurs.size() < kFewestEdges) return 0;
+    const auto at = blurs.begin() +
+                    static_cast<std::ptrdiff_t>(kSharper * static_cast<float>(blurs.size() - 1));
+    std::nth_element(blurs.begin(), at, blurs.end());
+    return std::clamp(*at, kSharpest, kMostBlurred);
+}
+
+float blur_between(float from_px, float to_px) {
+    if (!(from_px > 0) || !(to_px > kAlike * from_px)) return 0;
+    return std::sqrt(to_px * to_px - from_px * from_px);
+}
+
+void blur_inside(ImageView<float, 3> picture, ViewU8x1 matte, float sigma_px) {
+    if (!(sigma_px >= kLeastBlur) || picture.empty()) return;
+    const std::vector<float> kernel = gaussian(sigma_px);
+    const int r = static_cast<int>(kernel.size() / 2);
+    const int w = picture.width(), h = picture.height();
+    Image<float, 4> rows(w, h);  // colour times weight, weight
+    parallel_rows(h, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                float* to = rows.pixel(x, y);
+                for (int u = std::max(0, x - r); u <= std::min(w - 1, x + r); ++u) {
+                    if (matte.row(y)[u] == 0) continue;
+                    const float k = kernel[static_cast<std::size_t>(u - x + r)];
+                    const float* p = picture.pixel(u, y);
+                    to[0] += k * p[0], to[1] += k * p[1], to[2] += k * p[2], to[3] += k;
+                }
+            }
+        }
+    });
+    parallel_rows(h, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                if (matte.row(y)[x] == 0) continue;
+                float sum[4] = {0, 0, 0, 0};
+                for (int v = std::max(0, y - r); v <= std::min(h - 1, y + r); ++v) {
+                    const float k = kernel[static_cast<std::size_t>(v - y + r)];
+                    for (int c = 0; c < 4; ++c)
+                        sum[c] += k * rows.pixel(x, v)[c];
+                }
+                for (int c = 0; c < 3; ++c)
+                    picture.pixel(x, y)[c] = sum[c] / sum[3];
+            }
+        }
+    });
+}
+
+}  // namespace weft

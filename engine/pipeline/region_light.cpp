@@ -1,0 +1,29 @@
+#include "engine/pipeline/region_light.h"
+
+namespace weft {
+
+Expected<ImageF3> ShotSource::light_pass(int /*region*/, int frame) const {
+    return fail(ErrorCode::kRenderFailed,
+                "There is no lighting pass for frame " + std::to_string(frame) + ".");
+}
+
+Expected<std::optional<Shading>> region_shading(const ShotSource& source, const RegionPlan& region,
+                                                const AnalysisStore& store, int index, int frame,
+                                                const ImageF3& working) {
+    using Found = Expected<std::optional<Shading>>;
+    if (region.light_source == LightSource::kPainted)
+        return Found(painted_shading(region.lamps, frame, source.size()));
+    if (region.light_source != LightSource::kPlate) return Found(std::nullopt);
+    if (region.light_pass != RegionPlan::Pass::kNone) {
+        WEFT_TRY(pass, source.light_pass(index, frame));
+        return Found(region.light_pass == RegionPlan::Pass::kAlbedo
+                         ? shading_from_albedo(working, pass)
+                         : shading_from_lighting(pass));
+    }
+    if (!region.estimates_light()) return Found(std::nullopt);
+    WEFT_TRY(bytes, store.get({index, frame, AnalysisKind::kShading}));
+    WEFT_TRY(shading, decode_shading(bytes));
+    return Found(std::move(shading));
+}
+
+}  // namespace weft

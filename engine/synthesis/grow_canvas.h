@@ -1,0 +1,19 @@
+#pragma once
+// The whole of growing: the first sweep, cuts made again, further blocks over the worst seams.
+
+#include "engine/core/cancel.h"
+#include "engine/core/progress.h"
+#include "engine/synthesis/canvas.h"
+#include "engine/synthesis/sample_atlas.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+/// Fills what is not filled of the canvas, whose size and torus are those of the options, and
+/// refines it where the options ask for it. False when it was cancelled. Adds to the stage times,
+/// counts and peak bytes.
+[[nodiscard]] bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
+                               Canvas& canvas, PlaneStats& stats, const CancelToken& cancel,
+                               const ProgressFn& progress);
+
+}  // namespace weft

@@ -1,0 +1,13 @@
+#pragma once
+// A wanted illumination as a guide for placement and cut (the paper, 2.4).
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// A picture for PlaneGuide::target: the sample's mean colour, as bright as asked for. `wanted` is
+/// V (max of R, G, B) in 8 bits, of the plane's size; it is scaled so that its mean over the plane
+/// is the mean colour's V, because a sample cannot get brighter than it is. Pure.
+[[nodiscard]] ImageU8x3 light_guide(ViewU8x3 sample, ViewU8x1 wanted);
+
+}  // namespace weft

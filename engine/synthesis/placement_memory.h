@@ -1,0 +1,45 @@
+#pragma once
+// What earlier placements mean for the next one: copies, repeated steps, places used before.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/geometry.h"
+
+namespace weft {
+
+/// A patch that was laid: atlas pixel p − origin was offered at canvas position p, for p in `rect`.
+struct Placed {
+    Vec2i origin{0, 0};
+    Recti rect;
+    [[nodiscard]] Recti from() const {
+        return {rect.x0 - origin.x, rect.y0 - origin.y, rect.x1 - origin.x, rect.y1 - origin.y};
+    }
+};
+
+/// The placements around the next one.
+class PlacementMemory {
+  public:
+    /// `near` is how far apart placements are that an eye compares. On a torus the placements must
+    /// be given once for each turn.
+    PlacementMemory(std::vector<Placed> earlier, Size near);
+
+    [[nodiscard]] const std::vector<Placed>& earlier() const { return earlier_; }
+
+    /// Of equally good candidates for the patch those that use places of the sample least that are
+    /// near already and, where there are such, make no step from a neighbour that was made before:
+    /// equal steps are what an eye sees as a grid of repeats.
+    [[nodiscard]] std::vector<Vec2i> least_repetitive(const std::vector<Vec2i>& origins,
+                                                      const Recti& rect) const;
+
+  private:
+    [[nodiscard]] double reuse(const Placed& next) const;
+    [[nodiscard]] bool repeats_a_step(Vec2i origin) const;
+    [[nodiscard]] bool neighbours(Vec2i d) const;
+
+    std::vector<Placed> earlier_;
+    Size near_;
+    std::vector<std::int64_t> steps_;  ///< Between earlier neighbours, sorted.
+};
+
+}  // namespace weft

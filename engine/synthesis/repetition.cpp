@@ -1,0 +1,159 @@
+#include "engine/synthesis/repetition.h"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "engine/synthesis/fftw_memory.h"
+
+namespace weft {
+namespace {
+
+constexpr int kLargest = 768;
+constexpr int kLeastStep = 12;
+constexpr int kSourceGrid = 4;  // Of the sample's pixels every 4th in x and y is followed.
+constexpr double kPeriodTolerance_px = 2.5;
+
+Recti middle(Size s) {
+    const int w = std::min(s.width, kLargest), h = std::min(s.height, kLargest);
+    const int x0 = (s.width - w) / 2, y0 = (s.height - h) / 2;
+    return {x0, y0, x0 + w, y0 + h};
+}
+
+// Σ a(p)·a(p + d) for |dx| ≤ reach.x, 0 ≤ dy ≤ reach.y, divided by the number of pairs.
+Image<double, 1> autocovariance(ViewU8x3 picture, Vec2i reach) {
+    const int w = picture.width(), h = picture.height();
+    const int fw = fast_fft_size(w + reach.x + 1), fh = fast_fft_size(h + reach.y + 1);
+    const std::size_t row = 2 * static_cast<std::size_t>(fw / 2 + 1);
+    const FftwFloats data = make_fftw_floats(row * static_cast<std::size_t>(fh));
+    std::fill_n(data.get(), row * static_cast<std::size_t>(fh), 0.0f);
+    double sum = 0;
+    const auto luma = [&](int x, int y) {
+        const std::uint8_t* p = picture.pixel(x, y);
+        return 0.2126f * static_cast<float>(p[0]) + 0.7152f * static_cast<float>(p[1]) +
+               0.0722f * static_cast<float>(p[2]);
+    };
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x)
+            sum += static_cast<double>(luma(x, y));
+    }
+    const auto mean = static_cast<float>(sum / (static_cast<double>(w) * h));
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x)
+            data[static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x)] =
+                luma(x, y) - mean;
+    }
+    auto* spectrum = reinterpret_cast<fftwf_complex*>(data.get());
+    const FftwPlan forward = make_fftw_plan(
+        [&] { return fftwf_plan_dft_r2c_2d(fh, fw, data.get(), spectrum, FFTW_ESTIMATE); });
+    const FftwPlan backward = make_fftw_plan(
+        [&] { return fftwf_plan_dft_c2r_2d(fh, fw, spectrum, data.get(), FFTW_ESTIMATE); });
+    fftwf_execute(forward.get());
+    for (std::size_t i = 0; i < row * static_cast<std::size_t>(fh); i += 2) {
+        data[i] = data[i] * data[i] + data[i + 1] * data[i + 1];
+        data[i + 1] = 0;
+    }
+    fftwf_execute(backward.get());
+    Image<double, 1> out(2 * reach.x + 1, reach.y + 1);
+    const double scale = 1.0 / (static_cast<double>(fw) * fh);
+    for (int dy = 0; dy <= reach.y; ++dy) {
+        for (int dx = -reach.x; dx <= reach.x; ++dx) {
+            const std::size_t at = static_cast<std::size_t>(dy) * row +
+                                   static_cast<std::size_t>(dx < 0 ? dx + fw : dx);
+            const double pairs = static_cast<double>(w - std::abs(dx)) * (h - dy);
+            out.at(dx + reach.x, dy) = static_cast<double>(data[at]) * scale / pairs;
+        }
+    }
+    return out;
+}
+
+bool is_peak(const Image<double, 1>& c, int x, int y) {
+    const double here = c.at(x, y);
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            // Above the first row the picture is the same turned around.
+            const int ny = y + dy, nx = x + dx;
+            const double there = ny < 0 ? c.at(c.width() - 1 - nx, -ny) : c.at(nx, ny);
+            if (there > here) return false;
+        }
+    }
+    return true;
+}
+
+void find_verbatim(const TexturePlane& plane, Repetition& out) {
+    const Recti part = middle(plane.source.size());
+    const Vec2i reach{part.width() / 2, part.height() / 2};
+    struct Shown {
+        std::uint64_t key;
+        Vec2i at;
+    };
+    std::vector<Shown> shown;
+    for (int y = part.y0; y < part.y1; ++y) {
+        for (int x = part.x0; x < part.x1; ++x) {
+            const std::int32_t* s = plane.source.pixel(x, y);
+            if (s[0] % kSourceGrid != 0 || s[1] % kSourceGrid != 0) continue;
+            const std::uint64_t sample = plane.origin.empty() ? 0
+                                                              : plane.origin.pixel(x, y)[0] * 8u +
+                                                                    plane.origin.pixel(x, y)[1];
+            shown.push_back({sample << 48 | static_cast<std::uint64_t>(s[1]) << 24 |
+                                 static_cast<std::uint64_t>(s[0]),
+                             {x, y}});
+        }
+    }
+    std::stable_sort(shown.begin(), shown.end(),
+                     [](const Shown& a, const Shown& b) { return a.key < b.key; });
+    Image<std::int32_t, 1> counts(2 * reach.x + 1, reach.y + 1, 0);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        for (std::size_t j = i + 1; j < shown.size() && shown[j].key == shown[i].key; ++j) {
+            const Vec2i d = shown[j].at - shown[i].at;  // Rows ascend within a key.
+            if (d.y > reach.y) break;
+            if (std::abs(d.x) <= reach.x) ++counts.at(d.x + reach.x, d.y);
+        }
+    }
+    for (int dy = 0; dy <= reach.y; ++dy) {
+        for (int dx = -reach.x; dx <= reach.x; ++dx) {
+            const double pairs = static_cast<double>(part.width() - std::abs(dx)) *
+                                 (part.height() - dy) / (kSourceGrid * kSourceGrid);
+            const double share = std::min(1.0, counts.at(dx + reach.x, dy) / pairs);
+            if (share > out.verbatim) out.verbatim = share, out.verbatim_at = {dx, dy};
+        }
+    }
+}
+
+}  // namespace
+
+Repetition measure_repetition(ViewU8x3 picture, const TexturePeriod& period) {
+    Repetition out;
+    const ViewU8x3 part = picture.crop(middle(picture.size()));
+    const Vec2i reach{part.width() / 2, part.height() / 2};
+    if (reach.x < kLeastStep || reach.y < kLeastStep) return out;
+    const Image<double, 1> c = autocovariance(part, reach);
+    const double variance = c.at(reach.x, 0);
+    if (variance < 1e-3) return out;
+    for (int dy = 0; dy < reach.y; ++dy) {
+        for (int dx = -reach.x + 1; dx < reach.x; ++dx) {
+            if ((dy == 0 && dx <= 0) || std::hypot(dx, dy) < kLeastStep) continue;
+            const double value = c.at(dx + reach.x, dy) / variance;
+            const bool own = period.count > 0 && period.holds({dx, dy}, kPeriodTolerance_px);
+            if (value <= (own ? out.own_period : out.peak)) continue;
+            if (!is_peak(c, dx + reach.x, dy)) continue;
+            if (own) {
+                out.own_period = value;
+            } else {
+                out.peak = value, out.peak_at = {dx, dy};
+            }
+        }
+    }
+    return out;
+}
+
+Repetition measure_repetition(const TexturePlane& plane) {
+    Repetition out = measure_repetition(plane.pixels.view(), plane.stats.period);
+    find_verbatim(plane, out);
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,181 @@
+#pragma once
+// Backend::sample_plane() for one pixel: the operations of engine/compute/plane_sampler.cpp in the
+// same order, one channel after the other, so that the same bits come out.
+
+#include <cmath>
+
+#include "gpu/kernels/portable.h"
+
+namespace weft::kernels {
+
+constexpr int kMostLevels = 20;
+
+struct alignas(16) Texel {
+    float v[4];
+};
+
+struct Level {
+    const Texel* texels;
+    int width, height;
+    float scale_x, scale_y;  ///< From texels of the plane to this level's.
+};
+
+enum Wrap : int { kWrapRepeat, kWrapMirror, kWrapClamp };
+
+struct SampleArgs {
+    Level levels[kMostLevels];
+    int level_count;
+    int wrap;
+    int fewest, most;  ///< Cells along one axis of a pixel.
+    const float* coords;
+    const u8* matte;
+    int width, height;
+    float* out;  ///< Three floats for each pixel.
+};
+
+struct Float2 {
+    float x, y;
+};
+
+class PixelSampler {
+  public:
+    WEFT_HD explicit PixelSampler(const SampleArgs& a) : a_(a) {}
+
+    /// The texture at pixel (x, y), never negative.
+    WEFT_HD void sample(int x, int y, float* rgb) const {
+        rgb[0] = rgb[1] = rgb[2] = 0;
+        const Float2 jx = slope(larger(0, x - 1), y, smaller(a_.width - 1, x + 1), y);
+        const Float2 jy = slope(x, larger(0, y - 1), x, smaller(a_.height - 1, y + 1));
+        const float lx = sqrtf(jx.x * jx.x + jx.y * jx.y);
+        const float ly = sqrtf(jy.x * jy.x + jy.y * jy.y);
+        const float* centre = coord(x, y);
+        const bool known = fabsf(centre[0]) < 1e9f && fabsf(centre[1]) < 1e9f;
+        if (!(known && lx < 1e6f && ly < 1e6f)) return;
+        const int nx = cells(lx), ny = cells(ly);
+        const float cell = larger(lx / static_cast<float>(nx), ly / static_cast<float>(ny));
+        int level = 0;
+        for (float span = 1.0f; cell > span && level + 1 < a_.level_count; span *= 2)
+            ++level;
+        const Level& l = a_.levels[level];
+        const Float2 at{folded(centre[0], a_.levels[0].width) * l.scale_x,
+                        folded(centre[1], a_.levels[0].height) * l.scale_y};
+        const Float2 step_x{jx.x * l.scale_x / static_cast<float>(nx),
+                            jx.y * l.scale_y / static_cast<float>(nx)};
+        const Float2 step_y{jy.x * l.scale_x / static_cast<float>(ny),
+                            jy.y * l.scale_y / static_cast<float>(ny)};
+        const float half_x = 0.5f * static_cast<float>(nx - 1);
+        const float half_y = 0.5f * static_cast<float>(ny - 1);
+        const Float2 first{at.x - step_x.x * half_x - step_y.x * half_y,
+                           at.y - step_x.y * half_x - step_y.y * half_y};
+        sum(l, at, first, step_x, step_y, nx, ny, rgb);
+        const float share = 1.0f / static_cast<float>(nx * ny);
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = larger(0.0f, rgb[c] * share);
+    }
+
+  private:
+    WEFT_HD const float* coord(int x, int y) const {
+        return a_.coords +
+               2 * (static_cast<u64>(y) * static_cast<u64>(a_.width) + static_cast<u64>(x));
+    }
+
+    // Half of the difference between the neighbours, one-sided at the border.
+    WEFT_HD Float2 slope(int xa, int ya, int xb, int yb) const {
+        const float *p = coord(xa, ya), *q = coord(xb, yb);
+        const float steps = static_cast<float>(larger(1, (xb - xa) + (yb - ya)));
+        return {(q[0] - p[0]) / steps, (q[1] - p[1]) / steps};
+    }
+
+    WEFT_HD int cells(float texels) const {
+        return held(static_cast<int>(ceilf(2 * texels)), a_.fewest, a_.most);
+    }
+
+    // Within one period of the plane, so that the coordinate keeps its precision.
+    WEFT_HD float folded(float u, int n) const {
+        if (a_.wrap == kWrapClamp) return held(u, -1.0f, static_cast<float>(n) + 1);
+        const float period = static_cast<float>(a_.wrap == kWrapMirror ? 2 * n : n);
+        return u - period * floorf(u / period);
+    }
+
+    WEFT_HD int wrapped(int i, int n) const {
+        if (a_.wrap == kWrapClamp) return held(i, 0, n - 1);
+        const int period = a_.wrap == kWrapMirror ? 2 * n : n;
+        i %= period;
+        if (i < 0) i += period;
+        return i < n ? i : 2 * n - 1 - i;
+    }
+
+    // Cubic convolution (Keys 1981) with a = −0.5.
+    WEFT_HD static void cubic_weights(float f, float* w) {
+        constexpr float kA = -0.5f;
+        const float g = 1 - f;
+        w[0] = kA * f * g * g;
+        w[1] = ((kA + 2) * f - (kA + 3)) * f * f + 1;
+        w[2] = ((kA + 2) * g - (kA + 3)) * g * g + 1;
+        w[3] = kA * g * f * f;
+    }
+
+    WEFT_HD void add_lookup(const Level& l, Float2 p, bool inside, float* total) const {
+        const float gx = p.x - 0.5f, gy = p.y - 0.5f;
+        const float bx = floorf(gx), by = floorf(gy);
+        float wx[4], wy[4];
+        cubic_weights(gx - bx, wx);
+        cubic_weights(gy - by, wy);
+        const int x = static_cast<int>(bx) - 1, y = static_cast<int>(by) - 1;
+        int column[4];
+        for (int k = 0; k < 4; ++k)
+            column[k] = inside ? x + k : wrapped(x + k, l.width);
+        float found[3] = {};
+        for (int k = 0; k < 4; ++k) {
+            const int row = inside ? y + k : wrapped(y + k, l.height);
+            const Texel* texels = l.texels + static_cast<u64>(row) * static_cast<u64>(l.width);
+            const Texel t0 = texels[column[0]], t1 = texels[column[1]], t2 = texels[column[2]],
+                        t3 = texels[column[3]];
+            for (int c = 0; c < 3; ++c) {
+                found[c] +=
+                    wy[k] * (wx[0] * t0.v[c] + wx[1] * t1.v[c] + wx[2] * t2.v[c] + wx[3] * t3.v[c]);
+            }
+        }
+        for (int c = 0; c < 3; ++c)
+            total[c] += found[c];
+    }
+
+    WEFT_HD void sum(const Level& l, Float2 at, Float2 first, Float2 step_x, Float2 step_y, int nx,
+                     int ny, float* total) const {
+        const float reach_x = fabsf(at.x - first.x) + fabsf(step_x.x) * static_cast<float>(nx) +
+                              fabsf(step_y.x) * static_cast<float>(ny) + 2;
+        const float reach_y = fabsf(at.y - first.y) + fabsf(step_x.y) * static_cast<float>(nx) +
+                              fabsf(step_y.y) * static_cast<float>(ny) + 2;
+        const bool inside = at.x - reach_x >= 0 && at.y - reach_y >= 0 &&
+                            at.x + reach_x < static_cast<float>(l.width) &&
+                            at.y + reach_y < static_cast<float>(l.height);
+        for (int j = 0; j < ny; ++j) {
+            Float2 p{first.x + step_y.x * static_cast<float>(j),
+                     first.y + step_y.y * static_cast<float>(j)};
+            for (int i = 0; i < nx; ++i, p.x += step_x.x, p.y += step_x.y)
+                add_lookup(l, p, inside, total);
+        }
+    }
+
+    const SampleArgs& a_;
+};
+
+/// The texture alone.
+struct SamplePlane {
+    using Args = SampleArgs;
+    static constexpr int kThreads = 128;
+    struct Shared {};
+
+    static int blocks(const Args& a) { return ceil_div(a.width * a.height, kThreads); }
+
+    template <class Block>
+    WEFT_HD static void run(Block& block, Shared&, const Args& a) {
+        block.each([&](int t) {
+            const int i = block.index() * kThreads + t;
+            if (i >= a.width * a.height || a.matte[i] == 0) return;
+            PixelSampler(a).sample(i % a.width, i / a.width, a.out + 3 * static_cast<u64>(i));
+        });
+    }
+};
+
+}  // namespace weft::kernels

@@ -1,0 +1,33 @@
+#version 330 core
+// The view transform: linear light, exposure, gamma, sRGB. For the screen only.
+in vec2 uv;
+out vec4 color;
+uniform sampler2D picture_a;
+uniform sampler2D picture_b;
+uniform int mode;      // 0 one picture, 1 wipe, 2 difference
+uniform float wipe;
+uniform float gain;    // 2^exposure
+uniform float inverse_gamma;
+uniform int channel;   // 0 colour, 1-3 one channel, 4 luma
+
+vec3 encode(vec3 v) {
+    v = max(v, vec3(0.0));
+    return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), v));
+}
+
+vec3 shown(sampler2D picture) {
+    vec3 v = texture(picture, uv).rgb * gain;
+    if (channel == 4) v = vec3(dot(v, vec3(0.2126, 0.7152, 0.0722)));
+    else if (channel > 0) v = vec3(v[channel - 1]);
+    return pow(encode(v), vec3(inverse_gamma));
+}
+
+void main() {
+    if (mode == 1) {
+        color = vec4(uv.x < wipe ? shown(picture_a) : shown(picture_b), 1.0);
+    } else if (mode == 2) {
+        color = vec4(abs(shown(picture_a) - shown(picture_b)) * 4.0, 1.0);
+    } else {
+        color = vec4(shown(picture_a), 1.0);
+    }
+}

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "engine/composite/grain.h"
+#include "engine/core/parallel.h"
+#include "engine/core/rng.h"
+
+namespace weft {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 120;
+
+// Grain of a known kind over `base`: deviation by luma, neighbours hanging together along x.
+ImageF3 grainy(const ImageF3& base, std::uint64_t seed) {
+    Rng rng(seed);
+    const auto normal = [&] {
+        double sum = 0;
+        for (int k = 0; k < 12; ++k)
+            sum += rng.uniform();
+        return static_cast<float>(sum - 6);
+    };
+    ImageF3 out = base;
+    for (int y = 0; y < base.height(); ++y) {
+        float last[3] = {normal(), normal(), normal()};
+        for (int x = 0; x < base.width(); ++x) {
+            for (int c = 0; c < 3; ++c) {
+                const float fresh = normal();
+                const float level = base.at(x, y, c);
+                const float deviation = (level < 0.5f ? 4.0f : 8.0f) / 255.0f;
+                out.at(x, y, c) += deviation * (0.8f * fresh + 0.6f * last[c]);
+                last[c] = fresh;
+            }
+        }
+    }
+    return out;
+}
+
+ImageF3 two_greys() {
+    ImageF3 base(kWidth, kHeight, 0.3f);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = kWidth / 2; x < kWidth; ++x) {
+            for (int c = 0; c < 3; ++c)
+                base.at(x, y, c) = 0.7f;
+        }
+    }
+    return base;
+}
+
+GrainModel measured(const ImageF3& a, const ImageF3& b) {
+    const Matte all(a.size(), 255);
+    GrainMeter meter(0);
+    meter.add(b, a, all, all, ImageF2(a.size()));
+    return meter.model();
+}
+
+struct Statistics {
+    double deviation = 0, next = 0;  // next: correlation with the right neighbour
+};
+Statistics statistics(const ImageF3& picture, const ImageF3& base, int x0, int x1) {
+    double n = 0, squares = 0, neighbours = 0;
+    for (int y = 8; y < kHeight - 8; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            const double a = picture.at(x, y, 1) - base.at(x, y, 1);
+            const double b = picture.at(x + 1, y, 1) - base.at(x + 1, y, 1);
+            n += 1, squares += a * a, neighbours += a * b;
+        }
+    }
+    return {std::sqrt(squares / n), neighbours / squares};
+}
+
+TEST(Grain, WhatIsPutBackHasTheMeasuredDeviationAndSpectrum) {
+    const ImageF3 base = two_greys();
+    const GrainModel model = measured(grainy(base, 1), grainy(base, 2));
+    ASSERT_TRUE(model.present());
+    ImageF3 made = base;
+    add_grain(made, Matte(base.size(), 255), {0, 0}, model, 1, 77);
+    const ImageF3 plate = grainy(base, 3);
+    for (const auto& [x0, x1] : {std::pair{10, 80}, std::pair{120, 190}}) {
+        const Statistics want = statistics(plate, base, x0, x1), got = statistics(made, base, x0, x1);
+        EXPECT_NEAR(got.deviation, want.deviation, 0.15 * want.deviation);
+        EXPECT_NEAR(got.next, want.next, 0.1);
+    }
+}
+
+TEST(Grain, IsFreshInEveryFrameAndDoesNotDependOnThePart) {
+    const ImageF3 base = two_greys();
+    const GrainModel model = measured(grainy(base, 1), grainy(base, 2));
+    const Matte all(base.size(), 255);
+    ImageF3 first = base, again = base, next = base;
+    add_grain(first, all, {0, 0}, model, 1, 5);
+    set_thread_count(1);
+    add_grain(again, all, {0, 0}, model, 1, 5);
+    set_thread_count(0);
+    add_grain(next, all, {0, 0}, model, 1, 6);
+    EXPECT_EQ(first, again);
+    double together = 0, energy = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const double a = first.at(x, y, 0) - base.at(x, y, 0);
+            together += a * (next.at(x, y, 0) - base.at(x, y, 0)), energy += a * a;
+        }
+    }
+    EXPECT_LT(std::abs(together / energy), 0.05);
+    ImageF3 part(50, 40, 0.3f);
+    add_grain(part, Matte(part.size(), 255), {20, 30}, model, 1, 5);
+    EXPECT_EQ(part.at(7, 9, 2), first.at(27, 39, 2));
+}
+
+TEST(Grain, ACleanPlateHasNone) {
+    ImageF3 clean(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            for (int c = 0; c < 3; ++c)
+                clean.at(x, y, c) = 0.5f + 0.3f * std::sin(0.11f * static_cast<float>(x + 2 * y));
+        }
+    }
+    EXPECT_FALSE(measured(clean, clean).present());
+}
+
+TEST(Grain, APatternThatIsFollowedBadlyIsNotTakenForGrain) {
+    ImageF3 a(kWidth, kHeight), b(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                const auto at = [&](float shift) {
+                    return 0.5f + 0.2f * std::sin(0.3f * (static_cast<float>(x) + shift)) *
+                                      std::cos(0.21f * static_cast<float>(y));
+                };
+                a.at(x, y, c) = at(0), b.at(x, y, c) = at(0.4f);
+            }
+        }
+    }
+    const GrainModel model = measured(a, b);
+    for (const auto& channel : model.deviation) {
+        for (const float d : channel)
+            EXPECT_LT(d, 1.0f / 255.0f);
+    }
+}
+
+}  // namespace
+}  // namespace weft

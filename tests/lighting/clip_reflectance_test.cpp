@@ -1,0 +1,128 @@
+// A wall of bricks over which a shadow moves: the whole clip as evidence.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "engine/lighting/clip_reflectance.h"
+#include "tests/lighting/lighting_scene.h"
+
+namespace weft {
+namespace {
+
+constexpr int kFrames = 8, kStep = 18;
+
+struct Clip {
+    std::vector<SurfaceSample> samples;
+    ClipReflectance reflectance;
+};
+
+int shadow_at(int frame) {
+    return 40 + kStep * frame;
+}
+
+Clip clip(float exposure_at_end = 1) {
+    const ShadingOptions options;
+    const Matte matte = scene::box_matte({10, 10, 310, 230});
+    Clip c;
+    ReflectanceGatherer gatherer(options);
+    for (int f = 0; f < kFrames; ++f) {
+        const float exposure =
+            1 + (exposure_at_end - 1) * static_cast<float>(f) / (kFrames - 1);
+        c.samples.push_back(
+            light_sample(scene::plate(exposure, shadow_at(f)), matte, options));
+        gatherer.add(c.samples.back(), ImageF2(c.samples.back().box.size()));
+    }
+    c.reflectance = gatherer.finish();
+    return c;
+}
+
+Shading shading_at(const Clip& c, int frame) {
+    const SurfaceSample& sample = c.samples[static_cast<std::size_t>(frame)];
+    return shading_with(sample, c.reflectance, ImageF2(sample.box.size()), {});
+}
+
+// Place and width (10% to 90%) of the falling edge of the shading along the middle rows, plate px.
+struct Edge {
+    float place = 0, width = 0;
+};
+Edge edge_of(const Shading& s, int near) {
+    std::vector<float> profile(static_cast<std::size_t>(s.value.width()));
+    for (int y = 40; y < 80; ++y) {
+        for (int x = 0; x < s.value.width(); ++x)
+            profile[static_cast<std::size_t>(x)] += s.value.at(x, y) / 40.0f;
+    }
+    const int centre = near / s.downscale, reach = 14;
+    const float high = profile[static_cast<std::size_t>(centre - reach)];
+    const float low = profile[static_cast<std::size_t>(centre + reach)];
+    const auto crossing = [&](float share) {
+        const float level = high + share * (low - high);
+        for (int x = centre - reach; x < centre + reach; ++x) {
+            const float a = profile[static_cast<std::size_t>(x)];
+            const float b = profile[static_cast<std::size_t>(x) + 1];
+            if (a >= level && b < level)
+                return (static_cast<float>(x) + 0.5f + (a - level) / (a - b)) *
+                       static_cast<float>(s.downscale);
+        }
+        return -1e3f;
+    };
+    return {crossing(0.5f), crossing(0.9f) - crossing(0.1f)};
+}
+
+TEST(ClipReflectance, AMovingShadowIsSharpAndWhereItIs) {
+    const Clip c = clip();
+    for (const int frame : {1, 3, 6}) {
+        const Edge edge = edge_of(shading_at(c, frame), shadow_at(frame));
+        EXPECT_NEAR(edge.place, static_cast<float>(shadow_at(frame)), 1.0f) << frame;
+        EXPECT_LT(edge.width, 4.0f) << frame;  // two pixels of the small picture
+    }
+}
+
+TEST(ClipReflectance, BricksAreNotLight) {
+    const Clip c = clip();
+    const Matte matte = scene::box_matte({10, 10, 310, 230});
+    const Shading s = shading_at(c, 3);
+    const ImageF1 blurred = scene::gaussian_estimate(scene::plate(1, shadow_at(3)), matte, 7.0f);
+    // Beyond the shadow.
+    const Matte lit_small = scene::box_matte({100, 10, 150, 110}, s.value.size());
+    ImageF1 half(s.value.size());
+    for (int y = 0; y < half.height(); ++y) {
+        for (int x = 0; x < half.width(); ++x)
+            half.at(x, y) = blurred.at(2 * x, 2 * y);
+    }
+    EXPECT_LT(scene::detail_energy(s.value, lit_small, 7),
+              0.1 * scene::detail_energy(half, lit_small, 7));
+}
+
+TEST(ClipReflectance, ALightThatDimsIsFollowed) {
+    const Clip c = clip(0.6f);
+    const float first = shading_at(c, 0).value.at(140, 60);
+    const float last = shading_at(c, kFrames - 1).value.at(140, 60);
+    EXPECT_NEAR(last / first, 0.6f, 0.018f);
+}
+
+TEST(ClipReflectance, WhereTheSurfaceIsAnotherTheFrameStandsForItself) {
+    Clip c = clip();
+    SurfaceSample other = c.samples[2];
+    ImageF2 lost(other.box.size());
+    for (int y = 0; y < lost.height(); ++y) {
+        for (int x = 0; x < lost.width(); ++x)
+            lost.at(x, y, 0) = 6.0f, lost.at(x, y, 1) = 2.0f;  // half a brick beside
+    }
+    const Shading with = shading_with(other, c.reflectance, lost, {});
+    const Shading alone = shading_from_log(log_shading(other, {}), other);
+    EXPECT_NEAR(with.value.at(140, 60) / alone.value.at(140, 60), 1.0f, 0.1f);
+}
+
+TEST(ClipReflectance, TwoFramesAreNoEvidence) {
+    ReflectanceGatherer gatherer({});
+    const Matte matte = scene::box_matte({10, 10, 310, 230});
+    for (int f = 0; f < 2; ++f) {
+        const SurfaceSample s = light_sample(scene::plate(), matte, {});
+        gatherer.add(s, ImageF2(s.box.size()));
+    }
+    EXPECT_TRUE(gatherer.finish().box.empty());
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/lighting/painted_light.h"
+
+namespace weft {
+namespace {
+
+TEST(PaintedLight, APointIsBrightInTheMiddleAndEndsAtItsRadius) {
+    const auto lamps = parse_lamps("point 50,40 20 3");
+    ASSERT_TRUE(lamps) << lamps.error().message;
+    const Shading s = painted_shading(*lamps, 1, {120, 90});
+    EXPECT_NEAR(s.value.at(25, 20), 3.0f, 0.05f);
+    EXPECT_EQ(s.value.at(25, 33), 1.0f);
+}
+
+TEST(PaintedLight, DirectionalLightIsStrongestAtTheSideItComesFrom) {
+    const auto lamps = parse_lamps("directional 90 2");  // from above
+    ASSERT_TRUE(lamps);
+    const Shading s = painted_shading(*lamps, 1, {100, 100});
+    EXPECT_NEAR(s.value.at(10, 0), 2.0f, 0.05f);
+    EXPECT_NEAR(s.value.at(10, 49), 0.5f, 0.02f);
+}
+
+TEST(PaintedLight, KeysAreInterpolatedAndLampsMultiply) {
+    const auto lamps = parse_lamps("gradient 1: 0,0 0,10 2 2 | 11: 0,0 0,10 4 4; directional 0 1");
+    ASSERT_TRUE(lamps) << lamps.error().message;
+    EXPECT_FLOAT_EQ(painted_shading(*lamps, 6, {8, 8}).value.at(1, 1), 3.0f);
+    EXPECT_FLOAT_EQ(painted_shading(*lamps, -5, {8, 8}).value.at(1, 1), 2.0f);
+    EXPECT_FLOAT_EQ(painted_shading(*lamps, 50, {8, 8}).value.at(1, 1), 4.0f);
+}
+
+TEST(PaintedLight, MistakesAreNamed) {
+    for (const char* wrong : {"spot 1 2", "point 1,2 3", "point a,2 3 4", "point 1,2 3 4 | 5,6 7 8",
+                              "gradient 1: 0,0 0,1 1 1 | 1: 0,0 0,1 2 2"}) {
+        const auto lamps = parse_lamps(wrong);
+        ASSERT_FALSE(lamps) << wrong;
+        EXPECT_EQ(lamps.error().code, ErrorCode::kUsage);
+    }
+}
+
+TEST(PaintedLight, StrengthMayHaveKeys) {
+    const auto keys = parse_keyed_number("1:1  11:0.5");
+    ASSERT_TRUE(keys) << keys.error().message;
+    EXPECT_FLOAT_EQ(keys->at(6)[0], 0.75f);
+    EXPECT_TRUE(parse_keyed_number("")->empty());
+    EXPECT_FALSE(parse_keyed_number("1:1 1:2"));
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/color/color_space.h"
+#include "engine/lighting/plate_transfer.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSide = 64;
+
+ImageF3 noise(float middle, float swing, unsigned key) {
+    ImageF3 out(kSide, kSide);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            key = key * 1664525u + 1013904223u;
+            const float v = middle + swing * (static_cast<float>(key >> 8 & 0xffffu) / 65535.0f - 0.5f);
+            const float linear = srgb_to_linear(v);
+            out.at(x, y, 0) = 1.1f * linear, out.at(x, y, 1) = linear, out.at(x, y, 2) = 0.6f * linear;
+        }
+    }
+    return out;
+}
+
+struct Moments {
+    double mean, deviation;
+};
+Moments lumas(const ImageF3& p) {
+    double n = 0, s = 0, ss = 0;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const float* q = p.pixel(x, y);
+            const double v = linear_to_srgb(0.2126f * q[0] + 0.7152f * q[1] + 0.0722f * q[2]);
+            n += 1, s += v, ss += v * v;
+        }
+    }
+    return {s / n, std::sqrt(ss / n - s * s / n / n)};
+}
+
+TEST(PlateTransfer, StatisticsAndHistogramGiveThePlatesMeanAndDeviation) {
+    const ImageF3 plate = noise(0.4f, 0.2f, 3);
+    const Matte all(plate.size(), 255);
+    const Moments want = lumas(plate);
+    for (const bool histogram : {false, true}) {
+        ImageF3 texture = noise(0.7f, 0.4f, 9);
+        if (histogram) match_histogram(texture, plate, all, 1);
+        else
+            transfer_statistics(texture, plate, all, 1);
+        const Moments got = lumas(texture);
+        EXPECT_NEAR(got.mean, want.mean, 0.01);
+        EXPECT_NEAR(got.deviation, want.deviation, 0.01);
+        EXPECT_NEAR(texture.at(5, 5, 0) / texture.at(5, 5, 2), 1.1f / 0.6f, 1e-3f);  // hue stays
+    }
+}
+
+// Grey paint under light that is blue in the dark half.
+TEST(PlateTransfer, TheColourOfLightIsTakenOver) {
+    ImageF3 plate(kSide, kSide);
+    Shading shading{ImageF1(kSide, kSide), 1, plate.size()};
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const bool dark = x < kSide / 2;
+            plate.at(x, y, 0) = dark ? 0.10f : 0.4f;
+            plate.at(x, y, 1) = dark ? 0.12f : 0.4f;
+            plate.at(x, y, 2) = dark ? 0.20f : 0.4f;
+            const float* p = plate.pixel(x, y);
+            shading.value.at(x, y) = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+        }
+    }
+    const Matte all(plate.size(), 255);
+    const LightColour colour = light_colour(plate, all, shading);
+    ASSERT_TRUE(colour.known);
+    ImageF3 texture(kSide, kSide, 0.5f);
+    apply_cast(texture, {0, 0}, all, shading, 0.4f, colour, colour, 1);
+    EXPECT_GT(texture.at(5, 5, 2), 1.3f * texture.at(5, 5, 0));
+    EXPECT_NEAR(texture.at(60, 5, 2), 0.5f, 0.02f);
+    const float* p = texture.pixel(5, 5);
+    EXPECT_NEAR(0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2], 0.5f, 1e-3f);
+}
+
+TEST(PlateTransfer, GlossIsAddedAndPaintIsNot) {
+    ImageF3 plate(kSide, kSide, 0.2f);
+    for (int c = 0; c < 3; ++c)
+        plate.at(10, 10, c) = 3.0f;
+    const Shading shading{ImageF1(kSide, kSide, 1.0f), 1, plate.size()};
+    ImageF3 texture(kSide, kSide, 0.1f);
+    add_highlights(texture, {0, 0}, plate, Matte(plate.size(), 255), shading, 1);
+    EXPECT_NEAR(texture.at(10, 10, 1), 0.1f + 3.0f - 1.15f * 0.2f, 1e-3f);
+    EXPECT_EQ(texture.at(30, 30, 1), 0.1f);
+}
+
+TEST(PlateTransfer, AnArtistsPassIsTheExactShading) {
+    ImageF3 plate(8, 8, 0.06f), albedo(8, 8, 0.2f);
+    albedo.at(3, 3, 0) = albedo.at(3, 3, 1) = albedo.at(3, 3, 2) = 0;  // says nothing
+    const Shading s = shading_from_albedo(plate, albedo);
+    EXPECT_EQ(s.downscale, 1);
+    EXPECT_NEAR(s.value.at(5, 5), 0.3f, 1e-5f);
+    EXPECT_NEAR(s.value.at(3, 3), 0.3f, 1e-4f);
+    EXPECT_NEAR(shading_from_lighting(plate).value.at(0, 0), 0.06f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,226 @@
+// The panels on made views: what they emit, and that no state breaks them.
+#include "tests/ui/ui_harness.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+TEST_F(PanelTest, ASliderTriesWhileItIsDraggedAndEditsOnce) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    clear();
+    ASSERT_TRUE(robot->drag("Placement/Scale", {40, 0}));
+    EXPECT_FALSE(emitted<TryEdit>().empty());
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto* set = std::get_if<SetRegionParameter>(&edits[0].edit);
+    ASSERT_NE(set, nullptr);
+    EXPECT_EQ(set->key, "placement.scale");
+    EXPECT_GT(std::get<double>(set->value), 1.0);
+}
+
+TEST_F(PanelTest, AClickOnASliderChangesNothing) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    clear();
+    ASSERT_TRUE(robot->click("Placement/Scale"));
+    EXPECT_THAT(emitted<DoEdit>(), IsEmpty());
+    EXPECT_THAT(emitted<TryEdit>(), IsEmpty());
+}
+
+TEST_F(PanelTest, ADoubleClickTypesAValueBeyondTheSlider) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    ASSERT_TRUE(robot->click("Placement/Scale", 2));
+    robot->key("Ctrl+A");
+    robot->type("25");
+    clear();
+    robot->key("Enter");
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    EXPECT_DOUBLE_EQ(std::get<double>(std::get<SetRegionParameter>(edits[0].edit).value), 25.0);
+}
+
+TEST_F(PanelTest, TheDotResetsAChangedValue) {
+    view.project.regions[0] =
+        view.project.regions[0].with([](Region& r) { r.placement.scale = 3; });
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    clear();
+    ASSERT_TRUE(robot->click("Reset Scale"));
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    EXPECT_DOUBLE_EQ(std::get<double>(std::get<SetRegionParameter>(edits[0].edit).value), 1.0);
+}
+
+TEST_F(PanelTest, ARegionIsSelectedByAClickOnItsRow) {
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->click("Regions/cape"));
+    ASSERT_THAT(emitted<SelectRegion>(), SizeIs(1));
+    EXPECT_EQ(emitted<SelectRegion>()[0].region, 2u);
+}
+
+TEST_F(PanelTest, AStrokeOnTheCanvasIsInPlatePixels) {
+    robot->frames(3);
+    const DrawnItem* canvas = robot->find("Viewer/Canvas");
+    ASSERT_NE(canvas, nullptr);
+    const ImVec2 middle((canvas->min.x + canvas->max.x) / 2, (canvas->min.y + canvas->max.y) / 2);
+    clear();
+    robot->stroke({middle, {middle.x + 30, middle.y}, {middle.x + 60, middle.y}});
+    ASSERT_THAT(emitted<BeginStroke>(), SizeIs(1));
+    EXPECT_NEAR(emitted<BeginStroke>()[0].at.x, 160, 0.6);
+    EXPECT_NEAR(emitted<BeginStroke>()[0].at.y, 90, 0.6);
+    EXPECT_FALSE(emitted<ContinueStroke>().empty());
+    EXPECT_THAT(emitted<EndStroke>(), SizeIs(1));
+}
+
+TEST_F(PanelTest, AltSubtracts) {
+    robot->frames(3);
+    const DrawnItem* canvas = robot->find("Viewer/Canvas");
+    const ImVec2 middle((canvas->min.x + canvas->max.x) / 2, (canvas->min.y + canvas->max.y) / 2);
+    robot->hold("Alt", true);
+    robot->stroke({middle, {middle.x + 30, middle.y}});
+    robot->hold("Alt", false);
+    ASSERT_THAT(emitted<BeginStroke>(), SizeIs(1));
+    EXPECT_TRUE(emitted<BeginStroke>()[0].brush.subtract);
+}
+
+TEST_F(PanelTest, TheWheelZoomsAboutTheMouse) {
+    robot->frames(3);
+    const DrawnItem* canvas = robot->find("Viewer/Canvas");
+    const ImVec2 at(canvas->min.x + 200, canvas->min.y + 150);
+    ViewerState& s = shell->state().viewer;
+    robot->move(at);
+    const ViewMap before{canvas->min, canvas->max, s.center, s.zoom};
+    const Vec2 under = before.to_plate(at);
+    robot->wheel(3);
+    const DrawnItem* now = robot->find("Viewer/Canvas");
+    const ViewMap after{now->min, now->max, s.center, s.zoom};
+    EXPECT_GT(after.zoom, before.zoom);
+    EXPECT_NEAR(after.to_plate(at).x, under.x, 0.05);
+    EXPECT_NEAR(after.to_plate(at).y, under.y, 0.05);
+}
+
+TEST_F(PanelTest, KeysStandForTheirCommands) {
+    robot->frames(2);
+    clear();
+    robot->key("Right");
+    ASSERT_THAT(emitted<StepFrames>(), SizeIs(1));
+    EXPECT_EQ(emitted<StepFrames>()[0].count, 1);
+    robot->key("Ctrl+Z");
+    EXPECT_THAT(emitted<Undo>(), SizeIs(1));
+    robot->key("E");
+    EXPECT_EQ(shell->state().tool, Tool::kEraser);
+    robot->key("F7");
+    EXPECT_EQ(shell->state().workspace, Workspace::kMotion);
+    robot->key("Space");
+    EXPECT_THAT(emitted<Play>(), SizeIs(1));
+}
+
+TEST_F(PanelTest, ThePaletteRunsWhatIsTyped) {
+    robot->frames(2);
+    robot->key("Ctrl+Shift+P");
+    robot->frames(3);
+    robot->type("side by");
+    robot->key("Enter");
+    EXPECT_EQ(shell->state().viewer.compare, Compare::kSideBySide);
+    EXPECT_FALSE(shell->state().palette_open);
+}
+
+TEST_F(PanelTest, NothingIsDoneWhileATextIsTyped) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    ASSERT_TRUE(robot->click("Search textures"));
+    clear();
+    robot->key("Space");
+    robot->key("Delete");
+    EXPECT_THAT(actions, IsEmpty());
+}
+
+TEST_F(PanelTest, UnsavedWorkAsksBeforeItIsLeft) {
+    view.modified = true;
+    robot->frames(2);
+    robot->key("Ctrl+W");
+    robot->frames(2);
+    EXPECT_THAT(emitted<CloseProject>(), IsEmpty());
+    ASSERT_TRUE(robot->click("Don't save"));
+    EXPECT_THAT(emitted<CloseProject>(), SizeIs(1));
+}
+
+TEST_F(PanelTest, TheRenderButtonSubmitsTheFramesThatItNames) {
+    view.project.plate.path = "/frames/####.png";
+    view.issues.clear();
+    view.mark_in = 1002;
+    view.mark_out = 1005;
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Jobs"));
+    ASSERT_TRUE(robot->click("Marked range"));
+    clear();
+    ASSERT_TRUE(robot->click("Render frames"));
+    ASSERT_THAT(emitted<SubmitJob>(), SizeIs(1));
+    EXPECT_EQ(emitted<SubmitJob>()[0].frames, "1002-1005");
+}
+
+TEST_F(PanelTest, ScrubbingGoesToTheFrameUnderTheMouse) {
+    robot->frames(2);
+    const DrawnItem* scrub = robot->find("Timeline/Scrub");
+    ASSERT_NE(scrub, nullptr);
+    clear();
+    robot->move({scrub->max.x - 4, (scrub->min.y + scrub->max.y) / 2});
+    robot->press();
+    robot->release();
+    ASSERT_FALSE(emitted<GoToFrame>().empty());
+    EXPECT_EQ(emitted<GoToFrame>().back().frame, 1010);
+}
+
+// ---- every panel in every state --------------------------------------------------------------
+
+struct Look {
+    const char* name;
+    SessionView (*make)();
+};
+
+class EveryState : public PanelTest, public ::testing::WithParamInterface<Look> {};
+
+TEST_P(EveryState, IsDrawnWithinTheWindow) {
+    view = GetParam().make();
+    for (const ImVec2 window : {ImVec2(1280, 720), ImVec2(1600, 900), ImVec2(3840, 2160)}) {
+        ImGui::GetIO().DisplaySize = window;
+        for (int w = 0; w < kWorkspaceCount; ++w) {
+            shell->state().workspace = static_cast<Workspace>(w);
+            robot->frames(3);
+            for (const char* part : {"Regions/", "Viewer/", "Timeline/", "Top/", "Tools/"}) {
+                for (const DrawnItem& item : shell->items()) {
+                    if (!item.name.starts_with(part)) continue;
+                    EXPECT_LE(item.max.x, window.x + 1) << item.name;
+                    EXPECT_GE(item.min.x, -1) << item.name;
+                }
+            }
+        }
+    }
+}
+
+TEST_P(EveryState, EachSheetOpensAndCloses) {
+    view = GetParam().make();
+    for (bool UiState::*sheet : {&UiState::palette_open, &UiState::shortcuts_open,
+                                 &UiState::settings_open, &UiState::history_open,
+                                 &UiState::about_open}) {
+        shell->state().*sheet = true;
+        robot->frames(3);
+        robot->key("Esc");
+        robot->frames(2);
+        EXPECT_FALSE(shell->state().*sheet);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    States, EveryState,
+    testing::Values(Look{"Empty", [] { return SessionView{}; }}, Look{"Normal", normal_view},
+                    Look{"Failing", failing_view}, Look{"Huge", huge_view}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,176 @@
+// The whole way from the hand to the document, without a window.
+#include <fstream>
+#include <thread>
+
+#include "app/project/project_file.h"
+#include "engine/media/image_files.h"
+#include "tests/ui/ui_harness.h"
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class EditorSession : public SessionTest {
+  protected:
+    void open() {
+        session->act(OpenAny{(folder / "frames").string()});
+        ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }))
+            << session->view().plate.error;
+        robot->frames(3);
+    }
+    void paint() {
+        robot->key("Ctrl+Shift+N");  // a region
+        robot->key("B");
+        robot->frames(3);
+        robot->stroke({at(30, 30), at(40, 32), at(50, 34)});
+        robot->frames(3);
+    }
+    [[nodiscard]] const Project& project() const { return session->view().project; }
+    [[nodiscard]] const MatteSource& matte() const { return *project().regions.back()->matte; }
+};
+
+TEST_F(EditorSession, AFolderOpensAsItsSequence) {
+    open();
+    EXPECT_THAT(project().plate.path, testing::EndsWith("frames/####.png"));
+    EXPECT_EQ(session->view().plate.frames, (std::vector<int>{1, 2, 3, 4}));
+    EXPECT_EQ(session->view().frame, 1);
+}
+
+TEST_F(EditorSession, AStrokeBecomesAKeyframeWithItsFile) {
+    open();
+    paint();
+    ASSERT_EQ(matte().keyframes.size(), 1u);
+    ASSERT_TRUE(matte().keyframes.contains(1));
+    session->flush();
+    const auto written = read_matte(matte().keyframes.at(1).path, {}, {96, 64});
+    ASSERT_TRUE(written) << written.error().text();
+    EXPECT_GT(written->at(40, 32), 200);
+    EXPECT_EQ(written->at(2, 2), 0);
+}
+
+TEST_F(EditorSession, OneStrokeIsOneStepOfTheHistory) {
+    open();
+    paint();
+    const std::string first = matte().keyframes.at(1).path;
+    robot->stroke({at(60, 20), at(62, 22)});
+    robot->frames(3);
+    const std::string second = matte().keyframes.at(1).path;
+    EXPECT_NE(first, second);
+    robot->key("Ctrl+Z");
+    robot->frames(2);
+    EXPECT_EQ(matte().keyframes.at(1).path, first);
+    robot->key("Ctrl+Z");
+    robot->frames(2);
+    EXPECT_TRUE(matte().keyframes.empty());
+    robot->key("Ctrl+Shift+Z");
+    robot->frames(2);
+    EXPECT_EQ(matte().keyframes.at(1).path, first);
+}
+
+TEST_F(EditorSession, AltTakesAwayFromTheMatte) {
+    open();
+    paint();
+    robot->hold("Alt", true);
+    robot->stroke({at(40, 32), at(42, 33)});
+    robot->hold("Alt", false);
+    robot->frames(3);
+    session->flush();
+    const auto written = read_matte(matte().keyframes.at(1).path, {}, {96, 64});
+    ASSERT_TRUE(written);
+    EXPECT_LT(written->at(41, 32), 20);
+}
+
+TEST_F(EditorSession, ALockedRegionIsNotPainted) {
+    open();
+    paint();
+    const auto before = matte();
+    session->act(LockRegion{session->view().selected, true});
+    robot->frames(2);
+    robot->stroke({at(60, 20), at(62, 22)});
+    robot->frames(3);
+    EXPECT_EQ(matte(), before);
+    EXPECT_FALSE(session->view().notices.empty());
+}
+
+TEST_F(EditorSession, SavingMakesPathsRelativeAndOpensAgain) {
+    open();
+    paint();
+    const std::string path = (folder / "shot.weft").string();
+    session->act(SaveAs{path});
+    robot->frames(2);
+    EXPECT_FALSE(session->view().modified);
+    EXPECT_EQ(project().plate.path, "frames/####.png");
+    const Project before = project();
+    restart_session();
+    session->act(OpenProject{path});
+    ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }));
+    EXPECT_EQ(project(), before);
+}
+
+TEST_F(EditorSession, WhatWasPaintedIsRecoveredAfterACrash) {
+    open();
+    paint();
+    session->flush();
+    const fs::path recovery = folder / "state" / "recovery";
+    fs::path snapshot;
+    for (const auto& entry : fs::directory_iterator(recovery))
+        snapshot = entry.path();
+    ASSERT_FALSE(snapshot.empty());
+    // As if another process, long gone, had left it.
+    fs::copy_file(snapshot, recovery / "recovery-999999999.weft");
+    const MatteSource painted = matte();
+    restart_session();
+    robot->frames(2);
+    ASSERT_TRUE(session->view().recovery);
+    ASSERT_TRUE(robot->click("Recover"));
+    ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }));
+    ASSERT_EQ(project().regions.size(), 1u);
+    EXPECT_EQ(matte(), painted);
+    EXPECT_TRUE(session->view().modified);
+    EXPECT_FALSE(fs::exists(recovery / "recovery-999999999.weft"));
+}
+
+TEST_F(EditorSession, AMissingFrameIsSaidAndTheOthersPlay) {
+    std::ofstream(folder / "frames" / "0003.png") << "no picture";
+    open();
+    robot->key("Right");
+    robot->key("Right");
+    ASSERT_TRUE(wait([&] { return !session->view().frame_error.empty(); }));
+    EXPECT_THAT(session->view().frame_error, testing::HasSubstr("0003.png"));
+    robot->key("Right");
+    ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }));
+    EXPECT_EQ(session->view().frame, 4);
+}
+
+TEST_F(EditorSession, ThePreviewShowsTheResultAndNeverAWrongOne) {
+    open();
+    paint();
+    ASSERT_FALSE(session->view().result_current);
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    ASSERT_TRUE(wait([&] { return session->view().result_current; }))
+        << session->view().preview.error;
+    const PicturePtr first = session->view().result_picture;
+    ASSERT_NE(first, nullptr);
+    EXPECT_NE(first->at(40, 32), session->view().plate_picture->at(40, 32));
+    EXPECT_EQ(first->at(2, 60), session->view().plate_picture->at(2, 60));
+    session->act(GoToFrame{3});
+    robot->frames(1);
+    // Until the frame is there, no other frame's result stands in for it.
+    if (!session->view().result_current) EXPECT_EQ(session->view().result_picture, nullptr);
+}
+
+TEST_F(EditorSession, AFailedJobSaysWhy) {
+    open();
+    paint();
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    session->act(SubmitJob{"1-2", (folder / "out" / "####.png").string(), "", false, false});
+    ASSERT_TRUE(wait([&] {
+        return !session->view().jobs.empty() &&
+               session->view().jobs[0].state == JobState::kFailed;
+    }));
+    EXPECT_FALSE(session->view().jobs[0].error.empty());
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,39 @@
+#pragma once
+// Internal: the descriptor that is learned on a library: from features to a short vector in which
+// samples of one material lie close together.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/error.h"
+
+namespace weft {
+
+/// y = P · clamp((x − mean) / deviation, −6, 6). Immutable once made.
+struct DescriptorModel {
+    int inputs = 0, outputs = 0;
+    std::vector<float> mean, deviation;  ///< inputs
+    std::vector<float> projection;       ///< outputs × inputs
+    std::vector<std::string> materials;  ///< That it tells apart.
+    std::vector<float> centres;          ///< materials × outputs
+
+    [[nodiscard]] std::vector<float> describe(std::span<const float> features) const;
+    [[nodiscard]] std::vector<std::byte> to_bytes() const;
+    [[nodiscard]] static Expected<DescriptorModel> from_bytes(std::span<const std::byte> bytes);
+};
+
+struct LabelledFeatures {
+    std::vector<std::vector<float>> features;
+    std::vector<int> labels;     ///< Into `materials`.
+    std::vector<float> weights;  ///< Of each sample.
+    std::vector<std::string> materials;
+};
+
+/// Linear discriminant analysis (Fisher 1936; Rao 1948) with a shrunken within-class covariance
+/// (Ledoit & Wolf 2004, fixed intensity), at most 40 outputs. Deterministic. Errors: Usage with
+/// fewer than two materials of ten samples.
+[[nodiscard]] Expected<DescriptorModel> learn_descriptor(const LabelledFeatures& data);
+
+}  // namespace weft

@@ -1,0 +1,51 @@
+#pragma once
+// Internal: what a TextureLibrary holds.
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "texture_db/database.h"
+#include "texture_db/descriptor_model.h"
+#include "texture_db/index.h"
+#include "texture_db/library.h"
+#include "texture_db/word_reader.h"
+
+namespace weft {
+
+struct TextureLibrary::State {
+    std::string path;
+    bool read_only = false;
+    std::mutex mutex;  // guards everything below
+    std::unique_ptr<Database> database;
+    // Loaded when first needed, and anew when the file has changed since.
+    std::optional<SampleIndex> index;
+    std::optional<DescriptorModel> model;
+    std::optional<WordReader> words;
+    std::int64_t loaded_data_version = -1, loaded_changes = -1;
+
+    /// Makes index, model and words current. Call with the mutex held.
+    [[nodiscard]] Status refresh();
+    /// The full id of an id or a prefix of it.
+    [[nodiscard]] Expected<std::string> full_id(const std::string& id);
+    [[nodiscard]] Status count_change();
+};
+
+/// What changes about a library when samples are added: computed outside of its lock.
+struct PreparedTexture {
+    std::string id;
+    std::vector<std::byte> png;
+    MeasuredTexture measured;
+    std::vector<float> features;
+    float synthesis = 0;
+};
+/// A larger picture, encoded once for all samples from it.
+struct PreparedPicture {
+    Size size;
+    std::string hash;
+    std::vector<std::byte> bytes;
+};
+[[nodiscard]] PreparedTexture prepare_texture(const NewTexture& texture);
+
+}  // namespace weft

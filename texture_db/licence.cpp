@@ -1,0 +1,85 @@
+#include "texture_db/licence.h"
+
+#include <algorithm>
+
+#include "texture_db/material_words.h"
+
+namespace weft {
+namespace {
+
+// "gpl-2+" is of the family "gpl": the name, then a version. "cc-by-sa-3.0" is not of "cc-by".
+bool in_family(const std::string& licence, const std::string& family) {
+    if (licence == family) return true;
+    if (!licence.starts_with(family)) return false;
+    const std::string rest = licence.substr(family.size());
+    if (rest[0] >= '0' && rest[0] <= '9') return true;
+    return (rest[0] == '-' || rest[0] == ' ') && rest.size() > 1 &&
+           ((rest[1] >= '0' && rest[1] <= '9') || rest[1] == 'v');
+}
+
+bool has(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+bool one_excluded(const std::string& licence, const std::vector<std::string>& excluded) {
+    for (const std::string& given : excluded) {
+        const std::string family = lowered(given);
+        if (in_family(licence, family)) return true;
+        if (family == "copyleft" && (has(licence, "gpl") || has(licence, "-sa") ||
+                                     has(licence, "gfdl") || has(licence, "mpl")))
+            return true;
+        if (family == "attribution" && (has(licence, "-by") || has(licence, "gfdl"))) return true;
+        if (family == "non-commercial" && has(licence, "-nc")) return true;
+        if (family == "unknown" && licence.empty()) return true;
+    }
+    return false;
+}
+
+std::vector<std::string> split_at(const std::string& text, const std::string& separator) {
+    std::vector<std::string> parts;
+    for (std::size_t at = 0;;) {
+        const std::size_t end = text.find(separator, at);
+        parts.push_back(text.substr(at, end - at));
+        if (end == std::string::npos) return parts;
+        at = end + separator.size();
+    }
+}
+
+}  // namespace
+
+bool licence_excluded(std::string_view licence, const std::vector<std::string>& excluded) {
+    if (excluded.empty()) return false;
+    std::string text = lowered(licence);
+    std::replace(text.begin(), text.end(), ',', ' ');
+    // "A or B": one that is allowed is enough.
+    const auto alternatives = split_at(text, " or ");
+    return std::all_of(alternatives.begin(), alternatives.end(), [&](const std::string& choice) {
+        const auto together = split_at(choice, " and ");
+        return std::any_of(together.begin(), together.end(), [&](std::string part) {
+            part = joined_words(split_words(part));
+            return one_excluded(part, excluded);
+        });
+    });
+}
+
+Status check_licences(const std::vector<TextureCredit>& textures,
+                      const std::vector<std::string>& excluded) {
+    std::string refused;
+    for (const TextureCredit& texture : textures) {
+        if (!licence_excluded(texture.licence, excluded)) continue;
+        if (!refused.empty()) refused += "; ";
+        refused += "'" + texture.name + "'" +
+                   (texture.region.empty() ? "" : " of region '" + texture.region + "'") + " is " +
+                   (texture.licence.empty() ? "of unknown licence" : texture.licence) +
+                   (texture.author.empty() ? "" : " by " + texture.author);
+    }
+    if (refused.empty()) return {};
+    std::string names;
+    for (const std::string& name : excluded)
+        names += (names.empty() ? "" : ", ") + name;
+    return fail(ErrorCode::kRefused,
+                "The project excludes textures under " + names + ": " + refused +
+                    ". Choose other textures, or change the project's licence policy.");
+}
+
+}  // namespace weft

@@ -1,0 +1,291 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "texture_db/library_state.h"
+#include "texture_db/material_words.h"
+
+namespace weft {
+namespace {
+
+constexpr float kNameHit = 0.8f;
+constexpr float kLeast = 0.05f;  // of every word, for a hit
+
+using Clock = std::chrono::steady_clock;
+
+struct Scored {
+    std::size_t sample = 0;
+    float score = 1;
+};
+
+// A word and which samples' names and tags it stands in.
+struct TermHits {
+    ReadTerm term;
+    std::set<std::int64_t> keys;
+    std::vector<float> by_material;  // weight of each material of the index
+};
+
+Expected<std::set<std::int64_t>> find_text(Database& database, const std::string& word) {
+    std::set<std::int64_t> keys;
+    // A quoted prefix: nothing in it can be read as FTS5 syntax.
+    std::string quoted = "\"";
+    for (const char c : word) {
+        quoted += c;
+        if (c == '"') quoted += c;
+    }
+    quoted += "\"*";
+    WEFT_TRY(query, database.query("SELECT rowid FROM sample_text WHERE sample_text MATCH ?"));
+    query.bind(quoted);
+    for (;;) {
+        WEFT_TRY(more, query.step());
+        if (!more) return keys;
+        keys.insert(query.integer(0));
+    }
+}
+
+float term_score(const TermHits& hits, const IndexedSample& s) {
+    float score = hits.by_material[static_cast<std::size_t>(s.material)];
+    for (const std::string& word : hits.term.attributes)
+        score = std::max(score, attribute_match(word, s.measured));
+    if (score < kNameHit && hits.keys.contains(s.key)) score = kNameHit;
+    return hits.term.negated ? (score >= 0.5f ? 0.0f : 1.0f - score) : score;
+}
+
+class Filter {
+  public:
+    Filter(const SearchQuery& query, const SampleIndex& index, std::set<std::string> members)
+        : query_(query), members_(std::move(members)) {
+        allow(query.materials, index.materials, materials_);
+        allow(query.packages, index.packages, packages_);
+        allow(query.categories, index.categories, categories_);
+        allow(query.licences, index.licences, licences_);
+        if (query.excluded_licences.empty()) return;
+        if (licences_.empty())
+            licences_.assign(static_cast<std::size_t>(index.licences.size()), true);
+        for (int i = 0; i < index.licences.size(); ++i) {
+            if (licence_excluded(index.licences.text(i), query.excluded_licences))
+                licences_[static_cast<std::size_t>(i)] = false;
+        }
+    }
+    [[nodiscard]] bool passes(const IndexedSample& s) const {
+        const auto in = [](const std::vector<bool>& allowed, int i) {
+            return allowed.empty() || allowed[static_cast<std::size_t>(i)];
+        };
+        return in(materials_, s.material) && in(packages_, s.package) &&
+               in(categories_, s.category) && in(licences_, s.licence) &&
+               (!query_.favourites_only || s.favourite) && s.rating >= query_.min_rating &&
+               (query_.origins.empty() || std::find(query_.origins.begin(), query_.origins.end(),
+                                                    s.origin) != query_.origins.end()) &&
+               (query_.collection.empty() || members_.contains(s.id));
+    }
+
+  private:
+    static void allow(const std::vector<std::string>& wanted, const StringTable& table,
+                      std::vector<bool>& out) {
+        if (wanted.empty()) return;
+        out.assign(static_cast<std::size_t>(table.size()), false);
+        for (const std::string& text : wanted) {
+            if (const int i = table.find(text); i >= 0) out[static_cast<std::size_t>(i)] = true;
+        }
+    }
+    const SearchQuery& query_;
+    std::set<std::string> members_;
+    std::vector<bool> materials_, packages_, categories_, licences_;
+};
+
+std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
+                              const std::vector<TermHits>& terms, bool all_words) {
+    std::vector<Scored> out;
+    for (std::size_t i = 0; i < index.samples.size(); ++i) {
+        const IndexedSample& s = index.samples[i];
+        if (!filter.passes(s)) continue;
+        float product = 1, sum = 0;
+        bool every = true;
+        for (const TermHits& hits : terms) {
+            const float v = term_score(hits, s);
+            every = every && v > kLeast;
+            product *= std::max(v, 0.0f);
+            sum += std::max(v, 0.0f);
+        }
+        if (terms.empty()) {
+            out.push_back({i, 1});
+        } else if (all_words && every) {
+            out.push_back({i, std::pow(product, 1.0f / static_cast<float>(terms.size()))});
+        } else if (!all_words && sum > 0.5f) {
+            out.push_back({i, 0.9f * sum / static_cast<float>(terms.size())});
+        }
+    }
+    return out;
+}
+
+float hue_turn(const LabColor& c) {
+    if (std::hypot(c.a, c.b) < 6) return 2 + c.l / 1000;  // greys after all hues
+    const float turn = std::atan2(c.b, c.a) / (2 * std::numbers::pi_v<float>);
+    return turn < 0 ? turn + 1 : turn;
+}
+
+// Each order ends in the id, which is as good as random: samples of one photograph do not stand in
+// a row.
+void sort_hits(std::vector<Scored>& hits, const SampleIndex& index, TextureSort sort, bool down) {
+    const auto before = [&](const Scored& x, const Scored& y) {
+        const IndexedSample &a = index.samples[x.sample], &b = index.samples[y.sample];
+        const auto by = [&](const auto& u, const auto& v) { return u < v ? -1 : v < u ? 1 : 0; };
+        int order = 0;
+        switch (sort) {
+            case TextureSort::kRelevance:
+                // In steps, so that among equals what is loved and what grows well comes first.
+                order = by(std::lround(-y.score * 50), std::lround(-x.score * 50));
+                order = order != 0 ? -order : 0;
+                if (order == 0) order = by(b.rating + 2 * b.favourite, a.rating + 2 * a.favourite);
+                break;
+            case TextureSort::kName:
+                order = by(a.name, b.name);
+                break;
+            case TextureSort::kMaterial:
+                order = by(index.materials.text(a.material), index.materials.text(b.material));
+                break;
+            case TextureSort::kNewest:
+                order = by(b.added, a.added);
+                if (order == 0) order = by(b.key, a.key);
+                break;
+            case TextureSort::kRating:
+                order = by(b.rating, a.rating);
+                break;
+            case TextureSort::kBrightness:
+                order = by(a.measured.mean.l, b.measured.mean.l);
+                break;
+            case TextureSort::kHue:
+                order = by(hue_turn(a.measured.mean), hue_turn(b.measured.mean));
+                break;
+            case TextureSort::kScale:
+                order = by(a.measured.attributes[TextureAttribute::kScale],
+                           b.measured.attributes[TextureAttribute::kScale]);
+                break;
+        }
+        if (order != 0) return down ? order > 0 : order < 0;
+        return a.id < b.id;
+    };
+    std::sort(hits.begin(), hits.end(), before);
+}
+
+std::vector<FacetCount> ordered(const std::vector<int>& counts, const StringTable& names) {
+    std::vector<FacetCount> out;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > 0) out.push_back({names.text(static_cast<int>(i)), counts[i]});
+    }
+    std::sort(out.begin(), out.end(), [](const FacetCount& a, const FacetCount& b) {
+        return a.count != b.count ? a.count > b.count : a.value < b.value;
+    });
+    return out;
+}
+
+void count_facets(const std::vector<Scored>& hits, const SampleIndex& index, SearchResult& out) {
+    const auto count = [&](const StringTable& names, auto member) {
+        std::vector<int> counts(static_cast<std::size_t>(names.size()));
+        for (const Scored& hit : hits)
+            ++counts[static_cast<std::size_t>(index.samples[hit.sample].*member)];
+        return ordered(counts, names);
+    };
+    out.materials = count(index.materials, &IndexedSample::material);
+    out.packages = count(index.packages, &IndexedSample::package);
+    out.licences = count(index.licences, &IndexedSample::licence);
+    out.categories = count(index.categories, &IndexedSample::category);
+    out.colours = count(index.colours, &IndexedSample::colour);
+    std::erase_if(out.packages, [](const FacetCount& f) { return f.value.empty(); });
+    std::erase_if(out.categories, [](const FacetCount& f) { return f.value.empty(); });
+    StringTable origins;
+    for (const TextureOrigin o :
+         {TextureOrigin::kProcedural, TextureOrigin::kPackage, TextureOrigin::kFile})
+        origins.number_of(name_of(o));
+    std::vector<int> counts(3);
+    for (const Scored& hit : hits)
+        ++counts[static_cast<std::size_t>(index.samples[hit.sample].origin)];
+    out.origins = ordered(counts, origins);
+}
+
+std::vector<std::string> reasons_of(const std::vector<TermHits>& terms, const SampleIndex& index,
+                                    const IndexedSample& s) {
+    std::vector<std::string> out;
+    for (const TermHits& hits : terms) {
+        if (hits.term.negated) {
+            out.push_back("not " + hits.term.word);
+            continue;
+        }
+        const std::string& material = index.materials.text(s.material);
+        float look = 0;
+        for (const std::string& word : hits.term.attributes)
+            look = std::max(look, attribute_match(word, s.measured));
+        if (hits.by_material[static_cast<std::size_t>(s.material)] > kLeast) {
+            out.push_back("material " + material +
+                          (hits.term.word == material ? "" : " (" + hits.term.typed + ")"));
+        } else if (look > kLeast) {
+            out.push_back("looks " + hits.term.word);
+        } else if (hits.keys.contains(s.key)) {
+            out.push_back("named '" + hits.term.text + "'");
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+Expected<SearchResult> TextureLibrary::search(const SearchQuery& query) {
+    const auto start = Clock::now();
+    const std::scoped_lock lock(state_->mutex);
+    WEFT_CHECK_OK(state_->refresh());
+    const SampleIndex& index = *state_->index;
+    SearchResult out;
+    std::vector<TermHits> terms;
+    for (ReadTerm& term : state_->words->read(query.text, out.ignored)) {
+        TermHits hits;
+        if (!term.text.empty()) {
+            WEFT_TRY(keys, find_text(*state_->database, term.text));
+            hits.keys = std::move(keys);
+        }
+        hits.by_material.resize(static_cast<std::size_t>(index.materials.size()));
+        for (const auto& [material, weight] : term.materials) {
+            if (const int i = index.materials.find(material); i >= 0)
+                hits.by_material[static_cast<std::size_t>(i)] = weight;
+        }
+        if (!term.explanation.empty()) out.understood.push_back(term.explanation);
+        hits.term = std::move(term);
+        terms.push_back(std::move(hits));
+    }
+    std::set<std::string> members;
+    if (!query.collection.empty()) {
+        WEFT_TRY(rows, state_->database->query("SELECT id FROM collection WHERE name = ?"));
+        rows.bind(query.collection);
+        for (;;) {
+            WEFT_TRY(more, rows.step());
+            if (!more) break;
+            members.insert(rows.text(0));
+        }
+    }
+    const Filter filter(query, index, std::move(members));
+    // Words alone that nobody understands find nothing, rather than everything.
+    const bool nothing = terms.empty() && !out.ignored.empty();
+    std::vector<Scored> hits =
+        nothing ? std::vector<Scored>() : score_all(index, filter, terms, true);
+    if (hits.empty() && terms.size() > 1) {
+        hits = score_all(index, filter, terms, false);
+        if (!hits.empty())
+            out.understood.push_back("no texture fits every word: the nearest are shown");
+    }
+    out.total = static_cast<int>(hits.size());
+    if (query.facets) count_facets(hits, index, out);
+    sort_hits(hits, index, query.sort, query.descending);
+    const auto from = static_cast<std::size_t>(std::clamp(query.offset, 0, out.total));
+    const std::size_t to =
+        std::min(hits.size(), from + static_cast<std::size_t>(std::max(0, query.limit)));
+    for (std::size_t i = from; i < to; ++i) {
+        const IndexedSample& s = index.samples[hits[i].sample];
+        out.hits.push_back({s.id, s.name, index.materials.text(s.material), hits[i].score,
+                            reasons_of(terms, index, s)});
+    }
+    out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,491 @@
+// What floats over the rest: messages, the palette, the sheet of shortcuts, settings, history.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+std::string lower(std::string text) {
+    for (char& ch : text)
+        ch = static_cast<char>(std::tolower(static_cast<unsigned char>(ch)));
+    return text;
+}
+
+// How well a name answers what was typed: all letters in order, words' beginnings count more.
+int score(const std::string& name, const std::string& typed) {
+    int total = 0;
+    std::size_t at = 0;
+    for (const char ch : typed) {
+        if (ch == ' ') continue;
+        const std::size_t found = name.find(ch, at);
+        if (found == std::string::npos) return -1;
+        total += found == 0 || name[found - 1] == ' ' ? 8 : found == at ? 4 : 1;
+        at = found + 1;
+    }
+    return total * 16 - static_cast<int>(name.size()) / 4;
+}
+
+// A window in the middle of the screen, closed by its cross or Esc.
+bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const Theme& t = c.theme;
+    size.x = std::min(size.x, screen.x - t.px(32));
+    size.y = std::min(size.y, screen.y - t.px(32));
+    ImGui::SetNextWindowPos(
+        {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::SetNextWindowFocus();
+    ImGui::Begin(
+        title, nullptr,
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar(3);
+    ImGui::PopStyleColor();
+    c.panel = title;
+    ImGui::PushFont(t.title);
+    ImGui::TextUnformatted(title);
+    ImGui::PopFont();
+    ImGui::SetCursorPos({size.x - t.px(42), t.px(10)});
+    if (icon_button(c, icons::kClose, "Close")) open = false;
+    ImGui::SetCursorPos({t.px(16), t.px(50)});
+    if (ImGui::IsKeyPressed(256) && c.state.rebinding.empty() && !ImGui::IsAnyItemActive())
+        open = false;
+    return true;
+}
+
+void end_sheet(Ctx& c) {
+    ImGui::End();
+    c.panel.clear();
+}
+
+}  // namespace
+
+void notices(Ctx& c) {
+    const Theme& t = c.theme;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float width = std::min(t.px(440), screen.x - t.px(40));
+    float y = t.px(52);
+    const PanelName panel(c, "Notices");
+    const auto box = [&](const char* id, NoticeKind kind, const std::string& text, auto&& buttons,
+                         float extra) {
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - t.px(76));
+        const float h = std::max(t.px(40), size.y + t.px(22)) + extra;
+        ImGui::SetNextWindowPos({std::floor((screen.x - width) / 2), y});
+        ImGui::SetNextWindowSize({width, h});
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(4));
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+        ImGui::Begin(id, nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+        ImGui::PopStyleVar(3);
+        ImGui::PopStyleColor();
+        const ImVec2 at = ImGui::GetWindowPos();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const ImU32 color = kind == NoticeKind::kGood      ? t.good
+                            : kind == NoticeKind::kWarning ? t.warn
+                            : kind == NoticeKind::kError   ? t.bad
+                                                           : t.accent;
+        const char* icon = kind == NoticeKind::kGood   ? icons::kCheckCircle
+                           : kind == NoticeKind::kInfo ? icons::kInformation
+                                                       : icons::kAlert;
+        list.AddRectFilled(at, {at.x + t.px(4), at.y + h}, color);
+        icon_in(c, list, {at.x + t.px(10), at.y}, {at.x + t.px(34), at.y + h - extra}, color, icon);
+        list.AddText(t.regular, t.regular->FontSize,
+                     {at.x + t.px(40), at.y + std::floor((h - extra - size.y) / 2)}, t.text,
+                     text.c_str(), nullptr, width - t.px(76));
+        buttons(at, h);
+        ImGui::End();
+        y += h + t.px(8);
+    };
+    if (c.view.recovery) {
+        const std::string what =
+            (c.view.recovery->project_path.empty() ? std::string("An unsaved shot")
+                                                   : c.view.recovery->project_path) +
+            " was not closed properly. Its state of " + c.view.recovery->when +
+            " can be recovered.";
+        box(
+            "##recovery", NoticeKind::kWarning, what,
+            [&](ImVec2 at, float h) {
+                ImGui::SetCursorScreenPos({at.x + t.px(40), at.y + h - t.px(38)});
+                if (button(c, "Recover", {.icon = icons::kRestore, .look = Look::kPrimary}))
+                    c.emit(Recover{true});
+                ImGui::SameLine();
+                if (button(c, "Discard")) c.emit(Recover{false});
+            },
+            t.px(36));
+    }
+    for (auto notice = c.view.notices.rbegin(); notice != c.view.notices.rend(); ++notice) {
+        const std::string id = "##notice" + std::to_string(notice->id);
+        box(
+            id.c_str(), notice->kind, notice->text,
+            [&](ImVec2 at, float) {
+                ImGui::SetCursorScreenPos({at.x + width - t.px(34), at.y + t.px(6)});
+                if (icon_button(c, icons::kClose, "Dismiss", false, nullptr, true, t.px(26)) &&
+                    c.dismiss_notice)
+                    c.dismiss_notice(notice->id);
+                if (notice->kind != NoticeKind::kError) return;
+                if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(1))
+                    c.pictures.set_clipboard(notice->text);
+                if (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered())
+                    ImGui::SetTooltip("Right click copies this message");
+            },
+            0);
+    }
+}
+
+void command_palette(Ctx& c) {
+    if (!c.state.palette_open) return;
+    const Theme& t = c.theme;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float width = std::min(t.px(560), screen.x - t.px(40));
+    const std::string typed = lower(c.state.palette_text);
+    std::vector<std::pair<int, const Command*>> found;
+    for (const Command& command : c.commands.all()) {
+        if (command.enabled && !command.enabled(c)) continue;
+        const int points = score(lower(command.name + " " + command.category), typed);
+        if (points >= 0) found.emplace_back(points, &command);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    constexpr int kRows = 10;
+    const int rows = std::min(kRows, static_cast<int>(found.size()));
+    ImGui::SetNextWindowPos({std::floor((screen.x - width) / 2), t.px(90)});
+    ImGui::SetNextWindowSize({width, t.px(62) + t.px(30) * static_cast<float>(std::max(1, rows))});
+    ImGui::SetNextWindowFocus();
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(12), t.px(12)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::Begin(
+        "##palette", nullptr,
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar(3);
+    ImGui::PopStyleColor();
+    const PanelName panel(c, "Palette");
+    if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
+    if (input(c, "Find a command", c.state.palette_text, "Type what you want to do", -1,
+              icons::kMagnify))
+        c.state.palette_at = 0;
+    if (ImGui::IsKeyPressed(264)) ++c.state.palette_at;
+    if (ImGui::IsKeyPressed(265)) --c.state.palette_at;
+    c.state.palette_at = std::clamp(c.state.palette_at, 0, std::max(0, rows - 1));
+    const Command* chosen = nullptr;
+    const int first = std::max(0, c.state.palette_at - kRows + 1);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    ImGui::Dummy({0, t.px(6)});
+    for (int k = first; k < first + rows; ++k) {
+        const Command& command = *found[static_cast<std::size_t>(k)].second;
+        ImGui::PushID(k);
+        if (ImGui::InvisibleButton("##command", {-FLT_MIN, t.px(30)})) chosen = &command;
+        ImGui::PopID();
+        c.note(command.name);
+        const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        if (k == c.state.palette_at)
+            list.AddRectFilled(min, max, faded(t.accent, 0.3f), t.radius);
+        else if (ImGui::IsItemHovered())
+            list.AddRectFilled(min, max, t.hover, t.radius);
+        icon_in(c, list, {min.x + t.px(4), min.y}, {min.x + t.px(28), max.y}, t.quiet,
+                command.icon);
+        text_in(list, t.regular, {min.x + t.px(34), min.y}, max, t.text, command.name.c_str(), 0);
+        const float w = ImGui::CalcTextSize(command.name.c_str()).x;
+        text_in(list, t.small, {min.x + t.px(44) + w, min.y}, max, t.off, command.category.c_str(),
+                0);
+        text_in(list, t.small, min, {max.x - t.px(8), max.y}, t.quiet,
+                chord_text(command.key).c_str(), 1);
+    }
+    ImGui::PopStyleVar();
+    if (rows == 0) quiet(c, "No command of that name");
+    if (ImGui::IsKeyPressed(257) && rows > 0)
+        chosen = found[static_cast<std::size_t>(c.state.palette_at)].second;
+    const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered();
+    ImGui::End();
+    if (chosen || outside || ImGui::IsKeyPressed(256)) c.state.palette_open = false;
+    if (chosen) chosen->run(c);
+}
+
+void shortcut_sheet(Ctx& c) {
+    if (!c.state.shortcuts_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "Keyboard shortcuts", {t.px(920), t.px(640)}, c.state.shortcuts_open);
+    quiet(c, "Click a key to change it; Esc leaves it as it is, Backspace takes it away.");
+    for (const std::string& clash : c.commands.collisions())
+        banner(c, icons::kAlert, t.warn, "The same key twice: " + clash);
+    ImGui::BeginChild("##keys", {0, 0});
+    const float column = std::floor((ImGui::GetContentRegionAvail().x - t.px(40)) / 3);
+    const ImVec2 origin = ImGui::GetCursorScreenPos();
+    float y[3] = {origin.y, origin.y, origin.y};
+    std::string category;
+    int at = -1;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto column_of = [](const std::string& name) {
+        if (name == "View") return 1;
+        return name == "Time" || name == "Tool" || name == "Render" ? 2 : 0;
+    };
+    for (const Command& command : c.commands.all()) {
+        at = column_of(command.category);
+        const float x = origin.x + (column + t.px(20)) * static_cast<float>(at);
+        if (command.category != category) {
+            category = command.category;
+            if (y[at] > origin.y) y[at] += t.px(10);
+            text_in(list, t.strong, {x, y[at]}, {x + column, y[at] + t.px(24)}, t.text,
+                    category.c_str(), 0);
+            y[at] += t.px(26);
+        }
+        ImGui::SetCursorScreenPos({x, y[at]});
+        ImGui::PushID(command.id.c_str());
+        if (ImGui::InvisibleButton("##key", {column, t.px(22)})) c.state.rebinding = command.id;
+        ImGui::PopID();
+        c.note(command.name);
+        const bool listening = c.state.rebinding == command.id;
+        if (ImGui::IsItemHovered() || listening)
+            list.AddRectFilled({x - t.px(4), y[at]}, {x + column, y[at] + t.px(22)},
+                               listening ? faded(t.accent, 0.3f) : t.hover, t.radius);
+        ImGui::PushFont(t.small);
+        text_in(list, t.small, {x, y[at]}, {x + column, y[at] + t.px(22)}, t.quiet,
+                fitted(command.name, column - t.px(90)).c_str(), 0);
+        ImGui::PopFont();
+        text_in(list, t.small, {x, y[at]}, {x + column - t.px(6), y[at] + t.px(22)}, t.text,
+                listening ? "press a key" : chord_text(command.key).c_str(), 1);
+        y[at] += t.px(22);
+    }
+    ImGui::SetCursorScreenPos({origin.x, std::max({y[0], y[1], y[2]})});
+    ImGui::Dummy({1, t.px(8)});
+    ImGui::EndChild();
+    end_sheet(c);
+    if (c.state.rebinding.empty()) return;
+    const KeyChord pressed = pressed_chord(false);
+    if (pressed.key == 0) return;
+    if (pressed.key == 259)
+        c.settings.keys[c.state.rebinding] = "";
+    else if (pressed.key != 256)
+        c.settings.keys[c.state.rebinding] = chord_text(pressed);
+    c.commands.bind(c.settings.keys);
+    c.state.rebinding.clear();
+}
+
+void settings_window(Ctx& c) {
+    if (!c.state.settings_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "Settings", {t.px(460), t.px(380)}, c.state.settings_open);
+    quiet(c, "Theme");
+    int dark = c.settings.dark ? 0 : 1;
+    if (segments(c, "Theme", {"Dark", "Light"}, dark)) c.settings.dark = dark == 0;
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "Around the picture");
+    int grey = c.settings.grey_surround ? 1 : 0;
+    if (segments(c, "Surround", {"As the theme", "18% grey"}, grey))
+        c.settings.grey_surround = grey == 1;
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "Size of the interface");
+    const double scales[] = {0, 1, 1.25, 1.5, 2};
+    int scale = 0;
+    for (int k = 1; k < 5; ++k)
+        if (std::abs(c.settings.ui_scale - scales[k]) < 0.01) scale = k;
+    if (segments(c, "Scale", {"Screen's", "100%", "125%", "150%", "200%"}, scale))
+        c.settings.ui_scale = scales[scale];
+    ImGui::Dummy({0, t.px(10)});
+    if (button(c, "Keyboard shortcuts…", {.icon = icons::kKeyboard})) {
+        c.state.settings_open = false;
+        c.state.shortcuts_open = true;
+    }
+    ImGui::SameLine();
+    if (button(c, "All keys as they were")) {
+        c.settings.keys.clear();
+        c.commands.bind(c.settings.keys);
+    }
+    end_sheet(c);
+}
+
+void history_window(Ctx& c) {
+    if (!c.state.history_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "History", {t.px(380), t.px(480)}, c.state.history_open);
+    ImGui::BeginChild("##history", {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(1)});
+    for (std::size_t k = c.view.history.size(); k-- > 0;) {
+        const std::string label = k == 0 ? "As it was opened" : c.view.history[k];
+        ImGui::PushID(static_cast<int>(k));
+        if (ImGui::InvisibleButton("##step", {-FLT_MIN, t.row})) c.emit(GoToHistory{k});
+        ImGui::PopID();
+        c.note(label);
+        const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const bool now = k == c.view.history_position, later = k > c.view.history_position;
+        if (now)
+            list.AddRectFilled(min, max, faded(t.accent, 0.3f), t.radius);
+        else if (ImGui::IsItemHovered())
+            list.AddRectFilled(min, max, t.hover, t.radius);
+        text_in(list, t.regular, {min.x + t.px(10), min.y}, max, later ? t.off : t.text,
+                fitted(label, max.x - min.x - t.px(20)).c_str(), 0);
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+    end_sheet(c);
+}
+
+void about_window(Ctx& c) {
+    if (!c.state.about_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "About Weft", {t.px(420), t.px(230)}, c.state.about_open);
+    wrapped(c,
+            "Weft replaces textures in animation: mark a surface once, choose a texture, and it "
+            "sits on that surface through the whole shot, with the plate's own light.",
+            t.text);
+    ImGui::Dummy({0, t.px(6)});
+    wrapped(c, "Set in Inter, with Material Design Icons. The interface is drawn with Dear ImGui.",
+            t.quiet);
+    end_sheet(c);
+}
+
+void leave_question(Ctx& c) {
+    if (!c.state.leave_asked) return;
+    if (!c.view.modified && c.state.leave_then.empty()) {
+        const bool rendering =
+            std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [](const JobView& j) {
+                return j.state == JobState::kRunning || j.state == JobState::kPaused;
+            });
+        if (!rendering) {
+            c.state.leave_asked = false;
+            c.state.leave = true;
+            return;
+        }
+    }
+    const Theme& t = c.theme;
+    bool open = true;
+    const bool modified = c.view.modified;
+    begin_sheet(c, modified ? "Save first?" : "A render is running", {t.px(440), t.px(190)}, open);
+    wrapped(c,
+            modified ? "'" + c.view.title + "' has changes that are not saved."
+                     : "The render goes on by itself when the editor is closed; its frames will be "
+                       "where you sent them.",
+            t.text);
+    ImGui::Dummy({0, t.px(12)});
+    const auto go = [&] {
+        c.state.leave_asked = false;
+        const std::string then = c.state.leave_then;
+        c.state.leave_then.clear();
+        if (then.empty()) c.state.leave = true;
+        if (then == "demo") c.emit(OpenDemo{});
+        if (then == "new") c.emit(NewProject{});
+        if (then == "close") c.emit(CloseProject{});
+        if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
+        if (then.starts_with("/")) c.emit(OpenAny{then});
+    };
+    if (modified) {
+        if (button(c, "Save", {.look = Look::kPrimary})) {
+            if (c.view.path.empty()) {
+                c.state.leave_asked = false;
+                c.commands.run("file.save", c);
+            } else {
+                c.emit(Save{});
+                go();
+            }
+        }
+        ImGui::SameLine();
+        if (button(c, "Don't save")) go();
+    } else {
+        if (button(c, "Leave it running", {.look = Look::kPrimary})) go();
+        ImGui::SameLine();
+        if (button(c, "Cancel the render", {.look = Look::kDanger})) {
+            for (const JobView& job : c.view.jobs)
+                c.emit(CommandJob{job.id, JobCommand::kCancel});
+            go();
+        }
+    }
+    ImGui::SameLine();
+    if (button(c, "Stay") || !open) {
+        c.state.leave_asked = false;
+        c.state.leave_then.clear();
+    }
+    end_sheet(c);
+}
+
+void tour(Ctx& c) {
+    struct Step {
+        const char* title;
+        const char* text;
+        Workspace workspace;
+    };
+    static constexpr Step kSteps[] = {
+        {"A shot, and its surfaces",
+         "This is a two-second shot with three surfaces marked: a wall, a cape and a cloth. They "
+         "are the regions on the right. Press Space to play it.",
+         Workspace::kMask},
+        {"Marking a surface",
+         "A matte says where a surface is. Add a region with +, choose the brush (B) and paint "
+         "over a surface on one frame: the other frames follow. Alt subtracts, [ and ] change the "
+         "size.",
+         Workspace::kMask},
+        {"Choosing a texture",
+         "Below are the textures. Double-click one, or drag it onto a surface. Scale and rotation "
+         "are on the right; R lets you move it on the picture.",
+         Workspace::kTexture},
+        {"Holding still",
+         "The texture moves with its surface. G draws a grid on it and S shows where it stretches. "
+         "Where it slides, make that frame a second reference frame.",
+         Workspace::kMotion},
+        {"Light and seams",
+         "The plate's light falls on the new texture. Lower its strength, or look at the four "
+         "steps of the way with 4. X shows the seams.",
+         Workspace::kLight},
+        {"Rendering",
+         "Choose the frames and press the blue button. You can go on working meanwhile. Afterwards "
+         "the review shows how steady the result is. That is all: enjoy it.",
+         Workspace::kJobs}};
+    constexpr int kCount = static_cast<int>(std::size(kSteps));
+    int& step = c.state.tour_step;
+    if (step < 0) return;
+    if (step >= kCount) {
+        step = -1;
+        c.settings.tour_seen = true;
+        return;
+    }
+    const Theme& t = c.theme;
+    const Step& now = kSteps[step];
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float width = t.px(380);
+    const ImVec2 text = ImGui::CalcTextSize(now.text, nullptr, false, width - t.px(32));
+    const float h = text.y + t.px(104);
+    ImGui::SetNextWindowPos(
+        {t.px(64), screen.y - h - t.px(26) - t.px(c.state.timeline_h) - t.px(24) -
+                       (c.state.workspace == Workspace::kTexture ? t.px(c.state.drawer_h) : 0)});
+    ImGui::SetNextWindowSize({width, h});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::Begin("##tour", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PopStyleVar(3);
+    ImGui::PopStyleColor();
+    const PanelName panel(c, "Tour");
+    heading(c, now.title);
+    wrapped(c, now.text, t.text);
+    ImGui::SetCursorPosY(h - t.px(40));
+    quiet(c, (std::to_string(step + 1) + " of " + std::to_string(kCount)).c_str());
+    ImGui::SameLine(width - t.px(184));
+    ImGui::SetCursorPosY(h - t.px(44));
+    const int before = step;
+    if (button(c, "End", {.look = Look::kQuiet, .width = t.px(64)})) step = -1;
+    ImGui::SameLine();
+    if (button(c, before + 1 < kCount ? "Next" : "Done",
+               {.look = Look::kPrimary, .width = t.px(88)}))
+        ++step;
+    ImGui::End();
+    if (step != before && step >= 0 && step < kCount) set_workspace(c.state, kSteps[step].workspace);
+    if (step == -1) c.settings.tour_seen = true;
+}
+
+}  // namespace weft::ui

@@ -1,0 +1,342 @@
+// What to render, what it will take, and what is being rendered.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/frame_range.h"
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.find_last_of('/');
+    return slash == std::string::npos ? std::string(".") : path.substr(0, slash);
+}
+
+constexpr const char* kExtensions[] = {"png", "exr", "tif", "jpg"};
+
+void fill_defaults(Ctx& c) {
+    ExportState& e = c.state.output;
+    if (e.filled && !e.output.empty()) return;
+    e.filled = true;
+    const Output& own = c.view.project.output;
+    if (!own.path.empty()) {
+        e.output = own.path.starts_with('/') || c.view.path.empty()
+                       ? own.path
+                       : folder_of(c.view.path) + "/" + own.path;
+        return;
+    }
+    std::string base = c.view.path.empty() ? std::string() : folder_of(c.view.path) + "/";
+    if (base.empty()) {
+        const char* home = std::getenv("HOME");
+        base = std::string(home ? home : "/tmp") + "/weft/" + c.view.title + "/";
+    }
+    e.output = base + "render_v001/####." + kExtensions[e.format];
+}
+
+std::vector<int> frames_of(const Ctx& c) {
+    const ExportState& e = c.state.output;
+    const auto& all = c.view.plate.frames;
+    std::vector<int> out;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const bool inside = (!c.view.mark_in || all[k] >= *c.view.mark_in) &&
+                            (!c.view.mark_out || all[k] <= *c.view.mark_out);
+        if (e.range == 0 || (e.range == 1 && inside) ||
+            (e.range == 2 && k % static_cast<std::size_t>(std::max(1, e.step)) == 0))
+            out.push_back(all[k]);
+    }
+    return out;
+}
+
+void set_extension(std::string& path, const char* extension) {
+    const std::size_t dot = path.find_last_of('.');
+    const std::size_t slash = path.find_last_of('/');
+    if (dot != std::string::npos && (slash == std::string::npos || dot > slash)) path.erase(dot);
+    path += std::string(".") + extension;
+}
+
+// "render_v001" → "render_v002".
+void version_up(std::string& path) {
+    const std::size_t at = path.rfind("_v");
+    if (at == std::string::npos) return;
+    std::size_t end = at + 2;
+    while (end < path.size() && path[end] >= '0' && path[end] <= '9')
+        ++end;
+    if (end == at + 2 || end - at > 8) return;
+    std::string number = std::to_string(std::stoi(path.substr(at + 2, end - at - 2)) + 1);
+    while (number.size() < end - at - 2)
+        number.insert(number.begin(), '0');
+    path.replace(at + 2, end - at - 2, number);
+}
+
+void estimate(Ctx& c, std::size_t frames) {
+    const SessionView& v = c.view;
+    const double pixels = static_cast<double>(v.plate.size.width) * v.plate.size.height;
+    // Rendering by what the preview took; the analysis costs several times that where it is not
+    // there yet.
+    const double frame_s = v.preview.frame_seconds > 0 ? v.preview.frame_seconds : pixels * 6e-7;
+    const double analysis_s = pixels * 1.6e-6 * static_cast<double>(v.project.regions.size());
+    const double seconds = static_cast<double>(frames) * (frame_s + analysis_s) + 4;
+    const double bytes_per_pixel[] = {2.2, 7.5, 3.2, 0.6};
+    const double disk = static_cast<double>(frames) * pixels *
+                        bytes_per_pixel[static_cast<std::size_t>(c.state.output.format)];
+    const double memory = 3e8 + pixels * 12 * 14;
+    const Theme& t = c.theme;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float w = ImGui::GetContentRegionAvail().x, h = t.px(58), third = w / 3;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + w, at.y + h}, t.field, t.radius);
+    const std::string values[] = {"about " + time_text(seconds), bytes_text(memory),
+                                  bytes_text(disk)};
+    constexpr const char* kNames[] = {"Time", "Memory", "Disk"};
+    for (int k = 0; k < 3; ++k) {
+        const float x = at.x + third * static_cast<float>(k);
+        text_in(list, t.small, {x, at.y + t.px(8)}, {x + third, at.y + t.px(24)}, t.quiet,
+                kNames[k]);
+        text_in(list, t.strong, {x, at.y + t.px(26)}, {x + third, at.y + t.px(50)}, t.text,
+                values[k].c_str());
+    }
+    ImGui::Dummy({w, h});
+}
+
+void export_card(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    begin_panel(c, "Export", size, t.panel, true, t.px(16));
+    ImGui::PushFont(t.title);
+    ImGui::TextUnformatted("Render");
+    ImGui::PopFont();
+    ImGui::Dummy({0, t.px(4)});
+    fill_defaults(c);
+    ExportState& e = c.state.output;
+    quiet(c, "Frames");
+    segments(c, "Frames", {"Whole shot", "Marked range", "Every nth"}, e.range);
+    if (e.range == 1 && !c.view.mark_in && !c.view.mark_out)
+        banner(c, icons::kInformation, t.warn, "Mark a range with I and O on the timeline.");
+    if (e.range == 2) {
+        double step = e.step;
+        if (slider(c,
+                   {.label = "Every",
+                    .unit = "frames",
+                    .min = 2,
+                    .max = 50,
+                    .standard = 10,
+                    .decimals = 0,
+                    .integer = true},
+                   step) != Change::kNone)
+            e.step = static_cast<int>(step);
+    }
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "Format");
+    if (segments(c, "Format", {"PNG", "EXR", "TIFF", "JPEG"}, e.format))
+        set_extension(e.output, kExtensions[e.format]);
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "To");
+    const float buttons = t.px(2 * 28 + 8);
+    input(c, "Output", e.output, "folder/####.png", ImGui::GetContentRegionAvail().x - buttons);
+    ImGui::SameLine();
+    if (icon_button(c, icons::kFolderOpen, "Choose a folder", false, nullptr, true, t.row)) {
+        c.state.browser.purpose = BrowserState::Purpose::kOutput;
+        c.state.browser.just_opened = true;
+    }
+    ImGui::SameLine(0, t.px(4));
+    if (icon_button(c, icons::kArrowUp, "Version up", false, nullptr, true, t.row))
+        version_up(e.output);
+    checkbox(c, "Review movie beside it", e.with_movie,
+             "An .mp4 of the result, to look at and to send round");
+    ImGui::Dummy({0, t.px(4)});
+    quiet(c, "Frames that are there already");
+    segments(c, "Existing", {"Stop", "Keep", "Overwrite"}, e.existing);
+    ImGui::Dummy({0, t.px(6)});
+    project_parameter(c, "settings.quality", "Quality");
+    project_parameter(c, "output.depth", "Depth");
+    ImGui::Dummy({0, t.px(6)});
+    const std::vector<int> frames = frames_of(c);
+    estimate(c, frames.size());
+    ImGui::Dummy({0, t.px(4)});
+    const Issue* problem = nullptr;
+    for (const Issue& issue : c.view.issues)
+        if (issue.severity == Severity::kError && !problem) problem = &issue;
+    // The output is chosen here, so that its absence in the document is no obstacle.
+    const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
+    if (!ready) banner(c, icons::kAlert, t.bad, problem->what + ". " + problem->what_to_do + ".");
+    const std::string label = "Render " + std::to_string(frames.size()) + " frames";
+    if (button(c, (label + "##submit").c_str(),
+               {.icon = icons::kRocket,
+                .look = Look::kPrimary,
+                .enabled = ready && !frames.empty(),
+                .width = -1})) {
+        SubmitJob job;
+        job.frames = format_frame_list(frames);
+        job.output = e.output;
+        if (e.with_movie) job.movie = folder_of(e.output) + ".mp4";
+        job.overwrite = e.existing == 2;
+        job.skip_existing = e.existing == 1;
+        c.emit(job);
+    }
+    c.note("Render frames");
+    end_panel(c);
+}
+
+const char* state_name(JobState state) {
+    switch (state) {
+        case JobState::kWaiting:
+            return "Waiting";
+        case JobState::kRunning:
+            return "Rendering";
+        case JobState::kPaused:
+            return "Paused";
+        case JobState::kDone:
+            return "Done";
+        case JobState::kCancelled:
+            return "Cancelled";
+        case JobState::kFailed:
+            return "Failed";
+    }
+    return "";
+}
+
+ImU32 state_color(const Theme& t, JobState state) {
+    switch (state) {
+        case JobState::kDone:
+            return t.good;
+        case JobState::kFailed:
+            return t.bad;
+        case JobState::kPaused:
+        case JobState::kCancelled:
+            return t.warn;
+        case JobState::kRunning:
+            return t.accent_hover;
+        case JobState::kWaiting:
+            break;
+    }
+    return t.quiet;
+}
+
+void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
+    const Theme& t = c.theme;
+    std::vector<std::pair<const char*, const char*>> shown;  // icon, name
+    const bool over = job.state == JobState::kDone || job.state == JobState::kFailed ||
+                      job.state == JobState::kCancelled;
+    if (job.state == JobState::kRunning) shown.emplace_back(icons::kPause, "Pause");
+    if (job.state == JobState::kPaused) shown.emplace_back(icons::kPlay, "Resume");
+    if (!over) shown.emplace_back(icons::kStop, "Cancel");
+    if (job.state == JobState::kFailed || job.state == JobState::kCancelled)
+        shown.emplace_back(icons::kRefresh, "Retry");
+    shown.emplace_back(icons::kConsole, "Log");
+    shown.emplace_back(icons::kFolderOpen, "Show the folder");
+    if (job.state == JobState::kDone) shown.emplace_back(icons::kReview, "Review");
+    if (over) shown.emplace_back(icons::kClose, "Remove");
+    const float side = t.px(28);
+    float x = right_top.x - side * static_cast<float>(shown.size());
+    for (const auto& [icon, name] : shown) {
+        ImGui::SetCursorScreenPos({x, right_top.y});
+        const std::string_view what = name;
+        if (icon_button(c, icon, name, what == "Log" && c.state.open_log == job.id)) {
+            if (what == "Pause") c.emit(CommandJob{job.id, JobCommand::kPause});
+            if (what == "Resume") c.emit(CommandJob{job.id, JobCommand::kResume});
+            if (what == "Cancel") c.emit(CommandJob{job.id, JobCommand::kCancel});
+            if (what == "Retry") c.emit(CommandJob{job.id, JobCommand::kRetry});
+            if (what == "Remove") c.emit(CommandJob{job.id, JobCommand::kRemove});
+            if (what == "Log") c.state.open_log = c.state.open_log == job.id ? 0 : job.id;
+            if (what == "Show the folder") c.pictures.reveal(folder_of(job.output));
+            if (what == "Review") {
+                c.emit(MeasureResult{job.output});
+                set_workspace(c.state, Workspace::kReview);
+            }
+        }
+        x += side;
+    }
+}
+
+void job_row(Ctx& c, const JobView& job) {
+    const Theme& t = c.theme;
+    ImGui::PushID(job.id);
+    const PanelName name(c, "Job " + std::to_string(job.id));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float w = ImGui::GetContentRegionAvail().x, h = t.px(92);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + w, at.y + h}, t.panel, t.radius);
+    const ImVec2 thumb_max(at.x + t.px(132), at.y + h - t.px(8));
+    const ImVec2 thumb_min(at.x + t.px(8), at.y + t.px(8));
+    list.AddRectFilled(thumb_min, thumb_max, t.field, t.radius);
+    if (job.thumbnail)
+        if (const ImTextureID id = c.pictures.texture(job.thumbnail)) {
+            const float scale = std::min((thumb_max.x - thumb_min.x) / job.thumbnail->size.width,
+                                         (thumb_max.y - thumb_min.y) / job.thumbnail->size.height);
+            const float iw = job.thumbnail->size.width * scale,
+                        ih = job.thumbnail->size.height * scale;
+            const ImVec2 a((thumb_min.x + thumb_max.x - iw) * 0.5f,
+                           (thumb_min.y + thumb_max.y - ih) * 0.5f);
+            list.AddImage(id, a, {a.x + iw, a.y + ih});
+        }
+    const float x = thumb_max.x + t.px(14), right = at.x + w - t.px(10);
+    text_in(list, t.strong, {x, at.y + t.px(10)}, {right - t.px(150), at.y + t.px(28)}, t.text,
+            fitted(job.label, right - t.px(170) - x).c_str(), 0);
+    ImGui::PushFont(t.small);
+    text_in(list, t.small, {x, at.y + t.px(29)}, {right, at.y + t.px(45)}, t.quiet,
+            fitted(job.output, right - x, true).c_str(), 0);
+    const float part =
+        job.total > 0 ? static_cast<float>(job.done) / static_cast<float>(job.total) : 0;
+    const float bar_y = at.y + t.px(50);
+    list.AddRectFilled({x, bar_y}, {right, bar_y + t.px(6)}, t.field, t.px(3));
+    if (part > 0)
+        list.AddRectFilled({x, bar_y}, {x + (right - x) * part, bar_y + t.px(6)},
+                           state_color(t, job.state), t.px(3));
+    std::string line = state_name(job.state);
+    if (job.state == JobState::kRunning && job.stage == "analyse") line = "Analysing";
+    if (job.state == JobState::kRunning && job.stage.empty()) line = "Starting";
+    if (!job.error.empty()) {
+        line += ". " + job.error;
+    } else {
+        if (job.total > 0)
+            line += "  " + std::to_string(job.done) + " of " + std::to_string(job.total);
+        if (job.left_s > 0) line += "   " + time_text(job.left_s) + " left";
+        if (job.frames_per_minute > 0)
+            line += "   " + number_text(job.frames_per_minute, 1) + " frames a minute";
+        if (job.elapsed_s > 0) line += "   " + time_text(job.elapsed_s) + " so far";
+    }
+    text_in(list, t.small, {x, at.y + t.px(61)}, {right, at.y + t.px(80)},
+            state_color(t, job.state), fitted(line, right - x).c_str(), 0);
+    ImGui::PopFont();
+    job_buttons(c, job, {right, at.y + t.px(4)});
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({w, h});
+    if (c.state.open_log == job.id && c.job_log) {
+        const std::string log = c.job_log(job.id);
+        ImGui::PushStyleColor(ImGuiCol_ChildBg, t.field);
+        ImGui::BeginChild("##log", {0, t.px(140)}, true);
+        ImGui::PushFont(t.small);
+        wrapped(c, log.empty() ? "The log is empty: nothing went wrong." : log, t.quiet);
+        ImGui::PopFont();
+        ImGui::EndChild();
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopID();
+}
+
+}  // namespace
+
+void jobs_page(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float left = std::min(t.px(400), size.x * 0.42f);
+    export_card(c, {left, size.y});
+    ImGui::SetCursorScreenPos({at.x + left, at.y});
+    begin_panel(c, "Queue", {size.x - left, size.y}, t.surround, true, t.px(16));
+    ImGui::PushFont(t.title);
+    ImGui::TextUnformatted("Queue");
+    ImGui::PopFont();
+    ImGui::Dummy({0, t.px(4)});
+    if (c.view.jobs.empty()) {
+        empty_state(c, icons::kJobs, "Nothing is rendering",
+                    "Set up a render on the left. It runs beside the editor: paint on while it "
+                    "works, or close the window and let it finish.");
+    }
+    for (auto job = c.view.jobs.rbegin(); job != c.view.jobs.rend(); ++job)
+        job_row(c, *job);
+    end_panel(c);
+}
+
+}  // namespace weft::ui

@@ -1,0 +1,44 @@
+#pragma once
+// The parts of the window. Each draws itself into the place it is given, from the session's view,
+// and emits actions.
+
+#include "ui/ctx.h"
+
+namespace weft::ui {
+
+void top_bar(Ctx& c, ImVec2 size);
+void status_bar(Ctx& c, ImVec2 size);
+void tool_strip(Ctx& c, ImVec2 size);
+void viewer(Ctx& c, ImVec2 size);
+void timeline(Ctx& c, ImVec2 size);
+void inspector(Ctx& c, ImVec2 size);
+void texture_drawer(Ctx& c, ImVec2 size);
+void review_panel(Ctx& c, ImVec2 size);
+void jobs_page(Ctx& c, ImVec2 size);
+void welcome(Ctx& c, ImVec2 size);
+
+// Parts of the inspector.
+void region_list(Ctx& c);
+void mask_inspector(Ctx& c);
+void texture_inspector(Ctx& c);
+void motion_inspector(Ctx& c);
+void light_inspector(Ctx& c);
+void review_inspector(Ctx& c);
+
+// What floats over the rest.
+void notices(Ctx& c);
+void command_palette(Ctx& c);
+void shortcut_sheet(Ctx& c);
+void settings_window(Ctx& c);
+void history_window(Ctx& c);
+void about_window(Ctx& c);
+void file_browser(Ctx& c);
+void leave_question(Ctx& c);
+void tour(Ctx& c);
+
+/// Sliders, choices and texts of one parameter of a region, from its entry in the table.
+void region_parameter(Ctx& c, const Region& region, std::string_view key,
+                      const char* label = nullptr);
+void project_parameter(Ctx& c, std::string_view key, const char* label = nullptr);
+
+}  // namespace weft::ui

@@ -1,0 +1,202 @@
+// Controls of the document's parameters, from the tables that also give the command line its flags.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+// How a number's slider runs; what may be typed is the table's own range.
+struct Shape {
+    std::string_view key;
+    const char* label;
+    double min, max;
+    int decimals;
+    bool logarithmic;
+    const char* unit;
+};
+constexpr Shape kShapes[] = {
+    {"placement.scale", "Scale", 0.1, 10, 2, true, "×"},
+    {"placement.rotate_deg", "Rotation", -180, 180, 1, false, "°"},
+    {"synthesis.overlap_px", "Overlap", 12, 96, 0, false, "px"},
+    {"synthesis.feather_px", "Feather", 0, 16, 0, false, "px"},
+    {"temporal.blend", "Freshness (α)", 0, 1, 2, false, ""},
+    {"temporal.weight", "Stability (λt)", 0, 10, 2, false, ""},
+    {"light.strength", "Strength", 0, 1, 2, false, ""},
+    {"output.jpeg_quality", "JPEG quality", 1, 100, 0, false, ""},
+    {"plate.fps", "Frame rate", 0, 120, 3, false, "fps"},
+};
+
+// Choices in an artist's words; the names in files stay as they are.
+struct Word {
+    std::string_view key, name;
+    const char* shown;
+};
+constexpr Word kWords[] = {
+    {"synthesis.seam", "graphcut", "Best cut (graph cut)"},
+    {"synthesis.seam", "dp", "Quick cut (row by row)"},
+    {"synthesis.seam", "none", "No cut (blocks)"},
+    {"temporal.mode", "locked", "Locked to the surface"},
+    {"temporal.mode", "paper", "Carried and blended"},
+    {"temporal.mode", "none", "Every frame anew"},
+    {"light.source", "plate", "From the plate"},
+    {"light.source", "none", "No light"},
+    {"light.source", "image", "From a picture"},
+    {"light.form", "gain", "Natural (gain)"},
+    {"light.form", "detail", "Plate's tones, texture's detail"},
+    {"light.form", "literal", "Plate's tones only"},
+    {"texture.wrap", "repeat", "Repeat"},
+    {"texture.wrap", "mirror", "Mirror"},
+    {"texture.wrap", "clamp", "Stretch the edge"},
+    {"motion.direction", "forward", "To the next frame"},
+    {"motion.direction", "backward", "To the previous frame"},
+    {"settings.quality", "draft", "Draft"},
+    {"settings.quality", "final", "Final"},
+};
+
+std::string shown_choice(const std::string& key, std::string_view name) {
+    for (const Word& word : kWords)
+        if (word.key == key && word.name == name) return word.shown;
+    return std::string(name);
+}
+
+const Shape* shape_of(const std::string& key) {
+    for (const Shape& shape : kShapes)
+        if (shape.key == key) return &shape;
+    return nullptr;
+}
+
+std::string label_of(const ParameterInfo& info, const char* given) {
+    if (given) return given;
+    if (const Shape* shape = shape_of(info.full_key())) return shape->label;
+    std::string label(info.key);
+    std::replace(label.begin(), label.end(), '_', ' ');
+    if (!label.empty())
+        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+    return label;
+}
+
+// Draws the control; `emit(value, final)` is called with what the artist set.
+template <class Emit>
+void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const char* given,
+             Emit&& emit) {
+    const std::string label = label_of(info, given), key = info.full_key(), help(info.help);
+    const Shape* shape = shape_of(key);
+    switch (info.kind) {
+        case ParameterKind::kInteger:
+        case ParameterKind::kNumber: {
+            SliderSpec spec;
+            spec.label = label.c_str();
+            spec.tip = help.c_str();
+            spec.integer = info.kind == ParameterKind::kInteger;
+            const auto number = [&](const ParameterValue& v) {
+                if (const auto* i = std::get_if<std::int64_t>(&v)) return static_cast<double>(*i);
+                const auto* d = std::get_if<double>(&v);
+                return d ? *d : 0.0;
+            };
+            spec.min = shape ? shape->min : std::max(info.min, -1000.0);
+            spec.max = shape ? shape->max : std::min(info.max, 1000.0);
+            spec.decimals = shape ? shape->decimals : 2;
+            spec.logarithmic = shape && shape->logarithmic;
+            spec.unit = shape ? shape->unit : "";
+            spec.standard = number(info.default_value);
+            spec.typed_min = info.min;
+            spec.typed_max = info.max;
+            double value = number(now);
+            const Change change = slider(c, spec, value);
+            if (change == Change::kNone) return;
+            const bool done = change == Change::kDone;
+            if (spec.integer)
+                emit(ParameterValue(static_cast<std::int64_t>(std::llround(value))), done);
+            else
+                emit(ParameterValue(value), done);
+            return;
+        }
+        case ParameterKind::kChoice: {
+            std::vector<std::string> names;
+            int value = -1, standard = -1;
+            const auto* text = std::get_if<std::string>(&now);
+            const auto* usual = std::get_if<std::string>(&info.default_value);
+            for (std::size_t k = 0; k < info.choices.size(); ++k) {
+                names.push_back(shown_choice(key, info.choices[k]));
+                if (text && *text == info.choices[k]) value = static_cast<int>(k);
+                if (usual && *usual == info.choices[k]) standard = static_cast<int>(k);
+            }
+            if (choice(c, label.c_str(), names, value, help.c_str(), standard))
+                emit(ParameterValue(std::string(info.choices[static_cast<std::size_t>(value)])),
+                     true);
+            return;
+        }
+        case ParameterKind::kFlag: {
+            bool value = std::get_if<bool>(&now) && std::get<bool>(now);
+            if (checkbox(c, label.c_str(), value, help.c_str())) emit(ParameterValue(value), true);
+            return;
+        }
+        case ParameterKind::kText:
+        case ParameterKind::kPath: {
+            const auto* text = std::get_if<std::string>(&now);
+            std::string value = text ? *text : std::string();
+            if (text_row(c, label.c_str(), value, "default", help.c_str()) == Change::kDone)
+                emit(ParameterValue(value), true);
+            return;
+        }
+        case ParameterKind::kPoint: {
+            const auto* xy = std::get_if<std::vector<double>>(&now);
+            std::vector<double> point = xy && xy->size() == 2 ? *xy : std::vector<double>{0, 0};
+            static constexpr const char* kAxis[] = {" X", " Y"};
+            for (std::size_t k = 0; k < 2; ++k) {
+                const std::string axis = label + kAxis[k];
+                SliderSpec spec;
+                spec.label = axis.c_str();
+                spec.tip = help.c_str();
+                spec.unit = "px";
+                spec.min = -500;
+                spec.max = 500;
+                spec.decimals = 1;
+                spec.typed_min = info.min;
+                spec.typed_max = info.max;
+                const Change change = slider(c, spec, point[k]);
+                if (change != Change::kNone) emit(ParameterValue(point), change == Change::kDone);
+            }
+            return;
+        }
+        case ParameterKind::kCorners:
+        case ParameterKind::kFrames: {
+            std::string value = format_parameter(info, now);
+            if (text_row(c, label.c_str(), value, "default", help.c_str()) != Change::kDone) return;
+            if (auto parsed = parse_parameter(info, value)) emit(*parsed, true);
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+void region_parameter(Ctx& c, const Region& region, std::string_view key, const char* label) {
+    const auto found = find_parameter(region_parameters(), key);
+    if (!found) return;
+    control(c, **found, (*found)->read(region), label, [&](const ParameterValue& value, bool done) {
+        const SetRegionParameter set{{region.id, {}}, std::string(key), value};
+        if (done)
+            c.emit(DoEdit{set});
+        else
+            c.emit(TryEdit{set});
+    });
+}
+
+void project_parameter(Ctx& c, std::string_view key, const char* label) {
+    const auto found = find_parameter(project_parameters(), key);
+    if (!found) return;
+    control(c, **found, (*found)->read(c.view.project), label,
+            [&](const ParameterValue& value, bool done) {
+                const SetProjectParameter set{std::string(key), value};
+                if (done)
+                    c.emit(DoEdit{set});
+                else
+                    c.emit(TryEdit{set});
+            });
+}
+
+}  // namespace weft::ui

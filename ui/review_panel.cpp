@@ -1,0 +1,168 @@
+// How steady the result is, frame by frame, beside the plate's own figures.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+using Row = QualityReport::Row;
+
+// The newest finished render, or nothing.
+const JobView* newest_render(const Ctx& c) {
+    const JobView* found = nullptr;
+    for (const JobView& job : c.view.jobs)
+        if (job.state == JobState::kDone) found = &job;
+    return found;
+}
+
+void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row::*plate) {
+    const Theme& t = c.theme;
+    const auto& rows = c.view.report.rows;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, t.field, t.radius);
+    text_in(list, t.strong, {at.x + t.px(10), at.y + t.px(4)}, {at.x + size.x, at.y + t.px(24)},
+            t.text, title, 0);
+    float most = 1;
+    for (const Row& row : rows)
+        most = std::max({most, row.*value, row.*plate});
+    const float x0 = at.x + t.px(40), x1 = at.x + size.x - t.px(12);
+    const float y0 = at.y + size.y - t.px(14), y1 = at.y + t.px(30);
+    const auto x_of = [&](std::size_t k) {
+        return x0 + (x1 - x0) * static_cast<float>(k) /
+                        static_cast<float>(std::max<std::size_t>(1, rows.size() - 1));
+    };
+    const auto y_of = [&](float v) { return y0 + (y1 - y0) * v / most; };
+    for (const float v : {0.0f, most * 0.5f, most}) {
+        list.AddLine({x0, y_of(v)}, {x1, y_of(v)}, faded(t.off, 0.35f));
+        text_in(list, t.small, {at.x, y_of(v) - t.px(8)}, {x0 - t.px(6), y_of(v) + t.px(8)},
+                t.quiet, number_text(static_cast<double>(v), most < 10 ? 1 : 0).c_str(), 1);
+    }
+    const auto line = [&](float Row::*which, ImU32 color, float width) {
+        std::vector<ImVec2> points;
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            points.push_back({x_of(k), y_of(rows[k].*which)});
+        list.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, width);
+    };
+    line(plate, t.off, t.px(1.5f));
+    line(value, t.accent_hover, t.px(2));
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (rows[k].frame == c.view.frame)
+            list.AddLine({x_of(k), y1}, {x_of(k), y0}, faded(t.text, 0.6f));
+    ImGui::PushID(title);
+    ImGui::InvisibleButton("##graph", size);
+    ImGui::PopID();
+    c.note(title);
+    if (ImGui::IsItemActive() && !rows.empty()) {
+        const float u = std::clamp((ImGui::GetIO().MousePos.x - x0) / (x1 - x0), 0.0f, 1.0f);
+        const auto k =
+            static_cast<std::size_t>(std::lround(u * static_cast<float>(rows.size() - 1)));
+        if (rows[k].frame != c.view.frame) c.emit(GoToFrame{rows[k].frame});
+    }
+    tooltip(c, "Blue: the result. Grey: the plate itself, over the same pixels. Drag to go there");
+}
+
+}  // namespace
+
+void review_panel(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    begin_panel(c, "Report", size, t.panel, false, t.px(10));
+    const QualityReport& report = c.view.report;
+    const ImVec2 origin = ImGui::GetWindowPos();
+    ImGui::GetWindowDrawList()->AddLine(origin, {origin.x + size.x, origin.y}, t.line);
+    switch (report.state) {
+        case QualityReport::State::kNone:
+            empty_state(c, icons::kReview, "Not measured yet",
+                        "Render the shot, then measure it here: flicker and brightness of every "
+                        "frame beside the plate's own.");
+            break;
+        case QualityReport::State::kFailed:
+            empty_state(c, icons::kAlert, "It could not be measured", report.error.c_str());
+            break;
+        case QualityReport::State::kMeasuring:
+            heading(c, "Measuring");
+            progress_bar(
+                c,
+                report.total ? static_cast<float>(report.done) / static_cast<float>(report.total)
+                             : 0,
+                std::to_string(report.done) + " of " + std::to_string(report.total) + " frames");
+            break;
+        case QualityReport::State::kDone: {
+            const ImVec2 room = ImGui::GetContentRegionAvail();
+            const float half = std::floor((room.x - t.gap) * 0.5f);
+            graph(c, {half, room.y}, "Flicker, in 8-bit steps a frame", &Row::flicker,
+                  &Row::flicker_plate);
+            ImGui::SameLine();
+            graph(c, {half, room.y}, "Brightness, in 8-bit steps", &Row::brightness,
+                  &Row::brightness_plate);
+            break;
+        }
+    }
+    end_panel(c);
+}
+
+void review_inspector(Ctx& c) {
+    const Theme& t = c.theme;
+    if (section(c, "Compare")) {
+        const PanelName panel(c, "Compare");
+        for (const char* id :
+             {"view.plate", "view.wipe", "view.difference", "view.side", "view.four"}) {
+            const Command* command = c.commands.find(id);
+            const bool on = command->checked(c);
+            if (button(c, command->name.c_str(),
+                       {.icon = command->icon,
+                        .look = on ? Look::kPrimary : Look::kNormal,
+                        .command = id,
+                        .width = -1}))
+                command->run(c);
+        }
+        quiet(c, "Hold ` to see the plate");
+        section_gap(c);
+    }
+    if (section(c, "Measure")) {
+        const PanelName panel(c, "Measure");
+        const JobView* job = newest_render(c);
+        if (!job) {
+            wrapped(c, "Render the shot first; its frames are measured against the plate.",
+                    t.quiet);
+            if (button(c, "Go to the render", {.icon = icons::kRocket, .width = -1}))
+                set_workspace(c.state, Workspace::kJobs);
+        } else {
+            info_row(c, "Of", job->output);
+            const bool busy = c.view.report.state == QualityReport::State::kMeasuring;
+            if (button(c, "Measure it",
+                       {.icon = icons::kReview,
+                        .look = Look::kPrimary,
+                        .enabled = !busy && c.view.selected_region() != nullptr,
+                        .tip = "Flicker of the selected region, compensated for its motion",
+                        .width = -1}))
+                c.emit(MeasureResult{job->output});
+        }
+        section_gap(c);
+    }
+    if (c.view.report.state == QualityReport::State::kDone && section(c, "Worst frames")) {
+        const PanelName panel(c, "Worst");
+        std::vector<Row> rows = c.view.report.rows;
+        std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+            return a.flicker - a.flicker_plate > b.flicker - b.flicker_plate;
+        });
+        for (std::size_t k = 0; k < std::min<std::size_t>(6, rows.size()); ++k) {
+            const Row& row = rows[k];
+            const std::string label = "Frame " + std::to_string(row.frame) + ":  " +
+                                      number_text(static_cast<double>(row.flicker), 2) +
+                                      " against " +
+                                      number_text(static_cast<double>(row.flicker_plate), 2);
+            if (button(c, label.c_str(),
+                       {.look = row.frame == c.view.frame ? Look::kNormal : Look::kQuiet,
+                        .width = -1}))
+                c.emit(GoToFrame{row.frame});
+        }
+        section_gap(c);
+    }
+}
+
+}  // namespace weft::ui

@@ -1,0 +1,189 @@
+#include "ui/shell.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft {
+
+Shell::Shell(EditorSettings& settings, PictureHost& pictures)
+    : settings_(settings), pictures_(pictures) {
+    commands_.bind(settings.keys);
+    const auto size = [&](const char* name, float& value) {
+        if (const auto found = settings.sizes.find(name); found != settings.sizes.end())
+            value = std::clamp(static_cast<float>(found->second), 60.0f, 1200.0f);
+    };
+    size("inspector", state_.inspector_w);
+    size("timeline", state_.timeline_h);
+    size("drawer", state_.drawer_h);
+    size("report", state_.review_h);
+}
+
+void Shell::set_look(bool dark, bool grey_surround, float scale) {
+    const float before = theme_.scale;
+    const bool fonts = theme_.regular == nullptr || before != scale;
+    Theme next = make_theme(dark, grey_surround, scale);
+    if (fonts) {
+        load_fonts(next);
+    } else {
+        next.regular = theme_.regular;
+        next.strong = theme_.strong;
+        next.small = theme_.small;
+        next.title = theme_.title;
+    }
+    theme_ = next;
+    apply_theme(theme_);
+    ImGui::GetIO().FontDefault = theme_.regular;
+}
+
+void Shell::open_dropped(const std::string& path, const SessionView& view) {
+    if (view.modified && !view.project.plate.path.empty()) {
+        state_.leave_asked = true;
+        state_.leave_then = path;
+        return;
+    }
+    dropped_.push_back(OpenAny{path});
+}
+
+void Shell::ask_to_leave() {
+    state_.leave_asked = true;
+    state_.leave_then.clear();
+}
+
+std::vector<Action> Shell::draw(const SessionView& view) {
+    actions_ = std::exchange(dropped_, {});
+    items_.clear();
+    state_.status.clear();
+    Ctx c{view,      state_,         settings_, theme_,   pictures_,
+          textures_, folders_,       commands_, actions_, recording_ ? &items_ : nullptr,
+          job_log,   dismiss_notice, {}};
+    const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
+                       state_.browser.purpose != BrowserState::Purpose::kNone;
+    if (!sheet) commands_.dispatch(c);
+    layout(c);
+    ui::notices(c);
+    ui::tour(c);
+    ui::history_window(c);
+    ui::settings_window(c);
+    ui::shortcut_sheet(c);
+    ui::about_window(c);
+    ui::file_browser(c);
+    ui::command_palette(c);
+    ui::leave_question(c);
+    return std::exchange(actions_, {});
+}
+
+void Shell::splitter(Ctx& c, const char* name, ImVec2 min, ImVec2 size, bool vertical, float& value,
+                     float sign, float least, float most, float standard) {
+    ImGui::SetCursorScreenPos(min);
+    ImGui::InvisibleButton(name, size);
+    c.note(name + 2);
+    const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+    if (hovered || active)
+        ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    if (active) {
+        const ImVec2 moved = ImGui::GetIO().MouseDelta;
+        value =
+            std::clamp(value + sign * (vertical ? moved.x : moved.y) / theme_.scale, least, most);
+    }
+    if (hovered && ImGui::IsMouseDoubleClicked(0)) value = standard;
+    if (ImGui::IsItemDeactivated()) settings_.sizes[name + 2] = static_cast<double>(value);
+    if (hovered || active) {
+        const ImVec2 max(min.x + size.x, min.y + size.y);
+        const float mid_x = (min.x + max.x) / 2, mid_y = (min.y + max.y) / 2;
+        const float half = theme_.splitter / 4;
+        if (vertical)
+            ImGui::GetWindowDrawList()->AddRectFilled({mid_x - half, min.y}, {mid_x + half, max.y},
+                                                      theme_.accent);
+        else
+            ImGui::GetWindowDrawList()->AddRectFilled({min.x, mid_y - half}, {max.x, mid_y + half},
+                                                      theme_.accent);
+    }
+}
+
+void Shell::layout(Ctx& c) {
+    const Theme& t = theme_;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(screen);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.line);
+    ImGui::Begin("##root", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
+    const auto at = [](float x, float y) { ImGui::SetCursorScreenPos({x, y}); };
+    const float top = t.px(40), bottom = t.px(26);
+    const bool panels = !state_.panels_hidden;
+    at(0, 0);
+    ui::top_bar(c, {screen.x, top});
+    at(0, screen.y - bottom);
+    ui::status_bar(c, {screen.x, bottom});
+    const float body_h = std::max(t.px(80), screen.y - top - bottom);
+    if (!c.view.open) {
+        at(0, top);
+        ui::welcome(c, {screen.x, body_h});
+        ImGui::End();
+        return;
+    }
+    if (state_.workspace == Workspace::kJobs) {
+        at(0, top);
+        ui::jobs_page(c, {screen.x, body_h});
+        ImGui::End();
+        return;
+    }
+    const float most_w = std::max(220.0f, screen.x / t.scale * 0.45f);
+    state_.inspector_w = std::clamp(state_.inspector_w, 240.0f, most_w);
+    const float inspector_w = panels ? std::floor(t.px(state_.inspector_w)) : 0;
+    const float tools_w = panels ? t.px(44) : 0;
+    const float timeline_h =
+        panels ? std::floor(t.px(std::clamp(state_.timeline_h, 96.0f, 260.0f))) : 0;
+    const bool drawer = panels && state_.workspace == Workspace::kTexture;
+    const bool report = panels && state_.workspace == Workspace::kReview;
+    const float least_view = t.px(120);
+    float extra_h = drawer ? t.px(state_.drawer_h) : report ? t.px(state_.review_h) : 0;
+    extra_h =
+        std::floor(std::clamp(extra_h, 0.0f, std::max(0.0f, body_h - timeline_h - least_view)));
+    const float left_w = screen.x - inspector_w - (panels ? 1 : 0);
+    const float view_h = body_h - timeline_h - extra_h;
+    if (panels) {
+        at(0, top);
+        ui::tool_strip(c, {tools_w, view_h});
+    }
+    at(tools_w + (panels ? 1 : 0), top);
+    ui::viewer(c, {left_w - tools_w - (panels ? 1 : 0), view_h});
+    if (drawer) {
+        at(0, top + view_h);
+        ui::texture_drawer(c, {left_w, extra_h});
+    }
+    if (report) {
+        at(0, top + view_h);
+        ui::review_panel(c, {left_w, extra_h});
+    }
+    if (panels) {
+        at(0, top + view_h + extra_h);
+        ui::timeline(c, {left_w, timeline_h});
+        at(screen.x - inspector_w, top);
+        ui::inspector(c, {inspector_w, body_h});
+        const float hit = t.splitter_hit;
+        splitter(c, "##inspector", {screen.x - inspector_w - hit / 2, top}, {hit, body_h}, true,
+                 state_.inspector_w, -1, 240, most_w, 320);
+        splitter(c, "##timeline", {0, top + view_h + extra_h - hit / 2}, {left_w, hit}, false,
+                 state_.timeline_h, -1, 96, 260, 112);
+        if (drawer)
+            splitter(c, "##drawer", {0, top + view_h - hit / 2}, {left_w, hit}, false,
+                     state_.drawer_h, -1, 150, 900, 288);
+        if (report)
+            splitter(c, "##report", {0, top + view_h - hit / 2}, {left_w, hit}, false,
+                     state_.review_h, -1, 120, 700, 240);
+    }
+    ImGui::End();
+}
+
+}  // namespace weft

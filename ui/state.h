@@ -1,0 +1,118 @@
+#pragma once
+// What the panels remember from frame to frame: where one looks and what is unfolded. None of it is
+// part of the document.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/action.h"
+#include "ui/picture_host.h"
+
+namespace weft {
+
+enum class Workspace : std::uint8_t { kMask, kTexture, kMotion, kLight, kReview, kJobs };
+inline constexpr int kWorkspaceCount = 6;
+[[nodiscard]] const char* workspace_name(Workspace workspace);
+
+enum class Tool : std::uint8_t { kPan, kBrush, kEraser, kLasso, kPolygon, kFlood, kPlace };
+
+enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBySide, kFourUp };
+
+struct ViewerState {
+    bool fit = true;
+    float zoom = 1;     ///< Screen pixels of a plate pixel.
+    Vec2 center{0, 0};  ///< Plate pixel in the middle of the view.
+    Compare compare = Compare::kResult;
+    float wipe = 0.5f;
+    bool hold_original = false;
+    bool mattes_shown = true;
+    DisplaySettings display;
+    std::optional<Vec2i> pixel;  ///< Under the mouse.
+    Vec3 value{0, 0, 0};
+    bool dragging_wipe = false;
+};
+
+struct BrushState {
+    Brush brush;
+    int tolerance = 24;
+    std::optional<Vec2> line_from;  ///< Where the last stroke ended: Shift draws a line from there.
+    std::vector<Vec2> outline;      ///< Of a lasso or polygon under way.
+    bool painting = false, lassoing = false;
+    bool resizing = false;
+};
+
+struct DrawerState {
+    std::string search;
+    std::string material;  ///< Empty: all.
+    bool favourites_only = false, recent_only = false;
+    std::string picked;  ///< Path of the texture in the large preview.
+};
+
+struct BrowserState {
+    enum class Purpose : std::uint8_t {
+        kNone,
+        kOpen,
+        kSaveProject,
+        kTexture,
+        kMatte,
+        kHoldout,
+        kMotion,
+        kOutput,
+        kTextureFolder
+    };
+    Purpose purpose = Purpose::kNone;
+    std::string folder, name, filter;
+    int selected = -1;
+    bool just_opened = false;
+};
+
+struct ExportState {
+    std::string frames, output, movie;
+    int range = 0;  ///< 0: whole shot, 1: marked range, 2: every nth.
+    int step = 10;
+    int format = 0;
+    int existing = 0;  ///< 0: refuse, 1: skip, 2: overwrite.
+    bool with_movie = true;
+    bool filled = false;
+};
+
+struct UiState {
+    Workspace workspace = Workspace::kMask;
+    Tool tool = Tool::kBrush;
+    ViewerState viewer;
+    BrushState brush;
+    DrawerState drawer;
+    BrowserState browser;
+    ExportState output;
+    float inspector_w = 320, timeline_h = 112, drawer_h = 288, review_h = 240;  ///< Unscaled.
+    bool panels_hidden = false;
+    bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
+    bool about_open = false;
+    std::string palette_text;
+    int palette_at = 0;
+    bool leave_asked = false;  ///< The window was asked to close.
+    bool leave = false;        ///< … and may.
+    std::string leave_then;    ///< "": quit; else a path to open after the question.
+    int tour_step = -1;        ///< −1: no tour.
+    bool placing = false;      ///< The texture is being moved on the canvas.
+    Placement placing_from;
+    std::string placing_key;
+    ParameterValue placing_value;
+    RegionId renaming = 0;
+    std::string rename_text;
+    std::string typing;  ///< Name of the value that is being typed.
+    std::string typing_text;
+    double drag_start = 0;  ///< Value of the slider that is being dragged, before.
+    bool drag_moved = false;
+    std::string rebinding;  ///< Command whose key is being changed.
+    int open_log = 0;       ///< Job whose log is unfolded.
+    std::string region_dragged;
+    std::string status;  ///< What the mouse is over, for the status bar.
+};
+
+/// Goes there, with the tool that one expects there.
+void set_workspace(UiState& state, Workspace workspace);
+
+}  // namespace weft

@@ -1,0 +1,329 @@
+// Textures: what there is, what suits the region, and one of them large.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+std::string lower(std::string text) {
+    for (char& ch : text)
+        ch = static_cast<char>(std::tolower(static_cast<unsigned char>(ch)));
+    return text;
+}
+
+bool listed(const std::vector<std::string>& list, const std::string& path) {
+    return std::find(list.begin(), list.end(), path) != list.end();
+}
+
+bool matches(const Ctx& c, const TextureCard& card, const std::string& wanted) {
+    const DrawerState& d = c.state.drawer;
+    if (!d.material.empty() && card.material != d.material) return false;
+    if (d.favourites_only && !listed(c.settings.favourites, card.path)) return false;
+    if (d.recent_only && !listed(c.settings.recent_textures, card.path)) return false;
+    if (wanted.empty()) return true;
+    std::string text = lower(card.name + " " + card.material);
+    for (const std::string& tag : card.tags)
+        text += " " + lower(tag);
+    return text.find(wanted) != std::string::npos;
+}
+
+void thumbnail(Ctx& c, const std::string& path, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(min, max, t.field, t.radius);
+    const PicturePtr picture = c.textures.thumbnail(path, static_cast<int>(t.px(128)));
+    if (!picture) return;
+    const ImTextureID id = c.pictures.texture(picture);
+    if (!id) return;
+    // A square out of its middle.
+    const float w = static_cast<float>(picture->size.width);
+    const float h = static_cast<float>(picture->size.height);
+    const float u = w > h ? 0.5f * (1 - h / w) : 0, v = h > w ? 0.5f * (1 - w / h) : 0;
+    list.AddImageRounded(id, min, max, {u, v}, {1 - u, 1 - v}, IM_COL32_WHITE, t.radius);
+}
+
+void drag_source(Ctx& c, const TextureCard& card) {
+    if (!ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) return;
+    ImGui::SetDragDropPayload("TEXTURE", card.path.c_str(), card.path.size() + 1);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = c.theme.px(72);
+    ImGui::Dummy({side, side});
+    thumbnail(c, card.path, at, {at.x + side, at.y + side});
+    ImGui::EndDragDropSource();
+}
+
+void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
+    const Theme& t = c.theme;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(8), t.px(8)});
+    ImGui::BeginChild("Materials", size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+    const PanelName name(c, "Materials");
+    std::map<std::string, int> counts;
+    for (const TextureCard& card : cards)
+        ++counts[card.material];
+    DrawerState& d = c.state.drawer;
+    const auto row = [&](const char* label, const char* icon, int count, bool active) {
+        ImGui::PushID(label);
+        const float w = ImGui::GetContentRegionAvail().x;
+        const bool pressed = ImGui::InvisibleButton("##material", {w, t.px(24)});
+        ImGui::PopID();
+        c.note(label);
+        const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        if (active) list.AddRectFilled(min, max, faded(t.accent, 0.28f), t.radius);
+        if (ImGui::IsItemHovered()) list.AddRectFilled(min, max, t.hover, t.radius);
+        icon_in(c, list, {min.x + t.px(2), min.y}, {min.x + t.px(22), max.y}, t.quiet, icon);
+        text_in(list, t.regular, {min.x + t.px(28), min.y}, {max.x - t.px(40), max.y}, t.text,
+                fitted(label, w - t.px(70)).c_str(), 0);
+        text_in(list, t.small, min, {max.x - t.px(8), max.y}, t.quiet,
+                std::to_string(count).c_str(), 1);
+        return pressed;
+    };
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(1)});
+    const bool all = d.material.empty() && !d.favourites_only && !d.recent_only;
+    const auto pick = [&](std::string material, bool favourites, bool recent) {
+        d.material = std::move(material);
+        d.favourites_only = favourites;
+        d.recent_only = recent;
+    };
+    if (row("All textures", icons::kFourUp, static_cast<int>(cards.size()), all))
+        pick("", false, false);
+    if (row("Favourites", icons::kHeart, static_cast<int>(c.settings.favourites.size()),
+            d.favourites_only))
+        pick("", true, false);
+    if (row("Recent", icons::kClock, static_cast<int>(c.settings.recent_textures.size()),
+            d.recent_only))
+        pick("", false, true);
+    ImGui::Dummy({0, t.px(6)});
+    for (const auto& [material, count] : counts)
+        if (row(material.c_str(), icons::kTagOutline, count, d.material == material))
+            pick(material, false, false);
+    ImGui::Dummy({0, t.px(6)});
+    if (button(c, "Add a folder…", {.icon = icons::kPlus, .look = Look::kQuiet, .width = -1})) {
+        c.state.browser.purpose = BrowserState::Purpose::kTextureFolder;
+        c.state.browser.just_opened = true;
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+}
+
+bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* caption,
+          const char* below) {
+    const Theme& t = c.theme;
+    ImGui::SetCursorScreenPos(at);
+    const float h = side + t.px(below ? 34 : 20);
+    ImGui::PushID(card.path.c_str());
+    const bool pressed = ImGui::InvisibleButton("##texture", {side, h});
+    c.note(caption);
+    const bool hovered = ImGui::IsItemHovered();
+    const bool twice = hovered && ImGui::IsMouseDoubleClicked(0);
+    drag_source(c, card);
+    ImGui::PopID();
+    thumbnail(c, card.path, at, {at.x + side, at.y + side});
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const bool picked = c.state.drawer.picked == card.path;
+    if (picked || hovered)
+        list.AddRect({at.x - 1, at.y - 1}, {at.x + side + 1, at.y + side + 1},
+                     picked ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(picked ? 2 : 1));
+    ImGui::PushFont(t.small);
+    text_in(list, t.small, {at.x, at.y + side + t.px(2)}, {at.x + side, at.y + side + t.px(18)},
+            picked ? t.text : t.quiet, fitted(caption, side).c_str(), 0);
+    if (below)
+        text_in(list, t.small, {at.x, at.y + side + t.px(17)},
+                {at.x + side, at.y + side + t.px(33)}, t.accent_hover, fitted(below, side).c_str(),
+                0);
+    ImGui::PopFont();
+    if (pressed) c.state.drawer.picked = card.path;
+    if (twice) c.emit(ApplyTexture{card.path, 0});
+    return pressed;
+}
+
+void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
+    const Region* region = c.view.selected_region();
+    if (!region) return;
+    const Theme& t = c.theme;
+    std::shared_ptr<const Matte> matte;
+    for (const RegionMatteView& shown : c.view.mattes)
+        if (shown.region == region->id) matte = shown.keep;
+    const std::string key = std::to_string(region->id) + "/" + std::to_string(cards.size());
+    if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
+        c.textures.suggest_for(key, c.view.plate_picture, matte);
+    const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
+    if (found.empty()) return;
+    const PanelName name(c, "Suggested");
+    ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
+    ImGui::TextUnformatted(("Suggested for " + region->name).c_str());
+    ImGui::PopStyleColor();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = t.px(72), step = t.px(172), room = ImGui::GetContentRegionAvail().x;
+    int shown = 0;
+    for (const TextureSuggestion& s : found) {
+        const auto card = std::find_if(cards.begin(), cards.end(),
+                                       [&](const TextureCard& x) { return x.path == s.path; });
+        const float x = at.x + step * static_cast<float>(shown);
+        if (card == cards.end() || x + side > at.x + room) continue;
+        cell(c, *card, {x, at.y}, side, card->name.c_str(), nullptr);
+        ImGui::PushFont(t.small);
+        ImGui::GetWindowDrawList()->AddText(t.small, t.small->FontSize,
+                                            {x + side + t.px(5), at.y + t.px(2)}, t.quiet,
+                                            s.reason.c_str(), nullptr, step - side - t.px(10));
+        ImGui::PopFont();
+        ++shown;
+    }
+    ImGui::SetCursorScreenPos({at.x, at.y + side + t.px(24)});
+}
+
+void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
+    const Theme& t = c.theme;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
+    ImGui::BeginChild("Grid", size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+    const PanelName name(c, "Textures");
+    const std::string wanted = lower(c.state.drawer.search);
+    std::vector<const TextureCard*> shown;
+    // The library knows its words better than a comparison of letters does.
+    const auto answered = c.textures.search(wanted);
+    if (answered) {
+        std::unordered_map<std::string_view, const TextureCard*> by_path;
+        for (const TextureCard& card : cards)
+            if (matches(c, card, "")) by_path[card.path] = &card;
+        for (const std::string& path : *answered)
+            if (const auto found = by_path.find(path); found != by_path.end())
+                shown.push_back(found->second);
+    }
+    for (const TextureCard& card : cards)
+        if ((!answered || !card.path.starts_with("db:")) && matches(c, card, wanted))
+            shown.push_back(&card);
+    if (wanted.empty() && c.state.drawer.material.empty()) suggested(c, cards);
+    if (shown.empty()) {
+        if (cards.empty())
+            empty_state(c, icons::kTexture, "No textures yet",
+                        "Add a folder with pictures of surfaces, on the left.");
+        else
+            empty_state(c, icons::kMagnify, "Nothing found",
+                        "Try another word, or all textures on the left.");
+        ImGui::EndChild();
+        return;
+    }
+    const float side = t.thumb, gap = t.px(10), row_h = side + t.px(26);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const int columns = std::max(1, static_cast<int>((room + gap) / (side + gap)));
+    const int rows = (static_cast<int>(shown.size()) + columns - 1) / columns;
+    // Only what is seen is drawn, and only that asks for its thumbnails.
+    ImGuiListClipper clipper;
+    clipper.Begin(rows, row_h);
+    while (clipper.Step()) {
+        for (int r = clipper.DisplayStart; r < clipper.DisplayEnd; ++r) {
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            for (int k = 0; k < columns; ++k) {
+                const auto index = static_cast<std::size_t>(r * columns + k);
+                if (index >= shown.size()) break;
+                cell(c, *shown[index], {at.x + static_cast<float>(k) * (side + gap), at.y}, side,
+                     shown[index]->name.c_str(), nullptr);
+            }
+            ImGui::SetCursorScreenPos(at);
+            ImGui::Dummy({0, row_h - ImGui::GetStyle().ItemSpacing.y});
+        }
+    }
+    ImGui::EndChild();
+}
+
+void large(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
+    const Theme& t = c.theme;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
+    ImGui::BeginChild("Large", size, true, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+    const PanelName name(c, "Large");
+    const auto card = std::find_if(cards.begin(), cards.end(), [&](const TextureCard& x) {
+        return x.path == c.state.drawer.picked;
+    });
+    if (card == cards.end()) {
+        empty_state(c, icons::kTexture, "One texture, large",
+                    "Click a texture to see it repeated here. Double-click puts it on the region.");
+        ImGui::EndChild();
+        return;
+    }
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    const float picture_h = std::max(t.px(60), room.y - t.px(84));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 max(at.x + room.x, at.y + picture_h);
+    list.AddRectFilled(at, max, t.field, t.radius);
+    if (const PicturePtr picture = c.textures.thumbnail(card->path, 512)) {
+        if (const ImTextureID id = c.pictures.texture(picture)) {
+            // Repeated, at one screen pixel a texel, so that its joins can be judged.
+            const float w = static_cast<float>(picture->size.width);
+            const float h = static_cast<float>(picture->size.height);
+            list.PushClipRect(at, max, true);
+            for (float y = at.y; y < max.y; y += h)
+                for (float x = at.x; x < max.x; x += w)
+                    list.AddImage(id, {x, y}, {x + w, y + h});
+            list.PopClipRect();
+        }
+    }
+    ImGui::SetCursorScreenPos({at.x, max.y + t.px(6)});
+    heading(c, fitted(card->name, room.x - t.px(40)).c_str());
+    ImGui::SameLine(room.x - t.px(18));
+    const bool favourite = listed(c.settings.favourites, card->path);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - t.px(4));
+    if (icon_button(c, favourite ? icons::kHeart : icons::kHeartOutline, "Favourite", favourite,
+                    nullptr, true, t.px(26))) {
+        if (favourite)
+            std::erase(c.settings.favourites, card->path);
+        else
+            c.settings.favourites.push_back(card->path);
+    }
+    const TextureCard known = c.textures.details(*card);
+    std::string facts = known.material;
+    if (!known.author.empty()) facts += " · " + known.author;
+    facts += " · " + (known.licence.empty() ? "licence not stated" : known.licence);
+    quiet(c, facts.c_str());
+    if (button(c, "Put it on the region",
+               {.icon = icons::kCheck,
+                .look = Look::kPrimary,
+                .enabled = c.view.selected_region() != nullptr,
+                .width = -1}))
+        c.emit(ApplyTexture{card->path, 0});
+    ImGui::EndChild();
+}
+
+}  // namespace
+
+void texture_drawer(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    begin_panel(c, "Drawer", size, t.panel, false, 0);
+    const auto cards = c.textures.cards();
+    const ImVec2 origin = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
+    const float left = t.px(196), right = std::clamp(size.x * 0.24f, t.px(200), t.px(320));
+    const float head = t.px(38), body = size.y - head;
+    ImGui::SetCursorScreenPos({origin.x + t.px(10), origin.y + t.px(6)});
+    input(c, "Search textures", c.state.drawer.search, "Search textures", t.px(260),
+          icons::kMagnify);
+    ImGui::SameLine();
+    const std::string activity = c.textures.activity();
+    const std::string count = std::to_string(cards->size()) + " textures" +
+                              (activity.empty() ? "" : "  ·  " + activity);
+    ImGui::AlignTextToFramePadding();
+    quiet(c, count.c_str());
+    ImGui::SetCursorScreenPos({origin.x, origin.y + head});
+    materials(c, *cards, {left, body});
+    ImGui::SetCursorScreenPos({origin.x + left, origin.y + head});
+    grid(c, *cards, {size.x - left - right, body});
+    ImGui::SetCursorScreenPos({origin.x + size.x - right, origin.y + head});
+    large(c, *cards, {right, body});
+    list.AddLine({origin.x + left, origin.y + head}, {origin.x + left, origin.y + size.y}, t.line);
+    list.AddLine({origin.x + size.x - right, origin.y + head},
+                 {origin.x + size.x - right, origin.y + size.y}, t.line);
+    end_panel(c);
+}
+
+}  // namespace weft::ui

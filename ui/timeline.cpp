@@ -1,0 +1,212 @@
+// Transport, ruler, keyframes, what is cached, and how sure or steady each frame is.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+void transport(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    const SessionView& v = c.view;
+    const ImVec2 origin = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImGui::SetCursorScreenPos({origin.x + t.px(8), origin.y + t.px(3)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(2), 0});
+    const bool on = v.plate.state == PlateView::State::kOpen;
+    const auto tool = [&](const char* id, const char* icon, const char* name, bool active = false) {
+        if (icon_button(c, icon, name, active, id, on, t.px(26))) c.commands.run(id, c);
+        ImGui::SameLine();
+    };
+    tool("time.first", icons::kSkipPrevious, "First frame");
+    tool("time.previous_key", icons::kChevronLeft, "Previous keyframe");
+    tool("time.previous", icons::kStepBack, "Previous frame");
+    tool("time.play", v.playing ? icons::kPause : icons::kPlay, v.playing ? "Pause" : "Play",
+         v.playing != 0);
+    tool("time.next", icons::kStepForward, "Next frame");
+    tool("time.next_key", icons::kChevronRight, "Next keyframe");
+    tool("time.last", icons::kSkipNext, "Last frame");
+    ImGui::PopStyleVar();
+    float x = ImGui::GetItemRectMax().x + t.px(14);
+    const auto say = [&](const std::string& text, ImU32 color) {
+        text_in(list, t.regular, {x, origin.y}, {x + t.px(400), origin.y + size.y}, color,
+                text.c_str(), 0);
+        x += ImGui::CalcTextSize(text.c_str()).x + t.px(14);
+    };
+    if (!on) return;
+    say(std::to_string(v.frame), t.text);
+    say(number_text(v.plate.fps, v.plate.fps == std::floor(v.plate.fps) ? 0 : 3) + " fps", t.quiet);
+    if (v.mark_in || v.mark_out) {
+        say("Marked " + std::to_string(v.mark_in.value_or(v.plate.frames.front())) + "–" +
+                std::to_string(v.mark_out.value_or(v.plate.frames.back())),
+            t.accent_hover);
+    }
+    // The legend of the tracks, right aligned.
+    float right = origin.x + size.x - t.px(12);
+    const auto legend = [&](const char* text, ImU32 color, int shape) {
+        const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text).x;
+        right -= w;
+        if (right < x + t.px(30)) return;
+        text_in(list, t.small, {right, origin.y}, {right + w, origin.y + size.y}, t.quiet, text, 0);
+        const ImVec2 at(right - t.px(10), origin.y + size.y * 0.5f);
+        const float r = t.px(4);
+        if (shape == 0)
+            list.AddQuadFilled({at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r},
+                               {at.x - r, at.y}, color);
+        else if (shape == 1)
+            list.AddTriangleFilled({at.x, at.y - r}, {at.x + r, at.y + r}, {at.x - r, at.y + r},
+                                   color);
+        else
+            list.AddRectFilled({at.x - r, at.y - t.px(2)}, {at.x + r, at.y + t.px(2)}, color);
+        right -= t.px(30);
+    };
+    legend("Result", t.good, 2);
+    legend("Plate in memory", faded(t.accent, 0.8f), 2);
+    legend("Reference frame", t.warn, 1);
+    legend("Painted matte", t.text, 0);
+}
+
+int nice_step(float frames_per_label) {
+    int step = 1;
+    for (const int candidate : {1, 2, 5, 10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000, 5000})
+        if (static_cast<float>(step = candidate) >= frames_per_label) break;
+    return step;
+}
+
+struct Scale {
+    float x0, x1;
+    int first, last;
+    [[nodiscard]] float x_of(double frame) const {
+        const double span = std::max(1, last - first);
+        return x0 + static_cast<float>((frame - first) / span) * (x1 - x0);
+    }
+    [[nodiscard]] int frame_at(float x) const {
+        const float u = std::clamp((x - x0) / std::max(1.0f, x1 - x0), 0.0f, 1.0f);
+        return first + static_cast<int>(std::lround(u * static_cast<float>(last - first)));
+    }
+    [[nodiscard]] float frame_width() const {
+        return (x1 - x0) / static_cast<float>(std::max(1, last - first));
+    }
+};
+
+void ruler(Ctx& c, ImDrawList& list, const Scale& scale, float top, float bottom) {
+    const Theme& t = c.theme;
+    const int step = nice_step(t.px(56) / scale.frame_width());
+    const int minor = std::max(1, step / 5);
+    for (int f = (scale.first / minor) * minor; f <= scale.last; f += minor) {
+        if (f < scale.first) continue;
+        const float x = std::floor(scale.x_of(f)) + 0.5f;
+        const bool labelled = f % step == 0;
+        list.AddLine({x, bottom - t.px(labelled ? 7 : 4)}, {x, bottom}, labelled ? t.quiet : t.off);
+        if (!labelled) continue;
+        const std::string text = std::to_string(f);
+        const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text.c_str()).x;
+        const float left = std::clamp(x - w * 0.5f, scale.x0 - t.px(8), scale.x1 + t.px(8) - w);
+        list.AddText(t.small, t.small->FontSize, {std::floor(left), top}, t.quiet, text.c_str());
+    }
+}
+
+void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float bottom) {
+    const Theme& t = c.theme;
+    const SessionView& v = c.view;
+    const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
+    const float cache_y = top, cache_h = t.px(4), keys_y = top + t.px(18);
+    list.AddRectFilled({scale.x0 - half, cache_y}, {scale.x1 + half, cache_y + cache_h},
+                       faded(t.field, 1.0f));
+    bool confident = false;
+    const auto run = [&](auto&& has, float y, float h, ImU32 color) {
+        // Neighbouring frames become one bar.
+        for (std::size_t k = 0; k < v.marks.size(); ++k) {
+            if (!has(v.marks[k])) continue;
+            const std::size_t from = k;
+            while (k + 1 < v.marks.size() && has(v.marks[k + 1]))
+                ++k;
+            list.AddRectFilled({scale.x_of(v.plate.frames[from]) - half, y},
+                               {scale.x_of(v.plate.frames[k]) + half, y + h}, color);
+        }
+    };
+    run([](const FrameMarks& m) { return m.plate; }, cache_y, cache_h, faded(t.accent, 0.8f));
+    run([](const FrameMarks& m) { return m.result; }, cache_y + cache_h + t.px(1), cache_h, t.good);
+    run([](const FrameMarks& m) { return m.failed; }, cache_y, 2 * cache_h, t.bad);
+    const float heat_y = bottom - t.px(8);
+    for (std::size_t k = 0; k < v.marks.size(); ++k) {
+        const FrameMarks& mark = v.marks[k];
+        const float x = std::floor(scale.x_of(v.plate.frames[k])) + 0.5f;
+        if (mark.confidence >= 0) {
+            confident = true;
+            // Dark where it is sure, light where it wants a look.
+            list.AddRectFilled({x - half, heat_y}, {x + half, heat_y + t.px(6)},
+                               heat_color(1.0f - mark.confidence));
+        }
+        const float r = t.px(5);
+        if (mark.reference)
+            list.AddTriangleFilled({x, keys_y - r}, {x + r, keys_y + r}, {x - r, keys_y + r},
+                                   t.warn);
+        if (mark.matte_key)
+            list.AddQuadFilled({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y},
+                               t.text);
+    }
+    const auto& report = v.report;
+    if (!confident && report.state == QualityReport::State::kDone) {
+        for (const auto& row : report.rows) {
+            const float x = scale.x_of(row.frame);
+            const float excess = row.flicker - row.flicker_plate;
+            list.AddRectFilled({x - half, heat_y}, {x + half, heat_y + t.px(6)},
+                               heat_color(0.15f + excess / 8.0f));
+        }
+    }
+}
+
+}  // namespace
+
+void timeline(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    begin_panel(c, "Timeline", size, t.panel, false, 0);
+    const ImVec2 origin = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
+    transport(c, {size.x, t.px(32)});
+    const SessionView& v = c.view;
+    const float top = origin.y + t.px(34), bottom = origin.y + size.y - t.px(6);
+    const ImVec2 field_min(origin.x + t.px(8), top), field_max(origin.x + size.x - t.px(8), bottom);
+    list.AddRectFilled(field_min, field_max, t.field, t.radius);
+    if (v.plate.frames.empty()) {
+        text_in(list, t.regular, field_min, field_max, t.off,
+                "The frames of the plate appear here");
+        end_panel(c);
+        return;
+    }
+    const Scale scale{field_min.x + t.px(16), field_max.x - t.px(16), v.plate.frames.front(),
+                      v.plate.frames.back()};
+    const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
+    if (v.mark_in || v.mark_out) {
+        const float a = scale.x_of(v.mark_in.value_or(scale.first)) - half;
+        const float b = scale.x_of(v.mark_out.value_or(scale.last)) + half;
+        list.AddRectFilled({a, top}, {b, bottom}, faded(t.accent, 0.13f));
+        for (const float x : {a, b})
+            list.AddRectFilled({x - t.px(1), top}, {x + t.px(1), bottom}, t.accent);
+    }
+    ruler(c, list, scale, top + t.px(3), top + t.px(26));
+    tracks(c, list, scale, top + t.px(28), bottom);
+    ImGui::SetCursorScreenPos(field_min);
+    ImGui::InvisibleButton("##scrub", {field_max.x - field_min.x, field_max.y - field_min.y});
+    c.note("Scrub");
+    if (ImGui::IsItemActive()) {
+        const int frame = scale.frame_at(ImGui::GetIO().MousePos.x);
+        if (frame != v.frame) c.emit(GoToFrame{frame});
+    }
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+        const float x = scale.x_of(scale.frame_at(ImGui::GetIO().MousePos.x));
+        list.AddLine({x, top}, {x, bottom}, faded(t.text, 0.25f));
+    }
+    // The playhead.
+    const float x = std::floor(scale.x_of(v.frame)) + 0.5f;
+    list.AddLine({x, top}, {x, bottom}, t.text, t.px(1.5f));
+    list.AddTriangleFilled({x - t.px(6), top}, {x + t.px(6), top}, {x, top + t.px(8)}, t.text);
+    end_panel(c);
+}
+
+}  // namespace weft::ui

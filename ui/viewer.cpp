@@ -1,0 +1,460 @@
+// The picture, what is drawn over it, and the tools that work on it.
+#include "ui/viewer.h"
+
+#include <imgui_internal.h>  // BeginDragDropTargetCustom
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+struct Pane {
+    ViewMap map;
+    PicturePtr a, b;
+    PictureDraw::Mode mode = PictureDraw::Mode::kSingle;
+    const char* label = "";
+    bool mattes = true;
+};
+
+PicturePtr shown_result(const Ctx& c) {
+    return c.view.result_picture ? c.view.result_picture : c.view.plate_picture;
+}
+
+std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
+    const SessionView& v = c.view;
+    const ViewerState& s = c.state.viewer;
+    ViewMap whole{min, max, s.center, s.zoom};
+    const auto part = [&](float x0, float y0, float x1, float y1) {
+        ViewMap map = whole;
+        const float w = max.x - min.x, h = max.y - min.y;
+        map.min = {std::floor(min.x + x0 * w), std::floor(min.y + y0 * h)};
+        map.max = {std::floor(min.x + x1 * w), std::floor(min.y + y1 * h)};
+        return map;
+    };
+    if (s.hold_original) return {{whole, v.plate_picture, nullptr, {}, "Plate", false}};
+    switch (s.compare) {
+        case Compare::kPlate:
+            return {{whole, v.plate_picture, nullptr, {}, "Plate", true}};
+        case Compare::kWipe:
+            return {{whole, v.plate_picture, shown_result(c), PictureDraw::Mode::kWipe, "", true}};
+        case Compare::kDifference:
+            return {{whole, v.plate_picture, shown_result(c), PictureDraw::Mode::kDifference,
+                     "Difference × 4", false}};
+        case Compare::kSideBySide:
+            return {{part(0, 0, 0.5f, 1), v.plate_picture, nullptr, {}, "Plate", true},
+                    {part(0.5f, 0, 1, 1), v.result_picture, nullptr, {}, "Result", false}};
+        case Compare::kFourUp: {
+            const auto stage = [&](Stage which) {
+                return v.stages.stages[static_cast<std::size_t>(which)];
+            };
+            return {{part(0, 0, 0.5f, 0.5f), v.plate_picture, nullptr, {}, "Plate", false},
+                    {part(0.5f, 0, 1, 0.5f), stage(Stage::kTexture), nullptr, {}, "Texture", false},
+                    {part(0, 0.5f, 0.5f, 1), stage(Stage::kLit), nullptr, {}, "With light", false},
+                    {part(0.5f, 0.5f, 1, 1), v.result_picture, nullptr, {}, "Final", false}};
+        }
+        case Compare::kResult:
+            break;
+    }
+    return {{whole, shown_result(c), nullptr, {}, "", true}};
+}
+
+void pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, ImU32 color,
+          const char* icon = nullptr) {
+    const Theme& t = c.theme;
+    const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text.c_str()).x +
+                    t.px(16) + (icon ? t.px(16) : 0);
+    const ImVec2 max(at.x + w, at.y + t.px(22));
+    list.AddRectFilled(at, max, t.scrim, t.radius);
+    if (icon) icon_in(c, list, {at.x + t.px(3), at.y}, {at.x + t.px(21), max.y}, color, icon);
+    text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
+}
+
+void draw_mattes(Ctx& c, ImDrawList& list, const Pane& pane) {
+    const SessionView& v = c.view;
+    const bool in_mask = c.state.workspace == Workspace::kMask;
+    const ImVec2 min = pane.map.to_screen({0, 0});
+    const ImVec2 max = pane.map.to_screen(
+        {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
+    for (const RegionMatteView& matte : v.mattes) {
+        const Region* region = region_by_id(v.project, matte.region);
+        if (!region || matte.pixels.empty()) continue;
+        if (v.solo != 0 && v.solo != matte.region) continue;
+        const bool selected = matte.region == v.selected;
+        if (!in_mask && !selected) continue;
+        MatteDraw draw;
+        draw.pixels = matte.pixels;
+        draw.key = matte.region;
+        draw.version = matte.version;
+        draw.changed = matte.changed;
+        draw.min = min;
+        draw.max = max;
+        draw.clip_min = pane.map.min;
+        draw.clip_max = pane.map.max;
+        draw.color = region_color(region->color, region->id);
+        // While one works on the texture only the outline shows, or its colour would mislead.
+        draw.opacity = !in_mask ? 0.0f : selected ? 0.38f : 0.14f;
+        draw.outline = selected;
+        c.pictures.draw(list, draw);
+    }
+}
+
+void draw_overlay(Ctx& c, ImDrawList& list, const Pane& pane) {
+    const auto& over = c.view.overlay_picture;
+    if (!over) return;
+    const Theme& t = c.theme;
+    MatteDraw draw;
+    draw.pixels = over->value;
+    draw.where = over->where;
+    draw.key = 1'000'000;
+    draw.version = over->id;
+    draw.heat = over->kind != Overlay::kGrid;
+    draw.color = t.text;
+    draw.opacity = over->kind == Overlay::kSeams ? 1.0f : 0.75f;
+    draw.min = pane.map.to_screen({0, 0});
+    draw.max = pane.map.to_screen(
+        {static_cast<float>(over->value.width()), static_cast<float>(over->value.height())});
+    draw.clip_min = pane.map.min;
+    draw.clip_max = pane.map.max;
+    if (over->kind != Overlay::kMotion) {
+        c.pictures.draw(list, draw);
+        return;
+    }
+    list.PushClipRect(pane.map.min, pane.map.max, true);
+    for (const auto& arrow : over->arrows) {
+        const ImVec2 from = pane.map.to_screen(arrow.to), to = pane.map.to_screen(arrow.at);
+        const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
+        list.AddLine(from, to, IM_COL32(0, 0, 0, 160), t.px(3));
+        list.AddLine(from, to, t.warn, t.px(1.5f));
+        if (length < t.px(5)) {
+            list.AddCircleFilled(to, t.px(2), t.warn, 8);
+            continue;
+        }
+        const float ux = dx / length, uy = dy / length, h = t.px(5);
+        list.AddTriangleFilled(to, {to.x - h * ux - 0.6f * h * uy, to.y - h * uy + 0.6f * h * ux},
+                               {to.x - h * ux + 0.6f * h * uy, to.y - h * uy - 0.6f * h * ux},
+                               t.warn);
+    }
+    list.PopClipRect();
+}
+
+// The legend that stands beside every heat picture.
+void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    const auto& over = c.view.overlay_picture;
+    const Theme& t = c.theme;
+    if (c.view.overlay == Overlay::kNone) return;
+    static constexpr const char* kNames[] = {"",      "Texture grid", "Stretch",
+                                             "Light", "Seams",        "Motion"};
+    const std::string name = kNames[static_cast<int>(c.view.overlay)];
+    const float w = t.px(190),
+                h = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion
+                        ? t.px(52)
+                        : t.px(26);
+    const ImVec2 a(max.x - w - t.px(10), min.y + t.px(10)),
+        b(max.x - t.px(10), min.y + t.px(10) + h);
+    list.AddRectFilled(a, b, t.scrim, t.radius);
+    text_in(
+        list, t.small, {a.x + t.px(8), a.y}, {b.x, a.y + t.px(24)}, t.text,
+        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": being made…")).c_str(),
+        0);
+    if (h < t.px(40)) return;
+    constexpr int kSteps = 48;
+    const float x0 = a.x + t.px(8), x1 = b.x - t.px(8);
+    for (int k = 0; k < kSteps; ++k) {
+        const float u0 = static_cast<float>(k) / kSteps, u1 = static_cast<float>(k + 1) / kSteps;
+        list.AddRectFilled({x0 + u0 * (x1 - x0), a.y + t.px(24)},
+                           {x0 + u1 * (x1 - x0) + 0.5f, a.y + t.px(32)}, heat_color(u0));
+    }
+    text_in(list, t.small, {x0, a.y + t.px(32)}, {x1, b.y}, t.quiet,
+            number_text(static_cast<double>(over->low), 0).c_str(), 0);
+    text_in(list, t.small, {x0, a.y + t.px(32)}, {x1, b.y}, t.quiet,
+            number_text(static_cast<double>(over->high), 0).c_str(), 1);
+}
+
+// What the picture is, and what is being worked out, in words.
+void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    const SessionView& v = c.view;
+    const Theme& t = c.theme;
+    ImVec2 at(min.x + t.px(10), min.y + t.px(10));
+    if (!v.frame_error.empty()) {
+        pill(c, list, at, fitted(v.frame_error, max.x - min.x - t.px(60)), t.bad, icons::kAlert);
+        return;
+    }
+    if (c.state.viewer.hold_original || c.state.viewer.compare == Compare::kPlate) {
+        pill(c, list, at, "Plate", t.text);
+        return;
+    }
+    if (!v.result_wanted) {
+        std::string what = "Plate";
+        if (const Region* region = v.selected_region())
+            if (const auto found = v.unready.find(region->id); found != v.unready.end())
+                what += "  ·  " + found->second;
+        if (v.project.regions.empty()) what += "  ·  Add a region to begin";
+        pill(c, list, at, what, t.text);
+        return;
+    }
+    if (v.preview.state == PreviewView::State::kFailed) {
+        pill(c, list, at, fitted("No result: " + v.preview.error, max.x - min.x - t.px(60)), t.bad,
+             icons::kAlert);
+        return;
+    }
+    if (v.result_current && !v.stages.approximate) {
+        pill(c, list, at, v.preview_quality == Quality::kDraft ? "Result, draft" : "Result", t.good,
+             icons::kCheck);
+        return;
+    }
+    std::string what;
+    switch (v.preview.state) {
+        case PreviewView::State::kOpening:
+            what = "Reading the shot…";
+            break;
+        case PreviewView::State::kAnalysing:
+            what =
+                v.analysis_paused ? "Plate  ·  Analysis is paused" : "Plate  ·  Analysing the shot";
+            if (!v.analysis_paused && v.preview.total > 0) {
+                what +=
+                    " " + std::to_string(v.preview.done) + "/" + std::to_string(v.preview.total);
+                if (v.preview.seconds_left > 0)
+                    what += ", " + time_text(v.preview.seconds_left) + " left";
+            }
+            break;
+        case PreviewView::State::kGrowing:
+            what = "Growing the texture…";
+            break;
+        default:
+            what = "Updating…";
+    }
+    pill(c, list, at, what, t.warn, icons::kTimer);
+    if (v.preview.state == PreviewView::State::kAnalysing && v.preview.total > 0 &&
+        !v.analysis_paused) {
+        const float w = t.px(220), y = at.y + t.px(25);
+        const float part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
+        list.AddRectFilled({at.x, y}, {at.x + w, y + t.px(3)}, t.scrim, t.px(2));
+        list.AddRectFilled({at.x, y}, {at.x + w * part, y + t.px(3)}, t.warn, t.px(2));
+    }
+}
+
+// Zoom, exposure, gamma, channels and comparisons, at the foot of the picture.
+void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    ViewerState& s = c.state.viewer;
+    const float h = t.px(30), bar_w = t.px(474);
+    if (max.x - min.x < bar_w + t.px(20)) return;
+    const ImVec2 at(std::floor(max.x - bar_w - t.px(10)), max.y - h - t.px(10));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + bar_w, at.y + h}, t.scrim, t.radius);
+    ImGui::SetCursorScreenPos({at.x + t.px(4), at.y + t.px(2)});
+    const PanelName name(c, "View");
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(2), 0});
+    const auto value = [&](const char* id, const std::string& text, float width, const char* tip,
+                           const char* command) {
+        ImGui::InvisibleButton(id, {width, t.px(26)});
+        c.note(id + 2);
+        text_in(list, t.small, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), t.text,
+                text.c_str());
+        tooltip(c, tip, command);
+    };
+    value("##Zoom", number_text(100.0 * static_cast<double>(s.zoom), 0) + "%", t.px(48),
+          "Zoom. Wheel to zoom, click to fit", "view.fit");
+    if (ImGui::IsItemClicked()) s.fit = true;
+    ImGui::SameLine();
+    value("##Exposure", "exp " + number_text(static_cast<double>(s.display.exposure), 2), t.px(66),
+          "Exposure of the view in stops. Drag, or use , and .", nullptr);
+    if (ImGui::IsItemActive()) s.display.exposure += ImGui::GetIO().MouseDelta.x * 0.01f / t.scale;
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) s.display.exposure = 0;
+    ImGui::SameLine();
+    value("##Gamma", "γ " + number_text(static_cast<double>(s.display.gamma), 2), t.px(54),
+          "Gamma of the view. Drag to change", nullptr);
+    if (ImGui::IsItemActive())
+        s.display.gamma = std::clamp(
+            s.display.gamma + ImGui::GetIO().MouseDelta.x * 0.005f / t.scale, 0.2f, 4.0f);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) s.display.gamma = 1;
+    ImGui::SameLine();
+    constexpr const char* kChannels[] = {"RGB", "R", "G", "B", "Y"};
+    value("##Channel", kChannels[static_cast<int>(s.display.channel)], t.px(40),
+          "Channel. Click for the next one", "view.color");
+    if (ImGui::IsItemClicked())
+        s.display.channel =
+            static_cast<DisplaySettings::Channel>((static_cast<int>(s.display.channel) + 1) % 5);
+    ImGui::SameLine(0, t.px(10));
+    const auto tool = [&](const char* id) {
+        const Command* command = c.commands.find(id);
+        const bool enabled = !command->enabled || command->enabled(c);
+        if (icon_button(c, command->icon, command->name.c_str(), command->checked(c), id, enabled,
+                        t.px(26)))
+            command->run(c);
+        ImGui::SameLine();
+    };
+    for (const char* id : {"view.plate", "view.wipe", "view.difference", "view.side", "view.four"})
+        tool(id);
+    ImGui::SameLine(0, t.px(10));
+    for (const char* id : {"view.mattes", "view.grid", "view.seams"})
+        tool(id);
+    ImGui::PopStyleVar();
+}
+
+void read_pixel(Ctx& c, const ViewMap& map, const PicturePtr& picture, bool hovered) {
+    ViewerState& s = c.state.viewer;
+    s.pixel.reset();
+    if (!hovered || !picture) return;
+    const Vec2 p = map.to_plate(ImGui::GetIO().MousePos);
+    const Vec2i at(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
+    if (!rect_of(picture->size).contains(at.x, at.y)) return;
+    s.pixel = at;
+    s.value = picture->at(at.x, at.y);
+}
+
+void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+    ViewerState& s = c.state.viewer;
+    const ImGuiIO& io = ImGui::GetIO();
+    if (hovered && io.MouseWheel != 0) {
+        const float zoom =
+            std::clamp(s.zoom * std::pow(1.2f, io.MouseWheel), kLeastZoom, kMostZoom);
+        s.center = zoom_about(map, io.MousePos, zoom);
+        s.zoom = zoom;
+        s.fit = false;
+    }
+    const bool pan = ImGui::IsMouseDragging(2, 0) ||
+                     (c.state.tool == Tool::kPan && active && ImGui::IsMouseDragging(0, 1));
+    if (pan && (hovered || active)) {
+        s.center.x -= io.MouseDelta.x / s.zoom;
+        s.center.y -= io.MouseDelta.y / s.zoom;
+        s.fit = false;
+    }
+}
+
+// The line of the wipe can be taken and moved.
+bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
+    ViewerState& s = c.state.viewer;
+    if (s.compare != Compare::kWipe || s.hold_original) return false;
+    const float width = static_cast<float>(c.view.plate.size.width);
+    const float x = map.to_screen({s.wipe * width, 0}).x;
+    const bool near = hovered && std::abs(ImGui::GetIO().MousePos.x - x) < c.theme.px(7);
+    if (near && ImGui::IsMouseClicked(0)) s.dragging_wipe = true;
+    if (!ImGui::IsMouseDown(0)) s.dragging_wipe = false;
+    if (s.dragging_wipe)
+        s.wipe = std::clamp(map.to_plate(ImGui::GetIO().MousePos).x / width, 0.0f, 1.0f);
+    if (near || s.dragging_wipe) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddLine({x, map.min.y}, {x, map.max.y}, IM_COL32(0, 0, 0, 140), c.theme.px(3));
+    list.AddLine({x, map.min.y}, {x, map.max.y}, c.theme.accent_hover, c.theme.px(1));
+    const float y = map.max.y - c.theme.px(64);
+    list.AddCircleFilled({x, y}, c.theme.px(9), c.theme.accent, 24);
+    icon_in(c, list, {x - c.theme.px(9), y - c.theme.px(9)}, {x + c.theme.px(9), y + c.theme.px(9)},
+            c.theme.on_accent, icons::kCompare);
+    return near || s.dragging_wipe;
+}
+
+void no_picture(Ctx& c) {
+    const PlateView& plate = c.view.plate;
+    switch (plate.state) {
+        case PlateView::State::kNone:
+            empty_state(c, icons::kFilm, "No plate yet",
+                        "Drop a folder of frames, a sequence or a movie here, or press Ctrl+O to "
+                        "find one.");
+            break;
+        case PlateView::State::kOpening:
+            empty_state(c, icons::kTimer, "Opening the plate…", plate.path.c_str());
+            break;
+        case PlateView::State::kFailed:
+            empty_state(c, icons::kAlert, "The plate cannot be opened", plate.error.c_str());
+            break;
+        case PlateView::State::kOpen:
+            if (!c.view.frame_error.empty())
+                empty_state(c, icons::kAlert, "This frame cannot be read",
+                            c.view.frame_error.c_str());
+            break;
+    }
+}
+
+}  // namespace
+
+void viewer(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    begin_panel(c, "Viewer", size, t.surround, false, 0);
+    const ImVec2 min = ImGui::GetCursorScreenPos(), max(min.x + size.x, min.y + size.y);
+    ViewerState& s = c.state.viewer;
+    const bool two_wide = s.compare == Compare::kSideBySide, four = s.compare == Compare::kFourUp;
+    const Size plate = c.view.plate.size;
+    if (s.fit && !plate.empty()) {
+        const ImVec2 one(size.x * (two_wide || four ? 0.5f : 1.0f), size.y * (four ? 0.5f : 1.0f));
+        s.zoom = fit_zoom(one, plate, t.px(four || two_wide ? 4 : 12));
+        s.center = Vec2(static_cast<float>(plate.width), static_cast<float>(plate.height)) * 0.5f;
+    }
+    s.hold_original =
+        !ImGui::GetIO().WantTextInput && chord_down(*parse_chord("`")) && !ImGui::GetIO().KeyCtrl;
+    if (!c.view.plate_picture) {
+        no_picture(c);
+        if (c.view.plate.state != PlateView::State::kOpen) {
+            end_panel(c);
+            return;
+        }
+    }
+    ImGui::SetCursorScreenPos(min);
+    ImGui::SetItemAllowOverlap();
+    ImGui::InvisibleButton("##canvas", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                               ImGuiButtonFlags_MouseButtonRight);
+    c.note("Canvas");
+    ImGui::SetItemAllowOverlap();
+    const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const std::vector<Pane> panes = panes_of(c, min, max);
+    const Vec2 corner(static_cast<float>(plate.width), static_cast<float>(plate.height));
+    for (const Pane& pane : panes) {
+        if (pane.a || pane.b) {
+            PictureDraw draw;
+            draw.a = pane.a ? pane.a : pane.b;
+            draw.b = pane.b;
+            draw.mode = pane.a && pane.b ? pane.mode : PictureDraw::Mode::kSingle;
+            draw.min = pane.map.to_screen({0, 0});
+            draw.max = pane.map.to_screen(corner);
+            draw.clip_min = pane.map.min;
+            draw.clip_max = pane.map.max;
+            draw.wipe = s.wipe;
+            draw.smooth = s.zoom < 4;
+            draw.display = s.display;
+            c.pictures.draw(list, draw);
+        } else if (c.view.plate_picture) {
+            text_in(list, t.regular, pane.map.min, pane.map.max, t.off,
+                    c.view.result_wanted ? "Being worked out…" : "Nothing to show yet");
+        }
+        if (pane.mattes && s.mattes_shown) draw_mattes(c, list, pane);
+        draw_overlay(c, list, pane);
+        if (panes.size() > 1) {
+            list.AddRect(pane.map.min, pane.map.max, t.line);
+            if (&pane != &panes.front() || !four)
+                pill(c, list, {pane.map.min.x + t.px(10), pane.map.max.y - t.px(32)}, pane.label,
+                     t.text);
+            else
+                pill(c, list, {pane.map.min.x + t.px(10), pane.map.max.y - t.px(32)}, pane.label,
+                     t.text);
+        }
+    }
+    // The pane under the mouse is the one that is worked in; all share zoom and centre.
+    ViewMap map = panes.front().map;
+    for (const Pane& pane : panes)
+        if (pane.map.contains(ImGui::GetIO().MousePos)) map = pane.map;
+    read_pixel(c, map,
+               c.view.result_picture && s.compare != Compare::kPlate ? c.view.result_picture
+                                                                     : c.view.plate_picture,
+               hovered);
+    navigate(c, map, hovered, active);
+    const bool wiping = panes.size() == 1 && move_wipe(c, map, hovered);
+    if (!wiping) viewer_tools(c, map, hovered, active);
+    draw_legend(c, list, min, max);
+    draw_state(c, list, min, max);
+    view_controls(c, min, max);
+    if (ImGui::BeginDragDropTargetCustom(ImRect(min, max), ImGui::GetID("##drop"))) {
+        if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("TEXTURE"))
+            drop_texture(c, map, std::string(static_cast<const char*>(payload->Data)));
+        ImGui::EndDragDropTarget();
+    }
+    end_panel(c);
+}
+
+}  // namespace weft::ui

@@ -1,0 +1,16 @@
+#pragma once
+// Internal to the viewer.
+
+#include <string>
+
+#include "ui/ctx.h"
+#include "ui/view_map.h"
+
+namespace weft::ui {
+
+/// Painting, shapes and placing with the mouse on the canvas.
+void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active);
+/// Applies a texture to the region under the mouse, or to the selected one.
+void drop_texture(Ctx& c, const ViewMap& map, const std::string& path);
+
+}  // namespace weft::ui

@@ -1,0 +1,212 @@
+// Painting, shapes and placing with the mouse.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/viewer.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+Brush brush_now(const Ctx& c) {
+    Brush brush = c.state.brush.brush;
+    const bool erase = c.state.tool == Tool::kEraser;
+    brush.subtract = erase != ImGui::GetIO().KeyAlt;
+    return brush;
+}
+
+void brush_ring(Ctx& c, const ViewMap& map) {
+    const Brush brush = brush_now(c);
+    const float r = std::max(2.0f, brush.radius_px * map.zoom);
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const int segments = std::clamp(static_cast<int>(r), 16, 96);
+    list.AddCircle(at, r + 1, IM_COL32(0, 0, 0, 150), segments, c.theme.px(1));
+    list.AddCircle(at, r, brush.subtract ? c.theme.bad : IM_COL32(255, 255, 255, 230), segments,
+                   c.theme.px(1));
+    const float core = r * brush.hardness;
+    if (brush.hardness < 0.95f && core > 3)
+        list.AddCircle(at, core, IM_COL32(255, 255, 255, 80), segments, c.theme.px(1));
+    const float k = c.theme.px(3);
+    list.AddLine({at.x - k, at.y}, {at.x + k, at.y}, IM_COL32(255, 255, 255, 200));
+    list.AddLine({at.x, at.y - k}, {at.x, at.y + k}, IM_COL32(255, 255, 255, 200));
+    ImGui::SetMouseCursor(ImGuiMouseCursor_None);
+}
+
+void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+    BrushState& b = c.state.brush;
+    const ImGuiIO& io = ImGui::GetIO();
+    const Vec2 at = map.to_plate(io.MousePos);
+    if (hovered || b.painting) brush_ring(c, map);
+    // Ctrl and the right button drag the size, as other painters do.
+    if (hovered && io.KeyCtrl && ImGui::IsMouseDragging(1, 0))
+        b.brush.radius_px =
+            std::clamp(b.brush.radius_px + io.MouseDelta.x / map.zoom, 0.5f, 2000.0f);
+    if (!b.painting && active && ImGui::IsMouseClicked(0)) {
+        b.painting = true;
+        if (io.KeyShift && b.line_from) {
+            c.emit(BeginStroke{brush_now(c), *b.line_from, 1});
+            c.emit(ContinueStroke{at, 1});
+        } else {
+            c.emit(BeginStroke{brush_now(c), at, 1});
+        }
+    } else if (b.painting && ImGui::IsMouseDown(0)) {
+        if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) c.emit(ContinueStroke{at, 1});
+    }
+    if (b.painting && !ImGui::IsMouseDown(0)) {
+        b.painting = false;
+        b.line_from = at;
+        c.emit(EndStroke{});
+    }
+}
+
+void draw_outline(Ctx& c, const ViewMap& map, const Vec2* rubber) {
+    const std::vector<Vec2>& points = c.state.brush.outline;
+    if (points.empty()) return;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::vector<ImVec2> line;
+    for (const Vec2 p : points)
+        line.push_back(map.to_screen(p));
+    if (rubber) line.push_back(map.to_screen(*rubber));
+    const int count = static_cast<int>(line.size());
+    list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 180), 0, c.theme.px(3));
+    list.AddPolyline(line.data(), count, c.theme.accent_hover, 0, c.theme.px(1.5f));
+}
+
+void finish_outline(Ctx& c) {
+    BrushState& b = c.state.brush;
+    if (b.outline.size() > 2) c.emit(FillPolygon{b.outline, ImGui::GetIO().KeyAlt});
+    b.outline.clear();
+    b.lassoing = false;
+}
+
+void lasso(Ctx& c, const ViewMap& map, bool active) {
+    BrushState& b = c.state.brush;
+    const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
+    if (active && ImGui::IsMouseClicked(0)) {
+        b.outline = {at};
+        b.lassoing = true;
+    } else if (b.lassoing && ImGui::IsMouseDown(0)) {
+        const Vec2 step = at - b.outline.back();
+        if (std::hypot(step.x, step.y) * map.zoom > 2) b.outline.push_back(at);
+    } else if (b.lassoing) {
+        finish_outline(c);
+    }
+    draw_outline(c, map, nullptr);
+}
+
+void polygon(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+    BrushState& b = c.state.brush;
+    const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
+    const bool closes = b.outline.size() > 2 && [&] {
+        const ImVec2 first = map.to_screen(b.outline.front()), now = ImGui::GetIO().MousePos;
+        return std::hypot(first.x - now.x, first.y - now.y) < c.theme.px(9);
+    }();
+    if (active && ImGui::IsMouseClicked(0)) {
+        if (closes || (ImGui::IsMouseDoubleClicked(0) && b.outline.size() > 2))
+            finish_outline(c);
+        else
+            b.outline.push_back(at);
+    }
+    if (!b.outline.empty() && !ImGui::GetIO().WantTextInput) {
+        if (ImGui::IsKeyPressed(257)) finish_outline(c);
+        if (ImGui::IsKeyPressed(256)) b.outline.clear();
+        if (ImGui::IsKeyPressed(259) && !b.outline.empty()) b.outline.pop_back();
+    }
+    draw_outline(c, map, hovered ? &at : nullptr);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (const Vec2 p : b.outline)
+        list.AddCircleFilled(map.to_screen(p), c.theme.px(3), c.theme.accent_hover, 12);
+    if (closes)
+        list.AddCircle(map.to_screen(b.outline.front()), c.theme.px(8), c.theme.accent_hover, 20,
+                       c.theme.px(2));
+}
+
+// The texture's placement by hand: drag to move, with Shift to turn, with Ctrl to scale.
+void place(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+    const Region* region = c.view.selected_region();
+    if (!region) return;
+    const RegionRef ref{region->id, {}};
+    const ImGuiIO& io = ImGui::GetIO();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const PlatePoint at = region->placement.offset_px;
+    const ImVec2 origin = map.to_screen({static_cast<float>(at.x), static_cast<float>(at.y)});
+    const float r = c.theme.px(7);
+    list.AddCircle(origin, r, IM_COL32(0, 0, 0, 180), 24, c.theme.px(4));
+    list.AddCircle(origin, r, c.theme.accent_hover, 24, c.theme.px(2));
+    const float angle = static_cast<float>(-region->placement.rotate_deg * 3.14159265 / 180);
+    const float reach = c.theme.px(60);
+    const ImVec2 arm(origin.x + reach * std::cos(angle), origin.y + reach * std::sin(angle));
+    list.AddLine(origin, arm, c.theme.accent_hover, c.theme.px(2));
+    list.AddCircleFilled(arm, c.theme.px(4), c.theme.accent_hover, 16);
+    if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+    if (!active || !ImGui::IsMouseDragging(0, 2)) {
+        if (ImGui::IsMouseReleased(0) && c.state.placing) {
+            c.state.placing = false;
+            c.edit(SetRegionParameter{ref, c.state.placing_key, c.state.placing_value});
+        }
+        return;
+    }
+    if (!c.state.placing) {
+        c.state.placing = true;
+        c.state.placing_from = region->placement;
+        c.state.placing_key = io.KeyShift  ? "placement.rotate_deg"
+                              : io.KeyCtrl ? "placement.scale"
+                                           : "placement.offset_px";
+    }
+    const ImVec2 moved = ImGui::GetMouseDragDelta(0, 0);
+    const Placement& from = c.state.placing_from;
+    if (c.state.placing_key == "placement.rotate_deg") {
+        c.state.placing_value =
+            from.rotate_deg - 0.3 * static_cast<double>(moved.x / c.theme.scale);
+    } else if (c.state.placing_key == "placement.scale") {
+        c.state.placing_value =
+            std::clamp(from.scale * std::pow(1.005, static_cast<double>(moved.x / c.theme.scale)),
+                       0.01, 100.0);
+    } else {
+        c.state.placing_value =
+            std::vector<double>{from.offset_px.x + static_cast<double>(moved.x / map.zoom),
+                                from.offset_px.y + static_cast<double>(moved.y / map.zoom)};
+    }
+    c.emit(TryEdit{SetRegionParameter{ref, c.state.placing_key, c.state.placing_value}});
+}
+
+}  // namespace
+
+void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+    if (c.view.plate.size.empty()) return;
+    switch (c.state.tool) {
+        case Tool::kPan:
+            return;
+        case Tool::kBrush:
+        case Tool::kEraser:
+            return paint(c, map, hovered, active);
+        case Tool::kLasso:
+            return lasso(c, map, active);
+        case Tool::kPolygon:
+            return polygon(c, map, hovered, active);
+        case Tool::kFlood:
+            if (active && ImGui::IsMouseClicked(0) && c.state.viewer.pixel)
+                c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance,
+                                   ImGui::GetIO().KeyAlt});
+            return;
+        case Tool::kPlace:
+            return place(c, map, hovered, active);
+    }
+}
+
+void drop_texture(Ctx& c, const ViewMap& map, const std::string& path) {
+    const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
+    RegionId target = c.view.selected;
+    // The topmost region whose matte lies under the mouse.
+    for (const RegionMatteView& matte : c.view.mattes) {
+        const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+        if (x < 0 || y < 0 || x >= matte.pixels.width() || y >= matte.pixels.height()) continue;
+        if (matte.pixels.at(x, y) > 127) target = matte.region;
+    }
+    c.emit(ApplyTexture{path, target});
+    if (target != c.view.selected) c.emit(SelectRegion{target});
+}
+
+}  // namespace weft::ui
