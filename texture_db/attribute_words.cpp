@@ -47,10 +47,8 @@ constexpr std::array kWords{
     AttributeWord{"matte matt dusty dry", A::kGloss, 0.5f, 0.0f},
 };
 
-// Seen by eye only where both hold.
-bool needs_direction(std::string_view word) {
-    return word == "horizontal" || word == "vertical" || word == "diagonal";
-}
+// Lines that run one way: seen only where there are any.
+constexpr std::array<std::string_view, 3> kLines{"horizontal", "vertical", "diagonal"};
 
 struct ColourWord {
     std::string_view name, synonyms;
@@ -69,7 +67,7 @@ constexpr std::array kColours{
     ColourWord{"red", "crimson scarlet maroon ruby burgundy", 32, 20, 26, 140, 10, 70},
     ColourWord{"orange", "terracotta rust-coloured copper", 60, 16, 38, 140, 45, 85},
     ColourWord{"yellow", "golden gold ochre mustard", 92, 18, 34, 140, 50, 101},
-    ColourWord{"green", "olive emerald lime mossy", 135, 38, 10, 140, 8, 95},
+    ColourWord{"green", "olive emerald lime", 135, 38, 10, 140, 8, 95},
     ColourWord{"cyan", "teal turquoise aqua", 200, 28, 9, 140, 15, 95},
     ColourWord{"blue", "azure navy indigo cobalt", 268, 42, 9, 140, 8, 92},
     ColourWord{"purple", "violet lilac lavender plum", 320, 22, 10, 140, 8, 85},
@@ -128,10 +126,10 @@ std::string_view without_ish(std::string_view word, std::string& kept) {
     return find_colour(kept) ? std::string_view(kept) : word;
 }
 
-float line_fit(std::string_view word, const TextureAttributes& a) {
-    const float target = word == "vertical" ? 0.5f : 0.0f;
+float line_fit(std::size_t line, const TextureAttributes& a) {
+    const float target = kLines[line] == "vertical" ? 0.5f : 0.0f;
     float away = std::abs(std::remainder(a[A::kLineAngle] - target, 1.0f));
-    if (word == "diagonal") away = std::abs(away - 0.25f);
+    if (kLines[line] == "diagonal") away = std::abs(away - 0.25f);
     return std::min(fade(a[A::kDirectionality], 0.15f, 0.45f), fade(away, 0.2f, 0.08f));
 }
 
@@ -174,22 +172,49 @@ std::vector<std::string> attribute_words(const MeasuredTexture& measured) {
     return out;
 }
 
-bool is_attribute_word(std::string_view word) {
+AttributeMatcher::AttributeMatcher(std::string_view word) {
+    if (const auto line = std::find(kLines.begin(), kLines.end(), word); line != kLines.end()) {
+        kind_ = Kind::kLines;
+        index_ = static_cast<std::size_t>(line - kLines.begin());
+        return;
+    }
+    if (const AttributeWord* a = find_attribute(word)) {
+        kind_ = Kind::kAttribute;
+        index_ = static_cast<std::size_t>(a - kWords.data());
+        return;
+    }
     std::string kept;
-    const std::string_view colour = without_ish(word, kept);
-    return find_attribute(word) || find_colour(colour) || needs_direction(word);
+    if (const ColourWord* c = find_colour(without_ish(word, kept))) {
+        kind_ = Kind::kColour;
+        index_ = static_cast<std::size_t>(c - kColours.data());
+    }
+}
+
+float AttributeMatcher::match(const MeasuredTexture& measured) const {
+    switch (kind_) {
+        case Kind::kLines:
+            return line_fit(index_, measured.attributes);
+        case Kind::kAttribute: {
+            const AttributeWord& a = kWords[index_];
+            return fade(measured.attributes[a.attribute], a.none, a.full);
+        }
+        case Kind::kColour: {
+            // What stands out counts too, but less than what the whole is like.
+            const ColourWord& c = kColours[index_];
+            return std::max(colour_fit(c, measured.mean), 0.45f * colour_fit(c, measured.accent));
+        }
+        case Kind::kNone:
+            break;
+    }
+    return -1;
 }
 
 float attribute_match(std::string_view word, const MeasuredTexture& measured) {
-    if (needs_direction(word)) return line_fit(word, measured.attributes);
-    if (const AttributeWord* a = find_attribute(word))
-        return fade(measured.attributes[a->attribute], a->none, a->full);
-    std::string kept;
-    if (const ColourWord* c = find_colour(without_ish(word, kept))) {
-        // What stands out counts too, but less than what the whole is like.
-        return std::max(colour_fit(*c, measured.mean), 0.45f * colour_fit(*c, measured.accent));
-    }
-    return -1;
+    return AttributeMatcher(word).match(measured);
+}
+
+bool is_attribute_word(std::string_view word) {
+    return AttributeMatcher(word).known();
 }
 
 }  // namespace weft

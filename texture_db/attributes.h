@@ -60,9 +60,23 @@ struct MeasuredTexture {
 /// The name of a colour as an artist would say it: "dark green", "beige", "light grey".
 [[nodiscard]] std::string colour_name(const LabColor& color);
 
-/// How well a word describes a texture, 0 … 1, or a negative number when it is no attribute word.
-/// Known: smooth, rough, coarse, fine, striped, regular, random, dark, bright, warm, cold, glossy,
-/// matte, colour names and many synonyms.
+/// A word looked up once, to be held against many textures. Immutable.
+class AttributeMatcher {
+  public:
+    explicit AttributeMatcher(std::string_view word);
+    /// Whether it is an attribute word. Known: smooth, rough, coarse, fine, striped, regular,
+    /// random, dark, bright, warm, cold, glossy, matte, horizontal, colour names and many synonyms.
+    [[nodiscard]] bool known() const { return kind_ != Kind::kNone; }
+    /// How well it describes a texture, 0 … 1; negative for an unknown word.
+    [[nodiscard]] float match(const MeasuredTexture& measured) const;
+
+  private:
+    enum class Kind { kNone, kAttribute, kColour, kLines };
+    Kind kind_ = Kind::kNone;
+    std::size_t index_ = 0;  // into the table of its kind
+};
+
+/// The same for one texture.
 [[nodiscard]] float attribute_match(std::string_view word, const MeasuredTexture& measured);
 [[nodiscard]] bool is_attribute_word(std::string_view word);
 

@@ -2,7 +2,6 @@
 
 #include <sqlite3.h>
 
-#include <cerrno>
 #include <filesystem>
 
 namespace weft {
@@ -10,17 +9,30 @@ namespace {
 
 constexpr int kWait_ms = 10'000;
 
-bool is_full(int code, int system_error) {
-    return (code & 0xff) == SQLITE_FULL ||
-           ((code & 0xff) == SQLITE_IOERR &&
-            (system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG));
+// Of a write that fails SQLite does not always say why: the disk is full, or a quota or the largest
+// size of a file is reached.
+bool is_full(int code) {
+    switch (code) {
+        case SQLITE_IOERR_WRITE:
+        case SQLITE_IOERR_FSYNC:
+        case SQLITE_IOERR_DIR_FSYNC:
+        case SQLITE_IOERR_TRUNCATE:
+        case SQLITE_IOERR_SHMSIZE:
+        case SQLITE_IOERR_SHMMAP:
+        case SQLITE_IOERR_SHMOPEN:
+            return true;
+        default:
+            return (code & 0xff) == SQLITE_FULL;
+    }
 }
 
-Error in_words(const std::string& path, int code, int system_error, const std::string& detail) {
-    if (is_full(code, system_error)) {
+Error in_words(const std::string& path, int code, const std::string& detail) {
+    if (is_full(code)) {
         return {ErrorCode::kNoSpace,
                 "The texture library " + path +
-                    " cannot grow: the disk is full. Free some space and go on; what was stored "
+                    " cannot be written: the disk is full, or a limit is reached. Free some space "
+                    "and go "
+                    "on; what was stored "
                     "before is kept.",
                 {}};
     }
@@ -209,7 +221,7 @@ int Database::changed_rows() const {
 
 Error Database::error(int code) const {
     const std::string detail = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
-    return in_words(path_, code, handle_ ? sqlite3_system_errno(handle_) : 0, detail);
+    return in_words(path_, handle_ ? sqlite3_extended_errcode(handle_) : code, detail);
 }
 
 Expected<Transaction> Transaction::begin(Database& database) {

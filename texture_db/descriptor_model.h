@@ -20,6 +20,8 @@ struct DescriptorModel {
     std::vector<float> centres;          ///< materials × outputs
 
     [[nodiscard]] std::vector<float> describe(std::span<const float> features) const;
+    /// From a descriptor to the middle of each material; very far for one with too few samples.
+    [[nodiscard]] std::vector<float> distances_to_centres(std::span<const float> descriptor) const;
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
     [[nodiscard]] static Expected<DescriptorModel> from_bytes(std::span<const std::byte> bytes);
 };

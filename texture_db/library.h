@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,7 +99,8 @@ class TextureLibrary {
     /// Nearest in the learned descriptor, best first, the sample itself left out.
     [[nodiscard]] Expected<std::vector<SearchHit>> similar(const std::string& id, int count);
     /// The same for any picture of at least 32×32 (its middle 96×96 is used; smaller ones are
-    /// mirrored out).
+    /// mirrored out). The first is the nearest; the next four are the nearest of each of the
+    /// likeliest other materials; then all others by distance.
     [[nodiscard]] Expected<std::vector<SearchHit>> similar(ViewU8x3 picture, int count);
     /// Suggestions for regions of a frame. Errors: Usage for an empty matte or sizes that differ.
     [[nodiscard]] Expected<Recommendation> recommend(const RecommendRequest& request);
@@ -167,5 +169,13 @@ struct ResolvedTexture {
 /// Errors: Usage for a name that is none; Unreadable when there is no such texture or library.
 [[nodiscard]] Expected<ResolvedTexture> resolve_texture(const std::string& library_path,
                                                         const std::string& id);
+
+/// Writes a texture as FOLDER/db_ID.png with its credit beside it (db_ID.png.credit.json), so that
+/// a project holds the pixels and opens anywhere, with or without the library. Returns the path.
+/// Errors: those of resolve_texture(); NoSpace, Unreadable for the folder.
+[[nodiscard]] Expected<std::string> keep_texture(const std::string& library_path,
+                                                 const std::string& id, const std::string& folder);
+/// The credit that keep_texture() wrote beside a picture, or nothing.
+[[nodiscard]] std::optional<TextureCredit> read_texture_credit(const std::string& picture_path);
 
 }  // namespace weft

@@ -59,10 +59,11 @@ const std::map<std::string, std::string, std::less<>>& path_words() {
         }
         // Too many meanings in names of files.
         for (const char* word :
-             {"glass", "pane", "crystal", "window", "board",  "skin",  "hair",  "coat",  "sheet",    "ground",   "field", "path",
-              "street", "road",  "plate", "panel", "floor",    "wall",     "sky",   "river",
-              "sea",    "ocean", "lake",  "pool",  "fire",     "page",     "card",  "slate",
-              "china",  "wave",  "waves", "earth", "flooring", "panelling"})
+             {"glass", "pane",  "crystal", "window", "board",    "skin",     "hair",
+              "coat",  "sheet", "ground",  "field",  "path",     "street",   "road",
+              "plate", "panel", "floor",   "wall",   "sky",      "river",    "sea",
+              "ocean", "lake",  "pool",    "fire",   "page",     "card",     "slate",
+              "china", "wave",  "waves",   "earth",  "flooring", "panelling"})
             words.erase(word);
         return words;
     }();

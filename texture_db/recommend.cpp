@@ -72,6 +72,12 @@ std::vector<float> materials_of(const RegionLook& look, const SampleIndex& index
         std::sort(nearest_ones.begin(), nearest_ones.end());
         typical = std::max(nearest_ones[nearest_ones.size() / 2], 1e-3f);
     }
+    // A material with many samples has more of them anywhere: that must not decide.
+    std::vector<float> count(vote.size());
+    for (const IndexedSample& s : index.samples)
+        count[static_cast<std::size_t>(s.material)] += 1;
+    for (std::size_t m = 0; m < vote.size(); ++m)
+        vote[m] /= std::sqrt(std::max(count[m], 1.0f));
     const float most = vote.empty() ? 0 : *std::max_element(vote.begin(), vote.end());
     for (float& v : vote)
         v = most > 0 ? v / most : 0;
@@ -431,47 +437,6 @@ Expected<Recommendation> TextureLibrary::recommend(const RecommendRequest& given
     }
     if (request.regions.size() > 1) out.together = together(index, choices, 6);
     out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    return out;
-}
-
-Expected<std::vector<SearchHit>> TextureLibrary::similar(const std::string& given, int count) {
-    const std::scoped_lock lock(state_->mutex);
-    WEFT_CHECK_OK(state_->refresh());
-    WEFT_TRY(id, state_->full_id(given));
-    const SampleIndex& index = *state_->index;
-    const std::size_t self = index.by_id.at(id);
-    std::vector<SearchHit> out;
-    if (index.descriptor_size == 0) return out;
-    for (const Neighbour& n : nearest(index, index.descriptor(self), count + 1)) {
-        if (n.sample == self || static_cast<int>(out.size()) >= count) continue;
-        const IndexedSample& s = index.samples[n.sample];
-        out.push_back({s.id,
-                       s.name,
-                       index.materials.text(s.material),
-                       1 / (1 + 0.25f * n.distance),
-                       {"looks alike"}});
-    }
-    return out;
-}
-
-Expected<std::vector<SearchHit>> TextureLibrary::similar(ViewU8x3 picture, int count) {
-    if (picture.width() < 32 || picture.height() < 32)
-        return fail(ErrorCode::kUsage,
-                    "The picture is smaller than 32x32 pixels. Give a larger one.");
-    const std::vector<float> features = texture_features(middle_sample(picture));
-    const std::scoped_lock lock(state_->mutex);
-    WEFT_CHECK_OK(state_->refresh());
-    std::vector<SearchHit> out;
-    if (!state_->model) return out;
-    const SampleIndex& index = *state_->index;
-    for (const Neighbour& n : nearest(index, state_->model->describe(features), count)) {
-        const IndexedSample& s = index.samples[n.sample];
-        out.push_back({s.id,
-                       s.name,
-                       index.materials.text(s.material),
-                       1 / (1 + 0.25f * n.distance),
-                       {"looks alike"}});
-    }
     return out;
 }
 

@@ -1,6 +1,19 @@
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/media/atomic_file.h"
 #include "texture_db/library.h"
+#include "texture_db/sample_codec.h"
 
 namespace weft {
+namespace {
+
+std::string credit_path(const std::string& picture_path) {
+    return picture_path + ".credit.json";
+}
+
+}  // namespace
 
 Expected<ResolvedTexture> resolve_texture(const std::string& library_path, const std::string& id) {
     const std::string path = library_path.empty() ? default_library_path() : library_path;
@@ -18,6 +31,47 @@ Expected<ResolvedTexture> resolve_texture(const std::string& library_path, const
     out.credit = {{}, info.id, info.name, info.material, info.author, info.licence, info.source};
     if (!info.package.empty()) out.credit.source = info.package + ": " + info.source;
     return out;
+}
+
+Expected<std::string> keep_texture(const std::string& library_path, const std::string& id,
+                                   const std::string& folder) {
+    WEFT_TRY(texture, resolve_texture(library_path, id));
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        return fail(ErrorCode::kUnreadable,
+                    "The folder " + folder + " cannot be made: " + error.message() + ".");
+    }
+    const TextureCredit& credit = texture.credit;
+    const std::string path =
+        (std::filesystem::path(folder) / ("db_" + credit.id + ".png")).string();
+    WEFT_CHECK_OK(write_file_atomically(path, encode_png(texture.pixels)));
+    const nlohmann::ordered_json json{
+        {"id", credit.id},         {"name", credit.name},       {"material", credit.material},
+        {"author", credit.author}, {"licence", credit.licence}, {"source", credit.source}};
+    const std::string text =
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    WEFT_CHECK_OK(write_file_atomically(credit_path(path), std::string_view(text)));
+    return path;
+}
+
+std::optional<TextureCredit> read_texture_credit(const std::string& picture_path) {
+    std::ifstream file(credit_path(picture_path), std::ios::binary);
+    if (!file) return std::nullopt;
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    if (!json.is_object()) return std::nullopt;
+    const auto text = [&](const char* key) {
+        const auto at = json.find(key);
+        return at != json.end() && at->is_string() ? at->get<std::string>() : std::string();
+    };
+    TextureCredit credit;
+    credit.id = text("id");
+    credit.name = text("name");
+    credit.material = text("material");
+    credit.author = text("author");
+    credit.licence = text("licence");
+    credit.source = text("source");
+    return credit;
 }
 
 }  // namespace weft

@@ -23,33 +23,42 @@ struct Scored {
 // A word and which samples' names and tags it stands in.
 struct TermHits {
     ReadTerm term;
-    std::set<std::int64_t> keys;
+    std::vector<std::int64_t> keys;  // ascending
     std::vector<float> by_material;  // weight of each material of the index
+    std::vector<AttributeMatcher> looks;
+
+    [[nodiscard]] float look(const MeasuredTexture& measured) const {
+        float best = 0;
+        for (const AttributeMatcher& matcher : looks)
+            best = std::max(best, matcher.match(measured));
+        return best;
+    }
 };
 
-Expected<std::set<std::int64_t>> find_text(Database& database, const std::string& word) {
-    std::set<std::int64_t> keys;
-    // A quoted prefix: nothing in it can be read as FTS5 syntax.
-    std::string quoted = "\"";
+Expected<std::vector<std::int64_t>> find_text(Database& database, const std::string& word) {
+    std::vector<std::int64_t> keys;
+    // Quoted: nothing in it can be read as FTS5 syntax. One and many are the same word.
+    std::string letters;
     for (const char c : word) {
-        quoted += c;
-        if (c == '"') quoted += c;
+        letters += c;
+        if (c == '"') letters += c;
     }
-    quoted += "\"*";
-    WEFT_TRY(query, database.query("SELECT rowid FROM sample_text WHERE sample_text MATCH ?"));
+    const std::string quoted = '"' + letters + "\" OR \"" + letters + "s\"";
+    WEFT_TRY(query, database.query(
+                        "SELECT rowid FROM sample_text WHERE sample_text MATCH ? ORDER BY rowid"));
     query.bind(quoted);
     for (;;) {
         WEFT_TRY(more, query.step());
         if (!more) return keys;
-        keys.insert(query.integer(0));
+        keys.push_back(query.integer(0));
     }
 }
 
 float term_score(const TermHits& hits, const IndexedSample& s) {
     float score = hits.by_material[static_cast<std::size_t>(s.material)];
-    for (const std::string& word : hits.term.attributes)
-        score = std::max(score, attribute_match(word, s.measured));
-    if (score < kNameHit && hits.keys.contains(s.key)) score = kNameHit;
+    score = std::max(score, hits.look(s.measured));
+    if (score < kNameHit && std::binary_search(hits.keys.begin(), hits.keys.end(), s.key))
+        score = kNameHit;
     return hits.term.negated ? (score >= 0.5f ? 0.0f : 1.0f - score) : score;
 }
 
@@ -214,15 +223,13 @@ std::vector<std::string> reasons_of(const std::vector<TermHits>& terms, const Sa
             continue;
         }
         const std::string& material = index.materials.text(s.material);
-        float look = 0;
-        for (const std::string& word : hits.term.attributes)
-            look = std::max(look, attribute_match(word, s.measured));
+        const float look = hits.look(s.measured);
         if (hits.by_material[static_cast<std::size_t>(s.material)] > kLeast) {
             out.push_back("material " + material +
                           (hits.term.word == material ? "" : " (" + hits.term.typed + ")"));
         } else if (look > kLeast) {
             out.push_back("looks " + hits.term.word);
-        } else if (hits.keys.contains(s.key)) {
+        } else if (std::binary_search(hits.keys.begin(), hits.keys.end(), s.key)) {
             out.push_back("named '" + hits.term.text + "'");
         }
     }
@@ -249,6 +256,8 @@ Expected<SearchResult> TextureLibrary::search(const SearchQuery& query) {
             if (const int i = index.materials.find(material); i >= 0)
                 hits.by_material[static_cast<std::size_t>(i)] = weight;
         }
+        for (const std::string& word : term.attributes)
+            hits.looks.emplace_back(word);
         if (!term.explanation.empty()) out.understood.push_back(term.explanation);
         hits.term = std::move(term);
         terms.push_back(std::move(hits));

@@ -239,7 +239,7 @@ void file_browser(Ctx& c) {
         {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)});
     ImGui::SetNextWindowSize(size);
     ImGui::SetNextWindowFocus();
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);

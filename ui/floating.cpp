@@ -39,7 +39,7 @@ bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
     ImGui::SetNextWindowPos(
         {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)});
     ImGui::SetNextWindowSize(size);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
@@ -80,7 +80,7 @@ void notices(Ctx& c) {
         const float h = std::max(t.px(40), size.y + t.px(22)) + extra;
         ImGui::SetNextWindowPos({std::floor((screen.x - width) / 2), y});
         ImGui::SetNextWindowSize({width, h});
-        ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
         ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(4));
         ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
@@ -162,7 +162,7 @@ void command_palette(Ctx& c) {
     ImGui::SetNextWindowPos({std::floor((screen.x - width) / 2), t.px(90)});
     ImGui::SetNextWindowSize({width, t.px(62) + t.px(30) * static_cast<float>(std::max(1, rows))});
     ImGui::SetNextWindowFocus();
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(12), t.px(12)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
@@ -461,7 +461,7 @@ void tour(Ctx& c) {
         {t.px(64), screen.y - h - t.px(26) - t.px(c.state.timeline_h) - t.px(24) -
                        (c.state.workspace == Workspace::kTexture ? t.px(c.state.drawer_h) : 0)});
     ImGui::SetNextWindowSize({width, h});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
@@ -484,7 +484,8 @@ void tour(Ctx& c) {
                {.look = Look::kPrimary, .width = t.px(88)}))
         ++step;
     ImGui::End();
-    if (step != before && step >= 0 && step < kCount) set_workspace(c.state, kSteps[step].workspace);
+    if (step != before && step >= 0 && step < kCount)
+        set_workspace(c.state, kSteps[step].workspace);
     if (step == -1) c.settings.tour_seen = true;
 }
 

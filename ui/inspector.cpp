@@ -281,9 +281,10 @@ void mask_inspector(Ctx& c) {
         const PanelName panel(c, "Propagation");
         const SessionView& v = c.view;
         if (region->matte->keyframes.empty()) {
-            wrapped(c, region->matte->files.empty()
-                           ? "What you paint is carried to the other frames by itself."
-                           : "The files have a matte for every frame.",
+            wrapped(c,
+                    region->matte->files.empty()
+                        ? "What you paint is carried to the other frames by itself."
+                        : "The files have a matte for every frame.",
                     c.theme.quiet);
         } else if (v.preview.analysing) {
             const float part = v.preview.total > 0 ? static_cast<float>(v.preview.done) /
@@ -298,7 +299,8 @@ void mask_inspector(Ctx& c) {
             if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
                 c.emit(PauseAnalysis{false});
         } else if (v.unready.contains(region->id)) {
-            wrapped(c, "Choose a texture, and the matte is carried through the shot.", c.theme.quiet);
+            wrapped(c, "Choose a texture, and the matte is carried through the shot.",
+                    c.theme.quiet);
         } else {
             wrapped(c,
                     "Carried through the shot. The strip below the ruler is light where it is "

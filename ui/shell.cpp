@@ -32,6 +32,7 @@ void Shell::set_look(bool dark, bool grey_surround, float scale) {
         next.strong = theme_.strong;
         next.small = theme_.small;
         next.title = theme_.title;
+        next.display = theme_.display;
     }
     theme_ = next;
     apply_theme(theme_);
@@ -148,6 +149,9 @@ void Shell::layout(Ctx& c) {
     const bool report = panels && state_.workspace == Workspace::kReview;
     const float least_view = t.px(120);
     float extra_h = drawer ? t.px(state_.drawer_h) : report ? t.px(state_.review_h) : 0;
+    // On a low screen the picture keeps more than half.
+    const float most_h = std::min(body_h - timeline_h - least_view, 0.42f * body_h);
+    if (state_.drawer_h <= 288) extra_h = std::min(extra_h, most_h);
     extra_h =
         std::floor(std::clamp(extra_h, 0.0f, std::max(0.0f, body_h - timeline_h - least_view)));
     const float left_w = screen.x - inspector_w - (panels ? 1 : 0);

@@ -3,11 +3,14 @@
 // part of the document.
 
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/session/action.h"
+#include "app/session/texture_shelf.h"
 #include "ui/picture_host.h"
 
 namespace weft {
@@ -43,7 +46,19 @@ struct BrushState {
     bool resizing = false;
 };
 
+/// What the drawer shows, kept while nothing changes: going through 15,000 cards takes longer than
+/// a frame has.
+struct DrawerCache {
+    std::shared_ptr<const std::vector<TextureCard>> cards;  ///< That it was made from.
+    std::shared_ptr<const std::vector<std::string>>
+        answered;     ///< The library's answer to the words.
+    std::string key;  ///< The conditions.
+    std::vector<const TextureCard*> shown;
+    std::map<std::string, int> materials;
+};
+
 struct DrawerState {
+    DrawerCache cache;
     std::string search;
     std::string material;  ///< Empty: all.
     bool favourites_only = false, recent_only = false;

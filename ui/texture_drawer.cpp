@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <string_view>
 #include <unordered_map>
 
@@ -33,6 +32,39 @@ bool matches(const Ctx& c, const TextureCard& card, const std::string& wanted) {
     for (const std::string& tag : card.tags)
         text += " " + lower(tag);
     return text.find(wanted) != std::string::npos;
+}
+
+// Chooses what is shown, when something that it depends on has changed.
+void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>& cards) {
+    DrawerState& d = c.state.drawer;
+    DrawerCache& cache = d.cache;
+    const std::string wanted = lower(d.search);
+    // The library knows its words better than a comparison of letters does.
+    const auto answered = c.textures.search(wanted);
+    std::string key = wanted + "\n" + d.material + (d.favourites_only ? "\nf" : "\n") +
+                      (d.recent_only ? "r" : "") + std::to_string(c.settings.favourites.size()) +
+                      "/" + std::to_string(c.settings.recent_textures.size());
+    if (cache.cards == cards && cache.answered == answered && cache.key == key) return;
+    if (cache.cards != cards) {
+        cache.materials.clear();
+        for (const TextureCard& card : *cards)
+            ++cache.materials[card.material];
+    }
+    cache.cards = cards;
+    cache.answered = answered;
+    cache.key = std::move(key);
+    cache.shown.clear();
+    if (answered) {
+        std::unordered_map<std::string_view, const TextureCard*> by_path;
+        for (const TextureCard& card : *cards)
+            if (matches(c, card, "")) by_path[card.path] = &card;
+        for (const std::string& path : *answered)
+            if (const auto found = by_path.find(path); found != by_path.end())
+                cache.shown.push_back(found->second);
+    }
+    for (const TextureCard& card : *cards)
+        if ((!answered || !card.path.starts_with("db:")) && matches(c, card, wanted))
+            cache.shown.push_back(&card);
 }
 
 void thumbnail(Ctx& c, const std::string& path, ImVec2 min, ImVec2 max) {
@@ -66,9 +98,6 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::BeginChild("Materials", size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
     ImGui::PopStyleVar();
     const PanelName name(c, "Materials");
-    std::map<std::string, int> counts;
-    for (const TextureCard& card : cards)
-        ++counts[card.material];
     DrawerState& d = c.state.drawer;
     const auto row = [&](const char* label, const char* icon, int count, bool active) {
         ImGui::PushID(label);
@@ -103,7 +132,7 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
             d.recent_only))
         pick("", false, true);
     ImGui::Dummy({0, t.px(6)});
-    for (const auto& [material, count] : counts)
+    for (const auto& [material, count] : c.state.drawer.cache.materials)
         if (row(material.c_str(), icons::kTagOutline, count, d.material == material))
             pick(material, false, false);
     ImGui::Dummy({0, t.px(6)});
@@ -188,20 +217,7 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::PopStyleVar();
     const PanelName name(c, "Textures");
     const std::string wanted = lower(c.state.drawer.search);
-    std::vector<const TextureCard*> shown;
-    // The library knows its words better than a comparison of letters does.
-    const auto answered = c.textures.search(wanted);
-    if (answered) {
-        std::unordered_map<std::string_view, const TextureCard*> by_path;
-        for (const TextureCard& card : cards)
-            if (matches(c, card, "")) by_path[card.path] = &card;
-        for (const std::string& path : *answered)
-            if (const auto found = by_path.find(path); found != by_path.end())
-                shown.push_back(found->second);
-    }
-    for (const TextureCard& card : cards)
-        if ((!answered || !card.path.starts_with("db:")) && matches(c, card, wanted))
-            shown.push_back(&card);
+    const std::vector<const TextureCard*>& shown = c.state.drawer.cache.shown;
     if (wanted.empty() && c.state.drawer.material.empty()) suggested(c, cards);
     if (shown.empty()) {
         if (cards.empty())
@@ -239,7 +255,8 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
 void large(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     const Theme& t = c.theme;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
-    ImGui::BeginChild("Large", size, true, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::BeginChild("Large", size, true,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
     ImGui::PopStyleVar();
     const PanelName name(c, "Large");
     const auto card = std::find_if(cards.begin(), cards.end(), [&](const TextureCard& x) {
@@ -300,6 +317,7 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Drawer", size, t.panel, false, 0);
     const auto cards = c.textures.cards();
+    update_cache(c, cards);
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
@@ -310,8 +328,8 @@ void texture_drawer(Ctx& c, ImVec2 size) {
           icons::kMagnify);
     ImGui::SameLine();
     const std::string activity = c.textures.activity();
-    const std::string count = std::to_string(cards->size()) + " textures" +
-                              (activity.empty() ? "" : "  ·  " + activity);
+    const std::string count =
+        std::to_string(cards->size()) + " textures" + (activity.empty() ? "" : "  ·  " + activity);
     ImGui::AlignTextToFramePadding();
     quiet(c, count.c_str());
     ImGui::SetCursorScreenPos({origin.x, origin.y + head});

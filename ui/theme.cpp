@@ -176,6 +176,7 @@ void load_fonts(Theme& t) {
     t.strong = load(kStrong, t.px(13.5f), t.px(17));
     t.small = load(kRegular, t.px(12), t.px(15));
     t.title = load(kStrong, t.px(18), t.px(22));
+    t.display = load(kStrong, t.px(30), t.px(32));
     atlas->Build();
     for (ImFont* font : {t.regular, t.small})
         make_figures_tabular(font);

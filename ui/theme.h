@@ -24,6 +24,7 @@ struct Theme {
     ImFont* strong = nullptr;
     ImFont* small = nullptr;
     ImFont* title = nullptr;
+    ImFont* display = nullptr;  ///< The name on the welcome screen, and large icons.
 
     [[nodiscard]] float px(float unscaled) const { return unscaled * scale; }
 };

@@ -427,12 +427,8 @@ void viewer(Ctx& c, ImVec2 size) {
         draw_overlay(c, list, pane);
         if (panes.size() > 1) {
             list.AddRect(pane.map.min, pane.map.max, t.line);
-            if (&pane != &panes.front() || !four)
-                pill(c, list, {pane.map.min.x + t.px(10), pane.map.max.y - t.px(32)}, pane.label,
-                     t.text);
-            else
-                pill(c, list, {pane.map.min.x + t.px(10), pane.map.max.y - t.px(32)}, pane.label,
-                     t.text);
+            pill(c, list, {pane.map.min.x + t.px(10), pane.map.min.y + t.px(10)}, pane.label,
+                 t.text);
         }
     }
     // The pane under the mouse is the one that is worked in; all share zoom and centre.
@@ -447,7 +443,10 @@ void viewer(Ctx& c, ImVec2 size) {
     const bool wiping = panes.size() == 1 && move_wipe(c, map, hovered);
     if (!wiping) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);
-    draw_state(c, list, min, max);
+    // Beside the first pane's label, and only while there is something to say.
+    const bool several = panes.size() > 1;
+    if (!several || !c.view.result_current)
+        draw_state(c, list, {min.x + (several ? t.px(70) : 0), min.y}, max);
     view_controls(c, min, max);
     if (ImGui::BeginDragDropTargetCustom(ImRect(min, max), ImGui::GetID("##drop"))) {
         if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("TEXTURE"))

@@ -50,7 +50,7 @@ void welcome(Ctx& c, ImVec2 size) {
     const float x = std::floor(origin.x + (size.x - width) / 2);
     float y = std::floor(origin.y + std::max(t.px(24), (size.y - height) * 0.42f));
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddText(t.title, t.title->FontSize * 1.7f, {x, y}, t.text, "Weft");
+    list.AddText(t.display, t.display->FontSize, {x, y}, t.text, "Weft");
     text_in(list, t.regular, {x, y + t.px(42)}, {x + width, y + t.px(64)}, t.quiet,
             "New textures on moving surfaces, with the light of your plate.", 0);
     y += t.px(92);

@@ -310,7 +310,7 @@ Change slider(Ctx& c, const SliderSpec& s, double& value) {
                               (s.unit[0] ? std::string(" ") + s.unit : "");
     if (c.state.typing == name) {
         ImGui::SetNextItemWidth(row.width);
-        ImGui::SetKeyboardFocusHere();
+        if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
         const bool done = ImGui::InputText(
             "##typed", &c.state.typing_text,
             ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
@@ -543,9 +543,9 @@ void empty_state(Ctx& c, const char* icon, const char* title, const char* what_t
     const float top = at.y + std::max(t.px(8), (room.y - height) * 0.42f);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float middle = at.x + room.x * 0.5f;
-    ImFont* font = t.title;
-    const ImVec2 icon_size = font->CalcTextSizeA(font->FontSize * 1.4f, FLT_MAX, 0, icon);
-    list.AddText(font, font->FontSize * 1.4f, {middle - icon_size.x * 0.5f, top}, t.off, icon);
+    ImFont* font = t.display;
+    const ImVec2 icon_size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, icon);
+    list.AddText(font, font->FontSize, {middle - icon_size.x * 0.5f, top - t.px(6)}, t.off, icon);
     text_in(list, t.strong, {at.x, top + t.px(36)}, {at.x + room.x, top + t.px(56)}, t.text, title);
     const float left = std::floor(middle - std::min(wrap, text_size.x) * 0.5f);
     list.AddText(t.regular, t.regular->FontSize, {left, top + t.px(62)}, t.quiet, what_to_do,

@@ -129,6 +129,7 @@ Project map_paths(const Project& project,
             map(region.light.image);
             map(region.light.albedo);
             map(region.light.lighting);
+            map(region.lines.files);
         });
     }
     return out;
@@ -152,7 +153,7 @@ std::size_t own_bytes(const Region& r) {
                          r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
                          r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,
                          r.light.strength_keys, r.light.lamps, r.light.albedo, r.light.lighting,
-                         r.finish.extra, r.extra);
+                         r.finish.extra, r.lines.files, r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {

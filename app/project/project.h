@@ -173,6 +173,16 @@ struct FinishParams {
     bool operator==(const FinishParams&) const = default;
 };
 
+/// The ink lines that stay on top of the new texture.
+struct LineParams {
+    std::string files;     ///< Pattern of the ink's coverage; empty: no line pass.
+    bool invert = false;   ///< The pass is dark where there is ink.
+    bool extract = false;  ///< Without a pass: find the ink in the plate.
+    double width_px = 4;   ///< The widest stroke that is found.
+    Extras extra;
+    bool operator==(const LineParams&) const = default;
+};
+
 /// One surface to be replaced.
 struct Region {
     RegionId id = 0;  ///< 0: not in a project yet.
@@ -190,6 +200,7 @@ struct Region {
     TemporalParams temporal;
     LightParams light;
     FinishParams finish;
+    LineParams lines;
     Extras extra;
     bool operator==(const Region&) const = default;
 };

@@ -32,6 +32,7 @@ constexpr std::array kRegionGroups{
     group<Region, &Region::motion>("motion"),     group<Region, &Region::synthesis>("synthesis"),
     group<Region, &Region::temporal>("temporal"), group<Region, &Region::light>("light"),
     group<Region, &Region::finish>("finish"),
+    group<Region, &Region::lines>("lines"),
 };
 constexpr std::array kProjectGroups{
     group<Project, &Project::plate>("plate"),

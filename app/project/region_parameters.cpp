@@ -258,6 +258,30 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "How far the texture is blurred as the plate is (final quality)",
              .min = 0,
              .max = 2}),
+        entry<R, &R::lines, &LineParams::files>(
+            {.group = "lines",
+             .key = "files",
+             .flag = "--lines",
+             .help = "Pattern of the ink lines' coverage: they stay on top of the texture",
+             .is_path = true}),
+        entry<R, &R::lines, &LineParams::invert>(
+            {.group = "lines",
+             .key = "invert",
+             .flag = "--lines-invert",
+             .help = "The line pass is dark where there is ink"}),
+        entry<R, &R::lines, &LineParams::extract>(
+            {.group = "lines",
+             .key = "extract",
+             .flag = "--extract-lines",
+             .help = "Find the ink lines in the plate and keep them on top of the texture"}),
+        entry<R, &R::lines, &LineParams::width_px>(
+            {.group = "lines",
+             .key = "width_px",
+             .flag = "--line-width",
+             .unit = "px",
+             .help = "The widest stroke that --extract-lines takes for ink",
+             .min = 1,
+             .max = 64}),
     };
     table.insert(table.end(), std::begin(rest), std::end(rest));
     return table;

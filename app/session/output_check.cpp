@@ -29,6 +29,7 @@ std::vector<std::string> inputs_of(const Shot& shot, int frame) {
         for (const MatteSource& holdout : *region->holdouts)
             add_matte(paths, holdout, frame);
         add_pattern(paths, region->motion.files, frame);
+        add_pattern(paths, region->lines.files, frame);
     }
     return paths;
 }

@@ -45,7 +45,7 @@ int steps_to(const Opened& opened, std::vector<int> frames) {
 
 // Only what was touched, on the dark surround: a stage of the way, not a composite.
 void isolate(ImageF3& pixels, const Matte& touched) {
-    constexpr float kGround = 0.012f;
+    constexpr float kGround = 0.1f;
     for (int y = 0; y < pixels.height(); ++y) {
         for (int x = 0; x < pixels.width(); ++x) {
             const float a = static_cast<float>(touched.at(x, y)) / 255.0f;
@@ -222,9 +222,12 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     if (auto t = make_color_transform((*shot)->spaces.out, {"linear"})) linear_from_out = *t;
     const bool same_analysis = opened && opened->analysis == fresh->analysis;
     if (!same_analysis) ready_frames.clear();
+    // Freed after the lock is: pictures are large.
+    std::map<int, PreviewFrame> old_frames;
+    OpenedPtr old_opened;
     const std::lock_guard lock(mutex);
-    opened = fresh;
-    frames.clear();
+    old_opened = std::exchange(opened, fresh);
+    old_frames.swap(frames);
     frame_bytes = 0;
     shown.warnings = std::move(warnings);
     ++shown.changes;

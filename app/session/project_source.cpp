@@ -44,6 +44,15 @@ class ProjectSource final : public ShotSource {
         return all;
     }
 
+    [[nodiscard]] Expected<Matte> lines(int region, int frame) const override {
+        const LineParams& lines = at(region).lines;
+        if (lines.files.empty()) return Matte();
+        WEFT_TRY(pattern, SequencePattern::parse(lines.files));
+        MatteSelect select;
+        select.invert = lines.invert;
+        return read_matte(pattern.path_for(frame), select, size());
+    }
+
     [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
         WEFT_TRY(pattern, SequencePattern::parse(at(region).motion.files));
         return read_flow(pattern.path_for(frame), size());

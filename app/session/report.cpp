@@ -53,6 +53,11 @@ Json textures_json(const JobResult& result) {
                    {"size", {t.size.width, t.size.height}},
                    {"space", result.spaces.textures[k].name},
                    {"kind", t.is_plane ? "plane" : "sample"}};
+        if (!t.licence.empty()) {
+            entry["author"] = t.author;
+            entry["licence"] = t.licence;
+            entry["source"] = t.source;
+        }
         if (k < result.planes.size() && result.planes[k])
             entry["synthesis"] = plane_json(*result.planes[k]);
         out.push_back(std::move(entry));

@@ -29,9 +29,9 @@ Session::Session(SessionOptions options, EditorSettings* settings)
     : options_(std::move(options)),
       settings_(settings ? settings : &own_settings_),
       history_(Project{}),
+      preview_(options_.cache),
       recovery_((fs::path(options_.state_folder) / "recovery").string(),
                 [this] { shelf_.flush(); }),
-      preview_(options_.cache),
       jobs_(options_.program, (fs::path(options_.state_folder) / "jobs").string()) {
     if (options_.offer_recovery)
         recoverable_ = find_recoverable((fs::path(options_.state_folder) / "recovery").string());
@@ -336,9 +336,9 @@ void Session::apply_texture(const std::string& path, RegionId region) {
 
 // A texture of the library becomes a file beside the project, so that the project needs no library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
-    const fs::path folder =
-        path_.empty() ? fs::path(options_.state_folder) / "unsaved" / "textures"
-                      : fs::path(project_dir(path_)) / (fs::path(path_).stem().string() + "_textures");
+    const fs::path folder = path_.empty() ? fs::path(options_.state_folder) / "unsaved" / "textures"
+                                          : fs::path(project_dir(path_)) /
+                                                (fs::path(path_).stem().string() + "_textures");
     fetching_.emplace();
     fetching_->region = region;
     fetching_->path =
@@ -350,8 +350,8 @@ void Session::fetch_texture(const std::string& path, RegionId region) {
             // The larger picture where it is no whole photograph.
             constexpr int kLargest = 512;
             const ImageU8x3& larger = texture.original;
-            const bool fits = !larger.empty() && larger.width() <= kLargest &&
-                              larger.height() <= kLargest;
+            const bool fits =
+                !larger.empty() && larger.width() <= kLargest && larger.height() <= kLargest;
             const ImageU8x3& pixels = fits ? larger : texture.pixels;
             ImageF3 values(pixels.size());
             for (std::size_t k = 0; k < pixels.size_bytes(); ++k)

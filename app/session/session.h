@@ -65,6 +65,7 @@ class Session {
     void open_demo();
     void open_any(const std::string& path);
     void save(const std::string& path);
+    [[nodiscard]] Expected<Project> moved_to(const std::string& path) const;
     void recover(bool accept);
     void document_changed();
     void open_plate_in_background();
@@ -121,9 +122,10 @@ class Session {
     std::uint64_t document_version_ = 1, shown_version_ = 0, requested_version_ = 0;
     std::vector<RecoveredProject> recoverable_;
 
+    // Each may use the ones above it from its own thread, so this is the order in which they end.
+    Preview preview_;
     MatteShelf shelf_;
     RecoveryWriter recovery_;
-    Preview preview_;
     ChildJobs jobs_;
 
     struct OpenedPlate {

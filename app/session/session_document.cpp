@@ -142,6 +142,29 @@ void Session::open_any(const std::string& given) {
     start_document(std::move(*project), "");
 }
 
+// The document as it is written to another place: what lies below that folder by relative paths,
+// and what was painted or fetched before there was a project copied beside it.
+Expected<Project> Session::moved_to(const std::string& path) const {
+    const std::string dir = project_dir(path), stem = fs::path(path).stem().string();
+    const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
+    std::string failed;
+    Project moved = map_paths(
+        resolve_paths(history_.current(), project_dir(path_)), [&](const std::string& from) {
+            if (!from.starts_with(unsaved)) return relative_to(dir, from);
+            const bool texture = from.find("/textures/") != std::string::npos;
+            const fs::path to = fs::path(dir) / (stem + (texture ? "_textures" : "_mattes")) /
+                                fs::path(from).filename();
+            std::error_code error;
+            fs::create_directories(to.parent_path(), error);
+            fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+            if (error && failed.empty())
+                failed = from + " cannot be copied beside the project: " + error.message() + ".";
+            return relative_to(dir, to.string());
+        });
+    if (!failed.empty()) return fail(ErrorCode::kUnreadable, failed);
+    return moved;
+}
+
 void Session::save(const std::string& path) {
     if (!open_) return;
     if (path.empty()) {
@@ -150,13 +173,16 @@ void Session::save(const std::string& path) {
     }
     end_stroke();
     const std::string whole = fs::absolute(path).string();
+    shelf_.flush();
     Project project = history_.current();
     if (whole != path_) {
-        const std::string dir = project_dir(whole);
-        project = map_paths(resolve_paths(project, project_dir(path_)),
-                            [&](const std::string& p) { return relative_to(dir, p); });
+        auto moved = moved_to(whole);
+        if (!moved) {
+            notify(NoticeKind::kError, moved.error().text());
+            return;
+        }
+        project = std::move(*moved);
     }
-    shelf_.flush();
     if (const Status saved = save_project(whole, project); !saved) {
         notify(NoticeKind::kError, saved.error().text());
         return;

@@ -9,6 +9,7 @@
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/synthesis/texture_plane.h"
+#include "texture_db/library.h"
 
 namespace weft {
 namespace {
@@ -186,6 +187,9 @@ class ShotOpener {
         plan.grain_frames = std::move(metered);
         WEFT_TRY(evidence, light_evidence(region, plan, shot_.plan, *shot_.plate));
         plan.light_evidence = std::move(evidence);
+        plan.has_lines = !region.lines.files.empty();
+        plan.extract_lines = region.lines.extract && !plan.has_lines;
+        plan.line_width_px = static_cast<float>(region.lines.width_px);
         if (options_.textures) {
             WEFT_CHECK_OK(add_texture(region, plan));
             WEFT_CHECK_OK(add_light_picture(region, plan));
@@ -214,6 +218,31 @@ class ShotOpener {
                         ". Check the pattern and its numbers.");
     }
 
+    struct ReadTexture {
+        PlateFrame picture;
+        TextureCredit credit;
+    };
+    // A picture file, or "db:ID" for a sample of the user's texture library. Resolving a project's
+    // paths may have put a folder in front of that.
+    static Expected<ReadTexture> read_texture(const std::string& path) {
+        const std::string name = path.substr(path.rfind('/') + 1);
+        ReadTexture out;
+        if (!name.starts_with("db:")) {
+            WEFT_TRY(picture, read_image(path));
+            out.picture = std::move(picture);
+            if (auto credit = read_texture_credit(path)) out.credit = std::move(*credit);
+            return out;
+        }
+        WEFT_TRY(resolved, resolve_texture({}, name));
+        out.credit = std::move(resolved.credit);
+        out.picture.rgb = ImageF3(resolved.pixels.size());
+        std::transform(resolved.pixels.data(),
+                       resolved.pixels.data() + resolved.pixels.size_bytes(),
+                       out.picture.rgb.data(),
+                       [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
+        return out;
+    }
+
     Status add_texture(const Region& region, RegionPlan& plan) {
         const bool is_plane = !region.texture.plane.empty();
         const std::string& path = is_plane ? region.texture.plane : region.texture.sample;
@@ -221,7 +250,8 @@ class ShotOpener {
             return fail(ErrorCode::kUsage,
                         "It has no texture. Give a sample (--texture) or a plane (--plane).");
         }
-        WEFT_TRY(picture, read_image(path));
+        WEFT_TRY(read, read_texture(path));
+        auto& [picture, credit] = read;
         if (!is_plane) {
             // Now, not after minutes of analysis.
             if (const Status fits = check_sample(picture.rgb.size(), plan.overlap_px); !fits)
@@ -250,7 +280,8 @@ class ShotOpener {
         Hasher hasher;
         hasher.image(texture->pixels);
         shot_.textures.push_back(
-            {region.name, path, hasher.finish().hex(), texture->pixels.size(), is_plane});
+            {region.name, path, hasher.finish().hex(), texture->pixels.size(), is_plane,
+             credit.author, credit.licence, credit.source});
         shot_.spaces.textures.push_back(texture_space);
         plan.texture = std::move(texture);
         plan.working_from_texture = working_from_texture;

@@ -23,6 +23,8 @@ struct ShotTexture {
     std::string region, path, id;  ///< id: hash of the decoded pixels.
     Size size;
     bool is_plane = false;
+    /// Of a texture that came from the library; empty: not known.
+    std::string author, licence, source;
 };
 
 /// Everything that analysing and rendering need. Shared and immutable once made; thread-safe.

@@ -38,7 +38,7 @@ struct StudyRun {
     std::string id, title;
     StudyRole role = StudyRole::kBaseline;
     double alpha = 0;     ///< kPaper
-    bool lit = false;     ///< With the light of the project; else light is off.
+    bool lit = false;     ///< With the project's light and lines; else both are off.
     std::string pattern;  ///< Of its frames.
     StageSeconds seconds;
     double cpu_s = 0;  ///< Of all threads, over all stages.

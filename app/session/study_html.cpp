@@ -144,11 +144,11 @@ class HtmlReport {
             "the same texture moved ideally; resampling alone costs that much. Blur lowers the "
             "TDE, so no TDE counts without the sharpness beside it. Motion measured with: <b>{}"
             "</b>{}. Light is off in this comparison, so that the transport alone is judged.</p>\n",
-            html_text(m.motion.empty() ? "none" : m.motion),
+            study_.estimated_ideal ? html_text(m.motion) : "the clip's true motion",
             study_.estimated_ideal
                 ? " (no true motion was given: floor and sharpness rest on this estimate, which is "
                   "not the one that rendered)"
-                : " (the clip's true motion)");
+                : "");
         if (!v.paper && study_.find("locked") != nullptr && has_papers()) {
             out_ += "<p>The paper's method kept a sharpness of 0.90 at none of these α.</p>\n";
         }

@@ -30,12 +30,11 @@ class Planner {
             methods_.back().kind = Kind::kPoisson;
         }
         if (wanted("still")) {
-            add("still", "Still texture (fixed on the screen)", StudyRole::kBaseline,
-                [&](Region& r) {
-                    r.temporal.mode = TemporalMode::kNone;
-                    r.texture.sample.clear();
-                    r.texture.plane = plane_;
-                });
+            add("still", "Still texture on the screen", StudyRole::kBaseline, [&](Region& r) {
+                r.temporal.mode = TemporalMode::kNone;
+                r.texture.sample.clear();
+                r.texture.plane = plane_;
+            });
         }
         if (wanted("paper")) {
             for (const double alpha : options_.alphas)
@@ -84,7 +83,12 @@ class Planner {
         method.project.output = Output{};
         method.project.output.path = method.run.pattern;
         method.project.regions.front() = project_.regions.front().with([&](Region& region) {
-            if (!method.run.lit) region.light.source = LightSource::kNone;
+            if (!method.run.lit) {
+                region.light.source = LightSource::kNone;
+                region.lines = LineParams{};
+            }
+            // Grain is fresh in every frame, as the plate's is: it is no flicker of the method.
+            region.finish.grain = region.finish.focus = 0;
             change(region);
         });
         methods_.push_back(std::move(method));

@@ -280,7 +280,8 @@ void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, con
     std::vector<TextureSuggestion> out;
     if (found && !found->regions.empty()) {
         for (const auto& one : found->regions[0].suggestions)
-            out.push_back({"db:" + one.id, one.reasons.empty() ? std::string() : one.reasons[0],
+            out.push_back({"db:" + one.id,
+                           one.reasons.empty() ? std::string() : readable(one.reasons[0]),
                            one.score});
     }
     const std::lock_guard lock(mutex_);
@@ -339,7 +340,8 @@ const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
 
 void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte) {
     const ImageU8x3 whole = shrink(plate, 1 << 20);
-    if (!library_cards_.empty() && whole.size() == matte.size()) return recommend(key, whole, matte);
+    if (!library_cards_.empty() && whole.size() == matte.size())
+        return recommend(key, whole, matte);
     Look surface;
     if (whole.size() == matte.size()) {
         statistics(
@@ -368,8 +370,9 @@ void TextureShelf::rank(const std::string& key, const Picture& plate, const Matt
         if (colour < 28 && contrast < 10) one.reason = "Close in colour and contrast";
         found.push_back(std::move(one));
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const TextureSuggestion& a, const TextureSuggestion& b) { return a.score > b.score; });
+    std::stable_sort(
+        found.begin(), found.end(),
+        [](const TextureSuggestion& a, const TextureSuggestion& b) { return a.score > b.score; });
     constexpr std::size_t kShown = 8;
     if (found.size() > kShown) found.resize(kShown);
     const std::lock_guard lock(mutex_);
@@ -382,9 +385,10 @@ void TextureShelf::work() {
     lower_thread_priority();
     std::unique_lock lock(mutex_);
     for (;;) {
-        wake_.wait(lock,
-                   [&] { return stop_ || scan_due_ || library_due_ || !wishes_.empty() || !rank_due_.empty() ||
-                   !search_due_.empty() || !details_due_.empty(); });
+        wake_.wait(lock, [&] {
+            return stop_ || scan_due_ || library_due_ || !wishes_.empty() || !rank_due_.empty() ||
+                   !search_due_.empty() || !details_due_.empty();
+        });
         if (stop_) return;
         if (scan_due_) {
             scan_due_ = false;

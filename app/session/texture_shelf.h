@@ -48,8 +48,8 @@ class TextureShelf {
     [[nodiscard]] std::string activity() const;
     /// Everything known about a card; author, licence and tags of a library's texture come later.
     [[nodiscard]] TextureCard details(const TextureCard& card);
-    /// Paths in the order of how well they answer the words; null while it is worked out, or without
-    /// a library.
+    /// Paths in the order of how well they answer the words; null while it is worked out, or
+    /// without a library.
     [[nodiscard]] std::shared_ptr<const std::vector<std::string>> search(const std::string& words);
     [[nodiscard]] std::shared_ptr<const std::vector<TextureCard>> cards() const;
     /// Null while it is being made: asked for again every frame by what is visible. The newest wish

@@ -81,6 +81,9 @@ struct RegionPlan {
     // Finish: what the plate's camera does to a picture.
     float grain = 0, focus = 0;     ///< Strengths; 0: none.
     std::vector<int> grain_frames;  ///< Grain is measured on these, from the reference on.
+    // Ink on top: from a pass, or found in the plate.
+    bool has_lines = false, extract_lines = false;
+    float line_width_px = 4;
 };
 
 /// What holds for the whole shot.

@@ -6,6 +6,7 @@
 
 #include "engine/composite/composite.h"
 #include "engine/composite/focus.h"
+#include "engine/composite/line_layer.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 #include "engine/lighting/plate_transfer.h"
@@ -51,6 +52,8 @@ class FrameRenderer {
     void match_focus(int index, const Recti& box, const Matte& matte, ImageF3& texture) const;
     void put_grain(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
                    ImageF3& texture) const;
+    // The region's ink, from its pass or found in the plate, over the lit texture.
+    Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture);
 
     const ShotSource& source_;
     const ShotPlan& plan_;
@@ -186,6 +189,22 @@ void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& 
     texture = transformed(display, *region.working_from_display);
 }
 
+Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
+                              ImageF3& texture) {
+    const RegionPlan& region = region_of(plan_, index);
+    if (!region.has_lines && !region.extract_lines) return {};
+    Matte ink;
+    if (region.has_lines) {
+        WEFT_TRY(pass, source_.lines(index, frame_));
+        ink = std::move(pass);
+    } else {
+        if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
+        ink = extract_ink(views_->display, matte, {.width_px = region.line_width_px});
+    }
+    lay_lines(texture, working_.view().crop(box), ink.view().crop(box));
+    return {};
+}
+
 Status FrameRenderer::add(int index, const RegionScene& scene) {
     WEFT_TRY(matte, composite_matte(index));
     const Recti box = matte_bounds(matte);
@@ -199,6 +218,8 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     match_focus(index, box, inside, surface);
     WEFT_CHECK_OK(light(index, scene, box, inside, surface));
     put_grain(index, scene, box, inside, surface);
+    // The ink has the plate's grain already.
+    WEFT_CHECK_OK(lay_ink(index, box, matte, surface));
 
     const ImageView<float, 3> area = canvas_.view().crop(box);
     const ImageF3 old_surface = unmix_surface(area, inside);

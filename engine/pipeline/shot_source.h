@@ -24,6 +24,10 @@ class ShotSource {
     [[nodiscard]] virtual Expected<Matte> matte_key(int region, int frame) const = 0;
     /// What passes in front of the region: the maximum of its holdouts; nothing when it has none.
     [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
+    /// The ink's coverage from the region's line pass (RegionPlan::has_lines); empty without one.
+    [[nodiscard]] virtual Expected<Matte> lines(int /*region*/, int /*frame*/) const {
+        return Matte();
+    }
     /// The file of true motion of this frame, to the next or the previous one as
     /// RegionPlan::motion_forward says.
     [[nodiscard]] virtual Expected<FlowField> motion(int region, int frame) const = 0;

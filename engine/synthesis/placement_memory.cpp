@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace weft {
 namespace {
 
 constexpr double kReuseTolerance = 0.05;
+constexpr int kFarStep_px = 12;
 
-std::int64_t step_key(Vec2i d) {
-    if (d.y < 0 || (d.y == 0 && d.x < 0)) d = {-d.x, -d.y};
-    return static_cast<std::int64_t>(d.y) * (std::int64_t{1} << 32) + d.x;
+// Of a step and its opposite the one that leads downwards.
+Vec2i downwards(Vec2i d) {
+    return d.y < 0 || (d.y == 0 && d.x < 0) ? Vec2i{-d.x, -d.y} : d;
 }
 
 }  // namespace
@@ -20,21 +22,31 @@ PlacementMemory::PlacementMemory(std::vector<Placed> earlier, Size near)
     for (std::size_t i = 0; i < earlier_.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const Vec2i d = earlier_[i].origin - earlier_[j].origin;
-            if (neighbours(d)) steps_.push_back(step_key(d));
+            if (neighbours(d)) steps_.push_back(downwards(d));
         }
     }
-    std::sort(steps_.begin(), steps_.end());
+    std::sort(steps_.begin(), steps_.end(),
+              [](Vec2i a, Vec2i b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); });
 }
 
 bool PlacementMemory::neighbours(Vec2i d) const {
     return std::abs(d.x) < near_.width && std::abs(d.y) < near_.height;
 }
 
-bool PlacementMemory::repeats_a_step(Vec2i origin) const {
-    return std::any_of(earlier_.begin(), earlier_.end(), [&](const Placed& p) {
-        const Vec2i d = origin - p.origin;
-        return neighbours(d) && std::binary_search(steps_.begin(), steps_.end(), step_key(d));
-    });
+// How far the steps from the neighbours are from any that was made before, in pixels, up to
+// kFarStep_px.
+int PlacementMemory::novelty(Vec2i origin) const {
+    int least = kFarStep_px;
+    for (const Placed& p : earlier_) {
+        const Vec2i d = downwards(origin - p.origin);
+        if (!neighbours(d)) continue;
+        const auto first = std::lower_bound(steps_.begin(), steps_.end(), d.y - least,
+                                            [](Vec2i step, int y) { return step.y < y; });
+        for (auto s = first; s != steps_.end() && s->y <= d.y + least; ++s) {
+            least = std::min(least, std::max(std::abs(s->x - d.x), std::abs(s->y - d.y)));
+        }
+    }
+    return least;
 }
 
 // Shares of the patch that show what a near patch shows, the nearer the more.
@@ -60,13 +72,18 @@ std::vector<Vec2i> PlacementMemory::least_repetitive(const std::vector<Vec2i>& o
     for (const Vec2i o : origins)
         costs.push_back(reuse({o, rect}));
     const double limit = *std::min_element(costs.begin(), costs.end()) + kReuseTolerance;
-    std::vector<Vec2i> out, fresh;
+    std::vector<int> novelties(origins.size(), -1);
+    int most = 0;
     for (std::size_t i = 0; i < origins.size(); ++i) {
         if (costs[i] > limit) continue;
-        out.push_back(origins[i]);
-        if (!repeats_a_step(origins[i])) fresh.push_back(origins[i]);
+        novelties[i] = novelty(origins[i]);
+        most = std::max(most, novelties[i]);
     }
-    return fresh.empty() ? out : fresh;
+    std::vector<Vec2i> out;
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (novelties[i] >= 0 && 3 * novelties[i] >= 2 * most) out.push_back(origins[i]);
+    }
+    return out;
 }
 
 }  // namespace weft

@@ -1,7 +1,6 @@
 #pragma once
 // What earlier placements mean for the next one: copies, repeated steps, places used before.
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/core/geometry.h"
@@ -27,19 +26,19 @@ class PlacementMemory {
     [[nodiscard]] const std::vector<Placed>& earlier() const { return earlier_; }
 
     /// Of equally good candidates for the patch those that use places of the sample least that are
-    /// near already and, where there are such, make no step from a neighbour that was made before:
-    /// equal steps are what an eye sees as a grid of repeats.
+    /// near already, and of these the ones whose steps from the neighbours are least like steps
+    /// made before: equal steps are what an eye sees as a grid of repeats.
     [[nodiscard]] std::vector<Vec2i> least_repetitive(const std::vector<Vec2i>& origins,
                                                       const Recti& rect) const;
 
   private:
     [[nodiscard]] double reuse(const Placed& next) const;
-    [[nodiscard]] bool repeats_a_step(Vec2i origin) const;
+    [[nodiscard]] int novelty(Vec2i origin) const;
     [[nodiscard]] bool neighbours(Vec2i d) const;
 
     std::vector<Placed> earlier_;
     Size near_;
-    std::vector<std::int64_t> steps_;  ///< Between earlier neighbours, sorted.
+    std::vector<Vec2i> steps_;  ///< Between earlier neighbours, sorted.
 };
 
 }  // namespace weft

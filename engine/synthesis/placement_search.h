@@ -24,7 +24,7 @@ struct Shortlist {
 };
 
 /// How much worse than the best a good placement may be, in mean squared difference.
-inline constexpr std::uint32_t kGoodNumerator = 110, kGoodDenominator = 100;
+inline constexpr std::uint32_t kGoodNumerator = 130, kGoodDenominator = 100;
 
 /// Searches one sample (or one window of it) over blocks of one size, with the translations
 /// t ∈ [lo, hi], t being where the sample's origin lies in the block. What a search

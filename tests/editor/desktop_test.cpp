@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -42,7 +43,8 @@ class Desktop : public ::testing::Test {
         }
     }
     int tool(const std::string& arguments) const {
-        return std::system(("DISPLAY=" + display_ + " xdotool " + arguments + " >/dev/null 2>&1").c_str());
+        return std::system(
+            ("DISPLAY=" + display_ + " xdotool " + arguments + " >/dev/null 2>&1").c_str());
     }
     bool wait_for_window() const {
         for (int k = 0; k < 120; ++k) {

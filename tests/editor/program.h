@@ -16,7 +16,9 @@ class Sandbox {
     ~Sandbox();
     Sandbox(const Sandbox&) = delete;
     Sandbox& operator=(const Sandbox&) = delete;
-    [[nodiscard]] std::string in(const std::string& name) const { return (folder_ / name).string(); }
+    [[nodiscard]] std::string in(const std::string& name) const {
+        return (folder_ / name).string();
+    }
 
   private:
     std::filesystem::path folder_;

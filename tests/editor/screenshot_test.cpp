@@ -16,7 +16,8 @@ double liveliness(const ImageF3& picture) {
     double sum = 0;
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 1; x < picture.width(); ++x)
-            sum += std::abs(static_cast<double>(picture.pixel(x, y)[1] - picture.pixel(x - 1, y)[1]));
+            sum +=
+                std::abs(static_cast<double>(picture.pixel(x, y)[1] - picture.pixel(x - 1, y)[1]));
     return sum / (static_cast<double>(picture.width()) * picture.height());
 }
 
@@ -40,12 +41,13 @@ TEST(Screenshots, EveryWorkspaceShowsSomethingOfItsOwn) {
         std::ofstream script(sandbox.in("script.json"));
         script << "[{\"wait_for\": \"plate\"}, {\"settle\": true, \"timeout\": 4}";
         for (int k = 0; k < 6; ++k)
-            script << ", {\"workspace\": \"" << names[k] << "\"}, {\"wait\": 0.3}, {\"screenshot\": \""
+            script << ", {\"workspace\": \"" << names[k]
+                   << "\"}, {\"wait\": 0.3}, {\"screenshot\": \""
                    << sandbox.in(std::to_string(k) + ".png") << "\"}";
         script << "]";
     }
-    const Finished done =
-        run(sandbox, {"edit", "--demo", "--script", sandbox.in("script.json"), "--size", "1280x720"});
+    const Finished done = run(
+        sandbox, {"edit", "--demo", "--script", sandbox.in("script.json"), "--size", "1280x720"});
     if (no_gl(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     ImageF3 before;
@@ -54,7 +56,9 @@ TEST(Screenshots, EveryWorkspaceShowsSomethingOfItsOwn) {
         ASSERT_TRUE(picture) << picture.error().text();
         EXPECT_EQ(picture->rgb.size(), (Size{1280, 720}));
         EXPECT_GT(liveliness(picture->rgb), 0.002) << names[k];
-        if (k > 0) EXPECT_GT(difference(before, picture->rgb), 0.002) << names[k];
+        if (k > 0) {
+            EXPECT_GT(difference(before, picture->rgb), 0.002) << names[k];
+        }
         before = picture->rgb;
     }
 }
@@ -69,14 +73,17 @@ TEST(Screenshots, TheSameScriptGivesTheSamePicture) {
         ASSERT_EQ(done.code, 0) << done.errors;
         const auto picture = read_image(out);
         ASSERT_TRUE(picture);
-        if (k == 1) EXPECT_LT(difference(first, picture->rgb), 0.002);
+        if (k == 1) {
+            EXPECT_LT(difference(first, picture->rgb), 0.002);
+        }
         first = picture->rgb;
     }
 }
 
 TEST(Screenshots, AScriptThatFailsSaysWhichStep) {
     const Sandbox sandbox;
-    std::ofstream(sandbox.in("script.json")) << "[{\"wait\": 0.1}, {\"click\": \"No such button\"}]";
+    std::ofstream(sandbox.in("script.json"))
+        << "[{\"wait\": 0.1}, {\"click\": \"No such button\"}]";
     const Finished done = run(sandbox, {"edit", "--script", sandbox.in("script.json")});
     if (no_gl(done)) GTEST_SKIP() << done.errors;
     EXPECT_EQ(done.code, 1);

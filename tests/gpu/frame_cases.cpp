@@ -68,6 +68,9 @@ Vec2 turned(Vec2 p) {
 Vec2 squeezed(Vec2 p) {
     return {7.0f * p.x - 130.0f, 0.7f * p.y + 0.2f * p.x * p.x};
 }
+Vec2 far_away(Vec2 p) {
+    return {700.0f * p.x, 800.0f * p.y};
+}
 Vec2 magnified(Vec2 p) {
     return {0.21f * p.x + 20, 0.17f * p.y + 20};
 }
@@ -125,6 +128,10 @@ std::vector<FrameCase> frame_cases() {
     c.layers[0].shading = light({42, 34}, 9, 1.0f);
     c.layers[0].coords.at(40, 30, 0) = std::numeric_limits<float>::quiet_NaN();
     c.layers[0].coords.at(12, 50, 1) = 3e9f;
+    out.push_back(c);
+
+    // A pixel spans the plane many times: the last level, one texel.
+    c = {"FarAway", noise(size, 12, 0.9f), {layer({40, 30}, WrapMode::kRepeat, far_away)}, {}};
     out.push_back(c);
 
     c = {"NoLayer", noise(size, 10, 0.9f), {}, 0.9f};

@@ -94,6 +94,38 @@ TEST(SequenceMeasure, AnIdealResultIsAtTheFloor) {
     EXPECT_LT(m.source_tde.mean, 5);
 }
 
+// The second of two measures of one clip takes motion and ideal from the first: its figures are
+// those that it would have found by itself.
+TEST(SequenceMeasure, ATwinGivesTheSameFigures) {
+    const Clip clip;
+    MeasureOptions options;
+    options.ideal.emplace();
+    options.ideal->plane = clip.plane;
+    SequenceMeasure first(options), alone(options);
+    options.ideal->plane = ImageU8x3(1, 1);
+    SequenceMeasure second(options);
+    for (int t = 0; t < 3; ++t) {
+        const ImageF3 good = Clip::cut(locked(clip, t), t);
+        const ImageF3 still =
+            Clip::cut(IdealTexture(clip.plane).render(FlowField(kSize), Mat3(1)), t);
+        const ImageF3 source = clip.source(t);
+        const Matte matte = Clip::matte(t);
+        MeasureFrame f{t, good, source, matte};
+        ASSERT_TRUE(first.add(f));
+        f.result = still;
+        const auto by_itself = alone.add(f);
+        f.twin = &first;
+        const auto beside = second.add(f);
+        ASSERT_TRUE(by_itself && beside);
+        EXPECT_EQ(beside->tde, by_itself->tde);
+        EXPECT_EQ(beside->tde_floor, by_itself->tde_floor);
+        EXPECT_EQ(beside->tde_at_floor, by_itself->tde_at_floor);
+        EXPECT_EQ(beside->sharpness_kept, by_itself->sharpness_kept);
+    }
+    EXPECT_EQ(second.summary().motion, "deepflow");
+    EXPECT_GT(second.summary().tde.mean, 2 * first.summary().tde.mean);
+}
+
 TEST(SequenceMeasure, EachFaultShowsInItsOwnFigure) {
     const SequenceMeasures ideal = measure(locked);
     const SequenceMeasures still = measure(

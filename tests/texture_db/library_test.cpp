@@ -247,6 +247,13 @@ TEST(Library, ShortensIdsAndRefusesOthers) {
     ASSERT_TRUE(resolved);
     EXPECT_EQ(resolved->pixels, *library->thumbnail(id));
     EXPECT_EQ(resolved->credit.licence, "CC-BY-4.0");
+    const auto kept = keep_texture(library->path(), id, scratch.at("project/textures"));
+    ASSERT_TRUE(kept) << kept.error().text();
+    const auto credit = read_texture_credit(*kept);
+    ASSERT_TRUE(credit);
+    EXPECT_EQ(credit->author, "Ada");
+    EXPECT_EQ(credit->id, id);
+    EXPECT_FALSE(read_texture_credit(scratch.at("other.png")));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a search must find. The table is the promise: what must stand on the first page of twelve.
+// What a search must find. The table is the promise: what must stand on the first page of eight.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-constexpr int kPage = 12;
+constexpr int kPage = 8;
 
 struct Asked {
     const char* words;
@@ -21,22 +21,49 @@ struct Asked {
     bool needs_wordnet = false;
 };
 
-void PrintTo(const Asked& asked, std::ostream* out) {
-    *out << asked.words;
-}
+// One test for the whole table: each test of this program may run in a process of its own, and all
+// of them ask the same library.
+const Asked kAsked[]{
 
-class FirstPage : public testing::TestWithParam<Asked> {};
+    // Materials by their names.
+    Asked{"brick", "brick"}, Asked{"stone", "stone"}, Asked{"wood", "wood"},
+    Asked{"leather", "leather"}, Asked{"fur", "fur"}, Asked{"knit", "knit"},
+    Asked{"grass", "grass"}, Asked{"water", "water"}, Asked{"marble", "marble"},
+    Asked{"snow", "snow"}, Asked{"tiles", "tiles"}, Asked{"carpets", "carpet"},
+    // Synonyms.
+    Asked{"masonry", "brick stone"}, Asked{"timber", "wood"}, Asked{"hide", "leather skin"},
+    Asked{"lawn", "grass"}, Asked{"rusty iron", "rust"}, Asked{"cloth", "fabric knit carpet"},
+    Asked{"tarmac", "asphalt"}, Asked{"cement", "concrete"}, Asked{"soil", "dirt"},
+    Asked{"pebbles", "gravel"}, Asked{"stucco", "plaster"}, Asked{"thatch", "straw"},
+    Asked{"porcelain", "ceramic"}, Asked{"magma", "lava"}, Asked{"ocean", "water"},
+    Asked{"planks", "wood"}, Asked{"denim", "fabric"}, Asked{"shingles", "roof gravel"},
+    Asked{"sweater", "knit"},
+    // Wider and narrower words.
+    Asked{"textile", "fabric knit carpet"}, Asked{"plant", "grass foliage bark wood straw"},
+    Asked{"rock", "stone gravel marble cobblestone"},
+    Asked{"ground", "grass dirt sand gravel asphalt snow cobblestone"},
+    Asked{"gneiss", "stone gravel marble cobblestone", "", true}, Asked{"mahogany", "wood"},
+    Asked{"chinchilla", "fur", "", true}, Asked{"limestone", "stone"}, Asked{"teak", "wood"},
+    // What it looks like.
+    Asked{"smooth", "", "smooth"}, Asked{"coarse", "", "coarse"}, Asked{"striped", ""},
+    Asked{"woven", "fabric straw"}, Asked{"dark green", "", "dark green"}, Asked{"red", ""},
+    Asked{"blue fabric", "fabric"}, Asked{"rough grey stone", "stone", "rough grey"},
+    Asked{"dark leather", "leather", "dark"}, Asked{"light marble", "marble", "light"},
+    Asked{"mossy stone", "stone cobblestone"},
+    Asked{"cracked", "plaster dirt concrete leather asphalt ceramic lava"},
+    Asked{"brown wood", "wood"}, Asked{"regular tiles", "tiles", "regular"},
+    Asked{"wooden floor", "wood tiles carpet"},
+    // Misspellings.
+    Asked{"leathr", "leather"}, Asked{"timbr", "wood"}, Asked{"cobbelstone", "cobblestone"},
+    Asked{"conrete", "concrete"}, Asked{"mable", "marble"}, Asked{"gravle", "gravel"},
+    Asked{"striped fabirc", "fabric"}, Asked{"grene grass", "grass"},
+    Asked{"concreet wall", "concrete plaster brick stone tiles wallpaper"}};
 
-TEST_P(FirstPage, ShowsWhatWasMeant) {
-    const Asked& asked = GetParam();
-    if (asked.needs_wordnet && !WordNet::open())
-        GTEST_SKIP() << "WordNet (wordnet-base) is not installed";
-    const auto library = small_library();
-    ASSERT_TRUE(library);
+void check_first_page(TextureLibrary& library, const Asked& asked) {
     SearchQuery query;
     query.text = asked.words;
     query.limit = kPage;
-    const auto result = library->search(query);
+    const auto result = library.search(query);
     ASSERT_TRUE(result) << result.error().text();
     ASSERT_GE(result->hits.size(), 1u) << "nothing was found";
     const auto materials = split_words(asked.materials), looks = split_words(asked.look);
@@ -44,7 +71,7 @@ TEST_P(FirstPage, ShowsWhatWasMeant) {
     for (const SearchHit& hit : result->hits) {
         const bool material = materials.empty() || std::find(materials.begin(), materials.end(),
                                                              hit.material) != materials.end();
-        const auto info = library->info(hit.id);
+        const auto info = library.info(hit.id);
         const bool look = std::all_of(looks.begin(), looks.end(), [&](const std::string& word) {
             return attribute_match(word, info->measured) > 0.05f;
         });
@@ -57,43 +84,17 @@ TEST_P(FirstPage, ShowsWhatWasMeant) {
         << result->hits[0].name;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    SixtyQueries, FirstPage,
-    testing::Values(
-        // Materials by their names.
-        Asked{"brick", "brick"}, Asked{"stone", "stone"}, Asked{"wood", "wood"},
-        Asked{"leather", "leather"}, Asked{"fur", "fur"}, Asked{"knit", "knit"},
-        Asked{"grass", "grass"}, Asked{"water", "water"}, Asked{"marble", "marble"},
-        Asked{"snow", "snow"}, Asked{"tiles", "tiles"}, Asked{"carpets", "carpet"},
-        // Synonyms.
-        Asked{"masonry", "brick stone"}, Asked{"timber", "wood"}, Asked{"hide", "leather skin"},
-        Asked{"lawn", "grass"}, Asked{"rusty iron", "rust"}, Asked{"cloth", "fabric knit carpet"},
-        Asked{"tarmac", "asphalt"}, Asked{"cement", "concrete"}, Asked{"soil", "dirt"},
-        Asked{"pebbles", "gravel"}, Asked{"stucco", "plaster"}, Asked{"thatch", "straw"},
-        Asked{"porcelain", "ceramic"}, Asked{"magma", "lava"}, Asked{"ocean", "water"},
-        Asked{"planks", "wood"}, Asked{"denim", "fabric"}, Asked{"shingles", "roof gravel"},
-        Asked{"sweater", "knit"},
-        // Wider and narrower words.
-        Asked{"textile", "fabric knit carpet"}, Asked{"plant", "grass foliage bark wood straw"},
-        Asked{"rock", "stone gravel marble cobblestone"},
-        Asked{"ground", "grass dirt sand gravel asphalt snow cobblestone"},
-        Asked{"gneiss", "stone gravel marble cobblestone", "", true}, Asked{"mahogany", "wood"},
-        Asked{"linoleum", "carpet tiles wood", "", true}, Asked{"limestone", "stone"},
-        Asked{"teak", "wood"},
-        // What it looks like.
-        Asked{"smooth", "", "smooth"}, Asked{"coarse", "", "coarse"}, Asked{"striped", ""},
-        Asked{"woven", "fabric straw"}, Asked{"dark green", "", "dark green"}, Asked{"red", ""},
-        Asked{"blue fabric", "fabric"}, Asked{"rough grey stone", "stone", "rough grey"},
-        Asked{"dark leather", "leather", "dark"}, Asked{"light marble", "marble", "light"},
-        Asked{"mossy stone", "stone"},
-        Asked{"cracked", "plaster dirt concrete leather asphalt ceramic lava"},
-        Asked{"brown wood", "wood"}, Asked{"regular tiles", "tiles", "regular"},
-        Asked{"wooden floor", "wood tiles carpet"},
-        // Misspellings.
-        Asked{"leathr", "leather"}, Asked{"timbr", "wood"}, Asked{"cobbelstone", "cobblestone"},
-        Asked{"conrete", "concrete"}, Asked{"mable", "marble"}, Asked{"gravle", "gravel"},
-        Asked{"striped fabirc", "fabric"}, Asked{"grene grass", "grass"},
-        Asked{"concreet wall", "concrete plaster brick stone tiles wallpaper"}));
+TEST(Search, FirstPagesOfSixtyQueries) {
+    const auto library = small_library();
+    ASSERT_TRUE(library);
+    EXPECT_GE(std::size(kAsked), 60u);
+    const bool wordnet = WordNet::open().has_value();
+    for (const Asked& asked : kAsked) {
+        SCOPED_TRACE(asked.words);
+        if (asked.needs_wordnet && !wordnet) continue;
+        check_first_page(*library, asked);
+    }
+}
 
 TEST(Search, PagesDoNotOverlapAndCountsAgree) {
     const auto library = small_library();

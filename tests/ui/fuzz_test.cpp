@@ -32,7 +32,8 @@ TEST_F(Fuzz, AMinuteOfRandomInput) {
                 break;
             case 2: {
                 const auto& all = shell->commands().all();
-                const Command& command = all[static_cast<std::size_t>(pick(static_cast<int>(all.size())))];
+                const Command& command =
+                    all[static_cast<std::size_t>(pick(static_cast<int>(all.size())))];
                 if (command.id != "file.quit") robot->key(chord_text(command.key));
                 break;
             }
@@ -44,8 +45,8 @@ TEST_F(Fuzz, AMinuteOfRandomInput) {
                 break;
             case 5:
                 if (!shell->items().empty()) {
-                    const DrawnItem item =
-                        shell->items()[static_cast<std::size_t>(pick(static_cast<int>(shell->items().size())))];
+                    const DrawnItem item = shell->items()[static_cast<std::size_t>(
+                        pick(static_cast<int>(shell->items().size())))];
                     io.MousePos = {(item.min.x + item.max.x) / 2, (item.min.y + item.max.y) / 2};
                     io.MouseDown[0] = true;
                     frame();

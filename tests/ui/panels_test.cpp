@@ -1,5 +1,6 @@
 // The panels on made views: what they emit, and that no state breaks them.
 #include "tests/ui/ui_harness.h"
+#include "ui/view_map.h"
 
 namespace weft::test {
 namespace {
@@ -205,9 +206,9 @@ TEST_P(EveryState, IsDrawnWithinTheWindow) {
 
 TEST_P(EveryState, EachSheetOpensAndCloses) {
     view = GetParam().make();
-    for (bool UiState::*sheet : {&UiState::palette_open, &UiState::shortcuts_open,
-                                 &UiState::settings_open, &UiState::history_open,
-                                 &UiState::about_open}) {
+    for (bool UiState::*sheet :
+         {&UiState::palette_open, &UiState::shortcuts_open, &UiState::settings_open,
+          &UiState::history_open, &UiState::about_open}) {
         shell->state().*sheet = true;
         robot->frames(3);
         robot->key("Esc");
@@ -216,11 +217,11 @@ TEST_P(EveryState, EachSheetOpensAndCloses) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    States, EveryState,
-    testing::Values(Look{"Empty", [] { return SessionView{}; }}, Look{"Normal", normal_view},
-                    Look{"Failing", failing_view}, Look{"Huge", huge_view}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(States, EveryState,
+                         testing::Values(Look{"Empty", [] { return SessionView{}; }},
+                                         Look{"Normal", normal_view}, Look{"Failing", failing_view},
+                                         Look{"Huge", huge_view}),
+                         [](const auto& state) { return state.param.name; });
 
 }  // namespace
 }  // namespace weft::test

@@ -157,7 +157,9 @@ TEST_F(EditorSession, ThePreviewShowsTheResultAndNeverAWrongOne) {
     session->act(GoToFrame{3});
     robot->frames(1);
     // Until the frame is there, no other frame's result stands in for it.
-    if (!session->view().result_current) EXPECT_EQ(session->view().result_picture, nullptr);
+    if (!session->view().result_current) {
+        EXPECT_EQ(session->view().result_picture, nullptr);
+    }
 }
 
 TEST_F(EditorSession, AFailedJobSaysWhy) {
@@ -166,8 +168,7 @@ TEST_F(EditorSession, AFailedJobSaysWhy) {
     session->act(ApplyTexture{(folder / "tile.png").string(), 0});
     session->act(SubmitJob{"1-2", (folder / "out" / "####.png").string(), "", false, false});
     ASSERT_TRUE(wait([&] {
-        return !session->view().jobs.empty() &&
-               session->view().jobs[0].state == JobState::kFailed;
+        return !session->view().jobs.empty() && session->view().jobs[0].state == JobState::kFailed;
     }));
     EXPECT_FALSE(session->view().jobs[0].error.empty());
 }

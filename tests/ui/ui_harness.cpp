@@ -17,10 +17,10 @@ void make_context(ImVec2 size) {
     io.DisplaySize = size;
     io.DeltaTime = 1.0f / 60.0f;
     const std::pair<ImGuiKey, int> keys[] = {
-        {ImGuiKey_Tab, 258},    {ImGuiKey_LeftArrow, 263}, {ImGuiKey_RightArrow, 262},
-        {ImGuiKey_Home, 268},   {ImGuiKey_End, 269},       {ImGuiKey_Delete, 261},
-        {ImGuiKey_Enter, 257},  {ImGuiKey_Escape, 256},    {ImGuiKey_Backspace, 259},
-        {ImGuiKey_A, 65},       {ImGuiKey_Z, 90}};
+        {ImGuiKey_Tab, 258},   {ImGuiKey_LeftArrow, 263}, {ImGuiKey_RightArrow, 262},
+        {ImGuiKey_Home, 268},  {ImGuiKey_End, 269},       {ImGuiKey_Delete, 261},
+        {ImGuiKey_Enter, 257}, {ImGuiKey_Escape, 256},    {ImGuiKey_Backspace, 259},
+        {ImGuiKey_A, 65},      {ImGuiKey_Z, 90}};
     for (const auto& [name, key] : keys)
         io.KeyMap[name] = key;
 }
@@ -148,8 +148,8 @@ SessionView huge_view() {
     for (int k = 1; k <= 60; ++k) {
         Region region;
         region.id = static_cast<RegionId>(k);
-        region.name = "A region with a name that is much too long for its row, number " +
-                      std::to_string(k);
+        region.name =
+            "A region with a name that is much too long for its row, number " + std::to_string(k);
         region.texture.sample = "/a/very/long/path/" + std::string(200, 'x') + ".png";
         for (int f = 0; f < 40; ++f)
             region.reference_frames.push_back(1001 + 20 * f);

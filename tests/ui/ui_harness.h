@@ -1,5 +1,6 @@
 #pragma once
-// The real panels without a window: ImGui with no renderer, a session on a small shot, a robot hand.
+// The real panels without a window: ImGui with no renderer, a session on a small shot, a robot
+// hand.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
