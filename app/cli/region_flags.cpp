@@ -128,8 +128,9 @@ Status ProjectFlags::apply(Project& project) const {
 Status ProjectFlags::apply(Region& region) const {
     WEFT_CHECK_OK(apply_given(region, region_));
     if (!mattes_.empty()) {
-        MatteSource matte;
-        matte.select = region.matte->select;
+        MatteSource matte = *region.matte;  // how it is read stays
+        matte.files.clear();
+        matte.keyframes.clear();
         for (const std::string& text : mattes_)
             WEFT_CHECK_OK(add_matte_text(matte, text));
         region.matte = matte;

@@ -39,7 +39,7 @@ struct PlaneSearchRequest {
     /// One byte per translation, row by row: 0 does not take part. Empty, or all 0: all do.
     std::span<const std::uint8_t> allowed;
     /// How much worse than the best a good translation may be.
-    std::uint32_t good_numerator = 110, good_denominator = 100;
+    std::uint32_t good_numerator = 130, good_denominator = 100;
     bool want_costs = false;  ///< For tests and measurements, as is:
     bool want_time = false;
 

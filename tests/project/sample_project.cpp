@@ -41,6 +41,7 @@ Region full_region() {
     r.light.albedo = "albedo/####.exr";
     r.light.lighting = "lighting/####.exr";
     r.finish = {0.5, 0.25, {}};
+    r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
 }
 
