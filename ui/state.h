@@ -120,6 +120,7 @@ struct UiState {
     std::string typing;  ///< Name of the value that is being typed.
     std::string typing_text;
     double drag_start = 0;  ///< Value of the slider that is being dragged, before.
+    double drag_value = 0;  ///< What the drag has come to; the view may lag behind.
     bool drag_moved = false;
     std::string rebinding;  ///< Command whose key is being changed.
     int open_log = 0;       ///< Job whose log is unfolded.

@@ -360,10 +360,12 @@ Change slider(Ctx& c, const SliderSpec& s, double& value) {
             const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
             const double moved = fine * ImGui::GetMouseDragDelta(0, 0).x / (max.x - min.x);
             value = from_unit(s, std::clamp(to_unit(s, c.state.drag_start) + moved, 0.0, 1.0));
+            c.state.drag_value = value;
             c.state.drag_moved = true;
             change = Change::kTrying;
         }
         if (ImGui::IsItemDeactivated() && c.state.drag_moved && s.enabled) {
+            value = c.state.drag_value;
             c.state.drag_moved = false;
             change = Change::kDone;
         }
