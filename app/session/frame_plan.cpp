@@ -87,7 +87,7 @@ Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& 
 Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
                                           const ShotPlan& shot, const FrameReader& plate) {
     if (!plan.estimates_light() || shot.quality == FlowQuality::kDraft) return std::vector<int>{};
-    constexpr int kReach = 48, kMostFrames = 12;
+    constexpr int kReach = 48, kMostFrames = 20;
     const int reference = plan.reference_frames.front();
     WEFT_TRY(run, run_around(region, plate, reference, kReach));
     const auto [first, last] = run;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/composite/moving_light.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 
@@ -189,14 +190,20 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
     const float flat = *at;
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
-            if (!known.row(y)[x] || gradient2.row(y)[x] > flat) continue;
+            if (gradient2.row(y)[x] > flat) known.row(y)[x] = 0;
+        }
+    }
+    leave_out_moving_light(difference, known);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            if (!known.row(y)[x]) continue;
             const float* d = difference.pixel(x, y);
             pixels_.push_back(
                 {{d[0], d[1], d[2]}, gradient2.row(y)[x], luma.row(y)[x], gain.row(y)[x]});
             for (int v = -kReach; v <= kReach; ++v) {
                 for (int u = -kReach; u <= kReach; ++u) {
                     const int nx = x + u, ny = y + v;
-                    if (!known.row(ny)[nx] || gradient2.row(ny)[nx] > flat) continue;
+                    if (!known.row(ny)[nx]) continue;
                     const auto lag = static_cast<std::size_t>((v + kReach) * kLags + u + kReach);
                     lag_counts_[lag] += 1;
                     for (std::size_t c = 0; c < 3; ++c)
