@@ -274,6 +274,8 @@ void Session::want_frames() {
 
 void Session::request_preview() {
     if (!request_due_ || !reader_ || painting_) return;
+    // The analysis reads mattes from files. news() grows once the last one is written.
+    if (shelf_.writing()) return;
     request_due_ = false;
     requested_version_ = document_version_;
     PreviewRequest request;
