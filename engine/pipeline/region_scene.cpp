@@ -22,14 +22,14 @@ int plane_side(int plate_px, float scale) {
 
 Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
                                   std::optional<PlaneStats>& stats, const CancelToken& cancel,
-                                  const ProgressFn& progress) {
+                                  const ProgressFn& progress, const Backend* backend) {
     const TexturePicture& texture = *region.texture;
     if (texture.is_plane) {
         return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
                             texture.wrap);
     }
     PlaneOptions options =
-        plane_options(region, plan.seed, plane_size(region.placement, plate));
+        plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = true;
     WEFT_TRY(plane, grow_plane(synthesis_sample(region), options, cancel, progress));
     stats = plane.stats;
@@ -41,8 +41,9 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
 Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
                             const AnalysisStore& store, int index, int frame, RegionScene& scene) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
-    const bool from_plate = region.light_source == LightSource::kPlate &&
-                            (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
+    const bool from_plate =
+        region.light_source == LightSource::kPlate &&
+        (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
     if (!from_plate) return {};
     WEFT_TRY(plate, source.plate(frame));
     const ImageF3 working = transformed(*plate, *plan.working_from_plate);
@@ -93,13 +94,15 @@ ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& pla
 
 Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                  const AnalysisStore& store, int region_index,
-                                 const CancelToken& cancel, const ProgressFn& progress) {
+                                 const CancelToken& cancel, const ProgressFn& progress,
+                                 const Backend* backend) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
     WEFT_TRY(plane_from, plane_from_plate(region.placement));
     scene.plane_from_plate = plane_from;
     if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
-        WEFT_TRY(plane, make_plane(plan, region, source.size(), scene.stats, cancel, progress));
+        WEFT_TRY(plane,
+                 make_plane(plan, region, source.size(), scene.stats, cancel, progress, backend));
         scene.plane = std::move(plane);
     }
     const int reference = region.reference_frames.front();

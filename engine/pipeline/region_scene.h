@@ -30,11 +30,13 @@ struct RegionScene {
 /// depends on the plate and the placement only, so that every part of a shot gets the same plane.
 [[nodiscard]] Size plane_size(const PlanePlacement& placement, Size plate);
 
-/// Grows a region's plane and takes S₀ from the analysis of its (first) reference frame.
+/// Grows a region's plane, with the backend's search if it has one, and takes S₀ from the analysis
+/// of its (first) reference frame.
 [[nodiscard]] Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                                const AnalysisStore& store, int region,
                                                const CancelToken& cancel,
-                                               const ProgressFn& progress);
+                                               const ProgressFn& progress,
+                                               const Backend* backend = nullptr);
 
 /// A plane's pixels in the working space: each texel takes the sample's pixel that its source map
 /// names, at the sample's full precision; what feathering changed in 8 bit is added.

@@ -187,7 +187,8 @@ class Follower {
         job.last_shading.reset();
         job.last_visible = visible;
         if (job.paper && at.frame == job.primary) {
-            job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size());
+            job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size(),
+                                context_.backend);
             WEFT_TRY(picture, job.painter->start(at.frame, context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
@@ -345,7 +346,8 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     WEFT_CHECK_OK(run(legs.again, &Follower::again));
     for (const Job& job : jobs) {
         if (job.gathers_light())
-            WEFT_CHECK_OK(estimate_light(context, job.region, {job.span.first, job.span.last}, store));
+            WEFT_CHECK_OK(
+                estimate_light(context, job.region, {job.span.first, job.span.last}, store));
     }
     return {};
 }

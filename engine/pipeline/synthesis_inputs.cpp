@@ -8,7 +8,8 @@ ImageU8x3 synthesis_sample(const RegionPlan& region) {
     return make_views(region.texture->pixels, *region.display_from_texture).display;
 }
 
-PlaneOptions plane_options(const RegionPlan& region, std::uint64_t seed, Size size) {
+PlaneOptions plane_options(const RegionPlan& region, std::uint64_t seed, Size size,
+                           const Backend* backend) {
     PlaneOptions options;
     options.size = size;
     options.seam = region.seam;
@@ -16,6 +17,7 @@ PlaneOptions plane_options(const RegionPlan& region, std::uint64_t seed, Size si
     options.feather_px = region.feather_px;
     options.seed = seed;
     options.region = region.random_key;
+    options.backend = backend;
     return options;
 }
 
