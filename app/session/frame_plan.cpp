@@ -52,7 +52,8 @@ Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> 
     return both;
 }
 
-// The run of frames around `reference`, at most `reach` to each side, for which all files are there.
+// The run of frames around `reference`, at most `reach` to each side, for which all files are
+// there.
 Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
                                int reach) {
     std::vector<int> frames = plate.frames();

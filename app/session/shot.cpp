@@ -236,10 +236,9 @@ class ShotOpener {
         WEFT_TRY(resolved, resolve_texture({}, name));
         out.credit = std::move(resolved.credit);
         out.picture.rgb = ImageF3(resolved.pixels.size());
-        std::transform(resolved.pixels.data(),
-                       resolved.pixels.data() + resolved.pixels.size_bytes(),
-                       out.picture.rgb.data(),
-                       [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
+        std::transform(
+            resolved.pixels.data(), resolved.pixels.data() + resolved.pixels.size_bytes(),
+            out.picture.rgb.data(), [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
         return out;
     }
 
@@ -279,9 +278,8 @@ class ShotOpener {
         }
         Hasher hasher;
         hasher.image(texture->pixels);
-        shot_.textures.push_back(
-            {region.name, path, hasher.finish().hex(), texture->pixels.size(), is_plane,
-             credit.author, credit.licence, credit.source});
+        shot_.textures.push_back({region.name, path, hasher.finish().hex(), texture->pixels.size(),
+                                  is_plane, credit.author, credit.licence, credit.source});
         shot_.spaces.textures.push_back(texture_space);
         plan.texture = std::move(texture);
         plan.working_from_texture = working_from_texture;
