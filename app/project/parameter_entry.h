@@ -27,6 +27,8 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kPoint;
     else if constexpr (std::same_as<T, std::vector<int>>)
         return ParameterKind::kFrames;
+    else if constexpr (std::same_as<T, std::vector<std::string>>)
+        return ParameterKind::kPaths;
     else if constexpr (std::same_as<T, std::string>)
         return info.is_path ? ParameterKind::kPath : ParameterKind::kText;
     else
@@ -47,6 +49,9 @@ requires std::is_enum_v<E> ParameterValue to_value(const E& member) {
     return std::string(name_of(member));
 }
 inline ParameterValue to_value(const std::string& member) {
+    return member;
+}
+inline ParameterValue to_value(const std::vector<std::string>& member) {
     return member;
 }
 inline ParameterValue to_value(const std::optional<int>& member) {
@@ -83,6 +88,9 @@ void from_value(const ParameterValue& value, E& member) {
 }
 inline void from_value(const ParameterValue& value, std::string& member) {
     member = std::get<std::string>(value);
+}
+inline void from_value(const ParameterValue& value, std::vector<std::string>& member) {
+    member = std::get<std::vector<std::string>>(value);
 }
 inline void from_value(const ParameterValue& value, std::optional<int>& member) {
     const auto* number = std::get_if<std::int64_t>(&value);

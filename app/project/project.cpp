@@ -124,6 +124,8 @@ Project map_paths(const Project& project,
                         holdout = *map_matte(holdout, map);
                 });
             map(region.texture.sample);
+            for (std::string& path : region.texture.also)
+                map(path);
             map(region.texture.plane);
             map(region.motion.files);
             map(region.light.image);
@@ -148,7 +150,10 @@ std::size_t own_bytes(const Region& r) {
     std::size_t pins = 0;
     for (const auto& [frame, list] : r.corrections)
         pins += 64 + list.capacity() * sizeof(CorrectionPin);
-    return sizeof r + pins + r.reference_frames.capacity() * sizeof(int) +
+    std::size_t samples = r.texture.also.capacity() * sizeof(std::string);
+    for (const std::string& path : r.texture.also)
+        samples += heap_bytes_of(path);
+    return sizeof r + pins + samples + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
                          r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,

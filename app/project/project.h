@@ -21,6 +21,7 @@
 #include "engine/lighting/shading.h"
 #include "engine/media/image_files.h"
 #include "engine/seam/seam.h"
+#include "engine/seam/seam_cost.h"
 #include "engine/temporal/temporal_mode.h"
 
 namespace weft {
@@ -100,6 +101,7 @@ struct MatteSource {
 /// What is put on the surface: a sample to grow a plane from, or a given plane.
 struct TextureSource {
     std::string sample;
+    std::vector<std::string> also;      ///< Further samples of the same material.
     std::string plane;                  ///< Used as it is, without synthesis.
     WrapMode wrap = WrapMode::kRepeat;  ///< What lies beyond the border of `plane`.
     std::string space;                  ///< Empty: the project's texture space.
@@ -131,6 +133,10 @@ struct SynthesisParams {
     SeamMethod seam = SeamMethod::kGraphCut;
     int overlap_px = 36;
     int feather_px = 0;
+    SeamCost seam_cost = SeamCost::kGradient;
+    int refine = 2;  ///< Rounds; as kDefaultRefinePasses.
+    bool rotations = false, mirror = false;
+    bool align = true;
     Extras extra;
     bool operator==(const SynthesisParams&) const = default;
 };

@@ -78,6 +78,15 @@ std::vector<Parameter<Region>> make_region_table() {
                                                        .flag = "--texture",
                                                        .help = "Picture to grow the texture from",
                                                        .is_path = true}),
+        entry<R, &R::texture, &TextureSource::also>(
+            {.group = "texture",
+             .key = "also",
+             .flag = "--texture-also",
+             .help = "Further picture of the same material, grown together with --texture; may be "
+                     "given several times",
+             .max = 63,
+             .repeatable = true,
+             .is_path = true}),
         entry<R, &R::texture, &TextureSource::plane>(
             {.group = "texture",
              .key = "plane",
@@ -166,6 +175,33 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "Blend across the seams, in sample pixels",
              .min = 0,
              .max = 256}),
+        entry<R, &R::synthesis, &SynthesisParams::seam_cost>(
+            {.group = "synthesis",
+             .key = "seam_cost",
+             .flag = "--seam-cost",
+             .help = "What a seam costs: mismatch over gradient, or the paper's eq. 2 and 3"}),
+        entry<R, &R::synthesis, &SynthesisParams::refine>(
+            {.group = "synthesis",
+             .key = "refine",
+             .flag = "--refine",
+             .help = "Rounds of refinement: cuts anew, then new pieces over the worst seams",
+             .min = 0,
+             .max = 100}),
+        entry<R, &R::synthesis, &SynthesisParams::rotations>(
+            {.group = "synthesis",
+             .key = "rotations",
+             .flag = "--rotations",
+             .help = "Use the sample turned by quarters, too"}),
+        entry<R, &R::synthesis, &SynthesisParams::mirror>(
+            {.group = "synthesis",
+             .key = "mirror",
+             .flag = "--mirror",
+             .help = "Use the sample mirrored, too"}),
+        entry<R, &R::synthesis, &SynthesisParams::align>(
+            {.group = "synthesis",
+             .key = "align",
+             .flag = "--align",
+             .help = "Keep bricks, tiles and weaves in step; --align=false lets them go"}),
         entry<R, &R::temporal, &TemporalParams::mode>(
             {.group = "temporal",
              .key = "mode",

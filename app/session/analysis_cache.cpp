@@ -91,6 +91,10 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
         hasher.value(frame);
     hasher.value(static_cast<int>(plan.temporal));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
+        for (const ImageF3& further : plan.texture->also)
+            hasher.image(further);
+        hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
+        hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
         hasher.value(plan.blend).value(plan.weight).value(plan.overlap_px).value(plan.feather_px);
         hasher.value(static_cast<int>(plan.seam))

@@ -11,9 +11,13 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         const RegionPlan& plan = shot.plan.regions[k];
         const Region& region = *shot.project.regions[shot.region_index[k]];
         Hasher hasher;
+        for (const ShotTexture& further : shot.textures[k].also)
+            hasher.text(further.id);
         hasher.text(shot.textures[k].id).text(shot.spaces.textures[k].name);
         hasher.value(plan.random_key).value(shot.plan.seed).value(static_cast<int>(plan.temporal));
         hasher.value(static_cast<int>(plan.seam)).value(plan.overlap_px).value(plan.feather_px);
+        hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
+        hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
         // The light that the scene is relative to comes from the analysis.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);

@@ -163,8 +163,13 @@ class RenderJob {
         if (to_render_.empty()) return {};
         for (std::size_t k = 0; k < plan_.regions.size(); ++k) {
             if (const auto& texture = *plan_.regions[k].texture; !texture.is_plane) {
-                const auto warning = sample_warning(synthesis_sample(plan_.regions[k]));
-                if (warning) result_.warnings.push_back(shot_->textures[k].path + ": " + *warning);
+                const auto samples = synthesis_samples(plan_.regions[k]);
+                for (std::size_t i = 0; i < samples.size(); ++i) {
+                    const auto warning = sample_warning(samples[i]);
+                    const ShotTexture& first = shot_->textures[k];
+                    const std::string& path = i == 0 ? first.path : first.also[i - 1].path;
+                    if (warning) result_.warnings.push_back(path + ": " + *warning);
+                }
             }
             WEFT_CHECK_OK(check_reference(k));
             auto scene = make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_,

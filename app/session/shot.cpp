@@ -174,6 +174,10 @@ class ShotOpener {
         plan.seam = region.synthesis.seam;
         plan.overlap_px = region.synthesis.overlap_px;
         plan.feather_px = region.synthesis.feather_px;
+        plan.seam_cost = region.synthesis.seam_cost;
+        plan.refine_passes = region.synthesis.refine;
+        plan.orientations = {region.synthesis.rotations, region.synthesis.mirror};
+        plan.align = region.synthesis.align;
         plan.temporal = region.temporal.mode;
         plan.blend = static_cast<float>(region.temporal.blend);
         plan.weight = static_cast<float>(region.temporal.weight);
@@ -242,6 +246,44 @@ class ShotOpener {
         return out;
     }
 
+    struct OpenTexture {
+        ImageF3 pixels;
+        ColorSpace space;
+        ShotTexture named;
+    };
+    Expected<OpenTexture> open_texture(const Region& region, const std::string& path, bool is_plane,
+                                       int overlap_px) {
+        WEFT_TRY(read, read_texture(path));
+        auto& [picture, credit] = read;
+        if (!is_plane) {
+            // Now, not after minutes of analysis.
+            if (const Status fits = check_sample(picture.rgb.size(), overlap_px); !fits)
+                return fail_in(fits.error(), path);
+        }
+        const std::string& given =
+            region.texture.space.empty() ? shot_.project.color.texture_space : region.texture.space;
+        WEFT_TRY(texture_space, space(given, float_depth(picture.depth) ? kLinear : kSrgb));
+        if (picture.nonfinite > 0) {
+            shot_.warnings.push_back("The texture " + path + " has " +
+                                     std::to_string(picture.nonfinite) +
+                                     " pixels of NaN or infinity; they are taken as black.");
+        }
+        OpenTexture out;
+        out.pixels = std::move(picture.rgb);
+        out.space = texture_space;
+        for (int k = 0; k < out.pixels.height(); ++k) {
+            float* row = out.pixels.row(k);
+            std::replace_if(
+                row, row + out.pixels.stride(), [](float v) { return !std::isfinite(v); }, 0.0f);
+        }
+        Hasher hasher;
+        hasher.image(out.pixels);
+        out.named = {region.name,       path,          hasher.finish().hex(),
+                     out.pixels.size(), is_plane,      credit.author,
+                     credit.licence,    credit.source, {}};
+        return out;
+    }
+
     Status add_texture(const Region& region, RegionPlan& plan) {
         const bool is_plane = !region.texture.plane.empty();
         const std::string& path = is_plane ? region.texture.plane : region.texture.sample;
@@ -249,37 +291,24 @@ class ShotOpener {
             return fail(ErrorCode::kUsage,
                         "It has no texture. Give a sample (--texture) or a plane (--plane).");
         }
-        WEFT_TRY(read, read_texture(path));
-        auto& [picture, credit] = read;
-        if (!is_plane) {
-            // Now, not after minutes of analysis.
-            if (const Status fits = check_sample(picture.rgb.size(), plan.overlap_px); !fits)
-                return fail_in(fits.error(), path);
-        }
-        const std::string& given =
-            region.texture.space.empty() ? shot_.project.color.texture_space : region.texture.space;
-        WEFT_TRY(texture_space, space(given, float_depth(picture.depth) ? kLinear : kSrgb));
+        WEFT_TRY(first, open_texture(region, path, is_plane, plan.overlap_px));
+        const ColorSpace texture_space = first.space;
         WEFT_TRY(working_from_texture, make_color_transform(texture_space, shot_.spaces.working));
         WEFT_TRY(display_from_texture, make_color_transform(texture_space, {kSrgb}));
-        if (picture.nonfinite > 0) {
-            shot_.warnings.push_back("The texture " + path + " has " +
-                                     std::to_string(picture.nonfinite) +
-                                     " pixels of NaN or infinity; they are taken as black.");
-        }
         auto texture = std::make_shared<TexturePicture>();
-        texture->pixels = std::move(picture.rgb);
+        texture->pixels = std::move(first.pixels);
         texture->is_plane = is_plane;
         texture->wrap = region.texture.wrap;
-        for (int k = 0; k < texture->pixels.height(); ++k) {
-            float* row = texture->pixels.row(k);
-            std::replace_if(
-                row, row + texture->pixels.stride(), [](float v) { return !std::isfinite(v); },
-                0.0f);
+        for (const std::string& further : region.texture.also) {
+            if (is_plane) break;
+            WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));
+            // One space for all: the first one's.
+            WEFT_TRY(to_first, make_color_transform(sample.space, texture_space));
+            to_first->apply(sample.pixels);
+            texture->also.push_back(std::move(sample.pixels));
+            first.named.also.push_back(std::move(sample.named));
         }
-        Hasher hasher;
-        hasher.image(texture->pixels);
-        shot_.textures.push_back({region.name, path, hasher.finish().hex(), texture->pixels.size(),
-                                  is_plane, credit.author, credit.licence, credit.source});
+        shot_.textures.push_back(std::move(first.named));
         shot_.spaces.textures.push_back(texture_space);
         plan.texture = std::move(texture);
         plan.working_from_texture = working_from_texture;

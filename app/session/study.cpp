@@ -161,6 +161,7 @@ class Study {
         job.project.color.out_space.clear();
         job.project.regions.front() = job.project.regions.front().with([&](Region& r) {
             r.texture.sample.clear();
+            r.texture.also.clear();
             r.texture.plane = plane_path_;
             r.texture.space.clear();
         });

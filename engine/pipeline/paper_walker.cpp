@@ -95,7 +95,7 @@ Expected<ImageU8x3> PaperWalker::synthesise(int frame, const Warped* previous,
     PlaneOptions options = plane_options(region_, seed_, plane_->size, backend_);
     options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame));
     if (previous) options.guide = PlaneGuide{previous->picture, previous->known, region_.weight};
-    WEFT_TRY(plane, grow_plane(synthesis_sample(region_), options, cancel));
+    WEFT_TRY(plane, grow_texture(region_, options, cancel));
     return std::move(plane.pixels);
 }
 

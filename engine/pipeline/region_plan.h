@@ -15,6 +15,8 @@
 #include "engine/lighting/shading.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/seam/seam.h"
+#include "engine/seam/seam_cost.h"
+#include "engine/synthesis/sample_atlas.h"
 #include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
 #include "engine/temporal/temporal_mode.h"
@@ -24,6 +26,7 @@ namespace weft {
 /// A texture as it was read: exactly one of `sample` (to be grown) and `plane` (used as it is).
 struct TexturePicture {
     ImageF3 pixels;  ///< In the texture's own space.
+    std::vector<ImageF3> also;  ///< Further samples of the same material, in the same space.
     bool is_plane = false;
     WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
 };
@@ -48,6 +51,10 @@ struct RegionPlan {
     SeamMethod seam = SeamMethod::kGraphCut;
     int overlap_px = 36;
     int feather_px = 0;
+    SeamCost seam_cost = SeamCost::kGradient;
+    int refine_passes = 2;
+    Orientations orientations;
+    bool align = true;
     // Time.
     TemporalMode temporal = TemporalMode::kLocked;
     float blend = 0.2f;   ///< α of the paper mode.

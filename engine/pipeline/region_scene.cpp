@@ -31,7 +31,7 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
     PlaneOptions options =
         plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = true;
-    WEFT_TRY(plane, grow_plane(synthesis_sample(region), options, cancel, progress));
+    WEFT_TRY(plane, grow_texture(region, options, cancel, progress));
     stats = plane.stats;
     return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
 }
@@ -63,8 +63,11 @@ Size plane_size(const PlanePlacement& placement, Size plate) {
 }
 
 ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& plane) {
-    const ImageF3 sample = transformed(region.texture->pixels, *region.working_from_texture);
-    const ImageU8x3 sample8 = synthesis_sample(region);
+    std::vector<ImageF3> samples;
+    samples.push_back(transformed(region.texture->pixels, *region.working_from_texture));
+    for (const ImageF3& further : region.texture->also)
+        samples.push_back(transformed(further, *region.working_from_texture));
+    const std::vector<ImageU8x3> samples8 = synthesis_samples(region);
     ImageF3 out(plane.pixels.size());
     parallel_rows(out.height(), 32, [&](int y0, int y1) {
         ImageF3 before(out.width(), 1), after(out.width(), 1);
@@ -72,6 +75,9 @@ ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& pla
             bool feathered = false;
             for (int x = 0; x < out.width(); ++x) {
                 const std::int32_t* from = plane.source.pixel(x, y);
+                const std::size_t which = plane.origin.empty() ? 0 : plane.origin.pixel(x, y)[0];
+                const ImageF3& sample = samples[which];
+                const ImageU8x3& sample8 = samples8[which];
                 for (int c = 0; c < 3; ++c) {
                     const std::uint8_t was = sample8.pixel(from[0], from[1])[c];
                     const std::uint8_t is = plane.pixels.pixel(x, y)[c];

@@ -159,7 +159,7 @@ Expected<Surface> FrameRenderer::surface(int index, const RegionScene& scene,
     } else {
         PlaneOptions options = plane_options(region, plan_.seed, frame_area.size, &backend_);
         options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
-        WEFT_TRY(plane, grow_plane(synthesis_sample(region), options));
+        WEFT_TRY(plane, grow_texture(region, options));
         picture = plane_in_working_space(region, plane);
     }
     for (int y = 0; y < at.uv.height(); ++y) {

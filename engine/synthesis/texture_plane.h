@@ -77,6 +77,10 @@ struct TexturePlane {
     PlaneStats stats;
 };
 
+/// The source map as positions in the atlas of the same samples and orientations.
+[[nodiscard]] Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas,
+                                                     const TexturePlane& plane);
+
 /// Whether a sample of this size can be grown with this overlap. Errors: Usage, saying what would
 /// do.
 [[nodiscard]] Status check_sample(Size sample, int overlap_px);

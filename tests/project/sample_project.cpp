@@ -20,7 +20,8 @@ Region full_region() {
     MatteSource holdout;
     holdout.files = "hold/####.png";
     r.holdouts = std::vector<MatteSource>{holdout};
-    r.texture = {"brick.jpg", "plane.exr", WrapMode::kMirror, "linear", {}};
+    r.texture = {
+        "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};
     r.placement.scale = 0.1;
     r.placement.rotate_deg = -12.5;
     r.placement.offset_px = {3, -4.25};
@@ -28,7 +29,8 @@ Region full_region() {
     r.reference_frames = {12, 40};
     r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
     r.motion = {"flow/####.flo", MotionDirection::kBackward, {}};
-    r.synthesis = {SeamMethod::kDynamicProgramming, 24, 3, {}};
+    r.synthesis = {
+        SeamMethod::kDynamicProgramming, 24, 3, SeamCost::kPaper, 5, true, true, false, {}};
     r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};
     r.light.source = LightSource::kImage;
     r.light.image = "light.png";
