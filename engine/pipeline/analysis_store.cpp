@@ -149,8 +149,8 @@ Bytes encode(const SurfaceSample& s) {
             std::clamp(std::floor(s.luma.data()[i] * kLumaSteps + 0.5f), -32768.0f, 32767.0f));
         // Above 0 stays above 0: it says where the surface is.
         const float w = s.weight.data()[i];
-        weight[i] = static_cast<std::uint8_t>(
-            w > 0 ? std::clamp(w * 255.0f + 0.5f, 1.0f, 255.0f) : 0.0f);
+        weight[i] =
+            static_cast<std::uint8_t>(w > 0 ? std::clamp(w * 255.0f + 0.5f, 1.0f, 255.0f) : 0.0f);
     }
     return Writer()
         .value(s.full)
@@ -168,6 +168,10 @@ Bytes encode(const GrainModel& grain) {
 
 Bytes encode(const ImageU8x3& picture) {
     return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
+}
+
+Bytes encode(float number) {
+    return Writer().value(number).take();
 }
 
 Expected<StoredMatte> decode_matte(const Bytes& bytes) {
@@ -257,6 +261,14 @@ Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
     ImageU8x3 out(size);
     if (!reader.raw(out.data(), out.size_bytes()).complete()) return damaged("texture");
     return out;
+}
+
+Expected<float> decode_number(const Bytes& bytes) {
+    Reader reader(bytes);
+    float number = 0;
+    reader.value(number);
+    if (!reader.complete() || !std::isfinite(number)) return damaged("number");
+    return number;
 }
 
 }  // namespace weft

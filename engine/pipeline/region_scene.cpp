@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
@@ -28,8 +29,7 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
         return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
                             texture.wrap);
     }
-    PlaneOptions options =
-        plane_options(region, plan.seed, plane_size(region.placement, plate));
+    PlaneOptions options = plane_options(region, plan.seed, plane_size(region.placement, plate));
     options.tileable = true;
     WEFT_TRY(plane, grow_plane(synthesis_sample(region), options, cancel, progress));
     stats = plane.stats;
@@ -41,8 +41,9 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
 Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
                             const AnalysisStore& store, int index, int frame, RegionScene& scene) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
-    const bool from_plate = region.light_source == LightSource::kPlate &&
-                            (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
+    const bool from_plate =
+        region.light_source == LightSource::kPlate &&
+        (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
     if (!from_plate) return {};
     WEFT_TRY(plate, source.plate(frame));
     const ImageF3 working = transformed(*plate, *plan.working_from_plate);
@@ -101,12 +102,20 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
     if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
         WEFT_TRY(plane, make_plane(plan, region, source.size(), scene.stats, cancel, progress));
         scene.plane = std::move(plane);
+        WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
+        scene.seams = std::move(seams);
     }
     const int reference = region.reference_frames.front();
     if (region.grain > 0 && !region.grain_frames.empty()) {
         WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kGrain}));
         WEFT_TRY(grain, decode_grain(bytes));
         scene.grain = grain;
+    }
+    scene.shutter_deg = region.shutter_deg.value_or(0.0f);
+    if (region.estimates_shutter()) {
+        WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kShutter}));
+        WEFT_TRY(degrees, decode_number(bytes));
+        scene.shutter_deg = degrees;
     }
     WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
     if (region.light_source == LightSource::kImage) {

@@ -1,6 +1,7 @@
 #include "engine/pipeline/render_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -19,6 +20,42 @@
 
 namespace weft {
 namespace {
+
+// How many instants stand for the time that the shutter is open: one for every pixel that the
+// surface moves in it; a single one where that is less than half of one.
+int shutter_samples(const LatticeField& motion, const Recti& box, const Matte& matte, float open) {
+    constexpr int kStep = 8, kMost = 32;
+    float longest = 0;
+    for (int y = 0; y < box.height(); y += kStep) {
+        for (int x = 0; x < box.width(); x += kStep) {
+            if (matte.at(x, y) == 0) continue;
+            const Vec2 v =
+                motion.at({static_cast<float>(box.x0 + x), static_cast<float>(box.y0 + y)});
+            longest = std::max(longest, open * std::hypot(v.x, v.y));
+        }
+    }
+    if (longest < 0.5f) return 1;
+    return std::clamp(static_cast<int>(std::ceil(longest)) + 1, 2, kMost);
+}
+
+// The texture coordinates `time` frames later: what is at x then was at x − time · v.
+ImageF2 coords_at_time(const LatticeField& ref_from_cur, const ImageF2& velocity,
+                       const Mat3& plane_from_plate, const Recti& box, float time) {
+    ImageF2 out(box.size());
+    parallel_rows(box.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < box.width(); ++x) {
+                const float* v = velocity.pixel(x, y);
+                const Vec2 p(static_cast<float>(box.x0 + x) + 0.5f - time * v[0],
+                             static_cast<float>(box.y0 + y) + 0.5f - time * v[1]);
+                const Vec2 u = project(plane_from_plate, p + ref_from_cur.at(p));
+                out.pixel(x, y)[0] = u.x;
+                out.pixel(x, y)[1] = u.y;
+            }
+        }
+    });
+    return out;
+}
 
 // The renderer of one frame, with what its regions share.
 class FrameRenderer {
@@ -43,8 +80,22 @@ class FrameRenderer {
     // The texture as the region shows it, in the working space and before light, H×W of `box`.
     [[nodiscard]] Expected<ImageF3> texture(int index, const RegionScene& scene, const Recti& box,
                                             const Matte& matte) const;
-    [[nodiscard]] Expected<TextureCoords> coords(int index, const RegionScene& scene,
-                                                 const Recti& box) const;
+    // In locked mode: a history's texture, with the motion's blur.
+    [[nodiscard]] Expected<ImageF3> layer(int index, const RegionScene& scene,
+                                          const LatticeField& ref_from_cur, const Recti& box,
+                                          const Matte& matte) const;
+    // How the surface moves while the shutter is open, px a frame; empty where there is no blur.
+    [[nodiscard]] Expected<LatticeField> velocity(int index, const RegionScene& scene) const;
+    // The same between two references whose histories do not agree: each on its side of the seam.
+    [[nodiscard]] Expected<ImageF3> two_histories(int index, const RegionScene& scene,
+                                                  const HistorySeam& seam, const Recti& box,
+                                                  const Matte& matte) const;
+    [[nodiscard]] const HistorySeam* seam_at(const RegionScene& scene, int index) const;
+    [[nodiscard]] Expected<LatticeField> stored(int index, AnalysisKind kind) const;
+    [[nodiscard]] Expected<Mat3> placement(int index, const RegionScene& scene) const;
+    [[nodiscard]] SampleQuality sample_quality() const {
+        return plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
+    }
     Status light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
                  ImageF3& texture);
     // What the plate's camera does to a picture: its blur before light, which has it already, and
@@ -82,27 +133,137 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
     return without_holdout(extent, holdout);
 }
 
-Expected<TextureCoords> FrameRenderer::coords(int index, const RegionScene& scene,
-                                              const Recti& box) const {
-    if (region_of(plan_, index).temporal != TemporalMode::kLocked) {
-        constexpr int kCoarse = 64;
-        return texture_coords(LatticeField(plate_->size(), kCoarse), scene.plane_from_plate, box);
+Expected<LatticeField> FrameRenderer::stored(int index, AnalysisKind kind) const {
+    WEFT_TRY(bytes, store_.get({index, frame_, kind}));
+    return decode_lattice(bytes);
+}
+
+Expected<Mat3> FrameRenderer::placement(int index, const RegionScene& scene) const {
+    const RegionPlan& region = region_of(plan_, index);
+    if (!region.placement_moves()) return scene.plane_from_plate;
+    return plane_from_plate(region.placement_at(frame_));
+}
+
+// Towards the reference, so that a frame does not depend on what else is rendered.
+Expected<LatticeField> FrameRenderer::velocity(int index, const RegionScene& scene) const {
+    const RegionPlan& region = region_of(plan_, index);
+    if (!(scene.shutter_deg > 0) || region.shutter_evidence.empty()) return LatticeField();
+    const int step = frame_ > region.reference_frames.front() ? -1 : 1;
+    WEFT_TRY(here, stored(index, AnalysisKind::kCoords));
+    WEFT_TRY(bytes, store_.get({index, frame_ + step, AnalysisKind::kCoords}));
+    WEFT_TRY(there, decode_lattice(bytes));
+    LatticeField motion = compose(here, inverse(there));
+    if (step < 0) {
+        for (int j = 0; j < motion.nodes().height(); ++j) {
+            for (int i = 0; i < motion.nodes().width(); ++i)
+                motion.set_node(i, j, -motion.node(i, j));
+        }
     }
-    WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kCoords}));
-    WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-    return texture_coords(ref_from_cur, scene.plane_from_plate, box);
+    return motion;
+}
+
+Expected<ImageF3> FrameRenderer::layer(int index, const RegionScene& scene,
+                                       const LatticeField& ref_from_cur, const Recti& box,
+                                       const Matte& matte) const {
+    WEFT_TRY(plane_from, placement(index, scene));
+    WEFT_TRY(motion, velocity(index, scene));
+    SampleRequest request;
+    request.plane = &scene.plane;
+    request.matte = matte;
+    request.quality = sample_quality();
+    ImageF3 out(box.size());
+    const float open = scene.shutter_deg / 360.0f;
+    const int times = motion.empty() ? 1 : shutter_samples(motion, box, matte, open);
+    if (times == 1) {
+        const TextureCoords at = texture_coords(ref_from_cur, plane_from, box);
+        request.coords = at.uv;
+        backend_.sample_plane(request, out);
+        return out;
+    }
+    // The blur hides what a coarser lookup loses.
+    request.quality = SampleQuality::kDraft;
+    const ImageF2 path = motion.dense(box);
+    ImageF3 instant(box.size());
+    for (int k = 0; k < times; ++k) {
+        const float time =
+            open * ((static_cast<float>(k) + 0.5f) / static_cast<float>(times) - 0.5f);
+        const ImageF2 at = coords_at_time(ref_from_cur, path, plane_from, box, time);
+        request.coords = at;
+        backend_.sample_plane(request, instant);
+        const float share = 1.0f / static_cast<float>(times);
+        std::transform(out.data(), out.data() + 3 * box.width() * box.height(), instant.data(),
+                       out.data(), [&](float sum, float v) { return sum + share * v; });
+    }
+    return out;
+}
+
+const HistorySeam* FrameRenderer::seam_at(const RegionScene& scene, int index) const {
+    for (const HistorySeam& seam : scene.seams) {
+        if (seam.covers(frame_) && store_.has({index, frame_, AnalysisKind::kHistoryAfter}))
+            return &seam;
+    }
+    return nullptr;
+}
+
+Expected<ImageF3> FrameRenderer::two_histories(int index, const RegionScene& scene,
+                                               const HistorySeam& seam, const Recti& box,
+                                               const Matte& matte) const {
+    WEFT_TRY(place, stored(index, AnalysisKind::kCoords));
+    const ImageF2 d = place.dense(box);
+    ImageF1 share(box.size());
+    std::array<Matte, 2> inside{Matte(box.size()), Matte(box.size())};
+    parallel_rows(box.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < box.width(); ++x) {
+                if (matte.at(x, y) == 0) continue;
+                const Vec2 p(static_cast<float>(box.x0 + x) + 0.5f,
+                             static_cast<float>(box.y0 + y) + 0.5f);
+                const float after =
+                    seam.share_after(frame_, p + Vec2(d.pixel(x, y)[0], d.pixel(x, y)[1]));
+                share.at(x, y) = after;
+                inside[0].at(x, y) = after < 1 ? 255 : 0;
+                inside[1].at(x, y) = after > 0 ? 255 : 0;
+            }
+        }
+    });
+    ImageF3 out;
+    for (const bool after : {false, true}) {
+        const auto kind = after ? AnalysisKind::kHistoryAfter : AnalysisKind::kHistoryBefore;
+        WEFT_TRY(ref_from_cur, stored(index, kind));
+        WEFT_TRY(shown, layer(index, scene, ref_from_cur, box, inside[after ? 1 : 0]));
+        if (!after) {
+            out = std::move(shown);
+            continue;
+        }
+        for (int y = 0; y < box.height(); ++y) {
+            for (int x = 0; x < box.width(); ++x) {
+                const float w = share.at(x, y);
+                if (w <= 0) continue;
+                for (int c = 0; c < 3; ++c)
+                    out.at(x, y, c) = (1 - w) * out.at(x, y, c) + w * shown.at(x, y, c);
+            }
+        }
+    }
+    return out;
 }
 
 Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, const Recti& box,
                                          const Matte& matte) const {
     const RegionPlan& region = region_of(plan_, index);
-    WEFT_TRY(at, coords(index, scene, box));
+    if (const HistorySeam* seam = seam_at(scene, index))
+        return two_histories(index, scene, *seam, box, matte);
+    if (region.temporal == TemporalMode::kLocked) {
+        WEFT_TRY(ref_from_cur, stored(index, AnalysisKind::kCoords));
+        return layer(index, scene, ref_from_cur, box, matte);
+    }
+    constexpr int kCoarse = 64;
+    TextureCoords at =
+        texture_coords(LatticeField(plate_->size(), kCoarse), scene.plane_from_plate, box);
     ImageF3 out(box.size());
     SampleRequest request;
     request.coords = at.uv;
     request.matte = matte;
-    request.quality =
-        plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
+    request.quality = sample_quality();
     if (!scene.plane.empty()) {
         request.plane = &scene.plane;
         backend_.sample_plane(request, out);
@@ -189,8 +350,7 @@ void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& 
     texture = transformed(display, *region.working_from_display);
 }
 
-Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
-                              ImageF3& texture) {
+Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture) {
     const RegionPlan& region = region_of(plan_, index);
     if (!region.has_lines && !region.extract_lines) return {};
     Matte ink;
