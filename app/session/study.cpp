@@ -42,7 +42,7 @@ class Study {
         Project to_render = result_.project;
         if (!options_.render_with_motion) {
             to_render.regions.front() =
-                to_render.regions.front().with([](Region& r) { r.motion = MotionSource{}; });
+                to_render.regions.front().with([](Region& r) { r.motion.files.clear(); });
         }
         WEFT_TRY(methods, plan_study(options_, to_render, plane_path_));
         for (StudyMethod& method : methods) {

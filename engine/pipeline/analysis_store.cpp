@@ -189,6 +189,10 @@ Bytes encode(const ImageU8x3& picture) {
     return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
 }
 
+Bytes encode(float number) {
+    return Writer().value(number).take();
+}
+
 Expected<StoredMatte> decode_matte(const Bytes& bytes) {
     Reader reader(bytes);
     Size size;
@@ -280,6 +284,14 @@ Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
     ImageU8x3 out(size);
     if (!reader.raw(out.data(), out.size_bytes()).complete()) return damaged("texture");
     return out;
+}
+
+Expected<float> decode_number(const Bytes& bytes) {
+    Reader reader(bytes);
+    float number = 0;
+    reader.value(number);
+    if (!reader.complete() || !std::isfinite(number)) return damaged("number");
+    return number;
 }
 
 }  // namespace weft
