@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "engine/core/parallel.h"
 
@@ -18,16 +19,22 @@ constexpr double kMostWide = 0.3;
 
 struct Sums {
     double n = 0;
-    std::array<double, 3> v{};
-    double squares = 0;
+    std::array<double, 3> v{}, squares{};
 
     void add(const Sums& o) {
-        n += o.n, squares += o.squares;
+        n += o.n;
         for (std::size_t c = 0; c < 3; ++c)
-            v[c] += o.v[c];
+            v[c] += o.v[c], squares[c] += o.squares[c];
     }
     [[nodiscard]] double square_of_mean() const {
         return n > 0 ? (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / n : 0.0;
+    }
+    [[nodiscard]] double all_squares() const { return squares[0] + squares[1] + squares[2]; }
+    [[nodiscard]] float largest_variance() const {
+        double largest = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            largest = std::max(largest, (squares[c] - v[c] * v[c] / n) / n);
+        return static_cast<float>(largest);
     }
 };
 
@@ -40,14 +47,15 @@ Sums sums_of(const ImageF3& difference, const Matte& known, const Recti& cell) {
             s.n += 1;
             for (std::size_t c = 0; c < 3; ++c) {
                 s.v[c] += d[c];
-                s.squares += static_cast<double>(d[c]) * d[c];
+                s.squares[c] += static_cast<double>(d[c]) * d[c];
             }
         }
     }
     return s;
 }
 
-void judge(ImageF3& difference, Matte& known, const Recti& block) {
+// The block's variance, if it stays.
+std::optional<float> judge(ImageF3& difference, Matte& known, const Recti& block) {
     Sums all;
     double wide = 0;
     int cells = 0;
@@ -62,7 +70,8 @@ void judge(ImageF3& difference, Matte& known, const Recti& block) {
         }
     }
     const double mean = all.square_of_mean();
-    const bool fine = cells >= kFewestCells && wide - mean <= kMostWide * (all.squares - mean);
+    const bool fine =
+        cells >= kFewestCells && wide - mean <= kMostWide * (all.all_squares() - mean);
     for (int y = block.y0; y < block.y1; ++y) {
         for (int x = block.x0; x < block.x1; ++x) {
             if (!fine) known.row(y)[x] = 0;
@@ -70,20 +79,30 @@ void judge(ImageF3& difference, Matte& known, const Recti& block) {
                 difference.pixel(x, y)[c] -= static_cast<float>(all.v[c] / all.n);
         }
     }
+    if (!fine) return std::nullopt;
+    return all.largest_variance();
 }
 
 }  // namespace
 
-void leave_out_moving_light(ImageF3& difference, Matte& known) {
+std::vector<float> leave_out_moving_light(ImageF3& difference, Matte& known) {
     const Recti frame{0, 0, known.width(), known.height()};
-    parallel_rows((frame.y1 + kBlock - 1) / kBlock, 1, [&](int r0, int r1) {
+    std::vector<std::vector<float>> rows(
+        static_cast<std::size_t>((frame.y1 + kBlock - 1) / kBlock));
+    parallel_rows(static_cast<int>(rows.size()), 1, [&](int r0, int r1) {
         for (int r = r0; r < r1; ++r) {
             for (int x = 0; x < frame.x1; x += kBlock) {
                 const int y = r * kBlock;
-                judge(difference, known, Recti{x, y, x + kBlock, y + kBlock}.intersected(frame));
+                const auto variance = judge(difference, known,
+                                            Recti{x, y, x + kBlock, y + kBlock}.intersected(frame));
+                if (variance) rows[static_cast<std::size_t>(r)].push_back(*variance);
             }
         }
     });
+    std::vector<float> all;
+    for (const auto& row : rows)
+        all.insert(all.end(), row.begin(), row.end());
+    return all;
 }
 
 }  // namespace weft

@@ -140,6 +140,24 @@ TEST(Grain, ShadowsThatSweepOverACleanPlateAreNoGrain) {
     EXPECT_FALSE(measured(barred(0), barred(1)).present());
 }
 
+// A fine texture that does not move, in a fifth of the picture under a shadow that comes: there it
+// differs as finely as grain would.
+TEST(Grain, AFineTextureUnderAComingShadowIsNoGrain) {
+    const auto plate = [](bool shade) {
+        Rng rng(3);
+        ImageF3 out(kWidth, kHeight, 0.5f);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const float value = 0.5f + 0.1f * static_cast<float>(rng.uniform() - 0.5);
+                for (int c = 0; c < 3; ++c)
+                    out.at(x, y, c) = value * (shade && x >= kWidth * 4 / 5 ? 0.4f : 1.0f);
+            }
+        }
+        return out;
+    };
+    EXPECT_FALSE(measured(plate(false), plate(true)).present());
+}
+
 TEST(Grain, IsMeasuredBesideAMovingShadowAndUnderADimmingLight) {
     const auto plate = [](int frame) {
         ImageF3 base(kWidth, kHeight, 0.3f - 0.02f * static_cast<float>(frame));
