@@ -4,12 +4,12 @@
 #include <optional>
 #include <set>
 
-#include "engine/composite/shutter.h"
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/temporal/held_frames.h"
 #include "engine/temporal/history_seam.h"
+#include "engine/temporal/shutter.h"
 #include "engine/temporal/surface_walker.h"
 
 namespace weft {

@@ -1,4 +1,4 @@
-#include "engine/composite/shutter.h"
+#include "engine/temporal/shutter.h"
 
 #include <algorithm>
 #include <array>
