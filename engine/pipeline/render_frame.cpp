@@ -73,7 +73,9 @@ class FrameRenderer {
         return result;
     }
     // The region's ink, from its pass or found in the plate, over the lit texture.
-    Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture);
+    // The old surface gets it too: ink that lies across the edge is no part of either.
+    Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture,
+                   ImageF3& old_surface);
 
     const ShotSource& source_;
     const ShotPlan& plan_;
@@ -167,7 +169,8 @@ void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& 
     texture = transformed(display, *region.working_from_display);
 }
 
-Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture) {
+Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture,
+                              ImageF3& old_surface) {
     const RegionPlan& region = region_of(plan_, index);
     if (!region.has_lines && !region.extract_lines) return {};
     Matte ink;
@@ -179,6 +182,7 @@ Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, I
         ink = extract_ink(views_->display, matte, {.width_px = region.line_width_px});
     }
     lay_lines(texture, working_.view().crop(box), ink.view().crop(box));
+    lay_lines(old_surface, working_.view().crop(box), ink.view().crop(box));
     return {};
 }
 
@@ -189,10 +193,10 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     match_focus(index, box, inside, texture);
     WEFT_CHECK_OK(light(index, scene, box, inside, shading, texture));
     put_grain(index, scene, box, inside, texture);
-    // The ink has the plate's grain already.
-    WEFT_CHECK_OK(lay_ink(index, box, matte, texture));
     const ImageView<float, 3> area = canvas_.view().crop(box);
-    const ImageF3 old_surface = unmix_surface(area, inside);
+    ImageF3 old_surface = unmix_surface(area, inside);
+    // The ink has the plate's grain already.
+    WEFT_CHECK_OK(lay_ink(index, box, matte, texture, old_surface));
     composite_over(area, area, old_surface, inside, texture);
     return {};
 }

@@ -162,6 +162,31 @@ TEST(RenderFrame, KeysMoveThePlacementOverTime) {
     }
 }
 
+TEST(RenderFrame, InkAcrossASoftEdgeStaysAsDrawn) {
+    MemoryShot shot = make_wall(false, false);
+    auto drawing = std::make_shared<ImageF3>(kShotSize);
+    Matte soft(kShotSize);
+    for (int y = 0; y < kShotSize.height; ++y) {
+        for (int x = 0; x < kShotSize.width; ++x) {
+            const bool ink = x >= 58 && x < 62;
+            const float fill[3] = {0.9f, 0.6f, 0.6f}, ground[3] = {0.5f, 0.7f, 0.5f};
+            for (int c = 0; c < 3; ++c)
+                drawing->pixel(x, y)[c] = ink ? 0.05f : x >= 60 ? fill[c] : ground[c];
+            soft.at(x, y) = x < 59 || x > 140 ? 0 : x == 59 ? 85 : x == 60 ? 170 : 255;
+        }
+    }
+    shot.plates[1] = drawing;
+    shot.mattes[{0, 1}] = soft;
+    RegionPlan region = make_region(flat_texture({0.8f, 0.75f, 0.5f}));
+    region.extract_lines = true;
+    const RenderedFrame out = Renderer(shot, make_plan(region, 1, 1)).frame(1);
+    for (const int x : {59, 60}) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(out.pixels.at(x, 56, c), drawing->at(x, 56, c), 0.03f) << x << " " << c;
+    }
+    EXPECT_NEAR(out.pixels.at(100, 56, 0), 0.8f, 0.01f);
+}
+
 TEST(RenderFrame, IsAPureFunction) {
     const MemoryShot shot = make_wall(true);
     RegionPlan region = make_region(sample_texture());
