@@ -53,11 +53,10 @@ Json textures_json(const JobResult& result) {
                    {"size", {t.size.width, t.size.height}},
                    {"space", result.spaces.textures[k].name},
                    {"kind", t.is_plane ? "plane" : "sample"}};
-        if (!t.licence.empty()) {
-            entry["author"] = t.author;
-            entry["licence"] = t.licence;
-            entry["source"] = t.source;
-        }
+        entry["author"] = t.author.empty() ? "unknown" : t.author;
+        entry["licence"] = t.licence.empty() ? "unknown" : t.licence;
+        if (!t.source.empty()) entry["source"] = t.source;
+        if (!t.library_id.empty()) entry["library_id"] = t.library_id;
         if (k < result.planes.size() && result.planes[k])
             entry["synthesis"] = plane_json(*result.planes[k]);
         out.push_back(std::move(entry));

@@ -8,6 +8,7 @@
 #include "app/session/session.h"
 #include "engine/color/color_space.h"
 #include "engine/media/plates.h"
+#include "texture_db/library.h"
 
 namespace weft {
 namespace {
@@ -157,6 +158,12 @@ Expected<Project> Session::moved_to(const std::string& path) const {
             std::error_code error;
             fs::create_directories(to.parent_path(), error);
             fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+            // A texture's author and licence go with it; one of the artist's own has none.
+            std::error_code none;
+            const std::string credit = texture_credit_path(from);
+            if (!error && fs::exists(credit, none))
+                fs::copy_file(credit, texture_credit_path(to.string()),
+                              fs::copy_options::overwrite_existing, error);
             if (error && failed.empty())
                 failed = from + " cannot be copied beside the project: " + error.message() + ".";
             return relative_to(dir, to.string());
