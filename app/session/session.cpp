@@ -6,8 +6,8 @@
 
 #include "app/project/project_file.h"
 #include "app/session/background.h"
+#include "app/session/kept_textures.h"
 #include "app/session/session_measuring.h"
-#include "engine/media/frame_writer.h"
 #include "texture_db/library.h"
 
 namespace weft {
@@ -334,7 +334,7 @@ void Session::apply_texture(const std::string& path, RegionId region) {
         notify(NoticeKind::kWarning, "Select the region that is to get this texture.");
         return;
     }
-    if (path.starts_with("db:")) return fetch_texture(path, region);
+    if (names_library_texture(path)) return fetch_texture(path, region);
     TextureSource texture = target->texture;
     texture.sample = path;
     texture.plane.clear();
@@ -348,29 +348,19 @@ void Session::apply_texture(const std::string& path, RegionId region) {
 
 // A texture of the library becomes a file beside the project, so that the project needs no library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
-    const fs::path folder = path_.empty() ? fs::path(options_.state_folder) / "unsaved" / "textures"
-                                          : fs::path(project_dir(path_)) /
-                                                (fs::path(path_).stem().string() + "_textures");
+    const fs::path folder = path_.empty()
+                                ? fs::path(options_.state_folder) / "unsaved" / "textures"
+                                : fs::path(project_dir(path_)) / kept_textures_name(path_);
     fetching_.emplace();
     fetching_->region = region;
-    fetching_->path = in_background([id = path.substr(3), folder]() -> Expected<std::string> {
-        const std::string file = (folder / (id + ".png")).string();
-        std::error_code error;
-        if (fs::exists(file, error)) return file;
-        WEFT_TRY(texture, resolve_texture("", id));
-        // The larger picture where it is no whole photograph.
-        constexpr int kLargest = 512;
-        const ImageU8x3& larger = texture.original;
-        const bool fits =
-            !larger.empty() && larger.width() <= kLargest && larger.height() <= kLargest;
-        const ImageU8x3& pixels = fits ? larger : texture.pixels;
-        ImageF3 values(pixels.size());
-        for (std::size_t k = 0; k < pixels.size_bytes(); ++k)
-            values.data()[k] = static_cast<float>(pixels.data()[k]) / 255.0f;
-        fs::create_directories(folder, error);
-        WEFT_CHECK_OK(write_image(file, values, {}, {}));
-        return file;
-    });
+    fetching_->path =
+        in_background([path, folder = folder.string(), library = options_.texture_library,
+                       excluded = licence_list(
+                           document().settings.excluded_licences)]() -> Expected<std::string> {
+            WEFT_TRY(texture, resolve_texture(library, path));
+            WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
+            return keep_texture(texture, folder);
+        });
 }
 
 void Session::take_texture() {

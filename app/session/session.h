@@ -22,9 +22,10 @@ namespace weft {
 struct Measuring;
 
 struct SessionOptions {
-    std::string program;       ///< The weft that renders jobs.
-    std::string assets;        ///< Folder with demo/demo.weft.
-    std::string state_folder;  ///< See editor_state_folder().
+    std::string program;          ///< The weft that renders jobs.
+    std::string assets;           ///< Folder with demo/demo.weft.
+    std::string state_folder;     ///< See editor_state_folder().
+    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
     AnalysisCacheOptions cache;
     std::size_t plate_budget_bytes = std::size_t{1} << 30;
     bool offer_recovery = true;

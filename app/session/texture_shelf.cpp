@@ -106,13 +106,15 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
 }
 
 void TextureShelf::suggest_for(const std::string& key, PicturePtr plate,
-                               std::shared_ptr<const Matte> matte) {
+                               std::shared_ptr<const Matte> matte,
+                               const std::string& excluded_licences) {
     {
         const std::lock_guard lock(mutex_);
         if (key == ranked_key_ || key == rank_due_) return;
         rank_due_ = key;
         rank_plate_ = std::move(plate);
         rank_matte_ = std::move(matte);
+        rank_excluded_ = excluded_licences;
     }
     wake_.notify_all();
 }
@@ -272,8 +274,10 @@ void TextureShelf::search_library(const std::string& words) {
     ++arrivals_;
 }
 
-void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte) {
+void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
+                             const std::string& excluded_licences) {
     RecommendRequest request;
+    request.excluded_licences = licence_list(excluded_licences);
     request.plate = plate;
     request.regions.push_back({"region", matte.view(), {}, {}});
     const auto found = library_->recommend(request);
@@ -353,10 +357,11 @@ const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
     return &(looks_[path] = look);
 }
 
-void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte) {
+void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte,
+                        const std::string& excluded_licences) {
     const ImageU8x3 whole = shrink(plate, 1 << 20);
     if (!library_cards_.empty() && whole.size() == matte.size())
-        return recommend(key, whole, matte);
+        return recommend(key, whole, matte, excluded_licences);
     Look surface;
     if (whole.size() == matte.size()) {
         statistics(
@@ -436,8 +441,9 @@ void TextureShelf::work() {
             const std::string key = std::exchange(rank_due_, {});
             const PicturePtr plate = std::exchange(rank_plate_, nullptr);
             const auto matte = std::exchange(rank_matte_, nullptr);
+            const std::string excluded = rank_excluded_;
             lock.unlock();
-            if (plate && matte) rank(key, *plate, *matte);
+            if (plate && matte) rank(key, *plate, *matte, excluded);
             lock.lock();
         }
     }
