@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "texture_db/features.h"
 #include "texture_db/library_state.h"
@@ -38,35 +39,33 @@ std::vector<Ranked> ranked(const SampleIndex& index, const DescriptorModel& mode
         if (const int i = index.materials.find(model.materials[m]); i >= 0)
             by_material[static_cast<std::size_t>(i)] = middle[m];
     }
-    std::vector<Ranked> all;
-    for (const Neighbour& n : nearest(index, descriptor, static_cast<int>(index.samples.size()))) {
-        const auto material = static_cast<std::size_t>(index.samples[n.sample].material);
-        all.push_back({n.distance + kMiddle * by_material[material], n.sample});
+    const std::vector<float> squared = index.squared_distances(descriptor);
+    std::vector<Ranked> all, best(by_material.size(), {SampleIndex::kFar, 0});
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+        if (squared[i] >= SampleIndex::kFar) continue;
+        const auto material = static_cast<std::size_t>(index.looks[i].material);
+        all.push_back({std::sqrt(squared[i]) + kMiddle * by_material[material], i});
+        best[material] = std::min(best[material], all.back());
     }
-    std::sort(all.begin(), all.end());
+    if (all.empty()) return {};
+    const auto shown = std::min(all.size(), count + kFirst);
+    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end());
     std::vector<std::size_t> likely(by_material.size());
     for (std::size_t m = 0; m < likely.size(); ++m)
         likely[m] = m;
     std::stable_sort(likely.begin(), likely.end(),
                      [&](std::size_t a, std::size_t b) { return by_material[a] < by_material[b]; });
-    std::vector<Ranked> out;
-    std::vector<bool> taken(all.size());
-    const auto take_first_of = [&](int material) {
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            if (material >= 0 && index.samples[all[k].sample].material != material) continue;
-            out.push_back(all[k]);
-            taken[k] = true;
-            return;
-        }
-    };
-    if (all.empty()) return out;
-    take_first_of(-1);
-    const int shown = index.samples[out[0].sample].material;
+    std::vector<Ranked> out{all[0]};
+    const auto first = static_cast<std::size_t>(index.looks[all[0].sample].material);
     for (std::size_t k = 0; k < likely.size() && out.size() < std::min(kFirst, count); ++k) {
-        if (static_cast<int>(likely[k]) != shown) take_first_of(static_cast<int>(likely[k]));
+        if (likely[k] != first && best[likely[k]].distance < SampleIndex::kFar)
+            out.push_back(best[likely[k]]);
     }
-    for (std::size_t k = 0; k < all.size() && out.size() < count; ++k) {
-        if (!taken[k]) out.push_back(all[k]);
+    const std::size_t led = out.size();
+    for (std::size_t k = 0; k < shown && out.size() < count; ++k) {
+        const bool taken = std::any_of(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(led),
+                                       [&](const Ranked& r) { return r.sample == all[k].sample; });
+        if (!taken) out.push_back(all[k]);
     }
     return out;
 }

@@ -76,6 +76,7 @@ void MatteShelf::write(const std::string& path, MattePtr matte) {
         kept_[path] = {matte, ++clock_};
         errors_.erase(path);
         tasks_.push_front({path, {}, std::move(matte)});
+        ++unwritten_;
         ++arrivals_;
         gone = trim();
     }
@@ -89,8 +90,7 @@ std::string MatteShelf::take_write_error() {
 
 bool MatteShelf::writing() const {
     const std::lock_guard lock(mutex_);
-    return running_ > 0 || std::any_of(tasks_.begin(), tasks_.end(),
-                                       [](const Task& task) { return task.matte != nullptr; });
+    return unwritten_ > 0;
 }
 
 void MatteShelf::flush() {
@@ -144,6 +144,7 @@ void MatteShelf::work() {
         --running_;
         ++arrivals_;
         if (task.matte) {
+            --unwritten_;
             if (!written) write_error_ = written.error().text();
         } else if (read) {
             auto matte = std::make_shared<const Matte>(std::move(*read));

@@ -39,6 +39,7 @@ class MatteShelf {
     void write(const std::string& path, MattePtr matte);
     /// What went wrong with writing since the last call; empty: nothing.
     [[nodiscard]] std::string take_write_error();
+    /// Whether a painted matte is not on the disk yet.
     [[nodiscard]] bool writing() const;
     /// Waits until everything is on the disk.
     void flush();
@@ -69,7 +70,7 @@ class MatteShelf {
     std::size_t bytes_ = 0;
     std::uint64_t clock_ = 0;
     std::atomic<std::uint64_t> arrivals_ = 0;
-    int running_ = 0;
+    int running_ = 0, unwritten_ = 0;
     bool stop_ = false;
     std::thread thread_;
 };

@@ -35,12 +35,22 @@ Json plane_json(const PlaneStats& stats) {
     return {{"seconds",
              {{"search", stats.search_s},
               {"seam", stats.seam_s},
+              {"refine", stats.refine_s},
               {"other", stats.other_s},
               {"total", stats.total_s}}},
             {"seam_energy", stats.seam_energy},
             {"seam_length_px", stats.seam_length_px},
             {"seam_energy_per_area", stats.seam_energy_per_area},
-            {"peak_graph_bytes", stats.peak_graph_bytes}};
+            {"peak_graph_bytes", stats.peak_graph_bytes},
+            {"placements", stats.placements},
+            {"refinements", stats.refinements}};
+}
+
+void add_credit(const ShotTexture& texture, Json& entry) {
+    if (texture.licence.empty()) return;
+    entry["author"] = texture.author;
+    entry["licence"] = texture.licence;
+    entry["source"] = texture.source;
 }
 
 Json textures_json(const JobResult& result) {
@@ -53,10 +63,13 @@ Json textures_json(const JobResult& result) {
                    {"size", {t.size.width, t.size.height}},
                    {"space", result.spaces.textures[k].name},
                    {"kind", t.is_plane ? "plane" : "sample"}};
-        if (!t.licence.empty()) {
-            entry["author"] = t.author;
-            entry["licence"] = t.licence;
-            entry["source"] = t.source;
+        add_credit(t, entry);
+        for (const ShotTexture& further : t.also) {
+            Json sample{{"path", further.path},
+                        {"id", further.id},
+                        {"size", {further.size.width, further.size.height}}};
+            add_credit(further, sample);
+            entry["also"].push_back(std::move(sample));
         }
         if (k < result.planes.size() && result.planes[k])
             entry["synthesis"] = plane_json(*result.planes[k]);

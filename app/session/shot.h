@@ -25,6 +25,7 @@ struct ShotTexture {
     bool is_plane = false;
     /// Of a texture that came from the library; empty: not known.
     std::string author, licence, source;
+    std::vector<ShotTexture> also;  ///< Further samples that are grown together with it.
 };
 
 /// Everything that analysing and rendering need. Shared and immutable once made; thread-safe.
