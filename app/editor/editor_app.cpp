@@ -4,6 +4,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "texture_db/library.h"
+
 namespace weft {
 namespace {
 
@@ -11,21 +13,10 @@ SessionOptions session_options(const EditorOptions& options) {
     SessionOptions out;
     out.program = options.program;
     out.assets = options.assets;
+    out.texture_library = options.texture_library;
     out.state_folder = editor_state_folder();
     out.offer_recovery = options.script.empty();
     return out;
-}
-
-// Beside the other data of the user.
-std::string library_path() {
-    const char* data = std::getenv("XDG_DATA_HOME");
-    const char* home = std::getenv("HOME");
-    const std::filesystem::path base =
-        data && *data ? std::filesystem::path(data)
-                      : std::filesystem::path(home && *home ? home : "/tmp") / ".local/share";
-    std::error_code error;
-    std::filesystem::create_directories(base / "weft", error);
-    return (base / "weft" / "textures.db").string();
 }
 
 bool watchdog_wanted() {
@@ -47,7 +38,8 @@ EditorApp::EditorApp(const EditorOptions& options)
     shell_ = std::make_unique<Shell>(settings_, pictures_);
     session_->set_clock(&clock_);
     shell_->set_clock(&clock_);
-    shell_->textures().open_library(library_path());
+    shell_->textures().open_library(options_.texture_library.empty() ? default_library_path()
+                                                                     : options_.texture_library);
     shell_->job_log = [this](int id) { return session_->job_log(id); };
     shell_->dismiss_notice = [this](int id) { session_->dismiss(id); };
 }

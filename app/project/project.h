@@ -60,6 +60,8 @@ struct RenderSettings {
     Quality quality = Quality::kFinal;
     std::int64_t seed = 1;
     std::string frames;  ///< "1-40", "1-100x2", "1,4,9-12"; empty: every frame of the plate.
+    /// Licences and families of them that no texture of this project may be under, by commas.
+    std::string excluded_licences;
     Extras extra;
     bool operator==(const RenderSettings&) const = default;
 };
@@ -98,7 +100,13 @@ struct MatteSource {
     bool operator==(const MatteSource&) const = default;
 };
 
-/// What is put on the surface: a sample to grow a plane from, or a given plane.
+/// Whether a texture is named by its place in a texture library ("db:ID") and not by a file.
+[[nodiscard]] inline bool names_library_texture(std::string_view path) {
+    return path.starts_with("db:");
+}
+
+/// What is put on the surface: a sample to grow a plane from, or a given plane; files, or textures
+/// of a library.
 struct TextureSource {
     std::string sample;
     std::vector<std::string> also;      ///< Further samples of the same material.

@@ -6,8 +6,8 @@
 
 #include "app/project/project_file.h"
 #include "app/session/background.h"
+#include "app/session/kept_textures.h"
 #include "app/session/session_measuring.h"
-#include "engine/media/frame_writer.h"
 #include "texture_db/library.h"
 
 namespace weft {
@@ -148,6 +148,15 @@ void Session::act(const Action& action) {
                     },
                     a.subtract ? "Take away a colour" : "Select a colour");
             },
+            [&](const ScribbleSelect& a) { scribble(a); },
+            [&](const SetShape& a) { set_shape(a.shape); },
+            [&](const FillBetweenShapes&) { fill_between_shapes(); },
+            [&](const ShowStrip& a) {
+                strip_kind_ = a.kind;
+                strip_textures_ = a.textures;
+                strip_version_ = 0;
+            },
+            [&](const ChooseFromStrip& a) { choose_from_strip(a.card); },
             [&](const GrowMatte& a) {
                 change_matte([a](const Matte& m) { return grow_matte(m, a.px); },
                              a.px > 0 ? "Grow the matte" : "Shrink the matte");
@@ -275,19 +284,10 @@ void Session::want_frames() {
 
 // ---- the preview -----------------------------------------------------------------------------
 
-void Session::request_preview() {
-    if (!request_due_ || painting_) return;
-    if (!reader_) {
-        request_due_ = false;
-        return;
-    }
-    // It reads the painted mattes from the disk.
-    if (shelf_.writing()) return;
-    PreviewRequest request;
-    request.project = resolved();
-    request.project.settings.quality = preview_quality_;
-    bool any = false;
-    for (Leaf<Region>& region : request.project.regions) {
+Project Session::project_to_preview(bool& any) const {
+    Project project = resolved();
+    project.settings.quality = preview_quality_;
+    for (Leaf<Region>& region : project.regions) {
         const bool hidden = !region->enabled || (solo_ != 0 && solo_ != region->id);
         const bool unready = region->matte->empty() ||
                              (region->texture.sample.empty() && region->texture.plane.empty());
@@ -297,6 +297,20 @@ void Session::request_preview() {
             any = true;
         }
     }
+    return project;
+}
+
+void Session::request_preview() {
+    if (!request_due_ || painting_) return;
+    if (!reader_) {
+        request_due_ = false;
+        return;
+    }
+    // It reads the painted mattes from the disk.
+    if (shelf_.writing()) return;
+    PreviewRequest request;
+    bool any = false;
+    request.project = project_to_preview(any);
     if (!any) {
         request_due_ = false;
         preview_.clear();
@@ -334,7 +348,7 @@ void Session::apply_texture(const std::string& path, RegionId region) {
         notify(NoticeKind::kWarning, "Select the region that is to get this texture.");
         return;
     }
-    if (path.starts_with("db:")) return fetch_texture(path, region);
+    if (names_library_texture(path)) return fetch_texture(path, region);
     TextureSource texture = target->texture;
     texture.sample = path;
     texture.plane.clear();
@@ -348,29 +362,19 @@ void Session::apply_texture(const std::string& path, RegionId region) {
 
 // A texture of the library becomes a file beside the project, so that the project needs no library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
-    const fs::path folder = path_.empty() ? fs::path(options_.state_folder) / "unsaved" / "textures"
-                                          : fs::path(project_dir(path_)) /
-                                                (fs::path(path_).stem().string() + "_textures");
+    const fs::path folder = path_.empty()
+                                ? fs::path(options_.state_folder) / "unsaved" / "textures"
+                                : fs::path(project_dir(path_)) / kept_textures_name(path_);
     fetching_.emplace();
     fetching_->region = region;
-    fetching_->path = in_background([id = path.substr(3), folder]() -> Expected<std::string> {
-        const std::string file = (folder / (id + ".png")).string();
-        std::error_code error;
-        if (fs::exists(file, error)) return file;
-        WEFT_TRY(texture, resolve_texture("", id));
-        // The larger picture where it is no whole photograph.
-        constexpr int kLargest = 512;
-        const ImageU8x3& larger = texture.original;
-        const bool fits =
-            !larger.empty() && larger.width() <= kLargest && larger.height() <= kLargest;
-        const ImageU8x3& pixels = fits ? larger : texture.pixels;
-        ImageF3 values(pixels.size());
-        for (std::size_t k = 0; k < pixels.size_bytes(); ++k)
-            values.data()[k] = static_cast<float>(pixels.data()[k]) / 255.0f;
-        fs::create_directories(folder, error);
-        WEFT_CHECK_OK(write_image(file, values, {}, {}));
-        return file;
-    });
+    fetching_->path =
+        in_background([path, folder = folder.string(), library = options_.texture_library,
+                       excluded = licence_list(
+                           document().settings.excluded_licences)]() -> Expected<std::string> {
+            WEFT_TRY(texture, resolve_texture(library, path));
+            WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
+            return keep_texture(texture, folder);
+        });
 }
 
 void Session::take_texture() {
@@ -418,7 +422,7 @@ bool Session::busy() const {
 
 std::uint64_t Session::news() const {
     return shelf_.arrivals() + preview_.news() + jobs_.changes() +
-           (player_ ? player_->arrivals() : 0);
+           (player_ ? player_->arrivals() : 0) + (strip_ ? strip_->news() : 0);
 }
 
 void Session::update(double now_s) {
@@ -452,6 +456,9 @@ void Session::update(double now_s) {
     show_mattes();
     part("preview");
     show_result();
+    part("strip");
+    show_shape();
+    show_strip();
     part("marks");
     show_marks();
     part("jobs");

@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "engine/color/color_space.h"
 #include "engine/media/plates.h"
+#include "texture_db/library.h"
 
 namespace weft {
 namespace {
@@ -54,6 +55,13 @@ Status move_to(const std::string& path, const std::string& unsaved, const std::s
         std::error_code error;
         fs::create_directories(to.parent_path(), error);
         fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+        // A texture's author and licence go with it; one of the artist's own has none.
+        std::error_code none;
+        const std::string credit = texture_credit_path(from);
+        if (!error && fs::exists(credit, none)) {
+            fs::copy_file(credit, texture_credit_path(to.string()),
+                          fs::copy_options::overwrite_existing, error);
+        }
         if (error && failed.empty())
             failed = from + " cannot be copied beside the project: " + error.message() +
                      ". Free some space there, or save elsewhere.";

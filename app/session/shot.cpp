@@ -237,18 +237,16 @@ class ShotOpener {
         PlateFrame picture;
         TextureCredit credit;
     };
-    // A picture file, or "db:ID" for a sample of the user's texture library. Resolving a project's
-    // paths may have put a folder in front of that.
-    static Expected<ReadTexture> read_texture(const std::string& path) {
-        const std::string name = path.substr(path.rfind('/') + 1);
+    // A picture file, or "db:ID" for a sample of a texture library.
+    [[nodiscard]] Expected<ReadTexture> read_texture(const std::string& path) const {
         ReadTexture out;
-        if (!name.starts_with("db:")) {
+        if (!names_library_texture(path)) {
             WEFT_TRY(picture, read_image(path));
             out.picture = std::move(picture);
             if (auto credit = read_texture_credit(path)) out.credit = std::move(*credit);
             return out;
         }
-        WEFT_TRY(resolved, resolve_texture({}, name));
+        WEFT_TRY(resolved, resolve_texture(options_.texture_library, path));
         out.credit = std::move(resolved.credit);
         out.picture.rgb = ImageF3(resolved.pixels.size());
         std::transform(
@@ -289,9 +287,8 @@ class ShotOpener {
         }
         Hasher hasher;
         hasher.image(out.pixels);
-        out.named = {region.name,       path,          hasher.finish().hex(),
-                     out.pixels.size(), is_plane,      credit.author,
-                     credit.licence,    credit.source, {}};
+        out.named = {region.name, path,          hasher.finish().hex(), out.pixels.size(), is_plane,
+                     credit.id,   credit.author, credit.licence,        credit.source,     {}};
         return out;
     }
 
@@ -431,6 +428,19 @@ PixelDepth output_depth(const Output& output, PixelDepth plate) {
 Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
                                                 const OpenShotOptions& options) {
     return ShotOpener(project, options).open();
+}
+
+Status check_texture_licences(const Shot& shot) {
+    std::vector<TextureCredit> credits;
+    for (const ShotTexture& t : shot.textures) {
+        TextureCredit credit;
+        credit.region = t.region;
+        credit.name = t.path;
+        credit.author = t.author;
+        credit.licence = t.licence;
+        credits.push_back(std::move(credit));
+    }
+    return check_licences(credits, licence_list(shot.project.settings.excluded_licences));
 }
 
 }  // namespace weft

@@ -52,12 +52,19 @@ class TextureShelf {
     /// Paths in the order of how well they answer the words; null while it is worked out, or
     /// without a library.
     [[nodiscard]] std::shared_ptr<const std::vector<std::string>> search(const std::string& words);
+    /// Looks for textures like this part of a picture, in the background. `key` stands for it.
+    void find_similar(const std::string& key, PicturePtr picture, Recti part);
+    /// What was found, the nearest first; null while it is worked out, or without a library.
+    [[nodiscard]] std::shared_ptr<const std::vector<std::string>> similar(
+        const std::string& key) const;
     [[nodiscard]] std::shared_ptr<const std::vector<TextureCard>> cards() const;
     /// Null while it is being made: asked for again every frame by what is visible. The newest wish
     /// comes first.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
-    /// Ranks the cards for a surface that looks like this; empty while it is being worked out.
-    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte);
+    /// Ranks the cards for a surface that looks like this, those under the excluded licences left
+    /// out; empty while it is being worked out.
+    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte,
+                     const std::string& excluded_licences = {});
     [[nodiscard]] std::vector<TextureSuggestion> suggestions(const std::string& key) const;
     /// Grows whenever something arrives.
     [[nodiscard]] std::uint64_t arrivals() const;
@@ -76,12 +83,15 @@ class TextureShelf {
     void take_library();
     void look_up(const std::string& path);
     void search_library(const std::string& words);
-    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte);
+    void look_for_similar(const std::string& key, const Picture& picture, const Recti& part);
+    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
+                   const std::string& excluded_licences);
     void publish();
     void scan(const std::vector<std::string>& folders);
     void make_thumbnail(const Wish& wish);
     [[nodiscard]] std::vector<PicturePtr> trim();
-    void rank(const std::string& key, const Picture& plate, const Matte& matte);
+    void rank(const std::string& key, const Picture& plate, const Matte& matte,
+              const std::string& excluded_licences);
     [[nodiscard]] const Look* look_of(const std::string& path);
 
     const std::size_t budget_bytes_;
@@ -103,12 +113,17 @@ class TextureShelf {
     std::string ranked_key_, rank_due_;
     PicturePtr rank_plate_;
     std::shared_ptr<const Matte> rank_matte_;
+    std::string rank_excluded_;
     std::vector<TextureSuggestion> ranked_;
     std::map<std::string, Look> looks_;  // of the working thread alone
     std::shared_ptr<TextureLibrary> library_;
     std::string activity_, search_due_, searched_;
     bool library_due_ = false;
     std::shared_ptr<const std::vector<std::string>> search_result_;
+    std::string similar_due_, similar_key_;
+    PicturePtr similar_picture_;
+    Recti similar_part_;
+    std::shared_ptr<const std::vector<std::string>> similar_result_;
     std::map<std::string, TextureCard> details_;
     std::string details_due_;
     std::vector<TextureCard> folder_cards_, library_cards_;  // of the working thread alone

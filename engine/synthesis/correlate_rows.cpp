@@ -131,18 +131,22 @@ constexpr auto kAvx2Groups = avx2_groups(std::make_index_sequence<kCorrelationGr
 }  // namespace
 
 SignedPlane::SignedPlane(Isa isa, std::size_t stride, std::size_t rows)
-    : isa_(isa), stride_(stride) {
-    isa == Isa::kAvx512 ? bytes_.resize(stride * rows) : words_.resize(stride * rows);
+    : isa_(isa),
+      stride_(stride),
+      bytes_(isa == Isa::kAvx512 ? stride * rows : 0),
+      words_(isa == Isa::kAvx512 ? 0 : stride * rows) {
+    std::fill((*bytes_).begin(), (*bytes_).end(), std::int8_t{0});
+    std::fill((*words_).begin(), (*words_).end(), std::int16_t{0});
 }
 
 void SignedPlane::correlate(const std::vector<CorrelationRow>& rows, const std::uint8_t* b,
                             int count, std::int64_t* out) const {
 #if defined(__x86_64__)
     const auto group = static_cast<std::size_t>(count - 1);
-    if (isa_ == Isa::kAvx512) return kAvx512Groups[group](rows, bytes_.data(), stride_, b, out);
-    if (isa_ == Isa::kAvx2) return kAvx2Groups[group](rows, words_.data(), stride_, b, out);
+    if (isa_ == Isa::kAvx512) return kAvx512Groups[group](rows, (*bytes_).data(), stride_, b, out);
+    if (isa_ == Isa::kAvx2) return kAvx2Groups[group](rows, (*words_).data(), stride_, b, out);
 #endif
-    correlate_scalar(rows, words_.data(), stride_, b, count, out);
+    correlate_scalar(rows, (*words_).data(), stride_, b, count, out);
 }
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 
 #include "engine/seam/aligned.h"
 #include "engine/seam/isa.h"
+#include "engine/synthesis/scratch.h"
 
 namespace weft {
 
@@ -28,9 +29,9 @@ class SignedPlane {
     [[nodiscard]] std::size_t stride() const { return stride_; }
     void set(std::size_t index, int value) {
         if (isa_ == Isa::kAvx512) {
-            bytes_[index] = static_cast<std::int8_t>(value);
+            (*bytes_)[index] = static_cast<std::int8_t>(value);
         } else {
-            words_[index] = static_cast<std::int16_t>(value);
+            (*words_)[index] = static_cast<std::int16_t>(value);
         }
     }
     /// out[k] = Σ over the rows and their elements i of a[row.a + k·stride + i] · b[row.b + i], for
@@ -42,8 +43,8 @@ class SignedPlane {
   private:
     Isa isa_;
     std::size_t stride_;
-    std::vector<std::int8_t, AlignedAllocator<std::int8_t>> bytes_;
-    std::vector<std::int16_t, AlignedAllocator<std::int16_t>> words_;
+    Scratch<std::vector<std::int8_t, AlignedAllocator<std::int8_t>>> bytes_;
+    Scratch<std::vector<std::int16_t, AlignedAllocator<std::int16_t>>> words_;
 };
 
 inline constexpr int kCorrelationGroup = 13;

@@ -68,7 +68,7 @@ class SessionTest : public ::testing::Test {
     void SetUp() override;
     void TearDown() override;
     void frame();
-    /// Draws frames until `done` or ten seconds of patience are over.
+    /// Draws frames until `done`, or three minutes of patience are over.
     template <class Done>
     [[nodiscard]] bool wait(Done&& done) {
         // Workers give way to everything else on the machine, so this may take long on a busy one.
