@@ -17,6 +17,7 @@ int edit(const EditArguments& given) {
     options.screenshot = given.screenshot;
     options.ui_scale = given.ui_scale;
     options.light = given.light;
+    options.texture_library = given.library;
     std::error_code error;
     options.program = std::filesystem::read_symlink("/proc/self/exe", error).string();
     constexpr int kLeast = 320, kMost = 16384;

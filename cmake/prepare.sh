@@ -70,3 +70,17 @@ build() {
     say "Building with $jobs jobs"
     ninja -C "$tree" -j "$jobs" "$target" >&2 || die "The build failed; see the compiler's messages above"
 }
+
+# make_starter_library ROOT TREE: the starter textures as a library beside the program, which a user's
+# first start copies. Made again where their sources changed.
+make_starter_library() {
+    local sources=$1/texture_db/starter weft=$2/bin/weft starter=$2/share/weft/starter.db
+    if [[ -f $starter && -z $(find "$sources" -newer "$starter" -print -quit) ]]; then return; fi
+    say "Making the starter textures"
+    rm -f "$starter"*
+    if "$weft" texture build --packages none --db "$starter.part" >&2; then
+        mv "$starter.part" "$starter"
+    else
+        say "They could not be made; Weft makes them when they are first wanted"
+    fi
+}

@@ -62,7 +62,7 @@ class Builder {
         for (const std::string& package : options_.packages)
             WEFT_CHECK_OK(build_package(package));
         WEFT_TRY(done, library_.note(voted_key()));
-        if (done.empty()) {
+        if (done.empty() && !options_.packages.empty()) {
             WEFT_TRY(voted, library_.vote_out_strangers(cancel_, progress_));
             report_.voted_out = voted;
             if (report_.unreachable.empty()) WEFT_CHECK_OK(library_.set_note(voted_key(), "done"));

@@ -165,8 +165,11 @@ Expected<std::unique_ptr<Database>> Database::open(const std::string& path, bool
     }
     sqlite3* handle = nullptr;
     const int flags = (read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE) |
-                      (create && !read_only ? SQLITE_OPEN_CREATE : 0) | SQLITE_OPEN_NOMUTEX;
-    const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+                      (create && !read_only ? SQLITE_OPEN_CREATE : 0) | SQLITE_OPEN_NOMUTEX |
+                      SQLITE_OPEN_URI;
+    // A name that only looks like an address is a name.
+    const std::string name = path.starts_with("file:") ? "./" + path : path;
+    const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
     std::unique_ptr<Database> database(new Database(path, handle));
     if (code != SQLITE_OK) return tl::unexpected(database->error(code));
     sqlite3_extended_result_codes(handle, 1);

@@ -9,7 +9,7 @@
 namespace weft {
 
 /// Stored with every sample's features; features of another version are computed again.
-inline constexpr int kFeatureVersion = 1;
+inline constexpr int kFeatureVersion = 2;
 
 /// Of a 96×96 sRGB picture. Deterministic; thread-safe; about 3 ms.
 [[nodiscard]] std::vector<float> texture_features(ViewU8x3 sample);

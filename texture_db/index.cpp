@@ -3,8 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace weft {
+namespace {
+
+constexpr std::size_t kLanes = 8;
+
+SampleLook look_of(const IndexedSample& s) {
+    const TextureAttributes& a = s.measured.attributes;
+    SampleLook look;
+    look.mean = s.measured.mean;
+    look.chroma = std::hypot(look.mean.a, look.mean.b);
+    look.hue_deg = std::atan2(look.mean.b, look.mean.a) * 180 / std::numbers::pi_v<float>;
+    look.structure_px = 2 * std::pow(24.0f, a[TextureAttribute::kScale]);
+    look.contrast = a[TextureAttribute::kContrast];
+    look.saturation = a[TextureAttribute::kSaturation];
+    look.roughness = a[TextureAttribute::kRoughness];
+    look.synthesis = s.synthesis;
+    look.material = s.material;
+    look.licence = s.licence;
+    return look;
+}
+
+}  // namespace
 
 int StringTable::number_of(std::string_view text) {
     const auto [at, fresh] = numbers_.try_emplace(std::string(text), size());
@@ -22,6 +44,27 @@ std::ptrdiff_t SampleIndex::find_key(std::int64_t key) const {
         samples.begin(), samples.end(), key,
         [](const IndexedSample& sample, std::int64_t k) { return sample.key < k; });
     return at != samples.end() && at->key == key ? at - samples.begin() : -1;
+}
+
+void SampleIndex::add(IndexedSample sample, std::span<const float> descriptor) {
+    sample.colour = colours.number_of(colour_name(sample.measured.mean));
+    if (descriptor_size == 0 && !descriptor.empty()) {
+        descriptor_size = static_cast<int>(descriptor.size());
+        stride_ = (descriptor.size() + kLanes - 1) / kLanes * kLanes;
+        descriptors_.resize(samples.size() * stride_);
+    }
+    const bool fits =
+        descriptor_size > 0 && descriptor.size() == static_cast<std::size_t>(descriptor_size) &&
+        std::any_of(descriptor.begin(), descriptor.end(), [](float v) { return v != 0; });
+    const std::size_t at = descriptors_.size();
+    descriptors_.resize(at + stride_);
+    if (fits)
+        std::copy(descriptor.begin(), descriptor.end(),
+                  descriptors_.begin() + static_cast<std::ptrdiff_t>(at));
+    described_.push_back(fits);
+    looks.push_back(look_of(sample));
+    by_id.emplace(sample.id, samples.size());
+    samples.push_back(std::move(sample));
 }
 
 Expected<SampleIndex> load_index(Database& database) {
@@ -54,22 +97,7 @@ Expected<SampleIndex> load_index(Database& database) {
                                                     " is damaged at sample " + s.id +
                                                     ". Run 'weft texture verify'.");
         }
-        s.colour = index.colours.number_of(colour_name(s.measured.mean));
-        const auto descriptor = rows.blob(12);
-        const auto length = static_cast<int>(descriptor.size() / sizeof(float));
-        if (index.descriptor_size == 0 && length > 0) {
-            index.descriptor_size = length;
-            index.descriptors.reserve(static_cast<std::size_t>(count * length));
-            index.descriptors.resize(index.samples.size() * static_cast<std::size_t>(length));
-        }
-        const std::size_t old = index.descriptors.size();
-        index.descriptors.resize(old + static_cast<std::size_t>(index.descriptor_size));
-        if (length == index.descriptor_size && length > 0) {
-            std::memcpy(index.descriptors.data() + old, descriptor.data(),
-                        static_cast<std::size_t>(length) * sizeof(float));
-        }
-        index.by_id.emplace(s.id, index.samples.size());
-        index.samples.push_back(std::move(s));
+        index.add(std::move(s), floats_of(rows.blob(12)));
     }
     WEFT_TRY(favourites, database.query("SELECT id FROM favourite"));
     for (;;) {
@@ -88,42 +116,59 @@ Expected<SampleIndex> load_index(Database& database) {
     return index;
 }
 
-std::vector<Neighbour> nearest(const SampleIndex& index, std::span<const float> descriptor,
-                               int count) {
-    const auto size = static_cast<std::size_t>(index.descriptor_size);
-    if (size == 0 || descriptor.size() != size || count <= 0) return {};
-    std::vector<Neighbour> all;
-    all.reserve(index.samples.size());
-    for (std::size_t i = 0; i < index.samples.size(); ++i) {
-        const float* d = index.descriptors.data() + i * size;
-        // Four sums side by side let the compiler use vector instructions without reordering.
-        std::array<float, 4> sum{};
-        float magnitude = 0;
-        std::size_t k = 0;
-        for (; k + 4 <= size; k += 4) {
-            for (std::size_t j = 0; j < 4; ++j) {
-                const float difference = d[k + j] - descriptor[k + j];
+std::vector<float> SampleIndex::squared_distances(std::span<const float> descriptor) const {
+    if (descriptor_size == 0 || descriptor.size() != static_cast<std::size_t>(descriptor_size))
+        return {};
+    std::vector<float> asked(stride_), out(samples.size());
+    std::copy(descriptor.begin(), descriptor.end(), asked.begin());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (!described_[i]) {
+            out[i] = kFar;
+            continue;
+        }
+        const float *d = descriptors_.data() + i * stride_, *q = asked.data();
+        // Sums side by side let the compiler use vector instructions without reordering.
+        std::array<float, kLanes> sum{};
+        for (std::size_t k = 0; k < stride_; k += kLanes) {
+            for (std::size_t j = 0; j < kLanes; ++j) {
+                const float difference = d[k + j] - q[k + j];
                 sum[j] += difference * difference;
             }
-            magnitude += std::abs(d[k]);
         }
-        for (; k < size; ++k) {
-            const float difference = d[k] - descriptor[k];
-            sum[0] += difference * difference;
-        }
-        if (magnitude == 0) continue;
-        all.push_back({i, (sum[0] + sum[1]) + (sum[2] + sum[3])});
+        out[i] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
     }
-    const auto wanted = std::min(all.size(), static_cast<std::size_t>(count));
+    return out;
+}
+
+std::vector<Neighbour> lowest(std::span<const float> squared, int count) {
+    std::vector<Neighbour> all;
+    if (count <= 0) return all;
+    const auto wanted = static_cast<std::size_t>(count);
     const auto nearer = [](const Neighbour& a, const Neighbour& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.sample < b.sample;
     };
-    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted), all.end(),
-                      nearer);
-    all.resize(wanted);
+    // Of many, few are kept at any time: whenever twice as many as wanted have come together, the
+    // farther half goes.
+    float limit = SampleIndex::kFar;
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+        if (squared[i] >= limit) continue;
+        all.push_back({i, squared[i]});
+        if (all.size() < 2 * wanted + 64) continue;
+        std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted - 1),
+                         all.end(), nearer);
+        all.resize(wanted);
+        limit = all.back().distance;
+    }
+    std::sort(all.begin(), all.end(), nearer);
+    if (all.size() > wanted) all.resize(wanted);
     for (Neighbour& n : all)
         n.distance = std::sqrt(n.distance);
     return all;
+}
+
+std::vector<Neighbour> nearest(const SampleIndex& index, std::span<const float> descriptor,
+                               int count) {
+    return lowest(index.squared_distances(descriptor), count);
 }
 
 std::vector<std::byte> bytes_of(const MeasuredTexture& measured) {

@@ -42,19 +42,42 @@ struct IndexedSample {
     int colour = 0;  ///< Word of the mean colour, in `colours`.
 };
 
+/// What the recommender asks of every sample, side by side in memory.
+struct SampleLook {
+    LabColor mean;
+    float chroma = 0, hue_deg = 0;  ///< Of `mean`.
+    float structure_px = 2;         ///< Size of the largest common structure.
+    float contrast = 0, saturation = 0, roughness = 0, synthesis = 0;
+    int material = 0, licence = 0;
+};
+
 struct SampleIndex {
     std::vector<IndexedSample> samples;  ///< In the order of `key`.
     StringTable materials, packages, licences, categories, colours;
     std::unordered_map<std::string, std::size_t> by_id;
+    std::vector<SampleLook> looks;  ///< One a sample.
     int descriptor_size = 0;
-    std::vector<float> descriptors;  ///< samples × descriptor_size; all 0 where there is none yet.
 
+    /// Takes a sample in, last. One without a descriptor of the others' size has none. `colour`
+    /// and the look are worked out here.
+    void add(IndexedSample sample, std::span<const float> descriptor);
+    /// Empty for a sample that has none.
     [[nodiscard]] std::span<const float> descriptor(std::size_t i) const {
-        const auto n = static_cast<std::size_t>(descriptor_size);
-        return {descriptors.data() + i * n, n};
+        if (!described_[i]) return {};
+        return {descriptors_.data() + i * stride_, static_cast<std::size_t>(descriptor_size)};
     }
+    /// The squared Euclidean distance of every sample, kFar where it has no descriptor; empty where
+    /// the descriptor is of another size.
+    [[nodiscard]] std::vector<float> squared_distances(std::span<const float> descriptor) const;
     /// Position of a row's key, or -1.
     [[nodiscard]] std::ptrdiff_t find_key(std::int64_t key) const;
+
+    static constexpr float kFar = 1e30f;
+
+  private:
+    std::size_t stride_ = 0;          // descriptor_size rounded up, the rest 0
+    std::vector<float> descriptors_;  // samples × stride_
+    std::vector<bool> described_;
 };
 
 /// Reads the whole catalogue.
@@ -64,6 +87,9 @@ struct Neighbour {
     std::size_t sample = 0;
     float distance = 0;
 };
+/// The `count` lowest of squared distances that are not kFar, as distances, nearest first, ties to
+/// the lower position.
+[[nodiscard]] std::vector<Neighbour> lowest(std::span<const float> squared, int count);
 /// The `count` nearest by Euclidean distance, nearest first, ties to the lower position. Samples
 /// without a descriptor are left out.
 [[nodiscard]] std::vector<Neighbour> nearest(const SampleIndex& index,

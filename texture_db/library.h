@@ -99,8 +99,8 @@ class TextureLibrary {
     /// Nearest in the learned descriptor, best first, the sample itself left out.
     [[nodiscard]] Expected<std::vector<SearchHit>> similar(const std::string& id, int count);
     /// The same for any picture of at least 32×32 (its middle 96×96 is used; smaller ones are
-    /// mirrored out). The first is the nearest; the next four are the nearest of each of the
-    /// likeliest other materials; then all others by distance.
+    /// mirrored out). The first five are the nearest of each of the five likeliest materials; then
+    /// all others by distance.
     [[nodiscard]] Expected<std::vector<SearchHit>> similar(ViewU8x3 picture, int count);
     /// Suggestions for regions of a frame. Errors: Usage for an empty matte or sizes that differ.
     [[nodiscard]] Expected<Recommendation> recommend(const RecommendRequest& request);
@@ -142,6 +142,10 @@ class TextureLibrary {
     /// materials count as one). Returns how many. Learns the descriptor before and after.
     [[nodiscard]] Expected<int> vote_out_strangers(const CancelToken& cancel = {},
                                                    const ProgressFn& progress = {});
+    /// Takes over everything that a library has, descriptor and all, into this one, which must be
+    /// empty; in one transaction. Only where its note `key` says `value`. Returns whether it did.
+    [[nodiscard]] Expected<bool> copy_from(const std::string& path, const std::string& key,
+                                           const std::string& value);
     /// Notes of a long work that can be taken up again ("import:/home/me/pictures").
     [[nodiscard]] Expected<std::string> note(const std::string& key);
     [[nodiscard]] Status set_note(const std::string& key, const std::string& value);
@@ -152,8 +156,9 @@ class TextureLibrary {
     std::unique_ptr<State> state_;
 };
 
-/// Fills an empty library with the starter textures (about 1,700, procedural, a few seconds) unless
-/// they are in it already; interrupted, it goes on where it stopped.
+/// Fills a library with the 4,000 starter textures unless they are in it already: an empty one in
+/// under a second from share/weft/starter.db beside the program, where ./run has made that; else
+/// they are made (under a minute on two cores), and interrupted, it goes on where it stopped.
 [[nodiscard]] Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel = {},
                                           const ProgressFn& progress = {});
 /// Whether all of them are in.
@@ -175,6 +180,10 @@ struct ResolvedTexture {
 /// Errors: those of resolve_texture(); NoSpace, Unreadable for the folder.
 [[nodiscard]] Expected<std::string> keep_texture(const std::string& library_path,
                                                  const std::string& id, const std::string& folder);
+[[nodiscard]] Expected<std::string> keep_texture(const ResolvedTexture& texture,
+                                                 const std::string& folder);
+/// Where the credit of a picture stands, if it has one.
+[[nodiscard]] std::string texture_credit_path(const std::string& picture_path);
 /// The credit that keep_texture() wrote beside a picture, or nothing.
 [[nodiscard]] std::optional<TextureCredit> read_texture_credit(const std::string& picture_path);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "texture_db/database.h"
@@ -46,6 +47,8 @@ struct PreparedPicture {
     std::string hash;
     std::vector<std::byte> bytes;
 };
+[[nodiscard]] Status store_descriptor(Database& database, std::int64_t key,
+                                      std::span<const float> descriptor);
 [[nodiscard]] PreparedTexture prepare_texture(const NewTexture& texture);
 
 }  // namespace weft

@@ -74,11 +74,6 @@ Expected<bool> store_sample(Database& database, const NewTexture& t, const Prepa
     return true;
 }
 
-Status store_descriptor(Database& database, std::int64_t key, std::span<const float> descriptor) {
-    WEFT_TRY(insert, database.query("INSERT OR REPLACE INTO descriptor VALUES(?, ?)"));
-    return insert.bind(key).bind(bytes_of(descriptor)).run();
-}
-
 Expected<std::optional<DescriptorModel>> stored_model(Database& database) {
     WEFT_TRY(row, database.query("SELECT data FROM model WHERE name = 'descriptor'"));
     WEFT_TRY(trained, row.step());
@@ -88,6 +83,11 @@ Expected<std::optional<DescriptorModel>> stored_model(Database& database) {
 }
 
 }  // namespace
+
+Status store_descriptor(Database& database, std::int64_t key, std::span<const float> descriptor) {
+    WEFT_TRY(insert, database.query("INSERT OR REPLACE INTO descriptor VALUES(?, ?)"));
+    return insert.bind(key).bind(bytes_of(descriptor)).run();
+}
 
 PreparedTexture prepare_texture(const NewTexture& texture) {
     PreparedTexture p;
@@ -154,52 +154,6 @@ Status TextureLibrary::remove(const std::string& given) {
     }
     WEFT_CHECK_OK(state_->count_change());
     return transaction.commit();
-}
-
-Status TextureLibrary::train_descriptor(const CancelToken& cancel, const ProgressFn& progress) {
-    LabelledFeatures data;
-    std::vector<std::int64_t> keys;
-    StringTable materials;
-    const std::scoped_lock lock(state_->mutex);
-    Database& database = *state_->database;
-    {
-        WEFT_TRY(rows, database.query("SELECT s.key, s.material, s.origin, f.data FROM sample s "
-                                      "JOIN features f ON f.sample = s.key WHERE f.version = ? "
-                                      "ORDER BY s.key"));
-        rows.bind(kFeatureVersion);
-        for (;;) {
-            WEFT_TRY(more, rows.step());
-            if (!more) break;
-            keys.push_back(rows.integer(0));
-            data.labels.push_back(materials.number_of(rows.text(1)));
-            data.features.push_back(floats_of(rows.blob(3)));
-            data.weights.push_back(1.0f);
-        }
-    }
-    for (int m = 0; m < materials.size(); ++m)
-        data.materials.push_back(materials.text(m));
-    if (progress) progress({"learn", 0, 2, 0, 0});
-    WEFT_TRY(model, learn_descriptor(data));
-    if (progress) progress({"learn", 1, 2, 0, 0});
-    if (cancel.cancelled())
-        return fail(static_cast<ErrorCode>(cancel.reason()), "Learning was stopped.");
-    std::vector<std::vector<float>> descriptors(keys.size());
-    parallel_for(keys.size(),
-                 [&](std::size_t i) { descriptors[i] = model.describe(data.features[i]); });
-    const std::vector<std::byte> bytes = model.to_bytes();
-    WEFT_TRY(transaction, Transaction::begin(database));
-    {
-        WEFT_TRY(store, database.query("INSERT OR REPLACE INTO model VALUES('descriptor', ?, ?)"));
-        store.bind(static_cast<std::int64_t>(keys.size())).bind(std::span(bytes));
-        WEFT_CHECK_OK(store.run());
-        WEFT_CHECK_OK(database.execute("DELETE FROM descriptor"));
-        for (std::size_t i = 0; i < keys.size(); ++i)
-            WEFT_CHECK_OK(store_descriptor(database, keys[i], descriptors[i]));
-    }
-    WEFT_CHECK_OK(state_->count_change());
-    WEFT_CHECK_OK(transaction.commit());
-    if (progress) progress({"learn", 2, 2, 0, 0});
-    return {};
 }
 
 }  // namespace weft

@@ -47,6 +47,16 @@ std::vector<std::string> split_at(const std::string& text, const std::string& se
 
 }  // namespace
 
+std::vector<std::string> licence_list(std::string_view text) {
+    std::vector<std::string> out;
+    for (const std::string& part : split_at(std::string(text), ",")) {
+        const auto from = part.find_first_not_of(' ');
+        if (from != std::string::npos)
+            out.push_back(part.substr(from, part.find_last_not_of(' ') - from + 1));
+    }
+    return out;
+}
+
 bool licence_excluded(std::string_view licence, const std::vector<std::string>& excluded) {
     if (excluded.empty()) return false;
     std::string text = lowered(licence);

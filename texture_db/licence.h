@@ -18,6 +18,9 @@ struct TextureCredit {
     std::string author, licence, source;
 };
 
+/// "GPL, CC-BY-SA" as a list.
+[[nodiscard]] std::vector<std::string> licence_list(std::string_view text);
+
 /// Whether `licence` falls under an excluded name: equal without regard to case, or of that family
 /// ("GPL" covers "GPL-2+" and "GPL-3" but not "LGPL-2.1"; "CC-BY-SA" covers "CC-BY-SA-3.0";
 /// "CC-BY" does not cover "CC-BY-SA"; "copyleft", "attribution", "non-commercial" and "unknown" are

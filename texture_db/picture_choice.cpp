@@ -11,6 +11,8 @@ namespace weft {
 namespace {
 
 constexpr int kSide = 96;
+// Above it, half of 69 samples that were looked at held two materials, a thing or a stain.
+constexpr float kMostColourUnevenness = 0.65f;
 
 float luma(const std::uint8_t* p) {
     return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
@@ -106,6 +108,57 @@ float unevenness(ViewU8x3 image, const Recti& r, float contrast) {
     return std::sqrt(means) / (contrast + 3) + 0.8f * std::sqrt(deviations) / (deviation + 3);
 }
 
+// How far the colours of a square's nine parts lie apart, against the spread of colour inside them:
+// grass that becomes a path, something else that reaches in.
+float colour_unevenness(ViewU8x3 image, const Recti& r) {
+    // Red against green, and both against blue.
+    std::array<std::array<double, 2>, 9> sums{}, squares{};
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const std::uint8_t* p = image.pixel(r.x0 + x, r.y0 + y);
+            const std::array<double, 2> c{static_cast<double>(p[0]) - p[1],
+                                          0.5 * (p[0] + p[1]) - p[2]};
+            const auto part = static_cast<std::size_t>(y / 32 * 3 + x / 32);
+            for (std::size_t k = 0; k < 2; ++k) {
+                sums[part][k] += c[k];
+                squares[part][k] += c[k] * c[k];
+            }
+        }
+    }
+    constexpr double kPart = 32 * 32;
+    double apart = 0, inside = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+        double mean = 0, deviation = 0;
+        for (std::size_t part = 0; part < 9; ++part) {
+            const double m = sums[part][k] / kPart;
+            mean += m / 9;
+            deviation += std::sqrt(std::max(0.0, squares[part][k] / kPart - m * m)) / 9;
+        }
+        for (const auto& sum : sums)
+            apart += (sum[k] / kPart - mean) * (sum[k] / kPart - mean) / 9;
+        inside += deviation * deviation;
+    }
+    return static_cast<float>(std::sqrt(apart) / (5 + std::sqrt(inside)));
+}
+
+// Letters and drawings: places without any grain, some of them black and some white.
+bool is_drawn(ViewU8x3 image, const Recti& r) {
+    int black = 0, white = 0;
+    for (int y = r.y0 + 1; y + 1 < r.y1; ++y) {
+        for (int x = r.x0 + 1; x + 1 < r.x1; ++x) {
+            const float v = luma(image.pixel(x, y));
+            if (v > 12 && v < 243) continue;
+            const bool even = std::abs(luma(image.pixel(x - 1, y)) - v) < 3 &&
+                              std::abs(luma(image.pixel(x + 1, y)) - v) < 3 &&
+                              std::abs(luma(image.pixel(x, y - 1)) - v) < 3 &&
+                              std::abs(luma(image.pixel(x, y + 1)) - v) < 3;
+            if (even) ++(v < 128 ? black : white);
+        }
+    }
+    constexpr int kFew = kSide * kSide / 250;
+    return black > kFew && white > kFew;
+}
+
 }  // namespace
 
 std::string picture_fault(ViewU8x3 picture, const ChoiceRules& rules) {
@@ -154,6 +207,9 @@ std::vector<Recti> choose_samples(ViewU8x3 picture, const ChoiceRules& rules) {
                 const bool blown = look.mean > 247 || look.mean < 20;
                 const float own_flat = flat_share(picture.crop(s.at));
                 if (flat || blurred || blown || own_flat > 0.15f || uneven > 0.85f) continue;
+                if (colour_unevenness(picture, s.at) > kMostColourUnevenness ||
+                    is_drawn(picture, s.at))
+                    continue;
             }
             squares.push_back(s);
         }

@@ -14,6 +14,17 @@ namespace {
 constexpr int kSide = 96;
 constexpr int kPatches = 4;
 constexpr std::uint8_t kInside = 128;
+constexpr float kNeutral = 8;  // chroma below which a colour has no hue to speak of
+
+float hue_deg_of(const LabColor& c) {
+    return std::atan2(c.b, c.a) * 180 / std::numbers::pi_v<float>;
+}
+
+// The smallest turn between two hues.
+float turn_deg(float a, float b) {
+    const float turn = std::abs(a - b);
+    return turn > 180 ? 360 - turn : turn;
+}
 
 struct Shape {
     Recti box;
@@ -178,33 +189,40 @@ void look_around(ViewU8x3 plate, ViewU8x1 matte, RegionLook& look) {
 }  // namespace
 
 float hue_difference_deg(const LabColor& a, const LabColor& b) {
-    if (std::hypot(a.a, a.b) < 8 || std::hypot(b.a, b.b) < 8) return 0;
-    const float turn = std::atan2(a.b, a.a) - std::atan2(b.b, b.a);
-    return std::abs(std::remainder(turn, 2 * std::numbers::pi_v<float>)) * 180 /
-           std::numbers::pi_v<float>;
+    if (std::hypot(a.a, a.b) < kNeutral || std::hypot(b.a, b.b) < kNeutral) return 0;
+    return turn_deg(hue_deg_of(a), hue_deg_of(b));
 }
 
-float colour_harmony(const LabColor& color, const std::vector<WeightedColor>& others) {
-    const float chroma = std::hypot(color.a, color.b);
-    float sum = 0, weight = 0;
+ColourHarmony::ColourHarmony(const std::vector<WeightedColor>& others) : loudest_(12) {
     for (const WeightedColor& other : others) {
-        const float theirs = std::hypot(other.color.a, other.color.b);
-        // Two strong colours must agree in hue; the weaker one of them is, the less it matters.
-        const float matters = std::min({chroma, theirs, 30.0f}) / 30.0f;
-        const float turn = hue_difference_deg(color, other.color);
-        const float near = std::exp(-turn * turn / (2 * 24 * 24));
-        const float opposite = std::exp(-(turn - 180) * (turn - 180) / (2 * 22 * 22));
-        const float fit = std::max(near, 0.85f * opposite);
-        sum += other.weight * (0.85f * (1 - matters) + fit * matters);
-        weight += other.weight;
+        const float chroma = std::hypot(other.color.a, other.color.b);
+        others_.push_back({chroma, hue_deg_of(other.color), other.weight});
+        weight_ += other.weight;
+        loudest_ = std::max(loudest_, chroma);
     }
-    if (weight <= 0) return 0.7f;
+}
+
+float ColourHarmony::with(const LabColor& color) const {
+    return with(std::hypot(color.a, color.b), hue_deg_of(color));
+}
+
+float ColourHarmony::with(float chroma, float hue_deg) const {
+    if (weight_ <= 0) return 0.7f;
+    float sum = 0;
+    for (const Other& other : others_) {
+        // Two strong colours must agree in hue; the weaker one of them is, the less it matters.
+        const float matters = std::min({chroma, other.chroma, 30.0f}) / 30.0f;
+        const bool neutral = chroma < kNeutral || other.chroma < kNeutral;
+        const float turn = neutral ? 0.0f : turn_deg(hue_deg, other.hue_deg);
+        const float apart = turn - 180;
+        // The two bells do not overlap: the nearer one is the larger.
+        const float fit = turn < 95 ? std::exp(-turn * turn / (2 * 24 * 24))
+                                    : 0.85f * std::exp(-apart * apart / (2 * 22 * 22));
+        sum += other.weight * (0.85f * (1 - matters) + fit * matters);
+    }
     // Louder than anything around it is seldom wanted.
-    float loudest = 12;
-    for (const WeightedColor& other : others)
-        loudest = std::max(loudest, std::hypot(other.color.a, other.color.b));
-    const float loud = std::max(0.0f, chroma - 1.3f * loudest) / 40;
-    return std::clamp(sum / weight - loud, 0.0f, 1.0f);
+    const float loud = std::max(0.0f, chroma - 1.3f * loudest_) / 40;
+    return std::clamp(sum / weight_ - loud, 0.0f, 1.0f);
 }
 
 Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionToSuit& region,

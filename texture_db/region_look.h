@@ -27,9 +27,23 @@ struct RegionLook {
 [[nodiscard]] Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionToSuit& region,
                                                   const DescriptorModel* model);
 
-/// 0 … 1: how well a colour goes with others, after the harmonic templates of Matsuda (Cohen-Or et
-/// al. 2006): neighbouring hues and complements harmonise, neutral colours go with all.
-[[nodiscard]] float colour_harmony(const LabColor& color, const std::vector<WeightedColor>& others);
+/// How well colours go with those of the rest of a frame, after the harmonic templates of Matsuda
+/// (Cohen-Or et al. 2006): neighbouring hues and complements harmonise, neutral colours go with
+/// all. Immutable.
+class ColourHarmony {
+  public:
+    explicit ColourHarmony(const std::vector<WeightedColor>& others);
+    /// 0 … 1, for a colour by its chroma and hue in CIE Lab.
+    [[nodiscard]] float with(float chroma, float hue_deg) const;
+    [[nodiscard]] float with(const LabColor& color) const;
+
+  private:
+    struct Other {
+        float chroma = 0, hue_deg = 0, weight = 0;
+    };
+    std::vector<Other> others_;
+    float weight_ = 0, loudest_ = 0;
+};
 /// Smallest turn between two hues, degrees; 0 when either is neutral.
 [[nodiscard]] float hue_difference_deg(const LabColor& a, const LabColor& b);
 

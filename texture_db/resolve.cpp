@@ -7,13 +7,10 @@
 #include "texture_db/sample_codec.h"
 
 namespace weft {
-namespace {
 
-std::string credit_path(const std::string& picture_path) {
+std::string texture_credit_path(const std::string& picture_path) {
     return picture_path + ".credit.json";
 }
-
-}  // namespace
 
 Expected<ResolvedTexture> resolve_texture(const std::string& library_path, const std::string& id) {
     const std::string path = library_path.empty() ? default_library_path() : library_path;
@@ -36,6 +33,10 @@ Expected<ResolvedTexture> resolve_texture(const std::string& library_path, const
 Expected<std::string> keep_texture(const std::string& library_path, const std::string& id,
                                    const std::string& folder) {
     WEFT_TRY(texture, resolve_texture(library_path, id));
+    return keep_texture(texture, folder);
+}
+
+Expected<std::string> keep_texture(const ResolvedTexture& texture, const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
@@ -51,12 +52,12 @@ Expected<std::string> keep_texture(const std::string& library_path, const std::s
         {"author", credit.author}, {"licence", credit.licence}, {"source", credit.source}};
     const std::string text =
         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    WEFT_CHECK_OK(write_file_atomically(credit_path(path), std::string_view(text)));
+    WEFT_CHECK_OK(write_file_atomically(texture_credit_path(path), std::string_view(text)));
     return path;
 }
 
 std::optional<TextureCredit> read_texture_credit(const std::string& picture_path) {
-    std::ifstream file(credit_path(picture_path), std::ios::binary);
+    std::ifstream file(texture_credit_path(picture_path), std::ios::binary);
     if (!file) return std::nullopt;
     const auto json = nlohmann::json::parse(file, nullptr, false);
     if (!json.is_object()) return std::nullopt;

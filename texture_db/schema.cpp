@@ -47,7 +47,11 @@ CREATE TABLE collection(name TEXT NOT NULL, id TEXT NOT NULL, PRIMARY KEY(name, 
 CREATE TABLE saved_search(name TEXT PRIMARY KEY, query TEXT NOT NULL);
 )sql";
 
-constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept};
+// Version 3: other features (features.h), which the descriptors of before do not fit; they are
+// learned anew.
+constexpr const char* kForget = "DELETE FROM model; DELETE FROM descriptor;";
+
+constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget};
 
 Status upgrade(Database& database, int from) {
     for (int version = from; version < kLibrarySchema; ++version) {

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "texture_db/features.h"
 #include "texture_db/library_state.h"
+#include "texture_db/ranking.h"
 
 namespace weft {
 namespace {
@@ -20,58 +22,46 @@ SearchHit hit_of(const SampleIndex& index, std::size_t i, float distance) {
             {"looks alike"}};
 }
 
-struct Ranked {
-    float distance = 0;
-    std::size_t sample = 0;
-    bool operator<(const Ranked& o) const {
-        return distance != o.distance ? distance < o.distance : sample < o.sample;
-    }
-};
+}  // namespace
 
-// The first one is the nearest of all; then the nearest of each of the likeliest other materials,
-// since what a picture shows is not sure; then all others by distance.
-std::vector<Ranked> ranked(const SampleIndex& index, const DescriptorModel& model,
-                           const std::vector<float>& descriptor, std::size_t count) {
+std::vector<Neighbour> rank_for_picture(const SampleIndex& index, const DescriptorModel& model,
+                                        std::span<const float> descriptor, std::size_t count) {
     const std::vector<float> middle = model.distances_to_centres(descriptor);
     std::vector<float> by_material(static_cast<std::size_t>(index.materials.size()), 1e4f);
     for (std::size_t m = 0; m < model.materials.size(); ++m) {
         if (const int i = index.materials.find(model.materials[m]); i >= 0)
             by_material[static_cast<std::size_t>(i)] = middle[m];
     }
-    std::vector<Ranked> all;
-    for (const Neighbour& n : nearest(index, descriptor, static_cast<int>(index.samples.size()))) {
-        const auto material = static_cast<std::size_t>(index.samples[n.sample].material);
-        all.push_back({n.distance + kMiddle * by_material[material], n.sample});
+    const std::vector<float> squared = index.squared_distances(descriptor);
+    std::vector<Neighbour> all, best(by_material.size(), {0, SampleIndex::kFar});
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+        if (squared[i] >= SampleIndex::kFar) continue;
+        const auto material = static_cast<std::size_t>(index.looks[i].material);
+        all.push_back({i, std::sqrt(squared[i]) + kMiddle * by_material[material]});
+        if (all.back().distance < best[material].distance) best[material] = all.back();
     }
-    std::sort(all.begin(), all.end());
-    std::vector<std::size_t> likely(by_material.size());
-    for (std::size_t m = 0; m < likely.size(); ++m)
-        likely[m] = m;
-    std::stable_sort(likely.begin(), likely.end(),
-                     [&](std::size_t a, std::size_t b) { return by_material[a] < by_material[b]; });
-    std::vector<Ranked> out;
-    std::vector<bool> taken(all.size());
-    const auto take_first_of = [&](int material) {
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            if (material >= 0 && index.samples[all[k].sample].material != material) continue;
-            out.push_back(all[k]);
-            taken[k] = true;
-            return;
-        }
+    if (all.empty()) return {};
+    const auto shown = std::min(all.size(), count + kFirst);
+    const auto nearer = [](const Neighbour& a, const Neighbour& b) {
+        return a.distance != b.distance ? a.distance < b.distance : a.sample < b.sample;
     };
-    if (all.empty()) return out;
-    take_first_of(-1);
-    const int shown = index.samples[out[0].sample].material;
-    for (std::size_t k = 0; k < likely.size() && out.size() < std::min(kFirst, count); ++k) {
-        if (static_cast<int>(likely[k]) != shown) take_first_of(static_cast<int>(likely[k]));
+    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end(),
+                      nearer);
+    std::sort(best.begin(), best.end(), nearer);
+    std::vector<Neighbour> out;
+    for (const Neighbour& n : best) {
+        if (out.size() == std::min(kFirst, count) || n.distance >= SampleIndex::kFar) break;
+        out.push_back(n);
     }
-    for (std::size_t k = 0; k < all.size() && out.size() < count; ++k) {
-        if (!taken[k]) out.push_back(all[k]);
+    const std::size_t led = out.size();
+    for (std::size_t k = 0; k < shown && out.size() < count; ++k) {
+        const bool taken =
+            std::any_of(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(led),
+                        [&](const Neighbour& r) { return r.sample == all[k].sample; });
+        if (!taken) out.push_back(all[k]);
     }
     return out;
 }
-
-}  // namespace
 
 Expected<std::vector<SearchHit>> TextureLibrary::similar(const std::string& given, int count) {
     const std::scoped_lock lock(state_->mutex);
@@ -99,8 +89,8 @@ Expected<std::vector<SearchHit>> TextureLibrary::similar(ViewU8x3 picture, int c
     std::vector<SearchHit> out;
     if (!state_->model || count < 1) return out;
     const std::vector<float> descriptor = state_->model->describe(features);
-    for (const Ranked& r :
-         ranked(*state_->index, *state_->model, descriptor, static_cast<std::size_t>(count)))
+    for (const Neighbour& r : rank_for_picture(*state_->index, *state_->model, descriptor,
+                                               static_cast<std::size_t>(count)))
         out.push_back(hit_of(*state_->index, r.sample, r.distance));
     return out;
 }

@@ -21,7 +21,8 @@ struct RunOptions {
     bool overwrite = false, skip_existing = false;
     bool dry_run = false;
     AnalysisCacheOptions cache;
-    std::string report;  ///< Path of the JSON report.
+    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
+    std::string report;           ///< Path of the JSON report.
     ProgressStyle progress = ProgressStyle::kPlain;
     bool json = false;
 };
@@ -83,9 +84,13 @@ int diff_command(const DiffOptions& options);
 int info_command(const std::string& path, bool json);
 int validate_command(const std::string& path, bool files);
 int new_command(const std::string& path, const Project& project, bool overwrite);
-int apply_command(const std::string& path, const std::string& actions, bool dry_run);
-/// A change of one region (or, without a name, a new one) in a project file.
-int region_add_command(const std::string& path, Region region);
+/// A project file changed by a file of actions, by a new region, by another region instead of the
+/// one at `index`. Textures of the library `library` (empty: the user's own) are kept beside it.
+int apply_command(const std::string& path, const std::string& actions, const std::string& library,
+                  bool dry_run);
+int region_add_command(const std::string& path, Region region, const std::string& library);
+int region_set_command(const std::string& path, const Project& project, std::size_t index,
+                       const Region& changed, const std::string& library);
 int region_correct_command(const std::string& path, const SetCorrection& edit);
 int region_list_command(const std::string& path, bool json);
 

@@ -17,6 +17,8 @@ void add_edit_command(CLI::App& app, int& exit, const EditCommand& edit) {
     command
         ->add_option("--ui-scale", given->ui_scale, "Size of the interface; default the screen's")
         ->check(CLI::Range(0.0, 4.0));
+    command->add_option("--db", given->library, "Texture library; default: the user's own")
+        ->type_name("FILE");
     command->add_option("--script", given->script, "Steps to carry out without a window (JSON)")
         ->type_name("PATH");
     command

@@ -42,10 +42,12 @@ void add_region_add(CLI::App& group, int& exit) {
         "Example:\n"
         "  weft region add shot.weft --name wall --matte 'masks/wall.####.png' --texture brick.jpg "
         "--scale 1.5");
+    const auto library = add_library_flag(*command);
     command->callback([=, &exit] {
         Region region;
         const Status status = flags->apply(region);
-        exit = status ? region_add_command(*path, std::move(region)) : report_error(status.error());
+        exit = status ? region_add_command(*path, std::move(region), *library)
+                      : report_error(status.error());
     });
 }
 
@@ -59,6 +61,7 @@ void add_region_set(CLI::App& group, int& exit) {
     command->footer(
         "Example:\n  weft region set shot.weft wall --rotate 12 --light-strength 0.7\n"
         "  weft region set shot.weft wall --enabled=false");
+    const auto library = add_library_flag(*command);
     command->callback([=, &exit] {
         auto project = load_project(*path);
         if (!project) {
@@ -71,13 +74,9 @@ void add_region_set(CLI::App& group, int& exit) {
             return;
         }
         Region changed = *project->regions[*index];
-        Status status = flags->apply(changed);
-        if (status) {
-            const auto edited =
-                apply_edits(*project, region_edits(*project->regions[*index], changed));
-            status = edited ? save_project(*path, *edited) : Status(tl::unexpected(edited.error()));
-        }
-        exit = status ? 0 : report_error(status.error());
+        const Status status = flags->apply(changed);
+        exit = status ? region_set_command(*path, *project, *index, changed, *library)
+                      : report_error(status.error());
     });
 }
 
@@ -153,7 +152,8 @@ void add_apply(CLI::App& app, int& exit) {
     command->footer(
         "All actions are applied, or none.\n"
         "Example:\n  weft apply shot.weft retake.json");
-    command->callback([=, &exit] { exit = apply_command(*path, *actions, *dry); });
+    const auto library = add_library_flag(*command);
+    command->callback([=, &exit] { exit = apply_command(*path, *actions, *library, *dry); });
 }
 
 void add_info(CLI::App& app, int& exit) {

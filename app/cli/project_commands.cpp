@@ -12,12 +12,23 @@
 #include "app/project/project_file.h"
 #include "app/project/project_json.h"
 #include "app/project/validate.h"
+#include "app/session/kept_textures.h"
 #include "engine/core/frame_range.h"
 
 namespace weft {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Textures of a library are kept beside the project first.
+int saved_with_textures(const std::string& path, const Expected<Project>& project,
+                        const std::string& library) {
+    if (!project) return report_error(project.error());
+    const auto kept = keep_library_textures(*project, path, library);
+    if (!kept) return report_error(kept.error());
+    const Status status = save_project(path, *kept);
+    return status ? 0 : report_error(status.error());
+}
 
 int saved(const std::string& path, const Expected<Project>& project) {
     if (!project) return report_error(project.error());
@@ -59,7 +70,8 @@ int new_command(const std::string& path, const Project& project, bool overwrite)
     return saved(path, project);
 }
 
-int apply_command(const std::string& path, const std::string& actions, bool dry_run) {
+int apply_command(const std::string& path, const std::string& actions, const std::string& library,
+                  bool dry_run) {
     const auto project = load_project(path);
     if (!project) return report_error(project.error());
     const auto text = read_text(actions);
@@ -68,14 +80,21 @@ int apply_command(const std::string& path, const std::string& actions, bool dry_
     if (!edits) return report_error(in_file(edits.error(), actions));
     const auto changed = apply_edits(*project, *edits);
     if (!changed) return report_error(in_file(changed.error(), actions));
-    return dry_run ? 0 : saved(path, changed);
+    return dry_run ? 0 : saved_with_textures(path, changed, library);
 }
 
-int region_add_command(const std::string& path, Region region) {
+int region_add_command(const std::string& path, Region region, const std::string& library) {
     const auto project = load_project(path);
     if (!project) return report_error(project.error());
     if (region.name.empty()) region.name = "region " + std::to_string(project->next_region_id);
-    return saved(path, apply_edit(*project, AddRegion{std::move(region), {}}));
+    return saved_with_textures(path, apply_edit(*project, AddRegion{std::move(region), {}}),
+                               library);
+}
+
+int region_set_command(const std::string& path, const Project& project, std::size_t index,
+                       const Region& changed, const std::string& library) {
+    const auto edits = region_edits(*project.regions[index], changed);
+    return saved_with_textures(path, apply_edits(project, edits), library);
 }
 
 int region_correct_command(const std::string& path, const SetCorrection& edit) {
@@ -149,6 +168,8 @@ int validate_command(const std::string& path, bool files) {
     if (files) {
         const auto shot = open_shot(resolve_paths(*project, project_dir(path)));
         if (!shot) return report_error(shot.error());
+        if (const Status allowed = check_texture_licences(**shot); !allowed)
+            return report_error(allowed.error());
         for (const std::string& warning : (*shot)->warnings)
             print(stdout, "warning: " + warning + "\n");
     }

@@ -161,6 +161,23 @@ Expected<Project> ProjectFlags::project() const {
     return project;
 }
 
+namespace {
+
+void add_library_option(CLI::App& command, std::string& library) {
+    command
+        .add_option("--db", library,
+                    "Library of the textures 'db:ID'; default: the user's own (weft texture)")
+        ->type_name("FILE");
+}
+
+}  // namespace
+
+std::shared_ptr<std::string> add_library_flag(CLI::App& command) {
+    auto library = std::make_shared<std::string>();
+    add_library_option(command, *library);
+    return library;
+}
+
 void add_progress_flags(CLI::App& command, RunOptions& run) {
     const std::map<std::string, ProgressStyle> styles{{"plain", ProgressStyle::kPlain},
                                                       {"json", ProgressStyle::kJson},
@@ -184,6 +201,7 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     if (!renders) return;
     command.add_flag("--skip-existing", run.skip_existing,
                      "Keep frames that are there and can be read");
+    add_library_option(command, run.texture_library);
     command.add_option("--backend", run.backend, "auto, cpu or cuda [auto]")->type_name("");
     command.add_option("--report", run.report, "Write a JSON report here")->type_name("PATH");
     command.add_flag("--dry-run", run.dry_run, "Say what would be rendered, and stop");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ class ProjectFlags {
     std::vector<std::string> mattes_, holdouts_;
 };
 
+/// --db: where textures "db:ID" are; empty: the user's own library.
+[[nodiscard]] std::shared_ptr<std::string> add_library_flag(CLI::App& command);
 /// --progress and --json.
 void add_progress_flags(CLI::App& command, RunOptions& run);
 /// --threads, --backend, --progress and the like.

@@ -15,12 +15,17 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
                     : run.skip_existing ? ExistingFrames::kSkip
                                         : ExistingFrames::kRefuse;
     spec.cache = run.cache;
+    spec.texture_library = run.texture_library;
     return spec;
 }
 
-int dry_run(const Project& project) {
-    const auto shot = open_shot(project);
+int dry_run(const Project& project, const std::string& texture_library) {
+    OpenShotOptions open;
+    open.texture_library = texture_library;
+    const auto shot = open_shot(project, open);
     if (!shot) return report_error(shot.error());
+    if (const Status allowed = check_texture_licences(**shot); !allowed)
+        return report_error(allowed.error());
     const ShotPlan& plan = (*shot)->plan;
     for (const std::string& warning : (*shot)->warnings)
         print_warning(warning);
@@ -47,7 +52,7 @@ int render_command(const Project& project, const RunOptions& run) {
         return report_error(
             {ErrorCode::kUsage, "--overwrite and --skip-existing contradict each other.", {}});
     }
-    if (run.dry_run) return dry_run(project);
+    if (run.dry_run) return dry_run(project, run.texture_library);
     if (!run.report.empty()) {
         // Known before the work; the empty file is gone again at the end of this block.
         if (const auto probe = TemporaryFile::create(run.report); !probe)

@@ -28,6 +28,7 @@ void add_study_command(CLI::App& app, int& exit) {
         ->check(CLI::Range(0, 1024));
     command->add_flag("--overwrite", run->overwrite, "Replace an earlier report and its frames");
     add_progress_flags(*command, *run);
+    const auto library = add_library_flag(*command);
     command->footer(
         "Writes report.html (one file with everything in it), report.json, report.csv and the "
         "frames of every\n"
@@ -44,6 +45,7 @@ void add_study_command(CLI::App& app, int& exit) {
         }
         options->project = std::move(*project);
         options->threads = run->threads;
+        options->texture_library = *library;
         options->overwrite = run->overwrite;
         exit = study_command(*options, *run);
     });

@@ -130,29 +130,33 @@ void add_search(CLI::App& group, int& exit) {
 
 void add_similar(CLI::App& group, int& exit) {
     const auto common = std::make_shared<TextureCommandOptions>();
-    const auto what = std::make_shared<std::string>();
-    const auto count = std::make_shared<int>(20);
+    const auto o = std::make_shared<TextureSimilarOptions>();
     CLI::App* command =
         add(group, "similar", "Find samples that look like one, or like a picture", common);
-    command->add_option("what", *what, "Id of a sample, or a picture")
+    command->add_option("what", o->what, "Id of a sample, or a picture")
         ->required()
         ->type_name("ID|PATH");
-    command->add_option("--count", *count, "Results to show [20]")->check(CLI::Range(1, 100000));
-    command->callback([=, &exit] { exit = texture_similar_command(*common, *what, *count); });
+    command
+        ->add_option("--rectangle", o->rectangle,
+                     "Part of the picture: x,y,width,height; default: its middle")
+        ->type_name("");
+    command->add_option("--count", o->count, "Results to show [20]")->check(CLI::Range(1, 100000));
+    command->footer("Example:\n  weft texture similar frames/0001.png --rectangle 320,200,96,96");
+    command->callback([=, &exit] { exit = texture_similar_command(*common, *o); });
 }
 
 void add_recommend(CLI::App& group, int& exit) {
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto o = std::make_shared<TextureRecommendOptions>();
     CLI::App* command = add(group, "recommend", "Suggest textures for regions of a frame", common);
-    command->add_option("--plate", o->plate, "Frame, sequence or movie")
-        ->required()
+    command->add_option("--plate", o->plate, "Frame, sequence or movie")->type_name("PATH");
+    command->add_option("--project", o->project, "Instead of plate and mattes: a project")
         ->type_name("PATH");
+    command->add_option("--region", o->regions, "Regions of the project; default: all");
     command->add_option("--frame", o->frame, "Number of the frame; default: the first");
     command
         ->add_option("--matte", o->mattes,
                      "Matte of a region (of that frame); several for several regions")
-        ->required()
         ->type_name("PATH");
     command->add_option("--keep", o->keeps, "For each matte: id of a texture to keep, or -")
         ->delimiter(',');
@@ -176,8 +180,41 @@ void add_recommend(CLI::App& group, int& exit) {
         ->type_name("PATH");
     command->footer(
         "Example:\n  weft texture recommend --plate 'frames/####.png' --matte masks/1001.png "
-        "--warmer 0.5");
+        "--warmer 0.5\n  weft texture recommend --project shot.weft --region wall");
     command->callback([=, &exit] { exit = texture_recommend_command(*common, *o); });
+}
+
+void add_evaluate(CLI::App& group, int& exit) {
+    const auto common = std::make_shared<TextureCommandOptions>();
+    const auto o = std::make_shared<EvaluationOptions>();
+    const auto renamed = std::make_shared<std::vector<std::string>>();
+    CLI::App* command = add(group, "evaluate",
+                            "How often the material of an unseen photograph is recognised", common);
+    command
+        ->add_option("folder", o->folder,
+                     "Folders of photographs, named after materials; default: the library's own, "
+                     "in five parts by name")
+        ->type_name("PATH");
+    const std::map<std::string, LeaveOut> kinds{{"photographs", LeaveOut::kPhotographs},
+                                                {"series", LeaveOut::kSeries},
+                                                {"stem", LeaveOut::kStem}};
+    command
+        ->add_option("--leave-out", o->leave_out,
+                     "What of the library is not asked: the same photographs, and names that "
+                     "differ by a number (series: of two words and more; stem: all) [series]")
+        ->transform(CLI::CheckedTransformer(kinds))
+        ->type_name("");
+    command
+        ->add_option("--rename", *renamed, "FOLDER=MATERIAL, where a folder's name is no material")
+        ->delimiter(',');
+    command->footer("Example:\n  weft texture evaluate photographs --leave-out stem");
+    command->callback([=, &exit] {
+        for (const std::string& pair : *renamed) {
+            const auto at = pair.find('=');
+            if (at != std::string::npos) o->renamed[pair.substr(0, at)] = pair.substr(at + 1);
+        }
+        exit = texture_evaluate_command(*common, *o);
+    });
 }
 
 void add_rest(CLI::App& group, int& exit) {
@@ -199,6 +236,8 @@ void add_rest(CLI::App& group, int& exit) {
     add(group, "train", "Learn the descriptor anew from the library", train)->callback([=, &exit] {
         exit = texture_train_command(*train);
     });
+
+    add_evaluate(group, exit);
 
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto o = std::make_shared<TextureExportOptions>();

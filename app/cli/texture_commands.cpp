@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/cli/console.h"
+#include "app/cli/texture_console.h"
 #include "app/cli/texture_json.h"
 #include "app/cli/texture_sheet.h"
 #include "engine/core/parallel.h"
@@ -18,34 +19,6 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-using Library = std::shared_ptr<TextureLibrary>;
-
-std::string path_of(const TextureCommandOptions& common) {
-    return common.db.empty() ? default_library_path() : common.db;
-}
-
-// Reading commands do not make a library where there is none, but for the default one, which is
-// filled with the starter textures at first use.
-Expected<Library> open_library(const TextureCommandOptions& common, bool create) {
-    set_thread_count(common.threads);
-    LibraryOptions options;
-    options.create = create || common.db.empty();
-    WEFT_TRY(library, TextureLibrary::open(path_of(common), options));
-    if (!create && common.db.empty()) {
-        WEFT_TRY(size, library->size());
-        if (size == 0) {
-            print(stderr, "weft: first use: making the starter textures (under a minute)\n");
-            WEFT_CHECK_OK(
-                add_starter_textures(*library, cancel_on_signals(), [](const ProgressEvent& e) {
-                    if (e.done % 640 == 0 || e.done == e.total) {
-                        print(stderr, "starter textures " + std::to_string(e.done) + "/" +
-                                          std::to_string(e.total) + "\n");
-                    }
-                }));
-        }
-    }
-    return library;
-}
 
 ProgressFn plain_progress() {
     return [](const ProgressEvent& e) {
@@ -60,17 +33,6 @@ std::string bytes_text(std::int64_t bytes) {
     return line;
 }
 
-std::string hit_line(const std::string& id, float score, const std::string& material,
-                     const std::string& name, const std::vector<std::string>& reasons) {
-    char head[96];
-    std::snprintf(head, sizeof head, "%s  %.2f  %-12s ", id.substr(0, 12).c_str(),
-                  static_cast<double>(score), material.c_str());
-    std::string line = head + name;
-    for (std::size_t i = 0; i < reasons.size(); ++i)
-        line += (i == 0 ? "  (" : "; ") + reasons[i];
-    return line + (reasons.empty() ? "\n" : ")\n");
-}
-
 std::vector<TextureOrigin> origins_of(const std::vector<std::string>& names) {
     std::vector<TextureOrigin> out;
     for (const TextureOrigin o :
@@ -82,7 +44,7 @@ std::vector<TextureOrigin> origins_of(const std::vector<std::string>& names) {
 
 void print_hits(const std::vector<SearchHit>& hits) {
     for (const SearchHit& hit : hits)
-        print(stdout, hit_line(hit.id, hit.score, hit.material, hit.name, hit.reasons));
+        print(stdout, texture_hit_line(hit.id, hit.score, hit.material, hit.name, hit.reasons));
 }
 
 std::string stats_text(const LibraryStats& s, const std::string& path) {
@@ -97,8 +59,21 @@ std::string stats_text(const LibraryStats& s, const std::string& path) {
     return out;
 }
 
-int finish(const Status& status) {
-    return status ? 0 : report_error(status.error());
+std::string evaluation_text(const EvaluationReport& report) {
+    std::string out = std::to_string(report.asked) + " photographs asked of " +
+                      std::to_string(report.samples) + " samples, " +
+                      std::to_string(report.left_out) +
+                      " left out\n                 asked  first  five   merged: first  five\n";
+    const auto line = [&](const RetrievalScore& s, const std::string& name) {
+        char text[96];
+        std::snprintf(text, sizeof text, "%-16s %5d  %5.3f  %5.3f  %13.3f  %5.3f\n", name.c_str(),
+                      s.asked, s.first, s.among_five, s.merged_first, s.merged_among_five);
+        out += text;
+    };
+    for (const RetrievalScore& s : report.materials)
+        line(s, s.material);
+    line(report.average, "average of >= 10");
+    return out;
 }
 
 Status print_estimate(const TextureCommandOptions& common, const BuildOptions& options, bool only) {
@@ -124,7 +99,7 @@ Status print_estimate(const TextureCommandOptions& common, const BuildOptions& o
 Status run_build(const TextureCommandOptions& common, const BuildOptions& options, bool estimate) {
     WEFT_CHECK_OK(print_estimate(common, options, estimate));
     if (estimate) return {};
-    WEFT_TRY(library, open_library(common, true));
+    WEFT_TRY(library, open_texture_library(common, true));
     WEFT_TRY(report, build_library(*library, options, cancel_on_signals(), plain_progress()));
     WEFT_TRY(stats, library->stats());
     if (common.json) {
@@ -148,7 +123,7 @@ Status run_build(const TextureCommandOptions& common, const BuildOptions& option
 Status run_import(const TextureCommandOptions& common, const std::vector<std::string>& paths,
                   const ImportOptions& options, bool watch) {
     if (watch && paths.size() != 1) return fail(ErrorCode::kUsage, "Give one folder to watch.");
-    WEFT_TRY(library, open_library(common, true));
+    WEFT_TRY(library, open_texture_library(common, true));
     const auto say = [&](const ImportReport& r) {
         if (common.json) {
             print(stdout, to_json(r));
@@ -185,7 +160,7 @@ Status run_search(const TextureCommandOptions& common, TextureSearchOptions opti
                                                            {"scale", TextureSort::kScale}};
     options.query.sort = kSorts.at(options.sort);
     options.query.origins = origins_of(options.origins);
-    WEFT_TRY(library, open_library(common, false));
+    WEFT_TRY(library, open_texture_library(common, false));
     WEFT_TRY(result, library->search(options.query));
     if (common.json) {
         print(stdout, to_json(result));
@@ -200,66 +175,53 @@ Status run_search(const TextureCommandOptions& common, TextureSearchOptions opti
     return {};
 }
 
-Status run_similar(const TextureCommandOptions& common, const std::string& what, int count) {
-    WEFT_TRY(library, open_library(common, false));
+// "x,y,width,height" inside a picture.
+Expected<Recti> rectangle_of(const std::string& text, Size size) {
+    Recti r;
+    int width = 0, height = 0, used = 0;
+    const int read =
+        std::sscanf(text.c_str(), "%d,%d,%d,%d%n", &r.x0, &r.y0, &width, &height, &used);
+    if (read != 4 || used != static_cast<int>(text.size()) || width < 1 || height < 1) {
+        return fail(ErrorCode::kUsage,
+                    "--rectangle " + text + " is not of the form x,y,width,height in pixels.");
+    }
+    r.x1 = r.x0 + std::min(width, 1 << 20);
+    r.y1 = r.y0 + std::min(height, 1 << 20);
+    if (r.x0 < 0 || r.y0 < 0 || r.x1 > size.width || r.y1 > size.height) {
+        return fail(ErrorCode::kUsage, "--rectangle " + text + " reaches beyond the picture of " +
+                                           std::to_string(size.width) + "x" +
+                                           std::to_string(size.height) + " pixels.");
+    }
+    return r;
+}
+
+Status run_similar(const TextureCommandOptions& common, const TextureSimilarOptions& o) {
+    WEFT_TRY(library, open_texture_library(common, false));
     std::vector<SearchHit> hits;
     std::error_code ignored;
-    if (fs::is_regular_file(what, ignored)) {
-        WEFT_TRY(picture, read_picture_file(what));
-        WEFT_TRY(found, library->similar(picture, count));
+    if (fs::is_regular_file(o.what, ignored)) {
+        WEFT_TRY(picture, read_picture_file(o.what));
+        Recti part = rect_of(picture.size());
+        if (!o.rectangle.empty()) {
+            WEFT_TRY(given, rectangle_of(o.rectangle, picture.size()));
+            part = given;
+        }
+        WEFT_TRY(found, library->similar(picture.view().crop(part), o.count));
         hits = std::move(found);
     } else {
-        WEFT_TRY(found, library->similar(what, count));
+        if (!o.rectangle.empty()) {
+            return fail(ErrorCode::kUsage,
+                        "--rectangle is of a picture, and " + o.what + " is no picture file.");
+        }
+        WEFT_TRY(found, library->similar(o.what, o.count));
         hits = std::move(found);
     }
     common.json ? print(stdout, to_json(hits)) : print_hits(hits);
     return {};
 }
 
-Status run_recommend(const TextureCommandOptions& common, const TextureRecommendOptions& o) {
-    WEFT_TRY(library, open_library(common, false));
-    WEFT_TRY(plate, open_plate(o.plate, {}));
-    const int frame = o.frame >= 0 ? o.frame : plate->frames().front();
-    WEFT_TRY(picture, plate->read(frame));
-    const ImageU8x3 pixels = display_pixels(picture.rgb, plate->display_encoded());
-    std::vector<Matte> mattes;
-    RecommendRequest request;
-    request.plate = pixels;
-    for (const std::string& path : o.mattes) {
-        WEFT_TRY(matte, read_matte(path, {}, pixels.size()));
-        mattes.push_back(std::move(matte));
-    }
-    const auto given = [](const std::vector<std::string>& list, std::size_t i) {
-        return i < list.size() && list[i] != "-" ? list[i] : std::string();
-    };
-    for (std::size_t i = 0; i < mattes.size(); ++i)
-        request.regions.push_back(
-            {o.mattes[i], mattes[i].view(), given(o.keeps, i), given(o.materials, i)});
-    request.wish = o.wish;
-    request.count = o.count;
-    request.diversity = o.diversity;
-    request.excluded_licences = o.excluded_licences;
-    WEFT_TRY(advice, library->recommend(request));
-    if (!o.sheet.empty()) {
-        WEFT_TRY(sheet, recommendation_sheet(*library, pixels, mattes, advice));
-        WEFT_CHECK_OK(write_picture(o.sheet, sheet));
-    }
-    if (common.json) {
-        print(stdout, to_json(advice));
-        return {};
-    }
-    for (const RegionSuggestions& region : advice.regions) {
-        print(stdout, region.region + " looks like: " + region.seen_as + "\n");
-        for (const Suggestion& s : region.suggestions)
-            print(stdout, "  " + hit_line(s.id, s.score, s.material, s.name, s.reasons));
-    }
-    for (const SceneSuggestion& s : advice.together)
-        print(stdout, "together: " + s.why + "\n");
-    return {};
-}
-
 Status run_info(const TextureCommandOptions& common, const std::string& id) {
-    WEFT_TRY(library, open_library(common, false));
+    WEFT_TRY(library, open_texture_library(common, false));
     WEFT_TRY(info, library->info(id));
     if (common.json) {
         print(stdout, to_json(info));
@@ -301,7 +263,7 @@ Expected<std::vector<std::string>> ids_to_export(TextureLibrary& library,
 }
 
 Status run_export(const TextureCommandOptions& common, const TextureExportOptions& o) {
-    WEFT_TRY(library, open_library(common, false));
+    WEFT_TRY(library, open_texture_library(common, false));
     WEFT_TRY(ids, ids_to_export(*library, o));
     if (ids.empty())
         return fail(ErrorCode::kUsage, "There is nothing to export. Give ids or --search words.");
@@ -336,35 +298,31 @@ Status run_export(const TextureCommandOptions& common, const TextureExportOption
 
 int texture_build_command(const TextureCommandOptions& common, const BuildOptions& options,
                           bool estimate) {
-    return finish(run_build(common, options, estimate));
+    return texture_exit_code(run_build(common, options, estimate));
 }
 int texture_import_command(const TextureCommandOptions& common,
                            const std::vector<std::string>& paths, const ImportOptions& options,
                            bool watch) {
-    return finish(run_import(common, paths, options, watch));
+    return texture_exit_code(run_import(common, paths, options, watch));
 }
 int texture_search_command(const TextureCommandOptions& common,
                            const TextureSearchOptions& options) {
-    return finish(run_search(common, options));
+    return texture_exit_code(run_search(common, options));
 }
-int texture_similar_command(const TextureCommandOptions& common, const std::string& what,
-                            int count) {
-    return finish(run_similar(common, what, count));
-}
-int texture_recommend_command(const TextureCommandOptions& common,
-                              const TextureRecommendOptions& options) {
-    return finish(run_recommend(common, options));
+int texture_similar_command(const TextureCommandOptions& common,
+                            const TextureSimilarOptions& options) {
+    return texture_exit_code(run_similar(common, options));
 }
 int texture_info_command(const TextureCommandOptions& common, const std::string& id) {
-    return finish(run_info(common, id));
+    return texture_exit_code(run_info(common, id));
 }
 int texture_export_command(const TextureCommandOptions& common,
                            const TextureExportOptions& options) {
-    return finish(run_export(common, options));
+    return texture_exit_code(run_export(common, options));
 }
 
 int texture_stats_command(const TextureCommandOptions& common) {
-    const auto library = open_library(common, false);
+    const auto library = open_texture_library(common, false);
     if (!library) return report_error(library.error());
     const auto stats = (*library)->stats();
     if (!stats) return report_error(stats.error());
@@ -374,7 +332,7 @@ int texture_stats_command(const TextureCommandOptions& common) {
 }
 
 int texture_verify_command(const TextureCommandOptions& common) {
-    const auto library = open_library(common, false);
+    const auto library = open_texture_library(common, false);
     if (!library) return report_error(library.error());
     const auto faults = (*library)->verify(cancel_on_signals());
     if (!faults) return report_error(faults.error());
@@ -388,10 +346,20 @@ int texture_verify_command(const TextureCommandOptions& common) {
     return faults->empty() ? 0 : exit_code(ErrorCode::kDiffers);
 }
 
+int texture_evaluate_command(const TextureCommandOptions& common,
+                             const EvaluationOptions& options) {
+    set_thread_count(common.threads);
+    const auto report = evaluate_library(texture_library_path(common), options, cancel_on_signals(),
+                                         common.json ? ProgressFn() : plain_progress());
+    if (!report) return report_error(report.error());
+    print(stdout, common.json ? to_json(*report) : evaluation_text(*report));
+    return 0;
+}
+
 int texture_train_command(const TextureCommandOptions& common) {
-    const auto library = open_library(common, false);
+    const auto library = open_texture_library(common, false);
     if (!library) return report_error(library.error());
-    return finish((*library)->train_descriptor(cancel_on_signals(), plain_progress()));
+    return texture_exit_code((*library)->train_descriptor(cancel_on_signals(), plain_progress()));
 }
 
 }  // namespace weft

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "texture_db/build.h"
+#include "texture_db/evaluate.h"
 #include "texture_db/import.h"
 #include "texture_db/library.h"
 
@@ -30,9 +31,17 @@ struct TextureSearchOptions {
     std::vector<std::string> origins;
 };
 
+struct TextureSimilarOptions {
+    std::string what;       ///< Id, or a picture.
+    std::string rectangle;  ///< "x,y,width,height" of the picture; empty: its middle.
+    int count = 20;
+};
+
 struct TextureRecommendOptions {
     std::string plate;
-    int frame = -1;  ///< Number of the plate's frame; -1: the first.
+    std::string project;               ///< Instead of plate and mattes: a project and …
+    std::vector<std::string> regions;  ///< … its regions by name or id; empty: all.
+    int frame = -1;                    ///< Number of the plate's frame; -1: the first.
     std::vector<std::string> mattes;
     std::vector<std::string> keeps;      ///< One for each matte, "-" for none.
     std::vector<std::string> materials;  ///< Likewise.
@@ -62,8 +71,8 @@ int texture_import_command(const TextureCommandOptions& common,
                            bool watch);
 int texture_search_command(const TextureCommandOptions& common,
                            const TextureSearchOptions& options);
-int texture_similar_command(const TextureCommandOptions& common, const std::string& what,
-                            int count);
+int texture_similar_command(const TextureCommandOptions& common,
+                            const TextureSimilarOptions& options);
 int texture_recommend_command(const TextureCommandOptions& common,
                               const TextureRecommendOptions& options);
 int texture_info_command(const TextureCommandOptions& common, const std::string& id);
@@ -72,5 +81,6 @@ int texture_export_command(const TextureCommandOptions& common,
                            const TextureExportOptions& options);
 int texture_verify_command(const TextureCommandOptions& common);
 int texture_train_command(const TextureCommandOptions& common);
+int texture_evaluate_command(const TextureCommandOptions& common, const EvaluationOptions& options);
 
 }  // namespace weft

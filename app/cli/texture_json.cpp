@@ -204,6 +204,24 @@ std::string to_json(const std::vector<LibraryFault>& faults) {
     return text({{"sound", faults.empty()}, {"faults", list}});
 }
 
+std::string to_json(const EvaluationReport& report) {
+    const auto score = [](const RetrievalScore& s) {
+        return Json{{"asked", s.asked},
+                    {"first", s.first},
+                    {"among_five", s.among_five},
+                    {"merged_first", s.merged_first},
+                    {"merged_among_five", s.merged_among_five}};
+    };
+    Json materials = Json::object();
+    for (const RetrievalScore& s : report.materials)
+        materials[s.material] = score(s);
+    return text(Json{{"samples", report.samples},
+                     {"left_out", report.left_out},
+                     {"asked", report.asked},
+                     {"average", score(report.average)},
+                     {"materials", materials}});
+}
+
 std::string credits_json(const std::vector<std::pair<std::string, TextureInfo>>& files) {
     Json out = Json::array();
     for (const auto& [file, info] : files) {

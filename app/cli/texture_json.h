@@ -4,6 +4,7 @@
 #include <string>
 
 #include "texture_db/build.h"
+#include "texture_db/evaluate.h"
 #include "texture_db/import.h"
 #include "texture_db/library.h"
 
@@ -18,6 +19,7 @@ namespace weft {
 [[nodiscard]] std::string to_json(const BuildReport& report, const LibraryStats& stats);
 [[nodiscard]] std::string to_json(const BuildEstimate& estimate);
 [[nodiscard]] std::string to_json(const std::vector<LibraryFault>& faults);
+[[nodiscard]] std::string to_json(const EvaluationReport& report);
 /// The credits of exported samples: one object a file.
 [[nodiscard]] std::string credits_json(
     const std::vector<std::pair<std::string, TextureInfo>>& files);

@@ -8,10 +8,11 @@
 namespace weft {
 
 struct EditorOptions {
-    std::string project;  ///< A project, a plate, or empty: the welcome screen.
-    bool demo = false;    ///< Open the demo shot.
-    std::string program;  ///< The weft that renders jobs.
-    std::string assets;   ///< Folder with demo/ and textures/.
+    std::string project;          ///< A project, a plate, or empty: the welcome screen.
+    bool demo = false;            ///< Open the demo shot.
+    std::string program;          ///< The weft that renders jobs.
+    std::string assets;           ///< Folder with demo/ and textures/.
+    std::string texture_library;  ///< Empty: the user's own.
     // Without a window, for tests and screenshots:
     std::string script;      ///< Path of a script; empty: none.
     std::string screenshot;  ///< Where to write the last picture; empty: nowhere.

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "texture_db/library.h"
+
 namespace weft {
 namespace {
 
@@ -11,33 +13,33 @@ SessionOptions session_options(const EditorOptions& options) {
     SessionOptions out;
     out.program = options.program;
     out.assets = options.assets;
+    out.texture_library = options.texture_library;
     out.state_folder = editor_state_folder();
     out.offer_recovery = options.script.empty();
     return out;
 }
 
-// Beside the other data of the user.
-std::string library_path() {
-    const char* data = std::getenv("XDG_DATA_HOME");
-    const char* home = std::getenv("HOME");
-    const std::filesystem::path base =
-        data && *data ? std::filesystem::path(data)
-                      : std::filesystem::path(home && *home ? home : "/tmp") / ".local/share";
-    std::error_code error;
-    std::filesystem::create_directories(base / "weft", error);
-    return (base / "weft" / "textures.db").string();
+bool watchdog_wanted() {
+#ifndef NDEBUG
+    return true;
+#else
+    return std::getenv("WEFT_WATCHDOG") != nullptr;
+#endif
 }
 
 }  // namespace
 
 EditorApp::EditorApp(const EditorOptions& options)
-    : options_(options), settings_path_(editor_settings_path()) {
+    : options_(options), settings_path_(editor_settings_path()), clock_(watchdog_wanted()) {
     settings_ = load_editor_settings(settings_path_);
     if (options_.light) settings_.dark = false;
     saved_settings_ = settings_;
     session_ = std::make_unique<Session>(session_options(options_), &settings_);
     shell_ = std::make_unique<Shell>(settings_, pictures_);
-    shell_->textures().open_library(library_path());
+    session_->set_clock(&clock_);
+    shell_->set_clock(&clock_);
+    shell_->textures().open_library(options_.texture_library.empty() ? default_library_path()
+                                                                     : options_.texture_library);
     shell_->job_log = [this](int id) { return session_->job_log(id); };
     shell_->dismiss_notice = [this](int id) { session_->dismiss(id); };
 }
@@ -67,7 +69,9 @@ bool EditorApp::update_look(double monitor_scale) {
 
 void EditorApp::frame(double now_s) {
     const auto start = std::chrono::steady_clock::now();
+    clock_.enter("pictures");
     pictures_.begin_frame();
+    clock_.enter("folders");
     std::vector<std::string> folders = settings_.texture_folders;
     for (const char* own : {"textures", "demo/textures"}) {
         const std::string path = (std::filesystem::path(options_.assets) / own).string();
@@ -75,11 +79,15 @@ void EditorApp::frame(double now_s) {
     }
     shell_->textures().look_in(std::move(folders));
     session_->update(now_s);
+    clock_.enter("ImGui");
     ImGui::NewFrame();
     const std::vector<Action> actions = shell_->draw(session_->view());
+    clock_.enter("ImGui");
     ImGui::Render();
+    clock_.enter("actions");
     for (const Action& action : actions)
         session_->act(action);
+    clock_.enter("settings");
     // Settings are few; they are written a while after they changed.
     if (now_s - settings_checked_s_ > 2) {
         settings_checked_s_ = now_s;
@@ -94,11 +102,12 @@ void EditorApp::frame(double now_s) {
     times_.worst_ms = std::max(times_.worst_ms, times_.last_ms);
     times_.sum_ms += times_.last_ms;
     ++times_.frames;
-#ifndef NDEBUG
-    constexpr double kWatchdogMs = 30;
-    if (times_.last_ms > kWatchdogMs)
-        std::fprintf(stderr, "weft: a frame of the interface took %.0f ms\n", times_.last_ms);
-#endif
+}
+
+void EditorApp::watch() const {
+    constexpr double kLongest = 30;
+    if (!clock_.on() || clock_.wall_ms() < kLongest) return;
+    std::fprintf(stderr, "weft: %s\n", clock_.text().c_str());
 }
 
 bool EditorApp::idle() const {

@@ -21,7 +21,7 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kChoice;
     else if constexpr (std::integral<T> || std::same_as<T, std::optional<int>>)
         return ParameterKind::kInteger;
-    else if constexpr (std::floating_point<T>)
+    else if constexpr (std::floating_point<T> || std::same_as<T, std::optional<double>>)
         return ParameterKind::kNumber;
     else if constexpr (std::same_as<T, PlatePoint>)
         return ParameterKind::kPoint;
@@ -56,6 +56,9 @@ inline ParameterValue to_value(const std::vector<std::string>& member) {
 }
 inline ParameterValue to_value(const std::optional<int>& member) {
     return member ? ParameterValue(std::int64_t{*member}) : ParameterValue();
+}
+inline ParameterValue to_value(const std::optional<double>& member) {
+    return member ? ParameterValue(*member) : ParameterValue();
 }
 inline ParameterValue to_value(const PlatePoint& member) {
     return std::vector<double>{member.x, member.y};
@@ -95,6 +98,10 @@ inline void from_value(const ParameterValue& value, std::vector<std::string>& me
 inline void from_value(const ParameterValue& value, std::optional<int>& member) {
     const auto* number = std::get_if<std::int64_t>(&value);
     member = number ? std::optional<int>(static_cast<int>(*number)) : std::nullopt;
+}
+inline void from_value(const ParameterValue& value, std::optional<double>& member) {
+    const auto* number = std::get_if<double>(&value);
+    member = number ? std::optional<double>(*number) : std::nullopt;
 }
 inline void from_value(const ParameterValue& value, PlatePoint& member) {
     const auto& xy = std::get<std::vector<double>>(value);

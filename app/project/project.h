@@ -60,6 +60,8 @@ struct RenderSettings {
     Quality quality = Quality::kFinal;
     std::int64_t seed = 1;
     std::string frames;  ///< "1-40", "1-100x2", "1,4,9-12"; empty: every frame of the plate.
+    /// Licences and families of them that no texture of this project may be under, by commas.
+    std::string excluded_licences;
     Extras extra;
     bool operator==(const RenderSettings&) const = default;
 };
@@ -98,7 +100,13 @@ struct MatteSource {
     bool operator==(const MatteSource&) const = default;
 };
 
-/// What is put on the surface: a sample to grow a plane from, or a given plane.
+/// Whether a texture is named by its place in a texture library ("db:ID") and not by a file.
+[[nodiscard]] inline bool names_library_texture(std::string_view path) {
+    return path.starts_with("db:");
+}
+
+/// What is put on the surface: a sample to grow a plane from, or a given plane; files, or textures
+/// of a library.
 struct TextureSource {
     std::string sample;
     std::vector<std::string> also;      ///< Further samples of the same material.
@@ -117,6 +125,8 @@ struct Placement {
     /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
     /// scale, rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
+    /// Instead of the above, over time: "1:1 24:1.5", "1:0 24:90", "1:0,0 24:10,5".
+    std::string scale_keys, rotate_keys, offset_keys;
     Extras extra;
     bool operator==(const Placement&) const = default;
 };
@@ -125,6 +135,7 @@ struct Placement {
 struct MotionSource {
     std::string files;  ///< Pattern of true motion; empty: estimated from the plate.
     MotionDirection direction = MotionDirection::kForward;
+    std::string track;  ///< File of a planar track that the surface follows instead.
     Extras extra;
     bool operator==(const MotionSource&) const = default;
 };
@@ -153,7 +164,7 @@ struct LightParams {
     LightSource source = LightSource::kPlate;
     std::string image;  ///< The illumination picture of kImage.
     LightForm form = LightForm::kGain;
-    double strength = 1;  ///< λ
+    double strength = 1;        ///< λ
     std::string strength_keys;  ///< λ over time, "1:1 24:0.3"; empty: `strength` throughout.
     std::string lamps;          ///< Painted light (engine/lighting/painted_light.h).
     double cast = 0;            ///< How far the light's colour is taken over.
@@ -173,8 +184,9 @@ struct CorrectionPin {
 
 /// What makes the new texture look as if it had gone through the plate's camera.
 struct FinishParams {
-    double grain = 1;  ///< Of the plate's grain; 0: none.
-    double focus = 1;  ///< Of the plate's blur; 0: none.
+    double grain = 1;                   ///< Of the plate's grain; 0: none.
+    double focus = 1;                   ///< Of the plate's blur; 0: none.
+    std::optional<double> shutter_deg;  ///< Of 360 a frame; unset: as the plate's.
     Extras extra;
     bool operator==(const FinishParams&) const = default;
 };

@@ -55,6 +55,7 @@ std::string project_dir(const std::string& project_path) {
 }
 
 std::string resolve_path(const std::string& dir, const std::string& path) {
+    if (names_library_texture(path)) return path;
     if (path.empty() || dir.empty() || std::filesystem::path(path).is_absolute()) return path;
     return (std::filesystem::path(dir) / path).string();
 }

@@ -67,6 +67,13 @@ std::vector<Parameter<Project>> make_project_table() {
              .key = "frames",
              .flag = "--frames",
              .help = "Frames to render: 1-40, 1-100x2, -5--1, 1,4,9-12; default all"}),
+        entry<P, &P::settings, &RenderSettings::excluded_licences>(
+            {.group = "settings",
+             .key = "excluded_licences",
+             .flag = "--exclude-licences",
+             .help = "Licences and families that no texture may be under (GPL, CC-BY-SA, copyleft, "
+                     "unknown), by commas",
+             .repeatable = true}),
         entry<P, &P::output, &Output::path>(
             {.group = "output",
              .key = "path",

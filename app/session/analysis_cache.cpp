@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the analysis itself computes something else.
-constexpr int kAnalysisVersion = 8;
+constexpr int kAnalysisVersion = 10;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -77,6 +77,11 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
         WEFT_CHECK_OK(add_matte(hasher, holdout));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward);
+    for (const auto& [frame, quad] : plan.track) {
+        hasher.value(frame);
+        for (const glm::dvec2 corner : quad)
+            hasher.value(corner.x).value(corner.y);
+    }
     for (const int frame : plan.reference_frames)
         hasher.value(frame);
     for (const auto& [frame, pins] : plan.corrections) {
@@ -88,6 +93,9 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
     for (const int frame : plan.light_evidence)
         hasher.value(frame);
     for (const int frame : plan.grain_frames)
+        hasher.value(frame);
+    hasher.value(plan.estimates_shutter());
+    for (const int frame : plan.shutter_evidence)
         hasher.value(frame);
     hasher.value(static_cast<int>(plan.temporal));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
@@ -119,12 +127,20 @@ const char* kind_name(AnalysisKind kind) {
             return "coords";
         case AnalysisKind::kCoordsOneWay:
             return "coords-one-way";
+        case AnalysisKind::kHistoryBefore:
+            return "history-before";
+        case AnalysisKind::kHistoryAfter:
+            return "history-after";
+        case AnalysisKind::kHeldBetween:
+            return "held-between";
         case AnalysisKind::kLightSample:
             return "light-sample";
         case AnalysisKind::kShading:
             return "shading";
         case AnalysisKind::kGrain:
             return "grain";
+        case AnalysisKind::kShutter:
+            return "shutter";
         case AnalysisKind::kPaperTexture:
             return "paper";
     }

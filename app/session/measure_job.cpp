@@ -96,6 +96,11 @@ class Measurer {
                 "The reference frame is not the first measured one: no floor, no sharpness kept.");
             return out;
         }
+        if (region().placement_moves()) {
+            out_.warnings.push_back(
+                "The placement has keys over time: no floor, no sharpness kept.");
+            return out;
+        }
         WEFT_TRY(plane, ideal_plane(options_.project, region(), shot_->plate->size()));
         WEFT_TRY(map, plane_from_plate(region().placement));
         out.ideal = IdealInputs{std::move(plane), map, {}};

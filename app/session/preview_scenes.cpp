@@ -25,9 +25,18 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         Keys key;
         key.texture = hasher.finish().hex();
         const Size size = plane_size(plan.placement, shot.source->size());
-        key.exact = key.texture + (plan.texture->is_plane ? std::string()
-                                                          : " " + std::to_string(size.width) + "x" +
-                                                                std::to_string(size.height));
+        // Seams between histories depend on where the texture lies.
+        Hasher placed;
+        if (plan.reference_frames.size() > 1) {
+            const PlanePlacement& p = plan.placement;
+            placed.value(p.scale).value(p.rotate_deg).value(p.offset_px.x).value(p.offset_px.y);
+            for (const Vec2 c : p.corners.value_or(std::array<Vec2, 4>{}))
+                placed.value(c.x).value(c.y);
+        }
+        key.exact = placed.finish().hex() + key.texture +
+                    (plan.texture->is_plane
+                         ? std::string()
+                         : " " + std::to_string(size.width) + "x" + std::to_string(size.height));
         keys.push_back(std::move(key));
     }
     return keys;

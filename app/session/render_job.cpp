@@ -85,7 +85,10 @@ class RenderJob {
         }
         WEFT_TRY(pattern, SequencePattern::parse(spec_.project.output.path));
         pattern_ = pattern;
-        WEFT_TRY(shot, open_shot(spec_.project));
+        OpenShotOptions open;
+        open.texture_library = spec_.texture_library;
+        WEFT_TRY(shot, open_shot(spec_.project, open));
+        WEFT_CHECK_OK(check_texture_licences(*shot));
         shot_ = shot;
         plan_ = shot_->plan;
         result_.warnings = shot_->warnings;

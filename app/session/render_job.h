@@ -31,6 +31,7 @@ struct JobSpec {
     int threads = 0;  ///< 0: one a processor.
     ExistingFrames existing = ExistingFrames::kRefuse;
     AnalysisCacheOptions cache;
+    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
 };
 
 struct FrameResult {

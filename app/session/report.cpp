@@ -47,10 +47,10 @@ Json plane_json(const PlaneStats& stats) {
 }
 
 void add_credit(const ShotTexture& texture, Json& entry) {
-    if (texture.licence.empty()) return;
-    entry["author"] = texture.author;
-    entry["licence"] = texture.licence;
-    entry["source"] = texture.source;
+    entry["author"] = texture.author.empty() ? "unknown" : texture.author;
+    entry["licence"] = texture.licence.empty() ? "unknown" : texture.licence;
+    if (!texture.source.empty()) entry["source"] = texture.source;
+    if (!texture.library_id.empty()) entry["library_id"] = texture.library_id;
 }
 
 Json textures_json(const JobResult& result) {

@@ -5,6 +5,7 @@
 
 #include "app/session/frame_plan.h"
 #include "app/session/project_source.h"
+#include "app/session/track_file.h"
 #include "engine/core/hash.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
@@ -169,7 +170,9 @@ class ShotOpener {
         }
         plan.true_motion = !region.motion.files.empty();
         plan.motion_forward = region.motion.direction == MotionDirection::kForward;
+        WEFT_CHECK_OK(add_track(region.motion, plan));
         plan.placement = plane_placement(region.placement);
+        WEFT_CHECK_OK(add_placement_keys(region, plan));
         WEFT_CHECK_OK(plane_from_plate(plan.placement));
         plan.seam = region.synthesis.seam;
         plan.overlap_px = region.synthesis.overlap_px;
@@ -189,6 +192,14 @@ class ShotOpener {
         plan.focus = final ? static_cast<float>(region.finish.focus) : 0.0f;
         WEFT_TRY(metered, grain_frames(region, plan, *shot_.plate));
         plan.grain_frames = std::move(metered);
+        if (!final)
+            plan.shutter_deg = 0.0f;
+        else if (region.finish.shutter_deg)
+            plan.shutter_deg = static_cast<float>(*region.finish.shutter_deg);
+        else
+            plan.shutter_deg.reset();
+        WEFT_TRY(blurred, shutter_frames(region, plan, *shot_.plate));
+        plan.shutter_evidence = std::move(blurred);
         WEFT_TRY(evidence, light_evidence(region, plan, shot_.plan, *shot_.plate));
         plan.light_evidence = std::move(evidence);
         plan.has_lines = !region.lines.files.empty();
@@ -226,18 +237,16 @@ class ShotOpener {
         PlateFrame picture;
         TextureCredit credit;
     };
-    // A picture file, or "db:ID" for a sample of the user's texture library. Resolving a project's
-    // paths may have put a folder in front of that.
-    static Expected<ReadTexture> read_texture(const std::string& path) {
-        const std::string name = path.substr(path.rfind('/') + 1);
+    // A picture file, or "db:ID" for a sample of a texture library.
+    [[nodiscard]] Expected<ReadTexture> read_texture(const std::string& path) const {
         ReadTexture out;
-        if (!name.starts_with("db:")) {
+        if (!names_library_texture(path)) {
             WEFT_TRY(picture, read_image(path));
             out.picture = std::move(picture);
             if (auto credit = read_texture_credit(path)) out.credit = std::move(*credit);
             return out;
         }
-        WEFT_TRY(resolved, resolve_texture({}, name));
+        WEFT_TRY(resolved, resolve_texture(options_.texture_library, path));
         out.credit = std::move(resolved.credit);
         out.picture.rgb = ImageF3(resolved.pixels.size());
         std::transform(
@@ -278,9 +287,8 @@ class ShotOpener {
         }
         Hasher hasher;
         hasher.image(out.pixels);
-        out.named = {region.name,       path,          hasher.finish().hex(),
-                     out.pixels.size(), is_plane,      credit.author,
-                     credit.licence,    credit.source, {}};
+        out.named = {region.name, path,          hasher.finish().hex(), out.pixels.size(), is_plane,
+                     credit.id,   credit.author, credit.licence,        credit.source,     {}};
         return out;
     }
 
@@ -314,6 +322,50 @@ class ShotOpener {
         plan.working_from_texture = working_from_texture;
         plan.display_from_texture = display_from_texture;
         plan.working_from_display = working_from_display_;
+        return {};
+    }
+
+    [[nodiscard]] Status add_track(const MotionSource& motion, RegionPlan& plan) const {
+        if (motion.track.empty()) return {};
+        if (plan.true_motion) {
+            return fail(ErrorCode::kUsage,
+                        "It has both a track and files of true motion. Give one of --track and "
+                        "--motion.");
+        }
+        WEFT_TRY(track, read_corner_track(motion.track,
+                                          {shot_.plate->size(), shot_.plate->frames().front()}));
+        plan.track = std::move(track);
+        return {};
+    }
+
+    static Status add_placement_keys(const Region& region, RegionPlan& plan) {
+        const Placement& given = region.placement;
+        const auto read = [](const std::string& text, std::size_t count,
+                             const char* flag) -> Expected<KeyedNumbers> {
+            auto keys = parse_keyed_number(text, count);
+            if (!keys) return fail_in(std::move(keys).error(), flag);
+            return keys;
+        };
+        WEFT_TRY(scale, read(given.scale_keys, 1, "--scale-keys"));
+        WEFT_TRY(rotate, read(given.rotate_keys, 1, "--rotate-keys"));
+        WEFT_TRY(offset, read(given.offset_keys, 2, "--offset-keys"));
+        for (const auto& [frame, values] : scale.keys) {
+            if (!(values[0] >= 0.001f))
+                return fail(ErrorCode::kUsage, "--scale-keys: a scale must be 0.001 or more");
+        }
+        plan.scale_keys = std::move(scale);
+        plan.rotate_keys = std::move(rotate);
+        plan.offset_keys = std::move(offset);
+        if (plan.placement_moves() && region.temporal.mode != TemporalMode::kLocked) {
+            return fail(ErrorCode::kUsage,
+                        "A placement with keys needs --temporal locked: the other modes make the "
+                        "texture where it lies.");
+        }
+        const auto smaller = [](const auto& a, const auto& b) { return a.second < b.second; };
+        if (!plan.scale_keys.empty()) {
+            const auto& keys = plan.scale_keys.keys;
+            plan.placement.scale = std::min_element(keys.begin(), keys.end(), smaller)->second[0];
+        }
         return {};
     }
 
@@ -376,6 +428,19 @@ PixelDepth output_depth(const Output& output, PixelDepth plate) {
 Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
                                                 const OpenShotOptions& options) {
     return ShotOpener(project, options).open();
+}
+
+Status check_texture_licences(const Shot& shot) {
+    std::vector<TextureCredit> credits;
+    for (const ShotTexture& t : shot.textures) {
+        TextureCredit credit;
+        credit.region = t.region;
+        credit.name = t.path;
+        credit.author = t.author;
+        credit.licence = t.licence;
+        credits.push_back(std::move(credit));
+    }
+    return check_licences(credits, licence_list(shot.project.settings.excluded_licences));
 }
 
 }  // namespace weft

@@ -23,8 +23,8 @@ struct ShotTexture {
     std::string region, path, id;  ///< id: hash of the decoded pixels.
     Size size;
     bool is_plane = false;
-    /// Of a texture that came from the library; empty: not known.
-    std::string author, licence, source;
+    /// Of a texture that came from a library; empty: not known.
+    std::string library_id, author, licence, source;
     std::vector<ShotTexture> also;  ///< Further samples that are grown together with it.
 };
 
@@ -47,6 +47,7 @@ struct Shot {
 struct OpenShotOptions {
     std::size_t cache_bytes = 256u << 20;  ///< For decoded plates.
     bool textures = true;                  ///< Without: enough to propagate mattes.
+    std::string texture_library;           ///< For "db:ID"; empty: the user's own.
 };
 
 /// Opens the plate, resolves the frames, spaces and textures, and checks that every file that the
@@ -54,5 +55,8 @@ struct OpenShotOptions {
 /// settings, frames that the plate has not), Unreadable, MissingFrames (with the numbers).
 [[nodiscard]] Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
                                                               const OpenShotOptions& options = {});
+
+/// Errors: Refused, naming every texture under a licence that the project excludes.
+[[nodiscard]] Status check_texture_licences(const Shot& shot);
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/session/frame_plan.h"
+#include "app/session/kept_textures.h"
 #include "app/session/output_check.h"
 #include "app/session/study_methods.h"
 #include "app/session/study_pictures.h"
@@ -42,7 +43,7 @@ class Study {
         Project to_render = result_.project;
         if (!options_.render_with_motion) {
             to_render.regions.front() =
-                to_render.regions.front().with([](Region& r) { r.motion = MotionSource{}; });
+                to_render.regions.front().with([](Region& r) { r.motion.files.clear(); });
         }
         WEFT_TRY(methods, plan_study(options_, to_render, plane_path_));
         for (StudyMethod& method : methods) {
@@ -70,9 +71,14 @@ class Study {
                                                "folder.");
         }
         WEFT_CHECK_OK(make_output_folder(in("report.html")));
+        const std::string textures = in("textures");
+        WEFT_TRY(kept, keep_library_textures(result_.project, textures, textures,
+                                             options_.texture_library));
+        result_.project = std::move(kept);
         if (result_.project.regions.size() != 1)
             return fail(ErrorCode::kUsage, "A study is of one region.");
         WEFT_TRY(shot, open_shot(result_.project));
+        WEFT_CHECK_OK(check_texture_licences(*shot));
         result_.frames = shot->plan.frames;
         result_.size = shot->plate->size();
         result_.warnings = shot->warnings;

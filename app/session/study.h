@@ -22,7 +22,8 @@ struct StudyOptions {
     /// Render with the true motion too, instead of with the estimate that a shot without it has.
     bool render_with_motion = false;
     int threads = 0;
-    bool overwrite = false;  ///< Replace an earlier report and its frames.
+    std::string texture_library;  ///< For a texture "db:ID"; empty: the user's own.
+    bool overwrite = false;       ///< Replace an earlier report and its frames.
 };
 
 /// What a method is in the comparison.

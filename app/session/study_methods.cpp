@@ -88,8 +88,10 @@ class Planner {
                 region.light.source = LightSource::kNone;
                 region.lines = LineParams{};
             }
-            // Grain is fresh in every frame, as the plate's is: it is no flicker of the method.
+            // Grain is fresh in every frame, as the plate's is: it is no flicker of the method. Blur
+            // would lower every method's TDE.
             region.finish.grain = region.finish.focus = 0;
+            region.finish.shutter_deg = 0;
             change(region);
         });
         methods_.push_back(std::move(method));

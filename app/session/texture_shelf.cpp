@@ -106,13 +106,15 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
 }
 
 void TextureShelf::suggest_for(const std::string& key, PicturePtr plate,
-                               std::shared_ptr<const Matte> matte) {
+                               std::shared_ptr<const Matte> matte,
+                               const std::string& excluded_licences) {
     {
         const std::lock_guard lock(mutex_);
         if (key == ranked_key_ || key == rank_due_) return;
         rank_due_ = key;
         rank_plate_ = std::move(plate);
         rank_matte_ = std::move(matte);
+        rank_excluded_ = excluded_licences;
     }
     wake_.notify_all();
 }
@@ -123,8 +125,7 @@ std::vector<TextureSuggestion> TextureShelf::suggestions(const std::string& key)
 }
 
 std::uint64_t TextureShelf::arrivals() const {
-    const std::lock_guard lock(mutex_);
-    return arrivals_;
+    return arrivals_.load();
 }
 
 void TextureShelf::scan(const std::vector<std::string>& folders) {
@@ -155,8 +156,9 @@ void TextureShelf::scan(const std::vector<std::string>& folders) {
 void TextureShelf::publish() {
     auto cards = std::make_shared<std::vector<TextureCard>>(folder_cards_);
     cards->insert(cards->end(), library_cards_.begin(), library_cards_.end());
+    std::shared_ptr<const std::vector<TextureCard>> old;  // freed after the lock is
     const std::lock_guard lock(mutex_);
-    cards_ = std::move(cards);
+    old = std::exchange(cards_, std::move(cards));
     ++arrivals_;
 }
 
@@ -272,8 +274,10 @@ void TextureShelf::search_library(const std::string& words) {
     ++arrivals_;
 }
 
-void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte) {
+void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
+                             const std::string& excluded_licences) {
     RecommendRequest request;
+    request.excluded_licences = licence_list(excluded_licences);
     request.plate = plate;
     request.regions.push_back({"region", matte.view(), {}, {}});
     const auto found = library_->recommend(request);
@@ -313,17 +317,32 @@ void TextureShelf::make_thumbnail(const Wish& wish) {
             nullptr, nullptr);
         picture = make_picture(shrink(*whole, wish.longest_px));
     }
+    std::vector<PicturePtr> gone;  // freed after the lock is
     const std::lock_guard lock(mutex_);
     if (picture) bytes_ += picture->size_bytes();
     kept_[wish.path + "@" + std::to_string(wish.longest_px)] = {picture, wish.longest_px, ++clock_};
     ++arrivals_;
-    while (bytes_ > budget_bytes_ && kept_.size() > 1) {
-        const auto oldest = std::min_element(
-            kept_.begin(), kept_.end(),
-            [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
-        if (oldest->second.picture) bytes_ -= oldest->second.picture->size_bytes();
-        kept_.erase(oldest);
+    gone = trim();
+}
+
+// Those that were not looked at for longest go, and more than need be: looking for them takes a
+// while when there are thousands.
+std::vector<PicturePtr> TextureShelf::trim() {
+    std::vector<PicturePtr> gone;
+    if (bytes_ <= budget_bytes_) return gone;
+    std::vector<std::pair<std::uint64_t, std::map<std::string, Kept>::iterator>> order;
+    order.reserve(kept_.size());
+    for (auto it = kept_.begin(); it != kept_.end(); ++it)
+        order.emplace_back(it->second.used, it);
+    std::sort(order.begin(), order.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [used, it] : order) {
+        if (bytes_ <= budget_bytes_ / 8 * 7 || kept_.size() == 1) break;
+        if (it->second.picture) bytes_ -= it->second.picture->size_bytes();
+        gone.push_back(std::move(it->second.picture));
+        kept_.erase(it);
     }
+    return gone;
 }
 
 const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
@@ -338,10 +357,11 @@ const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
     return &(looks_[path] = look);
 }
 
-void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte) {
+void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte,
+                        const std::string& excluded_licences) {
     const ImageU8x3 whole = shrink(plate, 1 << 20);
     if (!library_cards_.empty() && whole.size() == matte.size())
-        return recommend(key, whole, matte);
+        return recommend(key, whole, matte, excluded_licences);
     Look surface;
     if (whole.size() == matte.size()) {
         statistics(
@@ -421,8 +441,9 @@ void TextureShelf::work() {
             const std::string key = std::exchange(rank_due_, {});
             const PicturePtr plate = std::exchange(rank_plate_, nullptr);
             const auto matte = std::exchange(rank_matte_, nullptr);
+            const std::string excluded = rank_excluded_;
             lock.unlock();
-            if (plate && matte) rank(key, *plate, *matte);
+            if (plate && matte) rank(key, *plate, *matte, excluded);
             lock.lock();
         }
     }

@@ -2,6 +2,7 @@
 // The textures that the drawer shows: their cards at once, their thumbnails as they are asked for,
 // the visible ones first.
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -55,8 +56,10 @@ class TextureShelf {
     /// Null while it is being made: asked for again every frame by what is visible. The newest wish
     /// comes first.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
-    /// Ranks the cards for a surface that looks like this; empty while it is being worked out.
-    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte);
+    /// Ranks the cards for a surface that looks like this, those under the excluded licences left
+    /// out; empty while it is being worked out.
+    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte,
+                     const std::string& excluded_licences = {});
     [[nodiscard]] std::vector<TextureSuggestion> suggestions(const std::string& key) const;
     /// Grows whenever something arrives.
     [[nodiscard]] std::uint64_t arrivals() const;
@@ -75,11 +78,14 @@ class TextureShelf {
     void take_library();
     void look_up(const std::string& path);
     void search_library(const std::string& words);
-    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte);
+    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
+                   const std::string& excluded_licences);
     void publish();
     void scan(const std::vector<std::string>& folders);
     void make_thumbnail(const Wish& wish);
-    void rank(const std::string& key, const Picture& plate, const Matte& matte);
+    [[nodiscard]] std::vector<PicturePtr> trim();
+    void rank(const std::string& key, const Picture& plate, const Matte& matte,
+              const std::string& excluded_licences);
     [[nodiscard]] const Look* look_of(const std::string& path);
 
     const std::size_t budget_bytes_;
@@ -96,10 +102,12 @@ class TextureShelf {
     };
     std::map<std::string, Kept> kept_;
     std::size_t bytes_ = 0;
-    std::uint64_t clock_ = 0, arrivals_ = 0;
+    std::uint64_t clock_ = 0;
+    std::atomic<std::uint64_t> arrivals_ = 0;
     std::string ranked_key_, rank_due_;
     PicturePtr rank_plate_;
     std::shared_ptr<const Matte> rank_matte_;
+    std::string rank_excluded_;
     std::vector<TextureSuggestion> ranked_;
     std::map<std::string, Look> looks_;  // of the working thread alone
     std::shared_ptr<TextureLibrary> library_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
@@ -110,12 +111,20 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         WEFT_TRY(plane,
                  make_plane(plan, region, source.size(), scene.stats, cancel, progress, backend));
         scene.plane = std::move(plane);
+        WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
+        scene.seams = std::move(seams);
     }
     const int reference = region.reference_frames.front();
     if (region.grain > 0 && !region.grain_frames.empty()) {
         WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kGrain}));
         WEFT_TRY(grain, decode_grain(bytes));
         scene.grain = grain;
+    }
+    scene.shutter_deg = region.shutter_deg.value_or(0.0f);
+    if (region.estimates_shutter()) {
+        WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kShutter}));
+        WEFT_TRY(degrees, decode_number(bytes));
+        scene.shutter_deg = degrees;
     }
     WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
     if (region.light_source == LightSource::kImage) {

@@ -12,6 +12,7 @@
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
 #include "engine/synthesis/texture_plane.h"
+#include "engine/temporal/history_seam.h"
 
 namespace weft {
 
@@ -22,6 +23,8 @@ struct RegionScene {
     std::optional<Shading> picture_light;
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
     GrainModel grain;
+    float shutter_deg = 0;
+    std::vector<HistorySeam> seams;   ///< Between the histories from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
 };
 

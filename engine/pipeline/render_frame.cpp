@@ -11,11 +11,10 @@
 #include "engine/core/rng.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
-#include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
-#include "engine/pipeline/synthesis_inputs.h"
+#include "engine/pipeline/region_surface.h"
 
 namespace weft {
 namespace {
@@ -23,13 +22,6 @@ namespace {
 constexpr float kKnee = 0.9f;  // of the roll-off
 
 enum class Place { kDevice, kCpu };
-
-// What a region shows: a place of a plane for every pixel of its box.
-struct Surface {
-    TextureCoords coords;
-    const PlanePyramid* plane = nullptr;
-    std::optional<PlanePyramid> own;  // a plane of this frame alone
-};
 
 // The renderer of one frame, with what its regions share. On a device the frame stays there from
 // the first region to the last.
@@ -57,10 +49,6 @@ class FrameRenderer {
 
   private:
     [[nodiscard]] Expected<Matte> composite_matte(int index);
-    [[nodiscard]] Expected<Surface> surface(int index, const RegionScene& scene,
-                                            const Recti& box) const;
-    [[nodiscard]] Expected<TextureCoords> coords(int index, const RegionScene& scene,
-                                                 const Recti& box) const;
     // The light that falls on the region, or nothing.
     [[nodiscard]] Expected<std::optional<Shading>> shading(int index, const RegionScene& scene);
     Status light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
@@ -71,12 +59,13 @@ class FrameRenderer {
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
     // The texture in the working space, finished and laid into the canvas. `matte` covers the
-    // frame, the texture's its box.
-    Status add_on_cpu(int index, const SampleRequest& texture, const Recti& box,
-                      const RegionScene& scene, const Matte& matte,
+    // frame, `inside` the box.
+    Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
+                      const RegionScene& scene, const Matte& matte, const Matte& inside,
                       const std::optional<Shading>& shading);
-    Status add_on_device(int index, const SampleRequest& texture, const Recti& box,
-                         const RegionScene& scene, const std::optional<Shading>& shading);
+    Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
+                         const RegionScene& scene, const Matte& inside,
+                         const std::optional<Shading>& shading);
     // An error of the device is remembered as one.
     template <class T>
     Expected<T> of_device(Expected<T> result) {
@@ -122,55 +111,6 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
         extent = soften_hard_edge(views_->display, extent);
     }
     return without_holdout(extent, holdout);
-}
-
-Expected<TextureCoords> FrameRenderer::coords(int index, const RegionScene& scene,
-                                              const Recti& box) const {
-    if (region_of(plan_, index).temporal != TemporalMode::kLocked) {
-        constexpr int kCoarse = 64;
-        return texture_coords(LatticeField(plate_->size(), kCoarse), scene.plane_from_plate, box);
-    }
-    WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kCoords}));
-    WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-    return texture_coords(ref_from_cur, scene.plane_from_plate, box);
-}
-
-Expected<Surface> FrameRenderer::surface(int index, const RegionScene& scene,
-                                         const Recti& box) const {
-    const RegionPlan& region = region_of(plan_, index);
-    WEFT_TRY(at, coords(index, scene, box));
-    Surface out;
-    if (!scene.plane.empty()) {
-        out.coords = std::move(at);
-        out.plane = &scene.plane;
-        return out;
-    }
-
-    // A plane of this frame alone, which begins at a texel of its own.
-    WEFT_TRY(frame_area, frame_plane(region.placement, plate_->size()));
-    ImageF3 picture;
-    if (region.temporal == TemporalMode::kPaper) {
-        WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kPaperTexture}));
-        WEFT_TRY(codes, decode_picture(bytes));
-        picture = ImageF3(codes.size());
-        std::transform(codes.data(), codes.data() + codes.size_bytes(), picture.data(),
-                       [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
-        region.working_from_display->apply(picture);
-    } else {
-        PlaneOptions options = plane_options(region, plan_.seed, frame_area.size, &backend_);
-        options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
-        WEFT_TRY(plane, grow_texture(region, options));
-        picture = plane_in_working_space(region, plane);
-    }
-    for (int y = 0; y < at.uv.height(); ++y) {
-        for (int x = 0; x < at.uv.width(); ++x) {
-            at.uv.pixel(x, y)[0] -= static_cast<float>(frame_area.origin.x);
-            at.uv.pixel(x, y)[1] -= static_cast<float>(frame_area.origin.y);
-        }
-    }
-    out.coords = std::move(at);
-    out.own.emplace(picture, WrapMode::kMirror);
-    return out;
 }
 
 Expected<std::optional<Shading>> FrameRenderer::shading(int index, const RegionScene& scene) {
@@ -242,34 +182,36 @@ Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, I
     return {};
 }
 
-Status FrameRenderer::add_on_cpu(int index, const SampleRequest& texture, const Recti& box,
-                                 const RegionScene& scene, const Matte& matte,
+Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
+                                 const RegionScene& scene, const Matte& matte, const Matte& inside,
                                  const std::optional<Shading>& shading) {
-    const ViewU8x1 inside = texture.matte;
-    ImageF3 surface(box.size());
-    backend_.sample_plane(texture, surface);
-    match_focus(index, box, inside, surface);
-    WEFT_CHECK_OK(light(index, scene, box, inside, shading, surface));
-    put_grain(index, scene, box, inside, surface);
+    WEFT_TRY(texture, surface.texture(box, inside));
+    match_focus(index, box, inside, texture);
+    WEFT_CHECK_OK(light(index, scene, box, inside, shading, texture));
+    put_grain(index, scene, box, inside, texture);
     // The ink has the plate's grain already.
-    WEFT_CHECK_OK(lay_ink(index, box, matte, surface));
+    WEFT_CHECK_OK(lay_ink(index, box, matte, texture));
     const ImageView<float, 3> area = canvas_.view().crop(box);
     const ImageF3 old_surface = unmix_surface(area, inside);
-    composite_over(area, area, old_surface, inside, surface);
+    composite_over(area, area, old_surface, inside, texture);
     return {};
 }
 
-Status FrameRenderer::add_on_device(int index, const SampleRequest& texture, const Recti& box,
-                                    const RegionScene& scene,
+Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, const Recti& box,
+                                    const RegionScene& scene, const Matte& inside,
                                     const std::optional<Shading>& shading) {
+    WEFT_TRY(lookup, surface.lookup(box));
     const ImageView<float, 3> area = canvas_.view().crop(box);
     // Over another region the old surface is what that one shows.
     if (!device_box_.intersected(box).empty()) {
         WEFT_CHECK_OK(of_device(device_->read(box, area)));
     }
-    const ImageF3 old_surface = unmix_surface(area, texture.matte);
+    const ImageF3 old_surface = unmix_surface(area, inside);
     LayerRequest layer;
-    layer.texture = texture;
+    layer.texture.plane = lookup.shown();
+    layer.texture.coords = lookup.coords.uv;
+    layer.texture.matte = inside;
+    layer.texture.quality = surface.quality();
     layer.origin = {box.x0, box.y0};
     layer.old_surface = old_surface;
     if (shading) {
@@ -289,19 +231,13 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
         const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
         std::copy(row, row + box.width(), inside.row(y));
     }
-    WEFT_TRY(shown, surface(index, scene, box));
     lit_ = lit_ || region_of(plan_, index).lights();
     WEFT_TRY(falling, shading(index, scene));
-    SampleRequest request;
-    request.plane = shown.own ? &*shown.own : shown.plane;
-    request.coords = shown.coords.uv;
-    request.matte = inside;
-    request.quality =
-        plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
+    const RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
     if (device_) {
-        WEFT_CHECK_OK(add_on_device(index, request, box, scene, falling));
+        WEFT_CHECK_OK(add_on_device(index, surface, box, scene, inside, falling));
     } else {
-        WEFT_CHECK_OK(add_on_cpu(index, request, box, scene, matte, falling));
+        WEFT_CHECK_OK(add_on_cpu(index, surface, box, scene, matte, inside, falling));
     }
     std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(),
                    touched_.data(), [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
@@ -352,8 +288,11 @@ Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& p
         return rendered;
     };
     bool fits = true, again = false;
-    for (std::size_t k = 0; k < scenes.size(); ++k)
-        fits = fits && fits_device(plan.regions[k], scenes[k]);
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        const RegionSurface surface(plan, static_cast<int>(k), scenes[k], store, backend, frame,
+                                    plate->size());
+        fits = fits && fits_device(plan.regions[k], scenes[k]) && surface.is_one_lookup();
+    }
     // A device that fails half-way has told the backend why; the CPU then renders the frame.
     if (fits) {
         auto rendered = on(Place::kDevice, again);

@@ -119,7 +119,7 @@ TEST(Library, MovesAnOldFileUpAndKeepsItsSamples) {
     const auto library = open_or_die(path);
     ASSERT_TRUE(library);
     EXPECT_EQ(library->size(), 1);
-    EXPECT_EQ(library->stats()->schema_version, 2);
+    EXPECT_EQ(library->stats()->schema_version, 3);
     EXPECT_TRUE(library->set_favourite(library->search({})->hits[0].id, true));
 }
 
@@ -232,6 +232,59 @@ TEST(Library, AFullDiskLosesNothing) {
     ASSERT_TRUE(library);
     EXPECT_GE(*library->size(), 1);
     EXPECT_THAT(*library->verify(), testing::IsEmpty());
+}
+
+TEST(Library, MeasuresAnewWhatAnOlderVersionMeasured) {
+    const Scratch scratch;
+    const std::string path = scratch.at("a.db");
+    {
+        const auto library = open_or_die(path);
+        std::vector<NewTexture> textures;
+        for (std::uint64_t i = 0; i < 24; ++i)
+            textures.push_back(i % 2 ? new_texture(i, "stone", "a", 90, 90, 90)
+                                     : new_texture(i, "grass", "b", 60, 160, 50));
+        ASSERT_TRUE(library->add(textures));
+    }
+    run_sql(path,
+            "UPDATE features SET version = 1, data = x'00'; DELETE FROM features WHERE sample = 1");
+    const auto library = open_or_die(path);
+    ASSERT_TRUE(library->train_descriptor());
+    EXPECT_EQ(library->stats()->descriptor_samples, 24);
+    const auto alike = library->similar(noise_picture(96, 99, 90, 90, 90), 5);
+    ASSERT_TRUE(alike) << alike.error().text();
+    EXPECT_EQ(alike->at(0).material, "stone");
+}
+
+TEST(Library, TakesOverAnotherWhole) {
+    const Scratch scratch;
+    const std::string from = scratch.at("a library?#%.db");
+    std::string id;
+    {
+        const auto library = open_or_die(from);
+        std::vector<NewTexture> textures;
+        for (std::uint64_t i = 0; i < 24; ++i)
+            textures.push_back(i % 2 ? new_texture(i, "stone", "a", 90, 90, 90)
+                                     : new_texture(i, "grass", "b", 60, 160, 50));
+        ASSERT_TRUE(library->add(textures));
+        ASSERT_TRUE(library->train_descriptor());
+        ASSERT_TRUE(library->set_note("made", "all"));
+        id = library->search({})->hits[0].id;
+    }
+    const auto library = open_or_die(scratch.at("b.db"));
+    EXPECT_EQ(library->copy_from(from, "made", "half"), false) << "it is not what was wanted";
+    ASSERT_EQ(library->copy_from(from, "made", "all"), true);
+    EXPECT_EQ(library->size(), 24);
+    EXPECT_EQ(library->note("made"), "all");
+    EXPECT_TRUE(library->thumbnail(id));
+    EXPECT_EQ(library->similar(id, 5)->size(), 5u);
+    SearchQuery words;
+    words.text = "grass";
+    EXPECT_EQ(library->search(words)->total, 12);
+    EXPECT_THAT(*library->verify(), testing::IsEmpty());
+    EXPECT_EQ(library->copy_from(from, "made", "all"), false) << "it is not empty any more";
+    EXPECT_EQ(library->size(), 24);
+    EXPECT_FALSE(library->copy_from(scratch.at("none.db"), "made", "all"));
+    EXPECT_TRUE(library->add({new_texture(99, "stone", "c")})) << "what was attached is let go";
 }
 
 TEST(Library, ShortensIdsAndRefusesOthers) {

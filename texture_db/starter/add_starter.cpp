@@ -1,10 +1,12 @@
-// Puts the starter textures into a library, a batch at a time: what is in stays in.
+// Puts the starter textures into a library: copied where they were made with the program, else made
+// now, a batch at a time; what is in stays in.
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 #include "engine/core/parallel.h"
-#include "texture_db/library.h"
+#include "texture_db/library_state.h"
 #include "texture_db/starter/starter.h"
 
 namespace weft {
@@ -14,7 +16,11 @@ constexpr std::size_t kBatch = 64;
 constexpr int kOriginalSide_px = 384;
 constexpr const char* kDoneNote = "starter.done";
 // Raised when the families change: then what is missing is added.
-constexpr const char* kEdition = "1:";
+constexpr const char* kEdition = "2:";
+
+std::string done_note(std::size_t done) {
+    return kEdition + std::to_string(done);
+}
 
 Expected<std::size_t> done_so_far(TextureLibrary& library) {
     WEFT_TRY(note, library.note(kDoneNote));
@@ -40,6 +46,15 @@ NewTexture as_new(const StarterItem& item) {
     return t;
 }
 
+// Beside the program: bin/weft and share/weft/starter.db.
+std::string starter_library_file() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) return {};
+    const auto file = program.parent_path().parent_path() / "share" / "weft" / "starter.db";
+    return std::filesystem::is_regular_file(file, error) ? file.string() : std::string();
+}
+
 }  // namespace
 
 Expected<bool> has_starter_textures(TextureLibrary& library) {
@@ -54,6 +69,11 @@ Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel,
     std::stable_sort(items.begin(), items.end(), [](const StarterItem& a, const StarterItem& b) {
         return a.number < b.number;
     });
+    const std::string ready = starter_library_file();
+    WEFT_TRY(samples, library.size());
+    // A copy that cannot be read is no reason to stop: they are made then.
+    if (samples == 0 && !ready.empty())
+        (void)library.copy_from(ready, kDoneNote, done_note(items.size()));
     WEFT_TRY(done, done_so_far(library));
     const bool fresh = done < items.size();
     while (done < items.size()) {
@@ -67,7 +87,7 @@ Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel,
         WEFT_TRY(added, library.add(batch));
         (void)added;
         done = end;
-        WEFT_CHECK_OK(library.set_note(kDoneNote, kEdition + std::to_string(done)));
+        WEFT_CHECK_OK(library.set_note(kDoneNote, done_note(done)));
         if (progress) {
             progress({"starter", static_cast<std::int64_t>(done),
                       static_cast<std::int64_t>(items.size()), 0, 0});

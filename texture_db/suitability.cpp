@@ -1,0 +1,159 @@
+#include "texture_db/suitability.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "texture_db/licence.h"
+
+namespace weft {
+namespace {
+
+using A = TextureAttribute;
+
+constexpr int kNeighbours = 40;
+
+// exp(−d²/2w²), the exponent alone: products of several take one exp.
+float away(float difference, float width) {
+    return difference * difference / (2 * width * width);
+}
+float near(float difference, float width) {
+    return std::exp(-away(difference, width));
+}
+
+float ramp(float v) {
+    return 1 / (1 + std::exp(-v));
+}
+
+float scale_fit(const SampleLook& sample, const RegionLook& look) {
+    const float repeats = look.short_side_px / sample.structure_px;
+    // Fewer than three of its structures do not read as the texture; above sixty it is noise.
+    const float enough = std::clamp((repeats - 1) / 3, 0.0f, 1.0f);
+    return repeats > 60 ? enough * near(std::log2(repeats / 60), 1.2f) : enough;
+}
+
+// The geometric mean of three likenesses.
+float style_fit(const SampleLook& sample, const RegionLook& look) {
+    return std::exp(-(away(sample.contrast - std::min(look.rest_contrast, 0.8f), 0.35f) +
+                      away(sample.saturation - look.rest_saturation, 0.25f) +
+                      away(sample.roughness - look.rest_roughness, 0.35f)) /
+                    3);
+}
+
+float wish_fit(const RecommendWish& w, const TextureAttributes& base, const TextureAttributes& a) {
+    float fit = 1;
+    const auto apply = [&](float wanted, A attribute, float reach) {
+        if (wanted != 0)
+            fit *= ramp(3.0f * (wanted * (a[attribute] - base[attribute]) / reach - 0.5f));
+    };
+    apply(w.warmer, A::kWarmth, 0.12f);
+    apply(w.brighter, A::kBrightness, 0.15f);
+    apply(w.rougher, A::kRoughness, 0.18f);
+    apply(w.larger, A::kScale, 0.18f);
+    return fit;
+}
+
+float distance(std::span<const float> x, std::span<const float> y) {
+    float d = 0;
+    for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
+        d += (x[k] - y[k]) * (x[k] - y[k]);
+    return std::sqrt(d);
+}
+
+}  // namespace
+
+RegionJudge::RegionJudge(const SampleIndex& index, const RecommendRequest& request,
+                         const RegionToSuit& region, const RegionLook& look)
+    : index_(index),
+      request_(request),
+      region_(region),
+      look_(look),
+      harmony_(look.surroundings),
+      votes_(static_cast<std::size_t>(index.materials.size())),
+      squared_(index.samples.size(), SampleIndex::kFar) {
+    const auto like = index.by_id.find(request.wish.like);
+    like_ = like == index.by_id.end() ? index.samples.size() : like->second;
+    vote();
+}
+
+// Which materials the region looks like, by the neighbours of its patches in the descriptor.
+void RegionJudge::vote() {
+    std::vector<float> near_ones;
+    for (const auto& descriptor : look_.descriptors) {
+        const std::vector<float> squared = index_.squared_distances(descriptor);
+        for (std::size_t i = 0; i < squared.size(); ++i)
+            squared_[i] = std::min(squared_[i], squared[i]);
+        const auto neighbours = lowest(squared, kNeighbours);
+        for (std::size_t k = 0; k < neighbours.size(); ++k) {
+            votes_[static_cast<std::size_t>(index_.looks[neighbours[k].sample].material)] +=
+                1.0f / (1.0f + 0.15f * static_cast<float>(k));
+        }
+        if (neighbours.size() > 8) near_ones.push_back(neighbours[8].distance);
+    }
+    if (!near_ones.empty()) {
+        std::sort(near_ones.begin(), near_ones.end());
+        typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
+    }
+    // A material with many samples has more of them anywhere: that must not decide.
+    std::vector<float> count(votes_.size());
+    for (const SampleLook& s : index_.looks)
+        count[static_cast<std::size_t>(s.material)] += 1;
+    for (std::size_t m = 0; m < votes_.size(); ++m)
+        votes_[m] /= std::sqrt(std::max(count[m], 1.0f));
+    const float most = votes_.empty() ? 0 : *std::max_element(votes_.begin(), votes_.end());
+    for (float& v : votes_)
+        v = most > 0 ? v / most : 0;
+}
+
+SuitedSample RegionJudge::judge(std::size_t i) const {
+    const SampleLook& s = index_.looks[i];
+    SuitedSample c;
+    c.sample = static_cast<std::uint32_t>(i);
+    const float beyond = std::max(0.0f, std::sqrt(squared_[i]) - typical_) / typical_;
+    c.parts.material = 0.45f * near(beyond, 0.8f) + 0.55f * vote_of(i);
+    c.parts.colour = harmony_.with(s.chroma, s.hue_deg);
+    c.parts.style = style_fit(s, look_);
+    c.parts.scale = scale_fit(s, look_);
+    c.parts.synthesis = s.synthesis;
+    const bool like = like_ < index_.samples.size();
+    const RecommendWish& w = request_.wish;
+    if (like || w.warmer != 0 || w.brighter != 0 || w.rougher != 0 || w.larger != 0) {
+        const TextureAttributes& base =
+            like ? index_.samples[like_].measured.attributes : look_.inside.attributes;
+        c.parts.wish = wish_fit(w, base, index_.samples[i].measured.attributes);
+        if (like)
+            c.parts.wish *=
+                near(distance(index_.descriptor(i), index_.descriptor(like_)) / typical_, 1.5f);
+    }
+    const float lightness = std::abs(s.mean.l - look_.inside.mean.l) / 40;
+    const float hue = hue_difference_deg(s.mean, look_.inside.mean) / 150;
+    c.stands_out = std::min(1.0f, std::max(lightness, hue));
+    return c;
+}
+
+std::vector<SuitedSample> RegionJudge::judge_all() const {
+    std::vector<bool> excluded;
+    for (int i = 0; i < index_.licences.size(); ++i)
+        excluded.push_back(licence_excluded(index_.licences.text(i), request_.excluded_licences));
+    const int material = region_.material.empty() ? -1 : index_.materials.find(region_.material);
+    std::vector<SuitedSample> out;
+    if (!region_.material.empty() && material < 0) return out;
+    for (std::size_t i = 0; i < index_.looks.size(); ++i) {
+        const SampleLook& s = index_.looks[i];
+        if (excluded[static_cast<std::size_t>(s.licence)]) continue;
+        if (material >= 0 && s.material != material) continue;
+        out.push_back(judge(i));
+    }
+    return out;
+}
+
+float RegionJudge::likeness(std::size_t i, std::size_t j) const {
+    const IndexedSample &a = index_.samples[i], &b = index_.samples[j];
+    if (a.origin != TextureOrigin::kProcedural && a.package == b.package && a.source == b.source)
+        return 1;
+    const LabColor &p = index_.looks[i].mean, &q = index_.looks[j].mean;
+    const float apart = distance(index_.descriptor(i), index_.descriptor(j));
+    return 0.6f * near(apart / typical_, 0.8f) +
+           0.4f * near(std::hypot(p.l - q.l, p.a - q.a, p.b - q.b), 9);
+}
+
+}  // namespace weft
