@@ -313,6 +313,8 @@ void add_tool_commands(std::vector<Command>& out) {
             [tool](Ctx& c) {
                 c.state.tool = tool;
                 c.state.brush.outline.clear();
+                c.state.shape_drawing = false;
+                c.state.handle_held.clear();
             },
             {}, [tool](const Ctx& c) { return c.state.tool == tool; }));
     };
@@ -321,6 +323,11 @@ void add_tool_commands(std::vector<Command>& out) {
     add("tool.eraser", "Eraser", icons::kEraser, "E", Tool::kEraser);
     add("tool.lasso", "Lasso", icons::kLasso, "Q", Tool::kLasso);
     add("tool.polygon", "Polygon", icons::kShape, "P", Tool::kPolygon);
+    add("tool.shape", "Shape of curves", icons::kCurve, "N", Tool::kShape);
+    add("tool.scribble", "Scribble", icons::kPencil, "Shift+Q", Tool::kScribble);
+    add("tool.similar", "Find similar textures", icons::kMagnify, "Shift+F", Tool::kSimilar);
+    add("tool.pin", "Pin the texture", icons::kPin, "Shift+P", Tool::kPin);
+    add("tool.lamp", "Move the lamps", icons::kLightbulb, "Shift+L", Tool::kLamp);
     add("tool.flood", "Select by colour", icons::kFlood, "U", Tool::kFlood);
     add("tool.place", "Place the texture", icons::kMove, "R", Tool::kPlace);
     const auto add_size = [&](const char* id, const char* name, const char* key, float factor) {
@@ -367,6 +374,8 @@ void set_workspace(UiState& state, Workspace workspace) {
     // A stroke where one does not expect to paint would be a nasty surprise.
     state.tool = workspace == Workspace::kMask ? Tool::kBrush : Tool::kPan;
     state.brush.outline.clear();
+    state.shape_drawing = false;
+    state.handle_held.clear();
 }
 
 const char* workspace_name(Workspace workspace) {

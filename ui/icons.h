@@ -6,6 +6,7 @@ namespace weft::icons {
 inline constexpr const char* kBrush = "\xef\x83\xa3";           // brush
 inline constexpr const char* kEraser = "\xef\x87\xbe";          // eraser
 inline constexpr const char* kLasso = "\xef\x95\xa2";           // vector-selection
+inline constexpr const char* kCurve = "\xef\x95\x99";           // vector-curve
 inline constexpr const char* kShape = "\xef\x95\xa0";           // vector-polygon
 inline constexpr const char* kFlood = "\xef\x89\xa6";           // format-color-fill
 inline constexpr const char* kPan = "\xef\x86\xb6";             // cursor-move

@@ -204,6 +204,7 @@ void mask_inspector(Ctx& c) {
     const bool painting = c.state.tool == Tool::kBrush || c.state.tool == Tool::kEraser;
     if (section(c, painting                       ? "Brush"
                    : c.state.tool == Tool::kFlood ? "Select by colour"
+                   : c.state.tool == Tool::kShape ? "Shape"
                                                   : "Tool")) {
         const PanelName panel(c, "Brush");
         Brush& b = c.state.brush.brush;
@@ -244,6 +245,17 @@ void mask_inspector(Ctx& c) {
             quiet(c, "Click a colour; Alt takes it away");
         } else if (c.state.tool == Tool::kPolygon) {
             quiet(c, "Click corners; Enter closes, Esc drops");
+        } else if (c.state.tool == Tool::kShape) {
+            shape_controls(c);
+        } else if (c.state.tool == Tool::kScribble) {
+            quiet(c, "Draw inside the surface; Alt: outside");
+            const ScribbleState& s = c.state.scribbles;
+            if (button(c, "Forget the lines",
+                       {.icon = icons::kClose,
+                        .enabled = !s.keep.empty() || !s.drop.empty(),
+                        .tip = "The matte stays as it is. Esc",
+                        .width = -1}))
+                c.state.scribbles = {};
         } else if (c.state.tool == Tool::kLasso) {
             quiet(c, "Draw around the surface; Alt cuts out");
         } else {
@@ -374,6 +386,7 @@ void texture_inspector(Ctx& c) {
             c.state.tool = Tool::kPlace;
         section_gap(c);
     }
+    provenance_section(c, *region);
     if (section(c, "Perspective", false)) {
         const PanelName panel(c, "Perspective");
         region_parameter(c, *region, "placement.corners_px", "Corners");
@@ -440,6 +453,7 @@ void motion_inspector(Ctx& c) {
         }
         section_gap(c);
     }
+    corrections_section(c, *region);
     if (section(c, "Motion")) {
         const PanelName panel(c, "Motion");
         if (region->motion.files.empty()) {
@@ -488,6 +502,7 @@ void light_inspector(Ctx& c) {
         region_parameter(c, *region, "light.source", "Light");
         if (region->light.source == LightSource::kImage)
             region_parameter(c, *region, "light.image", "Picture");
+        if (region->light.source == LightSource::kPainted) lamps_controls(c, *region);
         if (region->light.source != LightSource::kNone) {
             region_parameter(c, *region, "light.strength");
             region_parameter(c, *region, "light.form", "Put on as");

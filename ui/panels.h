@@ -14,6 +14,7 @@ void timeline(Ctx& c, ImVec2 size);
 void inspector(Ctx& c, ImVec2 size);
 void texture_drawer(Ctx& c, ImVec2 size);
 void review_panel(Ctx& c, ImVec2 size);
+void strip_panel(Ctx& c, ImVec2 size);
 void jobs_page(Ctx& c, ImVec2 size);
 void welcome(Ctx& c, ImVec2 size);
 
@@ -24,6 +25,10 @@ void texture_inspector(Ctx& c);
 void motion_inspector(Ctx& c);
 void light_inspector(Ctx& c);
 void review_inspector(Ctx& c);
+void shape_controls(Ctx& c);
+void corrections_section(Ctx& c, const Region& region);
+void lamps_controls(Ctx& c, const Region& region);
+void provenance_section(Ctx& c, const Region& region);
 
 // What floats over the rest.
 void notices(Ctx& c);

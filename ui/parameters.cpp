@@ -46,6 +46,7 @@ constexpr Word kWords[] = {
     {"temporal.mode", "none", "Every frame anew"},
     {"light.source", "plate", "From the plate"},
     {"light.source", "none", "No light"},
+    {"light.source", "painted", "Painted lamps"},
     {"light.source", "image", "From a picture"},
     {"light.form", "gain", "Natural (gain)"},
     {"light.form", "detail", "Plate's tones, texture's detail"},

@@ -19,6 +19,7 @@ Shell::Shell(EditorSettings& settings, PictureHost& pictures)
     size("timeline", state_.timeline_h);
     size("drawer", state_.drawer_h);
     size("report", state_.review_h);
+    size("strip", state_.strip_h);
 }
 
 void Shell::set_look(bool dark, bool grey_surround, float scale) {
@@ -66,6 +67,10 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     if (!sheet) commands_.dispatch(c);
     layout(c);
     part("windows");
+    // Nobody looks at the strip elsewhere.
+    if (view.strip.kind != StripKind::kNone &&
+        (state_.workspace != Workspace::kLight || state_.panels_hidden || !view.open))
+        c.emit(ShowStrip{});
     ui::notices(c);
     ui::tour(c);
     ui::history_window(c);
@@ -153,8 +158,12 @@ void Shell::layout(Ctx& c) {
         panels ? std::floor(t.px(std::clamp(state_.timeline_h, 96.0f, 260.0f))) : 0;
     const bool drawer = panels && state_.workspace == Workspace::kTexture;
     const bool report = panels && state_.workspace == Workspace::kReview;
+    const bool strip = panels && state_.workspace == Workspace::kLight;
     const float least_view = t.px(120);
-    float extra_h = drawer ? t.px(state_.drawer_h) : report ? t.px(state_.review_h) : 0;
+    float extra_h = drawer   ? t.px(state_.drawer_h)
+                    : report ? t.px(state_.review_h)
+                    : strip  ? t.px(state_.strip_h)
+                             : 0;
     // On a low screen the picture keeps more than half.
     const float most_h = std::min(body_h - timeline_h - least_view, 0.42f * body_h);
     if (state_.drawer_h <= 288) extra_h = std::min(extra_h, most_h);
@@ -180,6 +189,11 @@ void Shell::layout(Ctx& c) {
         at(0, top + view_h);
         ui::review_panel(c, {left_w, extra_h});
     }
+    if (strip) {
+        part("strip");
+        at(0, top + view_h);
+        ui::strip_panel(c, {left_w, extra_h});
+    }
     if (panels) {
         part("timeline");
         at(0, top + view_h + extra_h);
@@ -195,6 +209,9 @@ void Shell::layout(Ctx& c) {
         if (drawer)
             splitter(c, "##drawer", {0, top + view_h - hit / 2}, {left_w, hit}, false,
                      state_.drawer_h, -1, 150, 900, 288);
+        if (strip)
+            splitter(c, "##strip", {0, top + view_h - hit / 2}, {left_w, hit}, false,
+                     state_.strip_h, -1, 110, 500, 176);
         if (report)
             splitter(c, "##report", {0, top + view_h - hit / 2}, {left_w, hit}, false,
                      state_.review_h, -1, 120, 700, 240);

@@ -19,7 +19,20 @@ enum class Workspace : std::uint8_t { kMask, kTexture, kMotion, kLight, kReview,
 inline constexpr int kWorkspaceCount = 6;
 [[nodiscard]] const char* workspace_name(Workspace workspace);
 
-enum class Tool : std::uint8_t { kPan, kBrush, kEraser, kLasso, kPolygon, kFlood, kPlace };
+enum class Tool : std::uint8_t {
+    kPan,
+    kBrush,
+    kEraser,
+    kLasso,
+    kPolygon,
+    kShape,
+    kFlood,
+    kScribble,
+    kPlace,
+    kSimilar,
+    kPin,
+    kLamp
+};
 
 enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBySide, kFourUp };
 
@@ -46,6 +59,14 @@ struct BrushState {
     bool resizing = false;
 };
 
+/// Lines of the scribble tool; they belong to one frame of one region.
+struct ScribbleState {
+    int frame = 0;
+    RegionId region = 0;
+    std::vector<std::vector<Vec2>> keep, drop;
+    bool drawing = false, dropping = false;
+};
+
 /// What the drawer shows, kept while nothing changes: going through 15,000 cards takes longer than
 /// a frame has.
 struct DrawerCache {
@@ -62,6 +83,10 @@ struct DrawerState {
     std::string search;
     std::string material;  ///< Empty: all.
     bool favourites_only = false, recent_only = false;
+    std::string collection;  ///< Name of the one that is shown; empty: none.
+    std::string new_collection;
+    std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
+    int similar_frame = 0;
     std::string picked;  ///< Path of the texture in the large preview.
 };
 
@@ -102,6 +127,7 @@ struct UiState {
     BrowserState browser;
     ExportState output;
     float inspector_w = 320, timeline_h = 112, drawer_h = 288, review_h = 240;  ///< Unscaled.
+    float strip_h = 176;
     bool panels_hidden = false;
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
     bool about_open = false;
@@ -116,6 +142,16 @@ struct UiState {
     Placement placing_from;
     std::string placing_key;
     ParameterValue placing_value;
+    std::string handle_held;          ///< Id of the handle that is being dragged.
+    Vec2 handle_offset{0, 0};         ///< From the mouse to its middle.
+    std::vector<CorrectionPin> pins;  ///< Of this frame, while one is being dragged.
+    int lamp = 0;                     ///< The one whose numbers stand in the inspector.
+    RotoShape shape;                  ///< As it is being drawn or changed.
+    bool shape_drawing = false;
+    ScribbleState scribbles;
+    std::optional<Vec2> rectangle_from;
+    StripKind strip = StripKind::kKeyframes;
+    std::vector<std::string> strip_textures;
     RegionId renaming = 0;
     std::string rename_text;
     std::string typing;  ///< Name of the value that is being typed.

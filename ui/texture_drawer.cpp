@@ -27,6 +27,11 @@ bool matches(const Ctx& c, const TextureCard& card, const std::string& wanted) {
     if (!d.material.empty() && card.material != d.material) return false;
     if (d.favourites_only && !listed(c.settings.favourites, card.path)) return false;
     if (d.recent_only && !listed(c.settings.recent_textures, card.path)) return false;
+    if (!d.collection.empty()) {
+        const auto found = c.settings.collections.find(d.collection);
+        if (found == c.settings.collections.end() || !listed(found->second, card.path))
+            return false;
+    }
     if (wanted.empty()) return true;
     std::string text = lower(card.name + " " + card.material);
     for (const std::string& tag : card.tags)
@@ -40,8 +45,13 @@ void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>&
     DrawerCache& cache = d.cache;
     const std::string wanted = lower(d.search);
     // The library knows its words better than a comparison of letters does.
-    const auto answered = c.textures.search(wanted);
-    std::string key = wanted + "\n" + d.material + (d.favourites_only ? "\nf" : "\n") +
+    const auto similar = c.textures.similar(d.similar_key);
+    const auto answered = d.similar_key.empty() ? c.textures.search(wanted) : similar;
+    std::size_t collected = 0;
+    for (const auto& [name, paths] : c.settings.collections)
+        collected += paths.size() + 1;
+    std::string key = d.similar_key + "\n" + d.collection + std::to_string(collected) + "\n" +
+                      wanted + "\n" + d.material + (d.favourites_only ? "\nf" : "\n") +
                       (d.recent_only ? "r" : "") + std::to_string(c.settings.favourites.size()) +
                       "/" + std::to_string(c.settings.recent_textures.size());
     if (cache.cards == cards && cache.answered == answered && cache.key == key) return;
@@ -63,7 +73,8 @@ void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>&
                 cache.shown.push_back(found->second);
     }
     for (const TextureCard& card : *cards)
-        if ((!answered || !card.path.starts_with("db:")) && matches(c, card, wanted))
+        if (d.similar_key.empty() && (!answered || !card.path.starts_with("db:")) &&
+            matches(c, card, wanted))
             cache.shown.push_back(&card);
 }
 
@@ -117,8 +128,11 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         return pressed;
     };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(1)});
-    const bool all = d.material.empty() && !d.favourites_only && !d.recent_only;
+    const bool all =
+        d.material.empty() && !d.favourites_only && !d.recent_only && d.collection.empty();
     const auto pick = [&](std::string material, bool favourites, bool recent) {
+        d.similar_key.clear();
+        d.collection.clear();
         d.material = std::move(material);
         d.favourites_only = favourites;
         d.recent_only = recent;
@@ -131,6 +145,36 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     if (row("Recent", icons::kClock, static_cast<int>(c.settings.recent_textures.size()),
             d.recent_only))
         pick("", false, true);
+    std::string gone;
+    for (auto& [collection, paths] : c.settings.collections) {
+        const bool shown = d.collection == collection;
+        if (row(collection.c_str(), icons::kFolder, static_cast<int>(paths.size()), shown)) {
+            pick("", false, false);
+            d.collection = collection;
+        }
+        if (ImGui::BeginDragDropTarget()) {
+            if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("TEXTURE")) {
+                const std::string path(static_cast<const char*>(payload->Data));
+                if (!listed(paths, path)) paths.push_back(path);
+            }
+            ImGui::EndDragDropTarget();
+        }
+        if (shown && button(c, ("Delete " + collection).c_str(),
+                            {.icon = icons::kClose,
+                             .look = Look::kQuiet,
+                             .tip = "The textures stay where they are",
+                             .width = -1}))
+            gone = collection;
+    }
+    if (!gone.empty()) {
+        c.settings.collections.erase(gone);
+        pick("", false, false);
+    }
+    input(c, "New collection", d.new_collection, "New collection", -1, icons::kPlus);
+    if (ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(257) && !d.new_collection.empty()) {
+        c.settings.collections.try_emplace(d.new_collection);
+        d.new_collection.clear();
+    }
     ImGui::Dummy({0, t.px(6)});
     for (const auto& [material, count] : c.state.drawer.cache.materials)
         if (row(material.c_str(), icons::kTagOutline, count, d.material == material))
@@ -220,9 +264,22 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     const PanelName name(c, "Textures");
     const std::string wanted = lower(c.state.drawer.search);
     const std::vector<const TextureCard*>& shown = c.state.drawer.cache.shown;
-    if (wanted.empty() && c.state.drawer.material.empty()) suggested(c, cards);
+    DrawerState& d = c.state.drawer;
+    if (!d.similar_key.empty()) {
+        if (button(c, "All textures again", {.icon = icons::kClose})) d.similar_key.clear();
+        ImGui::SameLine();
+        ImGui::AlignTextToFramePadding();
+        quiet(c, ("Like the rectangle on frame " + std::to_string(d.similar_frame) +
+                  (c.textures.similar(d.similar_key) ? "" : "  ·  looking…"))
+                     .c_str());
+    } else if (wanted.empty() && d.material.empty() && d.collection.empty()) {
+        suggested(c, cards);
+    }
     if (shown.empty()) {
-        if (cards.empty())
+        if (!d.collection.empty())
+            empty_state(c, icons::kFolder, "An empty collection",
+                        "Drag textures onto its name on the left.");
+        else if (cards.empty())
             empty_state(c, icons::kTexture, "No textures yet",
                         "Add a folder with pictures of surfaces, on the left.");
         else

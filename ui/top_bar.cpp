@@ -234,12 +234,18 @@ void status_bar(Ctx& c, ImVec2 size) {
 void tool_strip(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Tools", size, t.panel, false, t.px(6));
-    static const char* const kIds[] = {"tool.pan",     "tool.brush", "tool.eraser", "tool.lasso",
-                                       "tool.polygon", "tool.flood", "tool.place"};
+    // What one does in this workspace; every tool has its key anywhere.
+    static const std::vector<const char*> kTools[] = {
+        {"tool.pan", "tool.brush", "tool.eraser", "tool.lasso", "tool.polygon", "tool.shape",
+         "tool.flood", "tool.scribble"},
+        {"tool.pan", "tool.place", "tool.similar"},
+        {"tool.pan", "tool.pin", "tool.place"},
+        {"tool.pan", "tool.lamp", "tool.place"},
+        {"tool.pan"},
+        {}};
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(4)});
-    for (const char* id : kIds) {
+    for (const char* id : kTools[static_cast<int>(c.state.workspace)]) {
         const Command* command = c.commands.find(id);
-        if (std::string_view(id) == "tool.place") ImGui::Dummy({0, t.px(6)});
         if (icon_button(c, command->icon, command->name.c_str(), command->checked(c), id, true,
                         t.px(32)))
             command->run(c);

@@ -4,6 +4,7 @@
 
 #include "ui/panels.h"
 #include "ui/viewer.h"
+#include "ui/viewer_handles.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -32,17 +33,6 @@ void brush_ring(Ctx& c, const ViewMap& map) {
     list.AddLine({at.x - k, at.y}, {at.x + k, at.y}, IM_COL32(255, 255, 255, 200));
     list.AddLine({at.x, at.y - k}, {at.x, at.y + k}, IM_COL32(255, 255, 255, 200));
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);
-}
-
-// Where the mouse went in this frame, on the plate: frames may be far apart, strokes are not.
-std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
-    std::vector<Vec2> out;
-    for (const ImVec2 at : c.state.mouse_path)
-        out.push_back(map.to_plate(at));
-    const ImGuiIO& io = ImGui::GetIO();
-    if (out.empty() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
-        out.push_back(map.to_plate(io.MousePos));
-    return out;
 }
 
 void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
@@ -187,6 +177,16 @@ void place(Ctx& c, const ViewMap& map, bool hovered, bool active) {
 
 }  // namespace
 
+std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
+    std::vector<Vec2> out;
+    for (const ImVec2 at : c.state.mouse_path)
+        out.push_back(map.to_plate(at));
+    const ImGuiIO& io = ImGui::GetIO();
+    if (out.empty() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
+        out.push_back(map.to_plate(io.MousePos));
+    return out;
+}
+
 void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (c.view.plate.size.empty()) return;
     switch (c.state.tool) {
@@ -206,6 +206,16 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return;
         case Tool::kPlace:
             return place(c, map, hovered, active);
+        case Tool::kShape:
+            return shape_tool(c, map, hovered, active);
+        case Tool::kScribble:
+            return scribble_tool(c, map, active);
+        case Tool::kSimilar:
+            return similar_tool(c, map, active);
+        case Tool::kPin:
+            return pin_tool(c, map, hovered, active);
+        case Tool::kLamp:
+            return lamp_tool(c, map, hovered);
     }
 }
 

@@ -111,7 +111,7 @@ void GlPictures::trim() {
     }
 }
 
-unsigned GlPictures::texture_of(const PicturePtr& picture, bool smooth) {
+unsigned GlPictures::texture_of(const PicturePtr& picture, bool smooth, bool shrunk) {
     if (!picture || picture->size.empty()) return 0;
     Texture& texture = pictures_[picture->id];
     texture.used = frame_;
@@ -130,13 +130,20 @@ unsigned GlPictures::texture_of(const PicturePtr& picture, bool smooth) {
                          picture->half.data());
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        glGenerateMipmap(GL_TEXTURE_2D);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        texture.bytes = picture->size_bytes() * 4 / 3;
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        texture.bytes = picture->size_bytes();
         bytes_ += texture.bytes;
     }
     glBindTexture(GL_TEXTURE_2D, texture.id);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+    // Smaller sizes only for those who look at them: a software renderer takes long to make them.
+    if (shrunk && !texture.has_smaller) {
+        glGenerateMipmap(GL_TEXTURE_2D);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        texture.has_smaller = true;
+        texture.bytes += picture->size_bytes() / 3;
+        bytes_ += picture->size_bytes() / 3;
+    }
     return texture.id;
 }
 
@@ -193,8 +200,13 @@ void GlPictures::draw(ImDrawList& list, const PictureDraw& draw) {
     Order& order = orders_.emplace_back();
     order.host = this;
     order.picture = draw;
-    order.a = texture_of(draw.a, draw.smooth);
-    order.b = texture_of(draw.b, draw.smooth);
+    const auto shrunk = [&](const PicturePtr& picture) {
+        constexpr float kVisibly = 0.75f;
+        const float shown = (draw.max.x - draw.min.x) * ImGui::GetIO().DisplayFramebufferScale.x;
+        return picture && shown < kVisibly * static_cast<float>(picture->size.width);
+    };
+    order.a = texture_of(draw.a, draw.smooth, shrunk(draw.a));
+    order.b = texture_of(draw.b, draw.smooth, shrunk(draw.b));
     if (!order.a) return;
     list.AddCallback(run, &order);
     list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);

@@ -39,9 +39,10 @@ class GlPictures final : public PictureHost {
         std::size_t bytes = 0;
         std::uint64_t used = 0;
         std::uint64_t version = 0;  // of a matte
+        bool has_smaller = false;
         Size size;
     };
-    [[nodiscard]] unsigned texture_of(const PicturePtr& picture, bool smooth);
+    [[nodiscard]] unsigned texture_of(const PicturePtr& picture, bool smooth, bool shrunk);
     [[nodiscard]] unsigned matte_texture(std::uint64_t key, const MatteDraw& draw, ViewU8x1 pixels);
     void trim();
     static void run(const ImDrawList* list, const ImDrawCmd* command);

@@ -12,6 +12,7 @@
 #include "app/editor/editor_app.h"
 #include "app/editor/run_modes.h"
 #include "app/editor/script.h"
+#include "app/session/background.h"
 #include "engine/media/frame_writer.h"
 
 namespace weft {
@@ -117,6 +118,7 @@ class Canvas {
 Expected<int> run_offscreen(const EditorOptions& options) {
     EglContext context;
     WEFT_CHECK_OK(context.open());
+    keep_thread_priority();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;

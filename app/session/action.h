@@ -10,6 +10,7 @@
 #include "app/project/edit.h"
 #include "app/session/paint.h"
 #include "app/session/preview.h"
+#include "app/session/roto_shape.h"
 
 namespace weft {
 
@@ -141,6 +142,20 @@ struct FeatherMatte {
 struct ClearMatte {
     bool operator==(const ClearMatte&) const = default;
 };
+/// Finds a surface from lines that lie surely inside and surely outside of it.
+struct ScribbleSelect {
+    std::vector<std::vector<Vec2>> keep, drop;
+    bool operator==(const ScribbleSelect&) const = default;
+};
+/// The matte of this frame is what lies inside the shape.
+struct SetShape {
+    RotoShape shape;
+    bool operator==(const SetShape&) const = default;
+};
+/// Gives all frames between two shapes a matte from the shape in between.
+struct FillBetweenShapes {
+    bool operator==(const FillBetweenShapes&) const = default;
+};
 /// Makes the matte shown on this frame a painted keyframe (a correction of a propagated one).
 struct KeyMatteHere {
     bool operator==(const KeyMatteHere&) const = default;
@@ -165,6 +180,18 @@ struct ApplyTexture {
     std::string path;
     RegionId region = 0;
     bool operator==(const ApplyTexture&) const = default;
+};
+/// What the strip of small results compares.
+enum class StripKind : std::uint8_t { kNone, kKeyframes, kTextures, kScale, kLight, kSeams };
+struct ShowStrip {
+    StripKind kind = StripKind::kNone;
+    std::vector<std::string> textures;  ///< Files, for kTextures.
+    bool operator==(const ShowStrip&) const = default;
+};
+/// Goes to the card's frame, or makes its setting the region's.
+struct ChooseFromStrip {
+    int card = 0;
+    bool operator==(const ChooseFromStrip&) const = default;
 };
 struct ShowOverlay {
     Overlay overlay = Overlay::kNone;
@@ -203,8 +230,9 @@ using Action =
     std::variant<DoEdit, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
                  OpenAny, Save, SaveAs, CloseProject, Recover, SelectRegion, SoloRegion, LockRegion,
                  GoToFrame, StepFrames, StepKeyframe, Play, MarkRange, BeginStroke, ContinueStroke,
-                 EndStroke, FillPolygon, FloodSelect, GrowMatte, FeatherMatte, ClearMatte,
-                 KeyMatteHere, CopyKeyframe, PaintInstead, PauseAnalysis, ApplyTexture, ShowOverlay,
-                 ShowStages, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+                 EndStroke, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes,
+                 ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
+                 CopyKeyframe, PaintInstead, PauseAnalysis, ApplyTexture, ShowOverlay, ShowStages,
+                 SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

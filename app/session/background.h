@@ -11,6 +11,10 @@ namespace weft {
 /// on.
 void lower_thread_priority();
 
+/// Without a window there is nothing to give way to: threads that start from now on keep their
+/// priority. For scripts and tests; before the first session.
+void keep_thread_priority();
+
 /// Runs `work` in a thread of its own at that lower priority.
 template <class F>
 [[nodiscard]] std::future<std::invoke_result_t<std::decay_t<F>>> in_background(F&& work) {

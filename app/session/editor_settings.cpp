@@ -53,6 +53,7 @@ EditorSettings load_editor_settings(const std::string& path) {
     take(json, "recent", out.recent);
     take(json, "favourites", out.favourites);
     take(json, "recent_textures", out.recent_textures);
+    take(json, "collections", out.collections);
     take(json, "texture_folders", out.texture_folders);
     take(json, "tour_seen", out.tour_seen);
     return out;
@@ -69,6 +70,7 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"recent", s.recent},
                     {"favourites", s.favourites},
                     {"recent_textures", s.recent_textures},
+                    {"collections", s.collections},
                     {"texture_folders", s.texture_folders},
                     {"tour_seen", s.tour_seen}};
     return write_file_atomically(path,

@@ -18,6 +18,7 @@ struct EditorSettings {
     std::vector<std::string> recent;          ///< Project files, the newest first.
     std::vector<std::string> favourites;      ///< Textures, by path.
     std::vector<std::string> recent_textures;
+    std::map<std::string, std::vector<std::string>> collections;  ///< Name → textures, by path.
     std::vector<std::string> texture_folders;
     bool tour_seen = false;
     bool operator==(const EditorSettings&) const = default;

@@ -148,6 +148,15 @@ void Session::act(const Action& action) {
                     },
                     a.subtract ? "Take away a colour" : "Select a colour");
             },
+            [&](const ScribbleSelect& a) { scribble(a); },
+            [&](const SetShape& a) { set_shape(a.shape); },
+            [&](const FillBetweenShapes&) { fill_between_shapes(); },
+            [&](const ShowStrip& a) {
+                strip_kind_ = a.kind;
+                strip_textures_ = a.textures;
+                strip_version_ = 0;
+            },
+            [&](const ChooseFromStrip& a) { choose_from_strip(a.card); },
             [&](const GrowMatte& a) {
                 change_matte([a](const Matte& m) { return grow_matte(m, a.px); },
                              a.px > 0 ? "Grow the matte" : "Shrink the matte");
@@ -275,19 +284,10 @@ void Session::want_frames() {
 
 // ---- the preview -----------------------------------------------------------------------------
 
-void Session::request_preview() {
-    if (!request_due_ || painting_) return;
-    if (!reader_) {
-        request_due_ = false;
-        return;
-    }
-    // It reads the painted mattes from the disk.
-    if (shelf_.writing()) return;
-    PreviewRequest request;
-    request.project = resolved();
-    request.project.settings.quality = preview_quality_;
-    bool any = false;
-    for (Leaf<Region>& region : request.project.regions) {
+Project Session::project_to_preview(bool& any) const {
+    Project project = resolved();
+    project.settings.quality = preview_quality_;
+    for (Leaf<Region>& region : project.regions) {
         const bool hidden = !region->enabled || (solo_ != 0 && solo_ != region->id);
         const bool unready = region->matte->empty() ||
                              (region->texture.sample.empty() && region->texture.plane.empty());
@@ -297,6 +297,20 @@ void Session::request_preview() {
             any = true;
         }
     }
+    return project;
+}
+
+void Session::request_preview() {
+    if (!request_due_ || painting_) return;
+    if (!reader_) {
+        request_due_ = false;
+        return;
+    }
+    // It reads the painted mattes from the disk.
+    if (shelf_.writing()) return;
+    PreviewRequest request;
+    bool any = false;
+    request.project = project_to_preview(any);
     if (!any) {
         request_due_ = false;
         preview_.clear();
@@ -408,7 +422,7 @@ bool Session::busy() const {
 
 std::uint64_t Session::news() const {
     return shelf_.arrivals() + preview_.news() + jobs_.changes() +
-           (player_ ? player_->arrivals() : 0);
+           (player_ ? player_->arrivals() : 0) + (strip_ ? strip_->news() : 0);
 }
 
 void Session::update(double now_s) {
@@ -442,6 +456,9 @@ void Session::update(double now_s) {
     show_mattes();
     part("preview");
     show_result();
+    part("strip");
+    show_shape();
+    show_strip();
     part("marks");
     show_marks();
     part("jobs");

@@ -14,6 +14,7 @@
 #include "app/session/editor_settings.h"
 #include "app/session/frame_clock.h"
 #include "app/session/plate_player.h"
+#include "app/session/preview_strip.h"
 #include "app/session/recovery.h"
 #include "app/session/session_view.h"
 
@@ -96,15 +97,31 @@ class Session {
     [[nodiscard]] std::optional<Matte> matte_to_paint_on();
     void begin_stroke(const BeginStroke& action);
     void end_stroke();
-    void keep_matte(Matte matte, RegionId region, int frame, const std::string& label);
+    void keep_matte(Matte matte, RegionId region, int frame, const std::string& label,
+                    const Extras& extra = {});
     void change_matte(std::function<Matte(const Matte&)> change, std::string label);
     void take_changed_matte();
     void paint_instead();
+    [[nodiscard]] std::string beside_project(const std::string& path) const;
+
+    // ---- found and drawn mattes (session_shapes.cpp) ----
+    void scribble(const ScribbleSelect& action);
+    void set_shape(const RotoShape& shape);
+    void fill_between_shapes();
+    void show_shape();
+
+    // ---- the strip (session_strip.cpp) ----
+    void show_strip();
+    [[nodiscard]] std::vector<int> strip_frames() const;
+    [[nodiscard]] std::vector<PreviewStrip::Wish> strip_wishes(const Region* region);
+    void choose_from_strip(int card);
     void copy_keyframe(int from, int to);
     [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
 
     // ---- preview, jobs ----
     void request_preview();
+    /// The document with what can be shown enabled, at the preview's quality.
+    [[nodiscard]] Project project_to_preview(bool& any) const;
     void apply_texture(const std::string& path, RegionId region);
     void fetch_texture(const std::string& path, RegionId region);
     void take_texture();
@@ -185,6 +202,7 @@ class Session {
         RegionId region = 0;
         int frame = 0;
         std::string label;
+        Extras extra;  // of the keyframe that it becomes
     };
     std::optional<Changing> changing_;
     int matte_serial_ = 0;
@@ -195,6 +213,12 @@ class Session {
     std::optional<Fetching> fetching_;  // a texture out of the library
 
     int read_frame_ = 0;
+    StripKind strip_kind_ = StripKind::kNone;
+    std::vector<std::string> strip_textures_;
+    std::unique_ptr<PreviewStrip> strip_;
+    std::uint64_t strip_version_ = 0;  // of the document that its cards were asked for
+    int strip_frame_ = 0;
+    std::vector<std::function<void()>> strip_choices_;
     bool stages_ = false;
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;

@@ -164,12 +164,20 @@ std::string Session::new_matte_path(RegionId region, int frame) {
     }
 }
 
-void Session::keep_matte(Matte matte, RegionId region, int frame, const std::string& label) {
+std::string Session::beside_project(const std::string& path) const {
+    return path_.empty() ? path : fs::path(path).lexically_relative(project_dir(path_)).string();
+}
+
+void Session::keep_matte(Matte matte, RegionId region, int frame, const std::string& label,
+                         const Extras& extra) {
+    const Region* target = region_by_id(document(), region);
+    if (!target) return;
     const std::string path = new_matte_path(region, frame);
     shelf_.write(path, std::make_shared<const Matte>(std::move(matte)));
-    std::string written = path;
-    if (!path_.empty()) written = fs::path(path).lexically_relative(project_dir(path_)).string();
-    auto changed = apply_edit(history_.current(), SetMatteKeyframe{{region, {}}, frame, written});
+    // What an older keyframe here was made of does not describe the new one.
+    MatteSource source = *target->matte;
+    source.keyframes[frame] = {beside_project(path), extra};
+    auto changed = apply_edit(history_.current(), SetMatte{{region, {}}, source});
     if (!changed) {
         notify(NoticeKind::kError, changed.error().text());
         return;
@@ -199,7 +207,7 @@ void Session::take_changed_matte() {
     const Region* region = region_by_id(document(), done.region);
     if (!region) return;
     keep_matte(done.matte.get(), done.region, done.frame,
-               done.label + " on frame " + std::to_string(done.frame));
+               done.label + " on frame " + std::to_string(done.frame), done.extra);
 }
 
 void Session::paint_instead() {
@@ -213,8 +221,7 @@ void Session::paint_instead() {
     const std::string path = new_matte_path(region->id, frame_);
     shelf_.write(path, shown.keep);
     MatteSource painted;
-    painted.keyframes[frame_] = {
-        path_.empty() ? path : fs::path(path).lexically_relative(project_dir(path_)).string(), {}};
+    painted.keyframes[frame_] = {beside_project(path), {}};
     edit(SetMatte{{region->id, {}}, painted}, true);
     notify(NoticeKind::kInfo, "The matte of '" + region->name + "' is painted now: frame " +
                                   std::to_string(frame_) +

@@ -10,10 +10,13 @@
 
 #include "app/project/project.h"
 #include "app/project/validate.h"
+#include "app/session/action.h"
 #include "app/session/child_jobs.h"
 #include "app/session/matte_shelf.h"
 #include "app/session/picture.h"
 #include "app/session/preview.h"
+#include "app/session/preview_strip.h"
+#include "app/session/roto_shape.h"
 
 namespace weft {
 
@@ -75,6 +78,11 @@ struct QualityReport {
         rows;  ///< Flicker: mean change of a surface point to the next frame, in codes.
 };
 
+struct StripView {
+    StripKind kind = StripKind::kNone;
+    std::vector<StripCard> cards;
+};
+
 struct SessionView {
     double now_s = 0;
     bool open = false;  ///< There is a document.
@@ -93,6 +101,9 @@ struct SessionView {
     std::vector<RegionId> locked;
     std::vector<RegionMatteView> mattes;  ///< Of all regions, bottom up.
     bool painting = false, matte_busy = false;
+    std::optional<RotoShape> shape;  ///< Of the selected region here, or the last one before.
+    std::vector<int> shape_frames;   ///< Frames on which it was drawn.
+    StripView strip;
 
     PicturePtr plate_picture, result_picture;
     bool result_current = false;  ///< result_picture is of this frame and these settings.

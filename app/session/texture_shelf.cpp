@@ -274,6 +274,44 @@ void TextureShelf::search_library(const std::string& words) {
     ++arrivals_;
 }
 
+void TextureShelf::find_similar(const std::string& key, PicturePtr picture, Recti part) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (key == similar_key_) return;
+        similar_due_ = key;
+        similar_picture_ = std::move(picture);
+        similar_part_ = part;
+    }
+    wake_.notify_all();
+}
+
+std::shared_ptr<const std::vector<std::string>> TextureShelf::similar(
+    const std::string& key) const {
+    const std::lock_guard lock(mutex_);
+    return key == similar_key_ ? similar_result_ : nullptr;
+}
+
+void TextureShelf::look_for_similar(const std::string& key, const Picture& picture,
+                                    const Recti& part) {
+    auto paths = std::make_shared<std::vector<std::string>>();
+    std::shared_ptr<TextureLibrary> library;
+    {
+        const std::lock_guard lock(mutex_);
+        library = library_;
+    }
+    if (library) {
+        const ImageU8x3 whole = shrink(picture, 1 << 20);
+        constexpr int kCount = 120;
+        if (const auto found = library->similar(whole.view().crop(part), kCount))
+            for (const SearchHit& hit : *found)
+                paths->push_back("db:" + hit.id);
+    }
+    const std::lock_guard lock(mutex_);
+    similar_key_ = key;
+    similar_result_ = std::move(paths);
+    ++arrivals_;
+}
+
 void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
                              const std::string& excluded_licences) {
     RecommendRequest request;
@@ -407,7 +445,7 @@ void TextureShelf::work() {
     for (;;) {
         wake_.wait(lock, [&] {
             return stop_ || scan_due_ || library_due_ || !wishes_.empty() || !rank_due_.empty() ||
-                   !search_due_.empty() || !details_due_.empty();
+                   !search_due_.empty() || !details_due_.empty() || !similar_due_.empty();
         });
         if (stop_) return;
         if (scan_due_) {
@@ -425,6 +463,13 @@ void TextureShelf::work() {
             const std::string words = std::exchange(search_due_, {});
             lock.unlock();
             search_library(words);
+            lock.lock();
+        } else if (!similar_due_.empty()) {
+            const std::string key = std::exchange(similar_due_, {});
+            const PicturePtr picture = std::exchange(similar_picture_, nullptr);
+            const Recti part = similar_part_;
+            lock.unlock();
+            if (picture) look_for_similar(key, *picture, part);
             lock.lock();
         } else if (!details_due_.empty()) {
             const std::string path = std::exchange(details_due_, {});

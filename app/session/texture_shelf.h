@@ -52,6 +52,11 @@ class TextureShelf {
     /// Paths in the order of how well they answer the words; null while it is worked out, or
     /// without a library.
     [[nodiscard]] std::shared_ptr<const std::vector<std::string>> search(const std::string& words);
+    /// Looks for textures like this part of a picture, in the background. `key` stands for it.
+    void find_similar(const std::string& key, PicturePtr picture, Recti part);
+    /// What was found, the nearest first; null while it is worked out, or without a library.
+    [[nodiscard]] std::shared_ptr<const std::vector<std::string>> similar(
+        const std::string& key) const;
     [[nodiscard]] std::shared_ptr<const std::vector<TextureCard>> cards() const;
     /// Null while it is being made: asked for again every frame by what is visible. The newest wish
     /// comes first.
@@ -78,6 +83,7 @@ class TextureShelf {
     void take_library();
     void look_up(const std::string& path);
     void search_library(const std::string& words);
+    void look_for_similar(const std::string& key, const Picture& picture, const Recti& part);
     void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
                    const std::string& excluded_licences);
     void publish();
@@ -114,6 +120,10 @@ class TextureShelf {
     std::string activity_, search_due_, searched_;
     bool library_due_ = false;
     std::shared_ptr<const std::vector<std::string>> search_result_;
+    std::string similar_due_, similar_key_;
+    PicturePtr similar_picture_;
+    Recti similar_part_;
+    std::shared_ptr<const std::vector<std::string>> similar_result_;
     std::map<std::string, TextureCard> details_;
     std::string details_due_;
     std::vector<TextureCard> folder_cards_, library_cards_;  // of the working thread alone

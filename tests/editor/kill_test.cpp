@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 TEST(Kill, EveryFinishedStrokeSurvives) {
     std::mt19937 random(std::random_device{}());
-    constexpr int kRounds = 6;
+    constexpr int kRounds = WEFT_KILL_ROUNDS;
     int survived = 0;
     for (int round = 0; round < kRounds; ++round) {
         const Sandbox sandbox;

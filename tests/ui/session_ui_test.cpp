@@ -1,4 +1,5 @@
 // The whole way from the hand to the document, without a window.
+#include <algorithm>
 #include <fstream>
 #include <thread>
 
@@ -173,6 +174,96 @@ TEST_F(EditorSession, AFailedJobSaysWhy) {
         return !session->view().jobs.empty() && session->view().jobs[0].state == JobState::kFailed;
     }));
     EXPECT_FALSE(session->view().jobs[0].error.empty());
+}
+
+TEST_F(EditorSession, ShapesAreKeyedAndFilledInBetween) {
+    open();
+    robot->key("Ctrl+Shift+N");
+    robot->frames(2);
+    const auto square = [](float x) {
+        RotoShape shape;
+        for (const Vec2 at : {Vec2{x, 20}, Vec2{x + 20, 20}, Vec2{x + 20, 40}, Vec2{x, 40}})
+            shape.points.push_back({at, {0, 0}, {0, 0}, 0});
+        return shape;
+    };
+    const auto set = [&](int frame, float x) {
+        session->act(GoToFrame{frame});
+        robot->frames(2);
+        session->act(SetShape{square(x)});
+        return wait([&] { return matte().keyframes.contains(frame); });
+    };
+    ASSERT_TRUE(set(1, 10));
+    ASSERT_TRUE(set(3, 50));
+    robot->frames(2);
+    EXPECT_EQ(session->view().shape_frames, (std::vector<int>{1, 3}));
+    ASSERT_TRUE(session->view().shape);
+    EXPECT_EQ(session->view().shape->points[0].at.x, 50);
+    session->act(FillBetweenShapes{});
+    ASSERT_TRUE(wait([&] { return matte().keyframes.contains(2); }));
+    const auto between = read_matte(matte().keyframes.at(2).path, {}, {96, 64});
+    ASSERT_TRUE(between) << between.error().text();
+    EXPECT_EQ(between->at(40, 30), 255);  // 30 to 50
+    EXPECT_EQ(between->at(15, 30), 0);
+    EXPECT_EQ(between->at(65, 30), 0);
+    // What was filled is no shape of its own, and one undo takes all of it back.
+    EXPECT_EQ(session->view().shape_frames.size(), 2u);
+    robot->key("Ctrl+Z");
+    robot->frames(2);
+    EXPECT_FALSE(matte().keyframes.contains(2));
+    EXPECT_TRUE(matte().keyframes.contains(3));
+    // Painting over a shape makes it an ordinary matte.
+    robot->key("B");
+    robot->stroke({at(30, 30), at(40, 32)});
+    robot->frames(3);
+    EXPECT_EQ(session->view().shape_frames, (std::vector<int>{1}));
+}
+
+TEST_F(EditorSession, ScribblesAreOneStepOfTheHistory) {
+    open();
+    robot->key("Ctrl+Shift+N");
+    robot->frames(2);
+    session->act(ScribbleSelect{{{{32, 24}, {56, 40}}}, {{{4, 4}, {90, 6}}, {{4, 60}, {90, 60}}}});
+    ASSERT_TRUE(wait([&] { return matte().keyframes.contains(1); }));
+    session->flush();
+    const auto found = read_matte(matte().keyframes.at(1).path, {}, {96, 64});
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_GT(found->at(44, 32), 127);  // on the card
+    EXPECT_LT(found->at(8, 8), 127);
+    robot->key("Ctrl+Z");
+    robot->frames(2);
+    EXPECT_TRUE(matte().keyframes.empty());
+}
+
+TEST_F(EditorSession, TheStripShowsVariantsAndOneIsChosen) {
+    open();
+    paint();
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    ASSERT_TRUE(wait([&] { return session->view().result_current; }))
+        << session->view().preview.error;
+    set_workspace(shell->state(), Workspace::kLight);
+    shell->state().strip = StripKind::kLight;
+    ASSERT_TRUE(wait([&] {
+        const auto& cards = session->view().strip.cards;
+        return cards.size() == 4 && std::all_of(cards.begin(), cards.end(), [](const StripCard& c) {
+                   return c.picture != nullptr;
+               });
+    })) <<
+        [&] {
+            std::string text;
+            for (const StripCard& c : session->view().strip.cards)
+                text += c.label + (c.picture ? " made; " : " waits " + c.error + "; ");
+            return text + (session->view().result_current ? "current" : "not current") +
+                   (session->view().preview.analysing ? ", analysing" : "");
+        }();
+    session->act(ChooseFromStrip{1});
+    robot->frames(2);
+    EXPECT_DOUBLE_EQ(project().regions.back()->light.strength, 0.35);
+    robot->key("Ctrl+Z");
+    robot->frames(2);
+    EXPECT_DOUBLE_EQ(project().regions.back()->light.strength, 1);
+    set_workspace(shell->state(), Workspace::kMask);
+    robot->frames(3);
+    EXPECT_TRUE(session->view().strip.cards.empty());
 }
 
 }  // namespace

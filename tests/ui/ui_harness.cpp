@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "app/session/background.h"
 #include "engine/media/frame_writer.h"
 #include "ui/view_map.h"
 
@@ -176,6 +177,7 @@ SessionView huge_view() {
 // ---- the real session ------------------------------------------------------------------------
 
 void SessionTest::SetUp() {
+    keep_thread_priority();
     std::string name = (fs::temp_directory_path() / "weft_ui_XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder = name;

@@ -1,0 +1,141 @@
+// Mattes that are found or drawn rather than painted: scribbles, and shapes of curves.
+#include <filesystem>
+
+#include "app/project/project_file.h"
+#include "app/session/background.h"
+#include "app/session/session.h"
+#include "engine/media/frame_writer.h"
+
+namespace weft {
+namespace {
+
+constexpr const char* kShapeKey = "shape";
+constexpr const char* kBetweenKey = "shape_between";
+
+std::optional<RotoShape> shape_of(const MatteKeyframe& key) {
+    const auto found = key.extra.find(kShapeKey);
+    return found == key.extra.end() ? std::nullopt : parse_shape(found->second);
+}
+
+bool is_between(const MatteKeyframe& key) {
+    return key.extra.contains(kBetweenKey);
+}
+
+Matte drawn(const std::vector<std::vector<Vec2>>& lines, Size size) {
+    Matte out(size);
+    Brush pen;
+    pen.radius_px = 3;
+    pen.hardness = 1;
+    for (const auto& line : lines) {
+        Stroke stroke(out, pen);
+        for (const Vec2 point : line)
+            (void)stroke.move_to(point, 1, out);
+    }
+    return out;
+}
+
+}  // namespace
+
+void Session::scribble(const ScribbleSelect& action) {
+    const PicturePtr picture = view_.plate_picture;
+    if (!picture || action.keep.empty()) return;
+    change_matte(
+        [action, picture](const Matte& before) {
+            return segment_scribbles(before, shrink(*picture, 1 << 20),
+                                     drawn(action.keep, before.size()),
+                                     drawn(action.drop, before.size()));
+        },
+        "Scribble");
+}
+
+void Session::set_shape(const RotoShape& shape) {
+    constexpr std::size_t kLeast = 3;
+    if (shape.points.size() < kLeast) return;
+    end_stroke();
+    if (!open_ || !may_paint()) return;
+    changing_.emplace();
+    changing_->region = selected_;
+    changing_->frame = frame_;
+    changing_->label = "Shape";
+    changing_->extra[kShapeKey] = shape_text(shape);
+    changing_->matte =
+        in_background([shape, size = reader_->size()] { return matte_of_shape(shape, size); });
+}
+
+// A matte for every frame between two shapes, each made from the shape in between.
+void Session::fill_between_shapes() {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region || !reader_ || !may_paint()) return;
+    std::map<int, RotoShape> keys;
+    for (const auto& [frame, key] : region->matte->keyframes)
+        if (auto shape = shape_of(key); shape && !is_between(key)) keys[frame] = std::move(*shape);
+    struct Made {
+        int frame = 0;
+        RotoShape shape;
+        std::string path;
+    };
+    std::vector<Made> list;
+    for (auto a = keys.begin(), b = a; a != keys.end() && (b = std::next(a)) != keys.end(); ++a) {
+        if (a->second.points.size() != b->second.points.size()) {
+            notify(NoticeKind::kWarning, "The shapes of frames " + std::to_string(a->first) +
+                                             " and " + std::to_string(b->first) +
+                                             " have different numbers of points. Move points "
+                                             "instead of adding them, then fill again.");
+            return;
+        }
+        for (const int frame : reader_->frames()) {
+            if (frame <= a->first || frame >= b->first) continue;
+            const float t =
+                static_cast<float>(frame - a->first) / static_cast<float>(b->first - a->first);
+            list.push_back(
+                {frame, between(a->second, b->second, t), new_matte_path(region->id, frame)});
+        }
+    }
+    if (list.empty()) {
+        notify(NoticeKind::kWarning,
+               "Draw the shape on two frames first; the frames between them are filled.");
+        return;
+    }
+    chores_.push_back(in_background([this, list = std::move(list), size = reader_->size(),
+                                     id = region->id]() -> Finish {
+        Status written;
+        for (const Made& one : list) {
+            std::error_code error;
+            std::filesystem::create_directories(std::filesystem::path(one.path).parent_path(),
+                                                error);
+            if (written) written = write_matte(one.path, matte_of_shape(one.shape, size));
+        }
+        return [this, list, id, written] {
+            if (!written) return notify(NoticeKind::kError, written.error().text());
+            const Region* now = region_by_id(document(), id);
+            if (!now) return;
+            MatteSource matte = *now->matte;
+            std::erase_if(matte.keyframes, [](const auto& key) { return is_between(key.second); });
+            for (const Made& one : list)
+                matte.keyframes[one.frame] = {
+                    beside_project(one.path),
+                    {{kShapeKey, shape_text(one.shape)}, {kBetweenKey, "true"}}};
+            auto changed = apply_edit(history_.current(), SetMatte{{id, {}}, matte});
+            if (!changed) return notify(NoticeKind::kError, changed.error().text());
+            commit(std::move(*changed), "Fill between the shapes of " + now->name);
+        };
+    }));
+}
+
+void Session::show_shape() {
+    view_.shape.reset();
+    view_.shape_frames.clear();
+    const Region* region = region_by_id(document(), selected_);
+    if (!region) return;
+    for (const auto& [frame, key] : region->matte->keyframes) {
+        if (!key.extra.contains(kShapeKey)) continue;
+        if (!is_between(key)) view_.shape_frames.push_back(frame);
+        if (frame == frame_) view_.shape = shape_of(key);
+    }
+    // A shape of the frame before is where one begins on this one.
+    if (view_.shape || region->matte->keyframes.contains(frame_)) return;
+    for (const int frame : view_.shape_frames)
+        if (frame < frame_) view_.shape = shape_of(region->matte->keyframes.at(frame));
+}
+
+}  // namespace weft

@@ -1,0 +1,136 @@
+// The strip of small results, and what choosing one of them does.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/project/project_file.h"
+#include "app/session/preview_strip.h"
+#include "app/session/session.h"
+
+namespace weft {
+namespace {
+
+struct Variant {
+    std::string label;
+    std::string key;
+    ParameterValue value;
+};
+
+std::vector<Variant> variants_of(StripKind kind, const Region& region) {
+    std::vector<Variant> out;
+    const auto number = [&](const char* key, double value, const char* format) {
+        char text[48];
+        std::snprintf(text, sizeof text, format, value);
+        out.push_back({text, key, value});
+    };
+    switch (kind) {
+        case StripKind::kScale:
+            for (const double factor : {0.5, 0.71, 1.0, 1.41, 2.0})
+                number("placement.scale", region.placement.scale * factor, "Scale %.2f");
+            break;
+        case StripKind::kLight:
+            for (const double strength : {0.0, 0.35, 0.7, 1.0})
+                number("light.strength", strength, "Light %.2f");
+            break;
+        case StripKind::kSeams:
+            out.push_back({"Best cut", "synthesis.seam", std::string("graphcut")});
+            out.push_back({"Quick cut", "synthesis.seam", std::string("dp")});
+            out.push_back({"No cut", "synthesis.seam", std::string("none")});
+            break;
+        case StripKind::kNone:
+        case StripKind::kKeyframes:
+        case StripKind::kTextures:
+            break;
+    }
+    return out;
+}
+
+}  // namespace
+
+// Frames 1, 10, 20 and 40 of the shot, as far as it goes, or evenly over the marked range.
+std::vector<int> Session::strip_frames() const {
+    const auto& frames = reader_->frames();
+    const auto [first, last] = played_range();
+    std::vector<int> out;
+    constexpr int kCount = 4;
+    for (int k = 0; k < kCount; ++k) {
+        static constexpr int kUsual[] = {0, 9, 19, 39};
+        const int index = mark_in_ || mark_out_ ? first + (last - first) * k / (kCount - 1)
+                                                : std::min(first + kUsual[k], last);
+        const int frame = frames[static_cast<std::size_t>(index)];
+        if (out.empty() || out.back() != frame) out.push_back(frame);
+    }
+    return out;
+}
+
+void Session::show_strip() {
+    StripView& shown = view_.strip;
+    shown.kind = strip_kind_;
+    const Region* region = region_by_id(document(), selected_);
+    const bool possible =
+        reader_ && view_.result_wanted && (region || strip_kind_ == StripKind::kKeyframes);
+    if (strip_kind_ == StripKind::kNone || !possible || tried_ || painting_) {
+        if (strip_ && strip_kind_ == StripKind::kNone) strip_->want({});
+        if (!possible || strip_kind_ == StripKind::kNone) shown.cards.clear();
+        strip_version_ = 0;
+        return;
+    }
+    if (!strip_) strip_ = std::make_unique<PreviewStrip>(options_.cache);
+    const bool of_frame = strip_kind_ != StripKind::kKeyframes;
+    if (strip_version_ != document_version_ || (of_frame && strip_frame_ != frame_)) {
+        strip_version_ = document_version_;
+        strip_frame_ = frame_;
+        strip_->want(strip_wishes(region));
+    }
+    const bool idle = view_.result_current && !view_.stages.approximate && !view_.preview.analysing;
+    strip_->update(idle);
+    shown.cards = strip_->cards();
+}
+
+std::vector<PreviewStrip::Wish> Session::strip_wishes(const Region* region) {
+    std::vector<PreviewStrip::Wish> wishes;
+    strip_choices_.clear();
+    bool any = false;
+    const Project base = project_to_preview(any);
+    if (strip_kind_ == StripKind::kKeyframes) {
+        for (const int frame : strip_frames()) {
+            wishes.push_back({"Frame " + std::to_string(frame), base, frame});
+            strip_choices_.push_back([this, frame] { act(GoToFrame{frame}); });
+        }
+        return wishes;
+    }
+    const auto with = [&](const Edit& edit, std::string label, std::function<void()> choice) {
+        if (auto changed = apply_edit(base, edit)) {
+            wishes.push_back({std::move(label), std::move(*changed), frame_});
+            strip_choices_.push_back(std::move(choice));
+        }
+    };
+    const RegionRef ref{region->id, {}};
+    if (strip_kind_ == StripKind::kTextures) {
+        wishes.push_back({"As it is", base, frame_});
+        strip_choices_.push_back([] {});
+        for (const std::string& path : strip_textures_) {
+            TextureSource texture = region->texture;
+            texture.sample = resolve_path(project_dir(path_), path);
+            texture.plane.clear();
+            with(SetTexture{ref, texture}, std::filesystem::path(path).stem().string(),
+                 [this, path] {
+                     act(ApplyTexture{path, 0});
+                 });
+        }
+    }
+    for (const Variant& variant : variants_of(strip_kind_, *region))
+        with(SetRegionParameter{ref, variant.key, variant.value}, variant.label,
+             [this, id = region->id, variant] {
+                 edit(SetRegionParameter{{id, {}}, variant.key, variant.value}, true);
+             });
+    return wishes;
+}
+
+void Session::choose_from_strip(int card) {
+    if (card < 0 || card >= static_cast<int>(strip_choices_.size())) return;
+    const auto choice = strip_choices_[static_cast<std::size_t>(card)];
+    choice();
+}
+
+}  // namespace weft

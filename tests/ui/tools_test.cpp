@@ -1,0 +1,276 @@
+// The tools on the canvas, and the panels that belong to them: what they emit.
+#include "app/session/lamp_edit.h"
+#include "tests/ui/ui_harness.h"
+#include "ui/view_map.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class Tools : public PanelTest {
+  protected:
+    ImVec2 on(float x, float y) const {
+        const DrawnItem* canvas = robot->find("Viewer/Canvas");
+        if (!canvas) return {0, 0};
+        const ViewerState& s = shell->state().viewer;
+        return ViewMap{canvas->min, canvas->max, s.center, s.zoom}.to_screen({x, y});
+    }
+    void go(const char* workspace, Tool tool) {
+        robot->frames(2);
+        ASSERT_TRUE(robot->click(std::string("Top/") + workspace));
+        shell->state().tool = tool;
+        robot->frames(2);
+        clear();
+    }
+    template <class T>
+    std::vector<T> edits() const {
+        std::vector<T> out;
+        for (const DoEdit& one : emitted<DoEdit>())
+            if (const T* edit = std::get_if<T>(&one.edit)) out.push_back(*edit);
+        return out;
+    }
+    void change(std::function<void(Region&)> what) {
+        view.project.regions[0] = view.project.regions[0].with(what);
+    }
+    void click_at(ImVec2 at) {
+        robot->move(at);
+        robot->press();
+        robot->release();
+        robot->frames();
+    }
+};
+
+TEST_F(Tools, ADragPinsThePlaceWhereItBelongs) {
+    go("Motion", Tool::kPin);
+    robot->stroke({on(100, 80), on(110, 90), on(120, 95)});
+    EXPECT_FALSE(emitted<TryEdit>().empty());
+    const auto set = edits<SetCorrection>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_EQ(set[0].frame, 1003);
+    ASSERT_THAT(set[0].pins, SizeIs(1));
+    EXPECT_NEAR(set[0].pins[0].from.x, 100, 0.6);
+    EXPECT_NEAR(set[0].pins[0].to.x, 120, 0.6);
+    EXPECT_NEAR(set[0].pins[0].to.y, 95, 0.6);
+}
+
+TEST_F(Tools, APinIsMovedAndAltRemovesIt) {
+    change([](Region& r) { r.corrections[1003] = {{{100, 80}, {120, 95}}, {{40, 40}, {40, 40}}}; });
+    go("Motion", Tool::kPin);
+    robot->stroke({on(120, 95), on(130, 95)});
+    auto set = edits<SetCorrection>();
+    ASSERT_THAT(set, SizeIs(1));
+    ASSERT_THAT(set[0].pins, SizeIs(2));
+    EXPECT_NEAR(set[0].pins[0].to.x, 130, 0.6);
+    EXPECT_EQ(set[0].pins[0].from.x, 100);
+    clear();
+    robot->hold("Alt", true);
+    click_at(on(40, 40));
+    robot->hold("Alt", false);
+    set = edits<SetCorrection>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_THAT(set[0].pins, SizeIs(1));
+}
+
+TEST_F(Tools, TheListOfCorrectionsRemovesAFrame) {
+    change([](Region& r) { r.corrections[1006] = {{{100, 80}, {120, 95}}}; });
+    go("Motion", Tool::kPan);
+    ASSERT_TRUE(robot->click("Unpin 1006"));
+    const auto set = edits<SetCorrection>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_EQ(set[0].frame, 1006);
+    EXPECT_THAT(set[0].pins, IsEmpty());
+}
+
+TEST_F(Tools, ScribblesSayWhatIsInsideAndOutside) {
+    go("Mask", Tool::kScribble);
+    robot->stroke({on(50, 50), on(80, 60)});
+    ASSERT_THAT(emitted<ScribbleSelect>(), SizeIs(1));
+    EXPECT_THAT(emitted<ScribbleSelect>()[0].keep, SizeIs(1));
+    clear();
+    robot->hold("Alt", true);
+    robot->stroke({on(150, 50), on(180, 60)});
+    robot->hold("Alt", false);
+    ASSERT_THAT(emitted<ScribbleSelect>(), SizeIs(1));
+    EXPECT_THAT(emitted<ScribbleSelect>()[0].keep, SizeIs(1));
+    EXPECT_THAT(emitted<ScribbleSelect>()[0].drop, SizeIs(1));
+}
+
+TEST_F(Tools, AShapeIsDrawnByClicksAndClosedByEnter) {
+    go("Mask", Tool::kShape);
+    click_at(on(50, 50));
+    click_at(on(120, 50));
+    robot->stroke({on(120, 120), on(100, 130)});  // a drag makes a curve
+    robot->key("Enter");
+    const auto set = emitted<SetShape>();
+    ASSERT_THAT(set, SizeIs(1));
+    ASSERT_THAT(set[0].shape.points, SizeIs(3));
+    EXPECT_NEAR(set[0].shape.points[1].at.x, 120, 0.6);
+    EXPECT_EQ(set[0].shape.points[0].out, Vec2(0, 0));
+    EXPECT_NEAR(set[0].shape.points[2].out.x, -20, 0.6);
+    EXPECT_NEAR(set[0].shape.points[2].in.x, 20, 0.6);
+}
+
+TEST_F(Tools, APointOfAShapeIsDragged) {
+    RotoShape shape;
+    for (const Vec2 at : {Vec2{50, 50}, Vec2{150, 50}, Vec2{100, 120}})
+        shape.points.push_back({at, {0, 0}, {0, 0}, 0});
+    view.shape = shape;
+    go("Mask", Tool::kShape);
+    robot->stroke({on(150, 50), on(160, 55), on(170, 60)});
+    auto set = emitted<SetShape>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_NEAR(set[0].shape.points[1].at.x, 170, 0.6);
+    EXPECT_EQ(set[0].shape.points[0].at.x, 50);
+    clear();
+    robot->hold("Shift", true);
+    robot->stroke({on(50, 50), on(60, 50)});
+    robot->hold("Shift", false);
+    set = emitted<SetShape>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_NEAR(set[0].shape.points[2].at.x, 110, 0.6);
+}
+
+TEST_F(Tools, ALampIsDraggedOnThePicture) {
+    change([](Region& r) {
+        r.light.source = LightSource::kPainted;
+        r.light.lamps = "point 100,80 40 1.5";
+    });
+    go("Seams & Light", Tool::kLamp);
+    robot->stroke({on(100, 80), on(130, 90)});
+    const auto set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    const auto lamps = lamps_at(std::get<std::string>(set[0].value), 1003);
+    ASSERT_THAT(lamps, SizeIs(1));
+    EXPECT_NEAR(lamps[0].numbers[0], 130, 0.6);
+    EXPECT_FLOAT_EQ(lamps[0].numbers[2], 40);
+}
+
+TEST_F(Tools, ALampIsAddedAndTakenAway) {
+    change([](Region& r) { r.light.source = LightSource::kPainted; });
+    go("Seams & Light", Tool::kPan);
+    ASSERT_TRUE(robot->click("+ Lamp"));
+    auto set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    const std::string text = std::get<std::string>(set[0].value);
+    EXPECT_THAT(lamps_at(text, 1003), SizeIs(1));
+    change([&](Region& r) { r.light.lamps = text; });
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->click("Remove"));
+    set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_EQ(std::get<std::string>(set[0].value), "");
+}
+
+TEST_F(Tools, ARectangleAsksForSimilarTextures) {
+    go("Texture", Tool::kSimilar);
+    robot->stroke({on(100, 60), on(180, 120)});
+    EXPECT_FALSE(shell->state().drawer.similar_key.empty());
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("All textures again"));
+    EXPECT_TRUE(shell->state().drawer.similar_key.empty());
+    robot->stroke({on(100, 60), on(102, 62)});  // too small to mean anything
+    EXPECT_TRUE(shell->state().drawer.similar_key.empty());
+}
+
+TEST_F(Tools, ACollectionIsMadeAndDeleted) {
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("New collection"));
+    robot->type("Shot 12");
+    robot->key("Enter");
+    ASSERT_TRUE(settings.collections.contains("Shot 12"));
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Materials/Shot 12"));
+    robot->frames(2);
+    EXPECT_EQ(shell->state().drawer.collection, "Shot 12");
+    ASSERT_TRUE(robot->click("Delete Shot 12"));
+    EXPECT_TRUE(settings.collections.empty());
+    EXPECT_EQ(shell->state().drawer.collection, "");
+}
+
+TEST_F(Tools, TheStripFollowsTheWorkspace) {
+    go("Seams & Light", Tool::kPan);
+    robot->frames();
+    ASSERT_FALSE(emitted<ShowStrip>().empty());
+    EXPECT_EQ(emitted<ShowStrip>().back().kind, StripKind::kKeyframes);
+    view.strip.kind = StripKind::kScale;
+    view.strip.cards = {{"Scale 0.50", 1003, nullptr, ""}, {"Scale 1.00", 1003, nullptr, "No"}};
+    ASSERT_TRUE(robot->click("Strip/Scale"));
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->click("Scale 1.00"));
+    ASSERT_THAT(emitted<ChooseFromStrip>(), SizeIs(1));
+    EXPECT_EQ(emitted<ChooseFromStrip>()[0].card, 1);
+    clear();
+    ASSERT_TRUE(robot->click("Top/Mask"));
+    robot->frames(2);
+    ASSERT_FALSE(emitted<ShowStrip>().empty());
+    EXPECT_EQ(emitted<ShowStrip>().back().kind, StripKind::kNone);
+}
+
+TEST_F(Tools, ProvenanceIsCopied) {
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("Made from"));
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Copy as text"));
+    EXPECT_THAT(pictures.clipboard, ::testing::HasSubstr("/textures/brick.png, seed 1"));
+}
+
+// ---- what the tools work with ----------------------------------------------------------------
+
+TEST(LampText, IsTakenApartAndPutTogether) {
+    const std::string text = "point 10,20 30 1.5; gradient 1: 0,0 0,9 1 2 | 11: 0,0 0,9 1 4";
+    const auto lamps = lamps_at(text, 6);
+    ASSERT_THAT(lamps, SizeIs(2));
+    EXPECT_FALSE(lamps[0].keyed);
+    EXPECT_TRUE(lamps[1].keyed);
+    EXPECT_FLOAT_EQ(lamps[1].numbers[5], 3);
+    // One that is keyed gets a key here; the other one changes everywhere.
+    const std::string keyed = with_lamp(text, 1, 6, {0, 0, 0, 9, 1, 10});
+    EXPECT_FLOAT_EQ(lamps_at(keyed, 6)[1].numbers[5], 10);
+    EXPECT_FLOAT_EQ(lamps_at(keyed, 11)[1].numbers[5], 4);
+    const std::string moved = with_lamp(text, 0, 6, {50, 20, 30, 1.5f});
+    EXPECT_FLOAT_EQ(lamps_at(moved, 1)[0].numbers[0], 50);
+    EXPECT_THAT(lamps_at(without_lamp(text, 0), 6), SizeIs(1));
+    EXPECT_THAT(lamps_at("no lamp at all", 6), IsEmpty());
+}
+
+TEST(RotoShapes, CoverTheirInsideAndFallOff) {
+    RotoShape shape;
+    for (const Vec2 at : {Vec2{20, 20}, Vec2{60, 20}, Vec2{60, 60}, Vec2{20, 60}})
+        shape.points.push_back({at, {0, 0}, {0, 0}, 0});
+    Matte matte = matte_of_shape(shape, {100, 100});
+    EXPECT_EQ(matte.at(40, 40), 255);
+    EXPECT_EQ(matte.at(70, 40), 0);
+    shape.points[1].feather_px = shape.points[2].feather_px = 20;
+    matte = matte_of_shape(shape, {100, 100});
+    EXPECT_EQ(matte.at(40, 40), 255);
+    EXPECT_GT(matte.at(65, 40), 150);
+    EXPECT_GT(matte.at(65, 40), matte.at(72, 40));
+    EXPECT_GT(matte.at(72, 40), 10);
+    EXPECT_EQ(matte.at(84, 40), 0);
+    EXPECT_EQ(matte.at(12, 40), 0);  // no feather on that side
+}
+
+TEST(RotoShapes, SurviveTheFileAndMeetHalfway) {
+    RotoShape a;
+    for (int k = 0; k < 3; ++k) {
+        const auto f = static_cast<float>(k);
+        a.points.push_back({{10 * f, 5}, {1, f}, {2, 3}, f});
+    }
+    const auto again = parse_shape(shape_text(a));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(*again, a);
+    EXPECT_FALSE(parse_shape("{\"points\": [[1, 2]]}"));
+    EXPECT_FALSE(parse_shape("nonsense"));
+    RotoShape b = a;
+    b.points[1].at = {30, 25};
+    EXPECT_EQ(between(a, b, 0.5f).points[1].at, Vec2(20, 15));
+    b.points.pop_back();
+    EXPECT_EQ(between(a, b, 0.5f), a);
+}
+
+}  // namespace
+}  // namespace weft::test
