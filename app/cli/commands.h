@@ -39,6 +39,8 @@ struct SynthOptions {
     double light_weight = 0.1;
     std::string isa;  ///< Empty: the best there is.
     std::string backend = "cpu";
+    bool endless = false;  ///< A part of a plane without end, whose first texel is `at`.
+    Vec2i at{0, 0};
     PlaneOptions plane;
     int threads = 0;
     bool overwrite = false, json = false;

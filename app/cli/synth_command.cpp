@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 #include "app/cli/commands.h"
@@ -11,7 +12,9 @@
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/seam/isa.h"
+#include "engine/synthesis/endless_plane.h"
 #include "engine/synthesis/light_guide.h"
+#include "engine/synthesis/plane_energy.h"
 #include "engine/synthesis/repetition.h"
 
 namespace weft {
@@ -73,6 +76,42 @@ Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
     return out;
 }
 
+// The texels from `at` on of a plane without end.
+Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const PlaneOptions& grow,
+                                    Vec2i at) {
+    if (samples.size() > 1 || grow.tileable || grow.guide || grow.orientations.rotations ||
+        grow.orientations.mirror) {
+        return fail(ErrorCode::kUsage,
+                    "A plane without end (--endless) grows from one upright sample, without "
+                    "--tileable and --light.");
+    }
+    constexpr int kFurthest = 1 << 30, kLargestSide = 16384;
+    if (std::max(grow.size.width, grow.size.height) > kLargestSide || at.x < -kFurthest ||
+        at.y < -kFurthest || at.x > kFurthest - grow.size.width ||
+        at.y > kFurthest - grow.size.height) {
+        return fail(ErrorCode::kUsage,
+                    "Of a plane without end parts of up to 16384 px a side can be read, between "
+                    "-2^30 and 2^30.");
+    }
+    const auto start = std::chrono::steady_clock::now();
+    WEFT_TRY(endless, EndlessPlane::make(samples.front(), grow, cancel_on_signals()));
+    WEFT_TRY(part, endless->read({at.x, at.y, at.x + grow.size.width, at.y + grow.size.height},
+                                 cancel_on_signals()));
+    TexturePlane plane;
+    plane.pixels = std::move(part.pixels);
+    plane.source = std::move(part.source);
+    PlaneStats& stats = plane.stats;
+    stats.total_s = stats.other_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const PlaneEnergy energy =
+        recount_energy(SampleAtlas(samples.front().view()), plane.source, false);
+    stats.seam_energy = energy.energy;
+    stats.seam_length_px = energy.length_px;
+    stats.seam_energy_per_area = energy.energy / static_cast<double>(grow.size.width) /
+                                 static_cast<double>(grow.size.height);
+    return plane;
+}
+
 Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) {
     for (const std::string& path : {options.output, options.source_map}) {
         if (!path.empty() && !options.overwrite && std::filesystem::exists(path)) {
@@ -101,8 +140,9 @@ Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) 
         known = Image<std::uint8_t, 1>(grow.size, 255);
         grow.guide = PlaneGuide{guide, known, static_cast<float>(options.light_weight)};
     }
-    auto plane = grow_plane(std::vector<ViewU8x3>(samples.begin(), samples.end()), grow,
-                            cancel_on_signals());
+    auto plane = options.endless ? read_endless(samples, grow, options.at)
+                                 : grow_plane(std::vector<ViewU8x3>(samples.begin(), samples.end()),
+                                              grow, cancel_on_signals());
     if (!plane) return fail_in(std::move(plane).error(), names);
     for (const std::string& remark : backend.remarks())
         print_warning(remark);

@@ -25,6 +25,7 @@ void add_synth(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("synth", "Grow a texture plane from a sample");
     const auto options = std::make_shared<SynthOptions>();
     const auto size = std::make_shared<std::string>("512x512");
+    const auto at = std::make_shared<std::string>("0,0");
     command
         ->add_option("sample", options->samples,
                      "Picture of the texture; several of one material are used together")
@@ -71,6 +72,9 @@ void add_synth(CLI::App& app, int& exit) {
     command->add_option("--light-weight", options->light_weight, "How much it counts [0.1]")
         ->check(CLI::Range(0.0, 1000.0))
         ->type_name("");
+    command->add_flag("--endless", options->endless,
+                      "A part of a plane without end, which is the same however it is read");
+    command->add_option("--at", *at, "Of that plane, the upper left texel [0,0]")->type_name("X,Y");
     command->add_flag("--tileable", options->plane.tileable, "Opposite borders join");
     command->add_option("--seed", options->plane.seed, "Seed of all random choices [1]")
         ->type_name("");
@@ -103,6 +107,11 @@ void add_synth(CLI::App& app, int& exit) {
             return;
         }
         options->plane.size = {width, height};
+        if (std::sscanf(at->c_str(), "%d,%d%c", &options->at.x, &options->at.y, &after) != 2) {
+            exit = report_error(
+                {ErrorCode::kUsage, "Cannot read the place '" + *at + "'. Write it like 0,0.", {}});
+            return;
+        }
         exit = synth_command(*options);
     });
 }

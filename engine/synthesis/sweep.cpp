@@ -158,6 +158,9 @@ void Sweep::lay_band_again(std::size_t index, Canvas& canvas, float gradient_flo
         band.done_x.store(p.rect.x1 - x_.overlap - 1, std::memory_order_release);
         band.done_x.notify_all();
     }
+    // Where the band above has filled this one's right end too, the last patch lies before it; the
+    // band below must not begin there while the one above is still at work.
+    if (!canvas.torus()) wait_for(index, INT_MAX);
 }
 
 void Sweep::grow_band(std::size_t index) {

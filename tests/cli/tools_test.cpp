@@ -17,6 +17,23 @@ using ::testing::IsEmpty;
 
 using Tools = CliTest;
 
+TEST_F(Tools, PartsOfAPlaneWithoutEndFitTogether) {
+    expect_success(run({"synth", "sample.png", "-o", "a.png", "--endless", "--size", "150x120",
+                        "--at", "-70,100", "--refine", "0"}));
+    expect_success(run({"synth", "sample.png", "-o", "b.png", "--endless", "--size", "130x90",
+                        "--at", "-10,150", "--refine", "0"}));
+    const ImageF3 a = picture("a.png").rgb, b = picture("b.png").rgb;
+    int wrong = 0;
+    for (int y = 0; y < 70; ++y) {
+        for (int x = 0; x < 90; ++x)
+            wrong += !std::equal(b.pixel(x, y), b.pixel(x, y) + 3, a.pixel(x + 60, y + 50));
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(run({"synth", "sample.png", "-o", "c.png", "--endless", "--tileable"}).exit, 2);
+    EXPECT_EQ(run({"synth", "sample.png", "-o", "c.png", "--endless", "--at", "2000000000,0"}).exit,
+              2);
+}
+
 TEST_F(Tools, SynthJsonHasEveryKeyOfTheContract) {
     const Outcome outcome = run({"synth", "sample.png", "-o", "plane.png", "--size", "200x150",
                                  "--source-map", "map.exr", "--seed", "7", "--json"});
@@ -121,8 +138,9 @@ TEST_F(Tools, DiffSaysWhereSequencesDiffer) {
 TEST_F(Tools, AFrozenMatteIsKeptAndPropagatedFrom) {
     make_shot(4);
     const auto propagate = [&](std::vector<std::string> more, const std::string& out) {
-        std::vector<std::string> words{"matte", "--plate", "frames/####.png", "--matte",
-                                       "1=masks/0001.png", "-o", out, "--progress", "none"};
+        std::vector<std::string> words{"matte",   "--plate",          "frames/####.png",
+                                       "--matte", "1=masks/0001.png", "-o",
+                                       out,       "--progress",       "none"};
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     };
@@ -130,8 +148,8 @@ TEST_F(Tools, AFrozenMatteIsKeptAndPropagatedFrom) {
     // Frozen at frame 3 is the matte of frame 1, which the walk would never find there.
     fs::create_directories(folder_ / "final");
     fs::copy_file(folder_ / "masks/0001.png", folder_ / "final/0003.png");
-    expect_success(propagate(
-        {"--matte-frozen", "3", "--matte-frozen-files", "final/####.png"}, "second/####.png"));
+    expect_success(propagate({"--matte-frozen", "3", "--matte-frozen-files", "final/####.png"},
+                             "second/####.png"));
     EXPECT_EQ(bytes("second/0003.png"), bytes("second/0001.png"));
     EXPECT_NE(bytes("first/0003.png"), bytes("second/0003.png"));
     EXPECT_NE(bytes("first/0004.png"), bytes("second/0004.png"));

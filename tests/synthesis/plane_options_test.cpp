@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/core/parallel.h"
+#include "engine/core/rng.h"
 #include "engine/synthesis/texture_plane.h"
 #include "tests/synthesis/samples.h"
 
@@ -160,6 +162,36 @@ TEST(Guide, MustFitThePlane) {
     const auto plane = grow_plane(sample, o);
     ASSERT_FALSE(plane);
     EXPECT_EQ(plane.error().code, ErrorCode::kUsage);
+}
+
+// Overlaps that grow for the period make bands so low that pieces reach over several of them.
+TEST(Refinement, IsTheSameByAnyNumberOfThreadsWhereBandsAreLow) {
+    ImageU8x3 lattice(96, 96);
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const int u = ((x + y) % 64 + 64) % 64, v = ((x - y) % 64 + 64) % 64;
+            for (int c = 0; c < 3; ++c)
+                lattice.at(x, y, c) = static_cast<std::uint8_t>(
+                    60 + 2 * std::min(u, 64 - u) + std::min(v, 64 - v) * (c + 1) +
+                    static_cast<int>(
+                        Rng(7, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), 0)
+                            .below(24)));
+        }
+    }
+    PlaneOptions o;
+    o.size = {512, 512};
+    set_thread_count(1);
+    const auto one = grow_plane(lattice, o);
+    ASSERT_TRUE(one);
+    EXPECT_GT(one->stats.period.count, 0);
+    for (int round = 0; round < 4; ++round) {
+        set_thread_count(2);
+        const auto two = grow_plane(lattice, o);
+        set_thread_count(0);
+        ASSERT_TRUE(two);
+        EXPECT_EQ(two->source, one->source);
+        EXPECT_EQ(two->pixels, one->pixels);
+    }
 }
 
 }  // namespace
