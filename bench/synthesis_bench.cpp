@@ -73,6 +73,20 @@ BENCHMARK_CAPTURE(search, direct_avx2, SearchMethod::kDirect, Isa::kAvx2)->Arg(9
 BENCHMARK_CAPTURE(search, direct_scalar, SearchMethod::kDirect, Isa::kScalar)->Arg(96)->Arg(200);
 BENCHMARK_CAPTURE(search, fft, SearchMethod::kFft, Isa::kAvx2)->Arg(96)->Arg(200)->Arg(488);
 
+// An interior patch whose whole border is old, with old seams' costs: what refinement cuts.
+SeamProblem interior_problem(int side) {
+    const ImageU8x3 a = noise(side, side, 3), b = noise(side, side, 4), c = noise(side, side, 6);
+    SeamProblem p;
+    p.cells = Image<SeamCell, 1>(side, side, SeamCell::kFree);
+    for (int i = 0; i < side; ++i) {
+        p.cells.at(i, 0) = p.cells.at(i, side - 1) = SeamCell::kOld;
+        p.cells.at(0, i) = p.cells.at(side - 1, i) = SeamCell::kOld;
+    }
+    fill_seam_costs(a, b, p);
+    fill_data_costs(a, b, c, Matte(side, side, 255), 0.1f, p);
+    return p;
+}
+
 SeamProblem strip_problem(int width, int height) {
     const ImageU8x3 a = noise(width, height, 3), b = noise(width, height, 4);
     SeamProblem p;
@@ -89,6 +103,7 @@ void cut_planar(benchmark::State& state) {
     const SeamProblem p = strip_problem(36, static_cast<int>(state.range(0)));
     for (auto _ : state)
         benchmark::DoNotOptimize(solve_planar_dual(p));
+    state.counters["graph_bytes"] = static_cast<double>(solve_planar_dual(p)->graph_bytes);
 }
 BENCHMARK(cut_planar)->Arg(96)->Arg(200);
 
@@ -96,8 +111,17 @@ void cut_max_flow(benchmark::State& state) {
     const SeamProblem p = strip_problem(36, static_cast<int>(state.range(0)));
     for (auto _ : state)
         benchmark::DoNotOptimize(solve_grid_maxflow(p));
+    state.counters["graph_bytes"] = static_cast<double>(solve_grid_maxflow(p).graph_bytes);
 }
 BENCHMARK(cut_max_flow)->Arg(96)->Arg(200);
+
+void cut_interior(benchmark::State& state) {
+    const SeamProblem p = interior_problem(static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(solve_grid_maxflow(p));
+    state.counters["graph_bytes"] = static_cast<double>(solve_grid_maxflow(p).graph_bytes);
+}
+BENCHMARK(cut_interior)->Arg(48)->Arg(96)->Arg(200);
 
 void cut_dynamic_programming(benchmark::State& state) {
     const SeamProblem p = strip_problem(36, static_cast<int>(state.range(0)));

@@ -16,7 +16,8 @@ function(weft_library name)
 endfunction()
 
 # weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full])
-#   One GoogleTest program per folder. A label "full" keeps it out of the plain ./test.
+#   One GoogleTest program per folder, each of its tests one for ctest. With the label "full" the whole program is one
+#   test instead: listing a program's tests means starting it, and a plain ./test need not start what it will not run.
 function(weft_test name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
     set(target test_${name})
@@ -26,7 +27,12 @@ function(weft_test name)
     target_compile_definitions(${target} PRIVATE
         WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
         WEFT_SHARED_DATA_DIR="${WEFT_SHARED_DATA_DIR}")
-    include(GoogleTest)
-    gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
-        TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+    if("full" IN_LIST ARG_LABELS)
+        add_test(NAME ${name} COMMAND ${target})
+        set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS "${ARG_LABELS}")
+    else()
+        include(GoogleTest)
+        gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
+            TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+    endif()
 endfunction()

@@ -350,6 +350,25 @@ void about_window(Ctx& c) {
 
 void leave_question(Ctx& c) {
     if (!c.state.leave_asked) return;
+    const auto go = [&] {
+        c.state.leave_asked = c.state.leave_when_saved = false;
+        const std::string then = c.state.leave_then;
+        c.state.leave_then.clear();
+        if (then.empty()) c.state.leave = true;
+        if (then == "demo") c.emit(OpenDemo{});
+        if (then == "new") c.emit(NewProject{});
+        if (then == "close") c.emit(CloseProject{});
+        if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
+        if (then.starts_with("/")) c.emit(OpenAny{then});
+    };
+    // Only when it is on the disk; what went wrong stands in a notice, and the work stays here.
+    if (c.state.leave_when_saved) {
+        if (c.view.saving) return;
+        if (!c.view.modified) return go();
+        c.state.leave_asked = c.state.leave_when_saved = false;
+        c.state.leave_then.clear();
+        return;
+    }
     if (!c.view.modified && c.state.leave_then.empty()) {
         const bool rendering =
             std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [](const JobView& j) {
@@ -371,17 +390,6 @@ void leave_question(Ctx& c) {
                        "where you sent them.",
             t.text);
     ImGui::Dummy({0, t.px(12)});
-    const auto go = [&] {
-        c.state.leave_asked = false;
-        const std::string then = c.state.leave_then;
-        c.state.leave_then.clear();
-        if (then.empty()) c.state.leave = true;
-        if (then == "demo") c.emit(OpenDemo{});
-        if (then == "new") c.emit(NewProject{});
-        if (then == "close") c.emit(CloseProject{});
-        if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
-        if (then.starts_with("/")) c.emit(OpenAny{then});
-    };
     if (modified) {
         if (button(c, "Save", {.look = Look::kPrimary})) {
             if (c.view.path.empty()) {
@@ -389,7 +397,7 @@ void leave_question(Ctx& c) {
                 c.commands.run("file.save", c);
             } else {
                 c.emit(Save{});
-                go();
+                c.state.leave_when_saved = true;
             }
         }
         ImGui::SameLine();

@@ -507,6 +507,12 @@ void light_inspector(Ctx& c) {
             region_parameter(c, *region, "synthesis.seam", "Cut");
             region_parameter(c, *region, "synthesis.overlap_px");
             region_parameter(c, *region, "synthesis.feather_px");
+            region_parameter(c, *region, "synthesis.refine");
+            region_parameter(c, *region, "synthesis.rotations", "Turned pieces");
+            region_parameter(c, *region, "synthesis.mirror", "Mirrored pieces");
+            region_parameter(c, *region, "synthesis.align", "Keep courses in step");
+            region_parameter(c, *region, "synthesis.seam_cost", "Seam follows");
+            region_parameter(c, *region, "texture.also", "Further samples");
             project_parameter(c, "settings.seed", "Variation");
             const Command* over = c.commands.find("view.seams");
             bool on = over->checked(c);

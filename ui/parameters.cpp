@@ -22,6 +22,7 @@ constexpr Shape kShapes[] = {
     {"placement.rotate_deg", "Rotation", -180, 180, 1, false, "°"},
     {"synthesis.overlap_px", "Overlap", 12, 96, 0, false, "px"},
     {"synthesis.feather_px", "Feather", 0, 16, 0, false, "px"},
+    {"synthesis.refine", "Refinement", 0, 8, 0, false, ""},
     {"temporal.blend", "Freshness (α)", 0, 1, 2, false, ""},
     {"temporal.weight", "Stability (λt)", 0, 10, 2, false, ""},
     {"light.strength", "Strength", 0, 1, 2, false, ""},
@@ -38,6 +39,8 @@ constexpr Word kWords[] = {
     {"synthesis.seam", "graphcut", "Best cut (graph cut)"},
     {"synthesis.seam", "dp", "Quick cut (row by row)"},
     {"synthesis.seam", "none", "No cut (blocks)"},
+    {"synthesis.seam_cost", "gradient", "Along edges"},
+    {"synthesis.seam_cost", "paper", "The paper's"},
     {"temporal.mode", "locked", "Locked to the surface"},
     {"temporal.mode", "paper", "Carried and blended"},
     {"temporal.mode", "none", "Every frame anew"},
@@ -140,6 +143,15 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
             std::string value = text ? *text : std::string();
             if (text_row(c, label.c_str(), value, "default", help.c_str()) == Change::kDone)
                 emit(ParameterValue(value), true);
+            return;
+        }
+        case ParameterKind::kPaths: {
+            // One after another in a row, between semicolons.
+            std::string value = format_parameter(info, now);
+            std::replace(value.begin(), value.end(), '\n', ';');
+            if (text_row(c, label.c_str(), value, "none", help.c_str()) != Change::kDone) return;
+            std::replace(value.begin(), value.end(), ';', '\n');
+            if (auto parsed = parse_parameter(info, value)) emit(*parsed, true);
             return;
         }
         case ParameterKind::kPoint: {

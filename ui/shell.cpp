@@ -62,8 +62,10 @@ std::vector<Action> Shell::draw(const SessionView& view) {
           job_log,   dismiss_notice, {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
                        state_.browser.purpose != BrowserState::Purpose::kNone;
+    part("commands");
     if (!sheet) commands_.dispatch(c);
     layout(c);
+    part("windows");
     ui::notices(c);
     ui::tour(c);
     ui::history_window(c);
@@ -122,18 +124,22 @@ void Shell::layout(Ctx& c) {
     const auto at = [](float x, float y) { ImGui::SetCursorScreenPos({x, y}); };
     const float top = t.px(40), bottom = t.px(26);
     const bool panels = !state_.panels_hidden;
+    part("top bar");
     at(0, 0);
     ui::top_bar(c, {screen.x, top});
+    part("status bar");
     at(0, screen.y - bottom);
     ui::status_bar(c, {screen.x, bottom});
     const float body_h = std::max(t.px(80), screen.y - top - bottom);
     if (!c.view.open) {
+        part("welcome");
         at(0, top);
         ui::welcome(c, {screen.x, body_h});
         ImGui::End();
         return;
     }
     if (state_.workspace == Workspace::kJobs) {
+        part("jobs page");
         at(0, top);
         ui::jobs_page(c, {screen.x, body_h});
         ImGui::End();
@@ -157,22 +163,28 @@ void Shell::layout(Ctx& c) {
     const float left_w = screen.x - inspector_w - (panels ? 1 : 0);
     const float view_h = body_h - timeline_h - extra_h;
     if (panels) {
+        part("tools");
         at(0, top);
         ui::tool_strip(c, {tools_w, view_h});
     }
+    part("viewer");
     at(tools_w + (panels ? 1 : 0), top);
     ui::viewer(c, {left_w - tools_w - (panels ? 1 : 0), view_h});
     if (drawer) {
+        part("texture drawer");
         at(0, top + view_h);
         ui::texture_drawer(c, {left_w, extra_h});
     }
     if (report) {
+        part("review");
         at(0, top + view_h);
         ui::review_panel(c, {left_w, extra_h});
     }
     if (panels) {
+        part("timeline");
         at(0, top + view_h + extra_h);
         ui::timeline(c, {left_w, timeline_h});
+        part("inspector");
         at(screen.x - inspector_w, top);
         ui::inspector(c, {inspector_w, body_h});
         const float hit = t.splitter_hit;

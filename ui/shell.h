@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/frame_clock.h"
 #include "ui/ctx.h"
 
 namespace weft {
@@ -25,6 +26,8 @@ class Shell {
     /// Where everything was drawn in the last frame; only when record_items(true) was called.
     [[nodiscard]] const std::vector<DrawnItem>& items() const { return items_; }
     void record_items(bool on) { recording_ = on; }
+    /// Where draw() notes what it spends its time on; null: nowhere.
+    void set_clock(FrameClock* clock) { clock_ = clock; }
     /// Something asked for by the window: files that were dropped on it, its close button.
     void open_dropped(const std::string& path, const SessionView& view);
     void ask_to_leave();
@@ -35,6 +38,9 @@ class Shell {
     std::function<void(int)> dismiss_notice;
 
   private:
+    void part(const char* name) {
+        if (clock_) clock_->enter(name);
+    }
     void layout(Ctx& c);
     /// A bar that divides; returns the new size of the part that it belongs to.
     void splitter(Ctx& c, const char* name, ImVec2 min, ImVec2 size, bool vertical, float& value,
@@ -50,6 +56,7 @@ class Shell {
     std::vector<Action> actions_, dropped_;
     std::vector<DrawnItem> items_;
     bool recording_ = false;
+    FrameClock* clock_ = nullptr;
 };
 
 }  // namespace weft

@@ -109,9 +109,10 @@ struct UiState {
     int palette_at = 0;
     bool leave_asked = false;  ///< The window was asked to close.
     bool leave = false;        ///< … and may.
-    std::string leave_then;    ///< "": quit; else a path to open after the question.
-    int tour_step = -1;        ///< −1: no tour.
-    bool placing = false;      ///< The texture is being moved on the canvas.
+    bool leave_when_saved = false;
+    std::string leave_then;  ///< "": quit; else a path to open after the question.
+    int tour_step = -1;      ///< −1: no tour.
+    bool placing = false;    ///< The texture is being moved on the canvas.
     Placement placing_from;
     std::string placing_key;
     ParameterValue placing_value;
@@ -126,6 +127,9 @@ struct UiState {
     int open_log = 0;       ///< Job whose log is unfolded.
     std::string region_dragged;
     std::string status;  ///< What the mouse is over, for the status bar.
+    /// Where the mouse went since the last frame while the left button was down; empty where that
+    /// is not known, and then MousePos is all there is.
+    std::vector<ImVec2> mouse_path;
 };
 
 /// Goes there, with the tool that one expects there.

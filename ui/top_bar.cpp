@@ -134,7 +134,8 @@ void top_bar(Ctx& c, ImVec2 size) {
     // The name of the project, with a dot while there is something to save.
     float name_right = after_menus;
     if (c.view.open) {
-        const float room = std::max(t.px(110), size.x * 0.5f - t.px(330) - (after_menus - origin.x));
+        const float room =
+            std::max(t.px(110), size.x * 0.5f - t.px(330) - (after_menus - origin.x));
         const std::string name = fitted(c.view.title, std::min(room, t.px(220)) - t.px(24));
         const ImVec2 at(after_menus + t.px(12), origin.y);
         text_in(list, t.strong, at, {at.x + room, origin.y + size.y}, t.quiet, name.c_str(), 0);

@@ -34,6 +34,17 @@ void brush_ring(Ctx& c, const ViewMap& map) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);
 }
 
+// Where the mouse went in this frame, on the plate: frames may be far apart, strokes are not.
+std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
+    std::vector<Vec2> out;
+    for (const ImVec2 at : c.state.mouse_path)
+        out.push_back(map.to_plate(at));
+    const ImGuiIO& io = ImGui::GetIO();
+    if (out.empty() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
+        out.push_back(map.to_plate(io.MousePos));
+    return out;
+}
+
 void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     BrushState& b = c.state.brush;
     const ImGuiIO& io = ImGui::GetIO();
@@ -51,8 +62,9 @@ void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         } else {
             c.emit(BeginStroke{brush_now(c), at, 1});
         }
-    } else if (b.painting && ImGui::IsMouseDown(0)) {
-        if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) c.emit(ContinueStroke{at, 1});
+    } else if (b.painting) {
+        for (const Vec2 point : path_on_plate(c, map))
+            c.emit(ContinueStroke{point, 1});
     }
     if (b.painting && !ImGui::IsMouseDown(0)) {
         b.painting = false;
@@ -87,11 +99,12 @@ void lasso(Ctx& c, const ViewMap& map, bool active) {
     if (active && ImGui::IsMouseClicked(0)) {
         b.outline = {at};
         b.lassoing = true;
-    } else if (b.lassoing && ImGui::IsMouseDown(0)) {
-        const Vec2 step = at - b.outline.back();
-        if (std::hypot(step.x, step.y) * map.zoom > 2) b.outline.push_back(at);
     } else if (b.lassoing) {
-        finish_outline(c);
+        for (const Vec2 point : path_on_plate(c, map)) {
+            const Vec2 step = point - b.outline.back();
+            if (std::hypot(step.x, step.y) * map.zoom > 2) b.outline.push_back(point);
+        }
+        if (!ImGui::IsMouseDown(0)) finish_outline(c);
     }
     draw_outline(c, map, nullptr);
 }

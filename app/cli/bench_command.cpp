@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "app/cli/commands.h"
+#include "app/session/render_job.h"
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
@@ -127,8 +128,8 @@ Expected<ImageU8x3> middle_of(const std::string& path) {
 
 class Bench {
   public:
-    Bench(const BenchOptions& options, const ImageU8x3& sample)
-        : options_(options), sample_(sample) {}
+    Bench(const BenchOptions& options, const Backend& backend, const ImageU8x3& sample)
+        : options_(options), backend_(backend), sample_(sample) {}
 
     Expected<nlohmann::ordered_json> run() {
         WEFT_CHECK_OK(sizes());
@@ -138,7 +139,8 @@ class Bench {
     }
 
   private:
-    Status add(const char* group, const std::string& name, const PlaneOptions& plane, int runs) {
+    Status add(const char* group, const std::string& name, PlaneOptions plane, int runs) {
+        plane.backend = &backend_;
         WEFT_TRY(result, measure(sample_, plane, runs));
         const Repetition repetition = measure_repetition(result.last);
         nlohmann::ordered_json entry = json_of(result);
@@ -192,6 +194,7 @@ class Bench {
     }
 
     const BenchOptions& options_;
+    const Backend& backend_;
     const ImageU8x3& sample_;
     nlohmann::ordered_json json_;
     TexturePlane last_;
@@ -221,6 +224,9 @@ int bench_command(const BenchOptions& options) {
                              {}});
     }
     force_isa(isa);
+    const auto chosen = choose_backend(options.backend);
+    if (!chosen) return report_error(chosen.error());
+    const Backend& backend = *chosen->backend;
     const auto sample = middle_of(options.sample);
     if (!sample) return report_error(sample.error());
     if (!options.repetition_of.empty()) return report_repetition(options, *sample);
@@ -229,13 +235,17 @@ int bench_command(const BenchOptions& options) {
         std::filesystem::create_directories(options.seams, ignored);
     }
     if (!options.json) {
-        print(stdout, std::string(isa_name(current_isa())) + ", " + std::to_string(thread_count()) +
-                          " thread(s), overlap 36 px, sample " + std::to_string(sample->width()) +
-                          "x" + std::to_string(sample->height()) + "\n");
+        print(stdout, backend.name() + ", " + std::string(isa_name(current_isa())) + ", " +
+                          std::to_string(thread_count()) + " thread(s), overlap 36 px, sample " +
+                          std::to_string(sample->width()) + "x" + std::to_string(sample->height()) +
+                          "\n");
     }
-    auto result = Bench(options, *sample).run();
+    auto result = Bench(options, backend, *sample).run();
     if (!result) return report_error(result.error());
+    for (const std::string& remark : backend.remarks())
+        print_warning(remark);
     if (options.json) {
+        (*result)["backend"] = backend.name();
         (*result)["isa"] = isa_name(current_isa());
         (*result)["threads"] = thread_count();
         print(stdout, result->dump(2) + "\n");

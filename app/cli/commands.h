@@ -38,6 +38,7 @@ struct SynthOptions {
     std::string light;  ///< Picture of a wanted illumination; empty: none.
     double light_weight = 0.1;
     std::string isa;  ///< Empty: the best there is.
+    std::string backend = "cpu";
     PlaneOptions plane;
     int threads = 0;
     bool overwrite = false, json = false;
@@ -52,7 +53,7 @@ struct BenchOptions {
     std::string seams;  ///< Folder for pictures of the seams; empty: none.
     /// Planes of other programs: only their repetition is measured.
     std::vector<std::string> repetition_of;
-    std::string isa;
+    std::string isa, backend = "cpu";
     bool json = false;
 };
 int bench_command(const BenchOptions& options);

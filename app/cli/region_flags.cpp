@@ -100,7 +100,10 @@ std::string joined(const ParameterInfo& info, const std::vector<std::string>& te
     if (!info.repeatable && info.kind != ParameterKind::kCorners) return texts.back();
     std::string out;
     for (const std::string& t : texts) {
-        if (!out.empty()) out += info.kind == ParameterKind::kCorners ? ' ' : ',';
+        if (!out.empty())
+            out += info.kind == ParameterKind::kCorners ? ' '
+                   : info.kind == ParameterKind::kPaths ? '\n'
+                                                        : ',';
         out += t;
     }
     return out;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/cli/commands.h"
+#include "app/session/render_job.h"
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
@@ -72,7 +73,7 @@ Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
     return out;
 }
 
-Expected<TexturePlane> run(const SynthOptions& options) {
+Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) {
     for (const std::string& path : {options.output, options.source_map}) {
         if (!path.empty() && !options.overwrite && std::filesystem::exists(path)) {
             return fail(ErrorCode::kUsage,
@@ -91,6 +92,7 @@ Expected<TexturePlane> run(const SynthOptions& options) {
         names += (names.empty() ? "" : ", ") + path;
     }
     PlaneOptions grow = options.plane;
+    grow.backend = &backend;
     ImageU8x3 guide;
     Image<std::uint8_t, 1> known;
     if (!options.light.empty()) {
@@ -102,13 +104,15 @@ Expected<TexturePlane> run(const SynthOptions& options) {
     auto plane = grow_plane(std::vector<ViewU8x3>(samples.begin(), samples.end()), grow,
                             cancel_on_signals());
     if (!plane) return fail_in(std::move(plane).error(), names);
+    for (const std::string& remark : backend.remarks())
+        print_warning(remark);
     WEFT_CHECK_OK(write_plane(options.output, *plane));
     if (!options.source_map.empty()) WEFT_CHECK_OK(write_source_map(options.source_map, *plane));
     return plane;
 }
 
 nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repetition,
-                               const SynthOptions& options) {
+                               const Backend& backend, const SynthOptions& options) {
     const PlaneStats& s = plane.stats;
     nlohmann::ordered_json period = nlohmann::ordered_json::array();
     for (int i = 0; i < s.period.count; ++i) {
@@ -134,7 +138,7 @@ nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repe
             {"verbatim_at", {repetition.verbatim_at.x, repetition.verbatim_at.y}},
             {"period", period},
             {"period_correlation", repetition.own_period},
-            {"backend", "cpu"},
+            {"backend", backend.name()},
             {"isa", isa_name(current_isa())},
             {"threads", thread_count()},
             {"seed", options.plane.seed}};
@@ -151,10 +155,15 @@ int synth_command(const SynthOptions& options) {
                              {}});
     }
     force_isa(isa);
-    const auto plane = run(options);
+    const auto chosen = choose_backend(options.backend);
+    if (!chosen) return report_error(chosen.error());
+    const Backend& backend = *chosen->backend;
+    for (const std::string& line : chosen->passed_over)
+        print(stderr, "weft: passed over " + line + "\n");
+    const auto plane = run(options, backend);
     if (!plane) return report_error(plane.error());
     if (options.json) {
-        print(stdout, json_of(*plane, measure_repetition(*plane), options).dump(2) + "\n");
+        print(stdout, json_of(*plane, measure_repetition(*plane), backend, options).dump(2) + "\n");
         return 0;
     }
     const PlaneStats& s = plane->stats;

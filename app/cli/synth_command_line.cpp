@@ -13,6 +13,14 @@ void add_isa(CLI::App& command, std::string& isa) {
         ->type_name("");
 }
 
+// A GPU takes longer to start than a plane of ordinary size to grow, so it has to be asked for.
+void add_backend(CLI::App& command, std::string& backend) {
+    command
+        .add_option("--backend", backend,
+                    "What searches for placements: cpu, cuda or auto, with one result [cpu]")
+        ->type_name("");
+}
+
 void add_synth(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("synth", "Grow a texture plane from a sample");
     const auto options = std::make_shared<SynthOptions>();
@@ -75,6 +83,7 @@ void add_synth(CLI::App& app, int& exit) {
     command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")
         ->check(CLI::Range(0, 1024));
     add_isa(*command, options->isa);
+    add_backend(*command, options->backend);
     command->add_flag("--overwrite", options->overwrite, "Replace files that exist");
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
@@ -121,6 +130,7 @@ void add_bench(CLI::App& app, int& exit) {
                      "Measure only how much these planes of the sample repeat")
         ->type_name("PATH");
     add_isa(*command, options->isa);
+    add_backend(*command, options->backend);
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
         "Measures search, seams and total for each size, overlaps from 12 to 60, and the graph "

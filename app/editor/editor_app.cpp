@@ -19,15 +19,25 @@ SessionOptions session_options(const EditorOptions& options) {
     return out;
 }
 
+bool watchdog_wanted() {
+#ifndef NDEBUG
+    return true;
+#else
+    return std::getenv("WEFT_WATCHDOG") != nullptr;
+#endif
+}
+
 }  // namespace
 
 EditorApp::EditorApp(const EditorOptions& options)
-    : options_(options), settings_path_(editor_settings_path()) {
+    : options_(options), settings_path_(editor_settings_path()), clock_(watchdog_wanted()) {
     settings_ = load_editor_settings(settings_path_);
     if (options_.light) settings_.dark = false;
     saved_settings_ = settings_;
     session_ = std::make_unique<Session>(session_options(options_), &settings_);
     shell_ = std::make_unique<Shell>(settings_, pictures_);
+    session_->set_clock(&clock_);
+    shell_->set_clock(&clock_);
     shell_->textures().open_library(options_.texture_library.empty() ? default_library_path()
                                                                      : options_.texture_library);
     shell_->job_log = [this](int id) { return session_->job_log(id); };
@@ -59,7 +69,9 @@ bool EditorApp::update_look(double monitor_scale) {
 
 void EditorApp::frame(double now_s) {
     const auto start = std::chrono::steady_clock::now();
+    clock_.enter("pictures");
     pictures_.begin_frame();
+    clock_.enter("folders");
     std::vector<std::string> folders = settings_.texture_folders;
     for (const char* own : {"textures", "demo/textures"}) {
         const std::string path = (std::filesystem::path(options_.assets) / own).string();
@@ -67,11 +79,15 @@ void EditorApp::frame(double now_s) {
     }
     shell_->textures().look_in(std::move(folders));
     session_->update(now_s);
+    clock_.enter("ImGui");
     ImGui::NewFrame();
     const std::vector<Action> actions = shell_->draw(session_->view());
+    clock_.enter("ImGui");
     ImGui::Render();
+    clock_.enter("actions");
     for (const Action& action : actions)
         session_->act(action);
+    clock_.enter("settings");
     // Settings are few; they are written a while after they changed.
     if (now_s - settings_checked_s_ > 2) {
         settings_checked_s_ = now_s;
@@ -86,11 +102,12 @@ void EditorApp::frame(double now_s) {
     times_.worst_ms = std::max(times_.worst_ms, times_.last_ms);
     times_.sum_ms += times_.last_ms;
     ++times_.frames;
-#ifndef NDEBUG
-    constexpr double kWatchdogMs = 30;
-    if (times_.last_ms > kWatchdogMs)
-        std::fprintf(stderr, "weft: a frame of the interface took %.0f ms\n", times_.last_ms);
-#endif
+}
+
+void EditorApp::watch() const {
+    constexpr double kLongest = 30;
+    if (!clock_.on() || clock_.wall_ms() < kLongest) return;
+    std::fprintf(stderr, "weft: %s\n", clock_.text().c_str());
 }
 
 bool EditorApp::idle() const {

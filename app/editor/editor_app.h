@@ -39,6 +39,10 @@ class EditorApp {
     [[nodiscard]] std::uint64_t news() const;
     [[nodiscard]] bool wants_to_leave() { return shell_->state().leave; }
     [[nodiscard]] const FrameTimes& times() const { return times_; }
+    /// Of the frame that is being drawn. On in debug builds, and where WEFT_WATCHDOG is set.
+    [[nodiscard]] FrameClock& clock() { return clock_; }
+    /// Says on stderr which part held up a frame that took too long.
+    void watch() const;
     void reset_times() { times_ = {}; }
     void close();
 
@@ -53,6 +57,7 @@ class EditorApp {
     bool dark_ = true, grey_ = false;
     double settings_checked_s_ = 0;
     FrameTimes times_;
+    FrameClock clock_;
 };
 
 }  // namespace weft

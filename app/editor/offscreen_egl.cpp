@@ -140,13 +140,17 @@ Expected<int> run_offscreen(const EditorOptions& options) {
         app.update_look(1);
         const auto begin = std::chrono::steady_clock::now();
         const auto frame = [&] {
+            app.clock().begin();
             if (app.update_look(1)) ImGui_ImplOpenGL3_DestroyFontsTexture();
             io.DeltaTime = 1.0f / 60.0f;
             ImGui_ImplOpenGL3_NewFrame();
             app.frame(
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+            app.clock().enter("OpenGL");
             canvas.begin();
             ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+            app.clock().end();
+            app.watch();
         };
         const auto write = [&](const std::string& path) { return canvas.write(path); };
         Status done = app.start();

@@ -3,16 +3,19 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
-#include <vector>
+#include <algorithm>
+#include <iterator>
 
 #include "app/editor/editor_app.h"
 #include "app/editor/run_modes.h"
+#include "ui/input_queue.h"
 
 namespace weft {
 namespace {
 
 struct WindowState {
     EditorApp* app = nullptr;
+    InputQueue input;
     bool event = true;  // something happened since the last frame
     int windowed[4] = {80, 80, 1600, 900};
 };
@@ -37,6 +40,73 @@ void on_refresh(GLFWwindow* window) {
     state_of(window).event = true;
 }
 
+// ---- input -----------------------------------------------------------------------------------
+
+// Shortcuts go by what is printed on a key, wherever the keyboard has it.
+int printed_key(int key, int scancode) {
+    const char* name = glfwGetKeyName(key, scancode);
+    if (!name || name[0] == 0 || name[1] != 0) return key;
+    const auto letter = static_cast<unsigned char>(name[0]);
+    if (letter >= 'a' && letter <= 'z') return letter - 'a' + 'A';
+    return letter > 32 && letter < 127 ? letter : key;
+}
+
+void on_key(GLFWwindow* window, int key, int scancode, int action, int) {
+    if (action == GLFW_REPEAT) return;  // ImGui repeats by itself
+    WindowState& state = state_of(window);
+    state.event = true;
+    state.input.key(printed_key(key, scancode), action == GLFW_PRESS);
+}
+
+void on_character(GLFWwindow* window, unsigned code) {
+    state_of(window).event = true;
+    state_of(window).input.character(code);
+}
+
+void on_button(GLFWwindow* window, int button, int action, int) {
+    WindowState& state = state_of(window);
+    state.event = true;
+    double x = 0, y = 0;
+    glfwGetCursorPos(window, &x, &y);
+    state.input.move({static_cast<float>(x), static_cast<float>(y)});
+    state.input.button(button, action == GLFW_PRESS, glfwGetTime());
+}
+
+void on_move(GLFWwindow* window, double x, double y) {
+    state_of(window).event = true;
+    state_of(window).input.move({static_cast<float>(x), static_cast<float>(y)});
+}
+
+void on_wheel(GLFWwindow* window, double x, double y) {
+    state_of(window).event = true;
+    state_of(window).input.wheel(static_cast<float>(x), static_cast<float>(y));
+}
+
+void on_enter(GLFWwindow* window, int entered) {
+    state_of(window).event = true;
+    if (!entered) state_of(window).input.leave();
+}
+
+void on_focus(GLFWwindow* window, int focused) {
+    state_of(window).event = true;
+    if (!focused) state_of(window).input.let_go();
+}
+
+void listen(GLFWwindow* window) {
+    glfwSetKeyCallback(window, on_key);
+    glfwSetCharCallback(window, on_character);
+    glfwSetMouseButtonCallback(window, on_button);
+    glfwSetCursorPosCallback(window, on_move);
+    glfwSetScrollCallback(window, on_wheel);
+    glfwSetCursorEnterCallback(window, on_enter);
+    glfwSetWindowFocusCallback(window, on_focus);
+    glfwSetDropCallback(window, on_drop);
+    glfwSetWindowCloseCallback(window, on_close);
+    glfwSetWindowRefreshCallback(window, on_refresh);
+}
+
+// ---- drawing ---------------------------------------------------------------------------------
+
 void toggle_fullscreen(GLFWwindow* window) {
     WindowState& state = state_of(window);
     if (glfwGetWindowMonitor(window)) {
@@ -52,20 +122,35 @@ void toggle_fullscreen(GLFWwindow* window) {
         glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void draw(GLFWwindow* window, EditorApp& app) {
+void draw(GLFWwindow* window, EditorApp& app, InputQueue& input) {
+    FrameClock& clock = app.clock();
+    clock.begin();
+    clock.enter("fonts");
     float scale_x = 1, scale_y = 1;
     glfwGetWindowContentScale(window, &scale_x, &scale_y);
     if (app.update_look(static_cast<double>(scale_x))) ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_NewFrame();
+    clock.enter("input");
     ImGui_ImplGlfw_NewFrame();
+    input.feed(ImGui::GetIO());
+    app.shell().state().mouse_path = input.path();
     app.frame(glfwGetTime());
+    clock.enter("OpenGL");
     int width = 0, height = 0;
     glfwGetFramebufferSize(window, &width, &height);
     glViewport(0, 0, width, height);
     glClearColor(0.07f, 0.07f, 0.07f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    clock.enter("swap");
     glfwSwapBuffers(window);
+    clock.end();
+    app.watch();
+}
+
+bool any_key_down() {
+    const ImGuiIO& io = ImGui::GetIO();
+    return std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), [](bool d) { return d; });
 }
 
 // Draws when something has happened, plays at full rate, else sleeps.
@@ -73,29 +158,19 @@ void loop(GLFWwindow* window, EditorApp& app, WindowState& state) {
     std::uint64_t seen = 0;
     int settle = 3;  // ImGui needs a few frames to come to rest after an event
     while (!app.wants_to_leave()) {
-        const ImGuiIO& io = ImGui::GetIO();
-        const ImVec2 mouse = io.MousePos;
         const bool down = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive();
-        if (settle > 0 || down || !app.idle())
+        const bool busy = down || state.input.pending() || !app.idle();
+        if (settle > 0 || busy)
             glfwPollEvents();
         else
             glfwWaitEventsTimeout(0.1);
-        const ImVec2 now(io.MousePos);
-        double x = 0, y = 0;
-        glfwGetCursorPos(window, &x, &y);
-        const bool moved = static_cast<float>(x) != mouse.x || static_cast<float>(y) != mouse.y;
         const std::uint64_t news = app.news();
-        if (moved || state.event || news != seen || down || !app.idle() || io.MouseWheel != 0 ||
-            io.InputQueueCharacters.Size > 0)
-            settle = 3;
-        for (int key = 0; key < 512 && settle < 3; ++key)
-            if (io.KeysDown[key]) settle = 3;
-        (void)now;
+        if (state.event || busy || news != seen || any_key_down()) settle = 3;
         seen = news;
         state.event = false;
         if (settle == 0) continue;
         --settle;
-        draw(window, app);
+        draw(window, app, state.input);
     }
 }
 
@@ -135,11 +210,9 @@ Expected<int> run_window(const EditorOptions& options) {
         EditorApp app(options);
         state.app = &app;
         glfwSetWindowUserPointer(window, &state);
-        glfwSetDropCallback(window, on_drop);
-        glfwSetWindowCloseCallback(window, on_close);
-        glfwSetWindowRefreshCallback(window, on_refresh);
+        listen(window);
         app.pictures().on_fullscreen = [window] { toggle_fullscreen(window); };
-        ImGui_ImplGlfw_InitForOpenGL(window, true);
+        ImGui_ImplGlfw_InitForOpenGL(window, false);  // input comes through the queue
         ImGui_ImplOpenGL3_Init("#version 330 core");
         float scale = 1, other = 1;
         glfwGetWindowContentScale(window, &scale, &other);

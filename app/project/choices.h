@@ -46,6 +46,11 @@ struct Choices<SeamMethod> {
          {SeamMethod::kNone, "none"}}};
 };
 template <>
+struct Choices<SeamCost> {
+    static constexpr std::array<std::pair<SeamCost, std::string_view>, 2> kNames{
+        {{SeamCost::kGradient, "gradient"}, {SeamCost::kPaper, "paper"}}};
+};
+template <>
 struct Choices<TemporalMode> {
     static constexpr std::array<std::pair<TemporalMode, std::string_view>, 3> kNames{
         {{TemporalMode::kLocked, "locked"},

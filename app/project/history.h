@@ -52,6 +52,10 @@ class History {
 
     /// The current state is what is on disk.
     void mark_saved() { saved_ = entries_[at_].serial; }
+    /// Likewise of an earlier state, by its serial().
+    void mark_saved(std::uint64_t serial) { saved_ = serial; }
+    /// A number of the current state that no other has.
+    [[nodiscard]] std::uint64_t serial() const { return entries_[at_].serial; }
     [[nodiscard]] bool modified() const { return entries_[at_].serial != saved_; }
 
     /// Estimated memory of all snapshots, shared parts counted once.

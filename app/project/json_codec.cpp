@@ -178,11 +178,15 @@ Expected<ParameterValue> read_value(const Json& value, const std::string& path) 
         default:
             return fail_at(path, fmt::format("This is {}, but must be a value", type_of(value)));
     }
+    if (!value.empty() && std::all_of(value.begin(), value.end(),
+                                      [](const Json& element) { return element.is_string(); })) {
+        return ParameterValue(value.get<std::vector<std::string>>());
+    }
     std::vector<double> numbers;
     for (const Json& element : value) {
         if (!element.is_number())
             return fail_at(
-                path, fmt::format("This list holds {}, but must hold numbers", type_of(element)));
+                path, fmt::format("This list holds {}, but must hold numbers or texts", type_of(element)));
         numbers.push_back(element.get<double>());
     }
     return ParameterValue(std::move(numbers));
@@ -191,7 +195,8 @@ Expected<ParameterValue> read_value(const Json& value, const std::string& path) 
 bool is_nothing(const ParameterValue& value) {
     const auto* text = std::get_if<std::string>(&value);
     const auto* numbers = std::get_if<std::vector<double>>(&value);
-    return std::holds_alternative<std::monostate>(value) || (text && text->empty()) ||
+    const auto* texts = std::get_if<std::vector<std::string>>(&value);
+    return (texts && texts->empty()) || std::holds_alternative<std::monostate>(value) || (text && text->empty()) ||
            (numbers && numbers->empty());
 }
 
@@ -200,6 +205,7 @@ OrderedJson write_value(const ParameterInfo& info, const ParameterValue& value) 
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
     if (const auto* number = std::get_if<double>(&value)) return *number;
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return *texts;
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     if (!numbers) return {};
     if (info.kind != ParameterKind::kFrames) return *numbers;

@@ -21,12 +21,14 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kChoice;
     else if constexpr (std::integral<T> || std::same_as<T, std::optional<int>>)
         return ParameterKind::kInteger;
-    else if constexpr (std::floating_point<T>)
+    else if constexpr (std::floating_point<T> || std::same_as<T, std::optional<double>>)
         return ParameterKind::kNumber;
     else if constexpr (std::same_as<T, PlatePoint>)
         return ParameterKind::kPoint;
     else if constexpr (std::same_as<T, std::vector<int>>)
         return ParameterKind::kFrames;
+    else if constexpr (std::same_as<T, std::vector<std::string>>)
+        return ParameterKind::kPaths;
     else if constexpr (std::same_as<T, std::string>)
         return info.is_path ? ParameterKind::kPath : ParameterKind::kText;
     else
@@ -49,8 +51,14 @@ requires std::is_enum_v<E> ParameterValue to_value(const E& member) {
 inline ParameterValue to_value(const std::string& member) {
     return member;
 }
+inline ParameterValue to_value(const std::vector<std::string>& member) {
+    return member;
+}
 inline ParameterValue to_value(const std::optional<int>& member) {
     return member ? ParameterValue(std::int64_t{*member}) : ParameterValue();
+}
+inline ParameterValue to_value(const std::optional<double>& member) {
+    return member ? ParameterValue(*member) : ParameterValue();
 }
 inline ParameterValue to_value(const PlatePoint& member) {
     return std::vector<double>{member.x, member.y};
@@ -84,9 +92,16 @@ void from_value(const ParameterValue& value, E& member) {
 inline void from_value(const ParameterValue& value, std::string& member) {
     member = std::get<std::string>(value);
 }
+inline void from_value(const ParameterValue& value, std::vector<std::string>& member) {
+    member = std::get<std::vector<std::string>>(value);
+}
 inline void from_value(const ParameterValue& value, std::optional<int>& member) {
     const auto* number = std::get_if<std::int64_t>(&value);
     member = number ? std::optional<int>(static_cast<int>(*number)) : std::nullopt;
+}
+inline void from_value(const ParameterValue& value, std::optional<double>& member) {
+    const auto* number = std::get_if<double>(&value);
+    member = number ? std::optional<double>(*number) : std::nullopt;
 }
 inline void from_value(const ParameterValue& value, PlatePoint& member) {
     const auto& xy = std::get<std::vector<double>>(value);

@@ -28,6 +28,8 @@ std::string_view type_name(ParameterKind kind) {
             return "a text";
         case ParameterKind::kPath:
             return "a path";
+        case ParameterKind::kPaths:
+            return "a list of paths";
         case ParameterKind::kPoint:
             return "two numbers, x and y";
         case ParameterKind::kCorners:
@@ -50,6 +52,9 @@ std::string shown(const ParameterValue& value) {
         }
         std::string operator()(const std::vector<double>& v) const {
             return fmt::format("{} numbers", v.size());
+        }
+        std::string operator()(const std::vector<std::string>& v) const {
+            return fmt::format("{} texts", v.size());
         }
     };
     return std::visit(Show{}, value);
@@ -126,6 +131,8 @@ Expected<ParameterValue> normalise_choice(const ParameterInfo& info, ParameterVa
 
 Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterValue value) {
     auto* numbers = std::get_if<std::vector<double>>(&value);
+    if (std::holds_alternative<std::vector<std::string>>(value))
+        return fail(ErrorCode::kUsage, display_name(info) + " holds texts, but must hold numbers");
     if (!numbers) return wrong(info, value, std::string(type_name(info.kind)));
     const std::size_t wanted = info.kind == ParameterKind::kPoint     ? 2
                                : info.kind == ParameterKind::kCorners ? 8
@@ -146,6 +153,23 @@ Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterV
         for (const double number : *numbers)
             if (std::find(once.begin(), once.end(), number) == once.end()) once.push_back(number);
         *numbers = std::move(once);
+    }
+    return value;
+}
+
+Expected<ParameterValue> normalise_paths(const ParameterInfo& info, ParameterValue value) {
+    // An empty list has no type yet.
+    const auto* numbers = std::get_if<std::vector<double>>(&value);
+    if (numbers && numbers->empty()) return ParameterValue(std::vector<std::string>());
+    const auto* paths = std::get_if<std::vector<std::string>>(&value);
+    if (!paths) return wrong(info, value, std::string(type_name(info.kind)));
+    if (paths->size() > static_cast<std::size_t>(info.max))
+        return wrong(info, value, fmt::format("at most {}", info.max));
+    for (const std::string& path : *paths) {
+        if (path.empty() || path.find_first_of(std::string_view("\0\n", 2)) != std::string::npos)
+            return fail(ErrorCode::kUsage, display_name(info) +
+                                               " holds a path that is empty or "
+                                               "has a line break; remove it");
     }
     return value;
 }
@@ -199,6 +223,15 @@ Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text)
         case ParameterKind::kCorners: {
             auto numbers = numbers_from(text);
             return numbers ? ParameterValue(std::move(*numbers)) : as_text;
+        }
+        case ParameterKind::kPaths: {
+            std::vector<std::string> paths;
+            for (std::size_t from = 0; from < text.size();) {
+                const std::size_t to = std::min(text.find('\n', from), text.size());
+                paths.emplace_back(text.substr(from, to - from));
+                from = to + 1;
+            }
+            return ParameterValue(std::move(paths));
         }
         case ParameterKind::kFrames: {
             std::vector<double> numbers;
@@ -269,6 +302,8 @@ Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue val
         case ParameterKind::kText:
         case ParameterKind::kPath:
             return normalise_text(info, std::move(value));
+        case ParameterKind::kPaths:
+            return normalise_paths(info, std::move(value));
         case ParameterKind::kPoint:
         case ParameterKind::kCorners:
         case ParameterKind::kFrames:
@@ -287,9 +322,14 @@ Expected<ParameterValue> parse_parameter(const ParameterInfo& info, std::string_
 std::string format_parameter(const ParameterInfo& info, const ParameterValue& value) {
     if (std::holds_alternative<std::monostate>(value)) return {};
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    std::string out;
+    if (const auto* paths = std::get_if<std::vector<std::string>>(&value)) {
+        for (const std::string& path : *paths)
+            out += (out.empty() ? "" : "\n") + path;
+        return out;
+    }
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     if (!numbers) return shown(value);
-    std::string out;
     if (info.kind == ParameterKind::kFrames) {
         if (std::is_sorted(numbers->begin(), numbers->end()))
             return format_frame_list(std::vector<int>(numbers->begin(), numbers->end()));
@@ -316,6 +356,7 @@ std::string allowed_values(const ParameterInfo& info) {
         }
         case ParameterKind::kText:
         case ParameterKind::kPath:
+        case ParameterKind::kPaths:
             return {};
         default:
             return range_text(info);

@@ -23,13 +23,15 @@ enum class ParameterKind {
     kText,     ///< std::string
     kPath,     ///< std::string, relative paths against the project's folder
     kPoint,    ///< 2 numbers: x, y. On the command line "X,Y".
+    kPaths,    ///< std::vector<std::string>, as kPath. On the command line one a line.
     kCorners,  ///< 8 numbers: TL, TR, BR, BL, or unset. On the command line "x,y x,y x,y x,y".
     kFrames    ///< Frame numbers. On the command line a frame list.
 };
 
 /// std::monostate: not set (only where `optional`); std::vector<double>: points and frames.
 using ParameterValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
+                 std::vector<std::string>>;
 
 struct ParameterInfo {
     std::string_view group{};  ///< JSON object that holds it; empty: the region or project itself.

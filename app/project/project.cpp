@@ -124,8 +124,11 @@ Project map_paths(const Project& project,
                         holdout = *map_matte(holdout, map);
                 });
             map(region.texture.sample);
+            for (std::string& path : region.texture.also)
+                map(path);
             map(region.texture.plane);
             map(region.motion.files);
+            map(region.motion.track);
             map(region.light.image);
             map(region.light.albedo);
             map(region.light.lighting);
@@ -137,7 +140,8 @@ Project map_paths(const Project& project,
 
 std::size_t own_bytes(const MatteSource& matte) {
     std::size_t bytes =
-        sizeof matte + heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel, matte.extra) +
+        sizeof matte +
+        heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel, matte.extra) +
         matte.frozen.capacity() * sizeof(int);
     for (const auto& [frame, key] : matte.keyframes)
         bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra);
@@ -148,12 +152,16 @@ std::size_t own_bytes(const Region& r) {
     std::size_t pins = 0;
     for (const auto& [frame, list] : r.corrections)
         pins += 64 + list.capacity() * sizeof(CorrectionPin);
-    return sizeof r + pins + r.reference_frames.capacity() * sizeof(int) +
+    std::size_t samples = r.texture.also.capacity() * sizeof(std::string);
+    for (const std::string& path : r.texture.also)
+        samples += heap_bytes_of(path);
+    return sizeof r + pins + samples + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
-                         r.texture.extra, r.placement.extra, r.motion.files, r.motion.extra,
-                         r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,
-                         r.light.strength_keys, r.light.lamps, r.light.albedo, r.light.lighting,
-                         r.finish.extra, r.lines.files, r.lines.extra, r.extra);
+                         r.texture.extra, r.placement.scale_keys, r.placement.rotate_keys,
+                         r.placement.offset_keys, r.placement.extra, r.motion.files, r.motion.track,
+                         r.motion.extra, r.synthesis.extra, r.temporal.extra, r.light.image,
+                         r.light.extra, r.light.strength_keys, r.light.lamps, r.light.albedo,
+                         r.light.lighting, r.finish.extra, r.lines.files, r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {

@@ -21,6 +21,7 @@
 #include "engine/lighting/shading.h"
 #include "engine/media/image_files.h"
 #include "engine/seam/seam.h"
+#include "engine/seam/seam_cost.h"
 #include "engine/temporal/temporal_mode.h"
 
 namespace weft {
@@ -108,6 +109,7 @@ struct MatteSource {
 /// of a library.
 struct TextureSource {
     std::string sample;
+    std::vector<std::string> also;      ///< Further samples of the same material.
     std::string plane;                  ///< Used as it is, without synthesis.
     WrapMode wrap = WrapMode::kRepeat;  ///< What lies beyond the border of `plane`.
     std::string space;                  ///< Empty: the project's texture space.
@@ -123,6 +125,8 @@ struct Placement {
     /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
     /// scale, rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
+    /// Instead of the above, over time: "1:1 24:1.5", "1:0 24:90", "1:0,0 24:10,5".
+    std::string scale_keys, rotate_keys, offset_keys;
     Extras extra;
     bool operator==(const Placement&) const = default;
 };
@@ -131,6 +135,7 @@ struct Placement {
 struct MotionSource {
     std::string files;  ///< Pattern of true motion; empty: estimated from the plate.
     MotionDirection direction = MotionDirection::kForward;
+    std::string track;  ///< File of a planar track that the surface follows instead.
     Extras extra;
     bool operator==(const MotionSource&) const = default;
 };
@@ -139,6 +144,10 @@ struct SynthesisParams {
     SeamMethod seam = SeamMethod::kGraphCut;
     int overlap_px = 36;
     int feather_px = 0;
+    SeamCost seam_cost = SeamCost::kGradient;
+    int refine = 2;  ///< Rounds; as kDefaultRefinePasses.
+    bool rotations = false, mirror = false;
+    bool align = true;
     Extras extra;
     bool operator==(const SynthesisParams&) const = default;
 };
@@ -155,7 +164,7 @@ struct LightParams {
     LightSource source = LightSource::kPlate;
     std::string image;  ///< The illumination picture of kImage.
     LightForm form = LightForm::kGain;
-    double strength = 1;  ///< λ
+    double strength = 1;        ///< λ
     std::string strength_keys;  ///< λ over time, "1:1 24:0.3"; empty: `strength` throughout.
     std::string lamps;          ///< Painted light (engine/lighting/painted_light.h).
     double cast = 0;            ///< How far the light's colour is taken over.
@@ -175,8 +184,9 @@ struct CorrectionPin {
 
 /// What makes the new texture look as if it had gone through the plate's camera.
 struct FinishParams {
-    double grain = 1;  ///< Of the plate's grain; 0: none.
-    double focus = 1;  ///< Of the plate's blur; 0: none.
+    double grain = 1;                   ///< Of the plate's grain; 0: none.
+    double focus = 1;                   ///< Of the plate's blur; 0: none.
+    std::optional<double> shutter_deg;  ///< Of 360 a frame; unset: as the plate's.
     Extras extra;
     bool operator==(const FinishParams&) const = default;
 };

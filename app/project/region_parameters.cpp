@@ -78,6 +78,15 @@ std::vector<Parameter<Region>> make_region_table() {
                                                        .flag = "--texture",
                                                        .help = "Picture to grow the texture from",
                                                        .is_path = true}),
+        entry<R, &R::texture, &TextureSource::also>(
+            {.group = "texture",
+             .key = "also",
+             .flag = "--texture-also",
+             .help = "Further picture of the same material, grown together with --texture; may be "
+                     "given several times",
+             .max = 63,
+             .repeatable = true,
+             .is_path = true}),
         entry<R, &R::texture, &TextureSource::plane>(
             {.group = "texture",
              .key = "plane",
@@ -127,6 +136,21 @@ std::vector<Parameter<Region>> make_region_table() {
              .min = -kMaxPlatePx,
              .max = kMaxPlatePx,
              .optional = true}),
+        entry<R, &R::placement, &Placement::scale_keys>(
+            {.group = "placement",
+             .key = "scale_keys",
+             .flag = "--scale-keys",
+             .help = "Scale over time, FRAME:S between spaces, instead of one"}),
+        entry<R, &R::placement, &Placement::rotate_keys>(
+            {.group = "placement",
+             .key = "rotate_keys",
+             .flag = "--rotate-keys",
+             .help = "Rotation over time, FRAME:DEG between spaces, instead of one"}),
+        entry<R, &R::placement, &Placement::offset_keys>(
+            {.group = "placement",
+             .key = "offset_keys",
+             .flag = "--offset-keys",
+             .help = "Shift over time, FRAME:X,Y between spaces, instead of one"}),
         entry<R, &R::reference_frames>({.key = "reference_frames",
                                         .flag = "--reference-frame",
                                         .help = "Frame on which the texture is placed; further "
@@ -145,6 +169,13 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "direction",
              .flag = "--motion-direction",
              .help = "Whether a motion file points to the next frame or to the previous one"}),
+        entry<R, &R::motion, &MotionSource::track>(
+            {.group = "motion",
+             .key = "track",
+             .flag = "--track",
+             .help = "Planar track that the surface follows: corner pins of Nuke or After Effects, "
+                     "text, or JSON",
+             .is_path = true}),
         entry<R, &R::synthesis, &SynthesisParams::seam>(
             {.group = "synthesis",
              .key = "seam",
@@ -166,6 +197,33 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "Blend across the seams, in sample pixels",
              .min = 0,
              .max = 256}),
+        entry<R, &R::synthesis, &SynthesisParams::seam_cost>(
+            {.group = "synthesis",
+             .key = "seam_cost",
+             .flag = "--seam-cost",
+             .help = "What a seam costs: mismatch over gradient, or the paper's eq. 2 and 3"}),
+        entry<R, &R::synthesis, &SynthesisParams::refine>(
+            {.group = "synthesis",
+             .key = "refine",
+             .flag = "--refine",
+             .help = "Rounds of refinement: cuts anew, then new pieces over the worst seams",
+             .min = 0,
+             .max = 100}),
+        entry<R, &R::synthesis, &SynthesisParams::rotations>(
+            {.group = "synthesis",
+             .key = "rotations",
+             .flag = "--rotations",
+             .help = "Use the sample turned by quarters, too"}),
+        entry<R, &R::synthesis, &SynthesisParams::mirror>(
+            {.group = "synthesis",
+             .key = "mirror",
+             .flag = "--mirror",
+             .help = "Use the sample mirrored, too"}),
+        entry<R, &R::synthesis, &SynthesisParams::align>(
+            {.group = "synthesis",
+             .key = "align",
+             .flag = "--align",
+             .help = "Keep bricks, tiles and weaves in step; --align=false lets them go"}),
         entry<R, &R::temporal, &TemporalParams::mode>(
             {.group = "temporal",
              .key = "mode",
@@ -258,6 +316,17 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "How far the texture is blurred as the plate is (final quality)",
              .min = 0,
              .max = 2}),
+        entry<R, &R::finish, &FinishParams::shutter_deg>(
+            {.group = "finish",
+             .key = "shutter_deg",
+             .flag = "--shutter",
+             .unit = "deg",
+             .help =
+                 "How long the shutter is open: the texture is blurred along its motion; 180 is "
+                 "half a frame, 0 none; default as the plate is (final quality)",
+             .min = 0,
+             .max = 720,
+             .optional = true}),
         entry<R, &R::lines, &LineParams::files>(
             {.group = "lines",
              .key = "files",

@@ -66,6 +66,9 @@ void check_texture(Finder& find, const Region& region) {
     if (!texture.sample.empty() && !texture.plane.empty())
         find.error("texture", "It has both a sample and a plane",
                    "Keep the sample (--texture) or the plane (--plane)");
+    if (texture.sample.empty() && !texture.also.empty())
+        find.error("texture.also", "It has further samples, but no sample",
+                   "Give the first one with --texture");
     if (!texture.plane.empty() && region.temporal.mode != TemporalMode::kLocked)
         find.warning(
             "temporal.mode",

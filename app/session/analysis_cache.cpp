@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the analysis itself computes something else.
-constexpr int kAnalysisVersion = 8;
+constexpr int kAnalysisVersion = 10;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -77,6 +77,11 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
         WEFT_CHECK_OK(add_matte(hasher, holdout));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward);
+    for (const auto& [frame, quad] : plan.track) {
+        hasher.value(frame);
+        for (const glm::dvec2 corner : quad)
+            hasher.value(corner.x).value(corner.y);
+    }
     for (const int frame : plan.reference_frames)
         hasher.value(frame);
     for (const auto& [frame, pins] : plan.corrections) {
@@ -89,8 +94,15 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
         hasher.value(frame);
     for (const int frame : plan.grain_frames)
         hasher.value(frame);
+    hasher.value(plan.estimates_shutter());
+    for (const int frame : plan.shutter_evidence)
+        hasher.value(frame);
     hasher.value(static_cast<int>(plan.temporal));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
+        for (const ImageF3& further : plan.texture->also)
+            hasher.image(further);
+        hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
+        hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
         hasher.value(plan.blend).value(plan.weight).value(plan.overlap_px).value(plan.feather_px);
         hasher.value(static_cast<int>(plan.seam))
@@ -115,12 +127,20 @@ const char* kind_name(AnalysisKind kind) {
             return "coords";
         case AnalysisKind::kCoordsOneWay:
             return "coords-one-way";
+        case AnalysisKind::kHistoryBefore:
+            return "history-before";
+        case AnalysisKind::kHistoryAfter:
+            return "history-after";
+        case AnalysisKind::kHeldBetween:
+            return "held-between";
         case AnalysisKind::kLightSample:
             return "light-sample";
         case AnalysisKind::kShading:
             return "shading";
         case AnalysisKind::kGrain:
             return "grain";
+        case AnalysisKind::kShutter:
+            return "shutter";
         case AnalysisKind::kPaperTexture:
             return "paper";
     }

@@ -69,7 +69,7 @@ struct ChildJobs::Shared {
     std::string program, folder;
     mutable std::mutex mutex;
     std::vector<std::shared_ptr<Job>> jobs;
-    std::uint64_t changes = 0;
+    std::atomic<std::uint64_t> changes = 0;
     int last_id = 0;
     bool closing = false;
 };
@@ -242,6 +242,18 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
             ++shared->changes;
         });
     }
+    // Files are read before the lock is taken: the window asks for the jobs in every frame.
+    const bool good = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const JobView so_far = [&] {
+        const std::lock_guard lock(shared->mutex);
+        return job->view;
+    }();
+    std::string error = child > 0 ? last_line(so_far.log_path)
+                                  : "The renderer could not be started: " + shared->program;
+    if (error.empty()) error = "The renderer ended unexpectedly. Its log may say more; try again.";
+    PicturePtr last;
+    if (so_far.has_frame && pattern && good)
+        last = thumbnail_of(pattern->path_for(so_far.newest_frame));
     {
         const std::lock_guard lock(shared->mutex);
         JobView& view = job->view;
@@ -250,20 +262,14 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
         view.left_s = 0;
         if (job->cancelled) {
             view.state = JobState::kCancelled;
-        } else if (child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        } else if (good) {
             view.state = JobState::kDone;
             view.done = view.total;
         } else {
             view.state = JobState::kFailed;
-            view.error = child > 0 ? last_line(view.log_path)
-                                   : "The renderer could not be started: " + shared->program;
-            if (view.error.empty())
-                view.error = "The renderer ended unexpectedly. Its log may say more; try again.";
+            view.error = std::move(error);
         }
-        if (view.has_frame && pattern && view.state == JobState::kDone) {
-            const std::string path = pattern->path_for(view.newest_frame);
-            if (const PicturePtr last = thumbnail_of(path)) view.thumbnail = last;
-        }
+        if (last) view.thumbnail = last;
         ++shared->changes;
     }
     start_next(shared);
@@ -348,8 +354,7 @@ bool ChildJobs::busy() const {
 }
 
 std::uint64_t ChildJobs::changes() const {
-    const std::lock_guard lock(shared_->mutex);
-    return shared_->changes;
+    return shared_->changes.load();
 }
 
 std::string ChildJobs::log_tail(int id, std::size_t most_bytes) const {

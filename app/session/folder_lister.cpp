@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "app/session/background.h"
 #include "engine/media/plates.h"
 #include "engine/media/sequence_pattern.h"
 
@@ -119,7 +120,7 @@ const std::vector<FolderEntry>* FolderLister::entries(const std::string& folder)
         folder_ = folder;
         ready_ = false;
         error_.clear();
-        pending_ = std::async(std::launch::async, [folder] { return list_folder(folder); });
+        pending_ = in_background([folder] { return list_folder(folder); });
     }
     return ready_ && folder == folder_ ? &entries_ : nullptr;
 }

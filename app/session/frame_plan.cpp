@@ -52,7 +52,8 @@ Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> 
     return both;
 }
 
-// The run of frames around `reference`, at most `reach` to each side, for which all files are there.
+// The run of frames around `reference`, at most `reach` to each side, for which all files are
+// there.
 Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
                                int reach) {
     std::vector<int> frames = plate.frames();
@@ -84,10 +85,21 @@ Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& 
     return frames_between(reference, run.last);
 }
 
+Expected<std::vector<int>> shutter_frames(const Region& region, const RegionPlan& plan,
+                                          const FrameReader& plate) {
+    if (plan.shutter_deg == 0.0f || plan.temporal != TemporalMode::kLocked)
+        return std::vector<int>{};
+    constexpr int kMeasured = 6;
+    const int reference = plan.reference_frames.front();
+    WEFT_TRY(run, run_around(region, plate, reference, plan.shutter_deg ? 1 : kMeasured));
+    if (run.last == reference) return std::vector<int>{};
+    return frames_between(reference, run.last);
+}
+
 Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
                                           const ShotPlan& shot, const FrameReader& plate) {
     if (!plan.estimates_light() || shot.quality == FlowQuality::kDraft) return std::vector<int>{};
-    constexpr int kReach = 48, kMostFrames = 12;
+    constexpr int kReach = 48, kMostFrames = 20;
     const int reference = plan.reference_frames.front();
     WEFT_TRY(run, run_around(region, plate, reference, kReach));
     const auto [first, last] = run;
@@ -138,6 +150,19 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     }
     if (plan.has_lines) {
         WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames));
+    }
+    if (!plan.track.empty() && plan.temporal != TemporalMode::kNone) {
+        std::vector<int> tracked;
+        for (const auto& [frame, corners] : plan.track)
+            tracked.push_back(frame);
+        const std::vector<int> untracked = missing_in(all, tracked);
+        if (!untracked.empty()) {
+            return fail(ErrorCode::kMissingFrames,
+                        "The track " + region.motion.track + " has nothing for " +
+                            frames_text(untracked) +
+                            ". Track the whole shot, or render only the frames that it has "
+                            "(--frames).");
+        }
     }
     if (plan.true_motion && plan.temporal != TemporalMode::kNone) {
         WEFT_CHECK_OK(check_pattern(region.motion.files, "The motion", motion_frames(plan, span)));

@@ -26,6 +26,11 @@ namespace weft {
 /// of frames, within 48 of the first reference frame, for which everything is there. They do not
 /// depend on what is rendered. None where the plate gives no light, or in draft quality. Errors:
 /// those of the patterns.
+/// The frames whose motion the shutter's blur needs around the reference: the reference and some
+/// after it where the shutter is measured, one where it is given; none without blur.
+[[nodiscard]] Expected<std::vector<int>> shutter_frames(const Region& region,
+                                                        const RegionPlan& plan,
+                                                        const FrameReader& plate);
 [[nodiscard]] Expected<std::vector<int>> light_evidence(const Region& region,
                                                         const RegionPlan& plan,
                                                         const ShotPlan& shot,

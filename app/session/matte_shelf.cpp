@@ -67,6 +67,7 @@ void MatteShelf::forget(const std::string& name) {
 }
 
 void MatteShelf::write(const std::string& path, MattePtr matte) {
+    std::vector<MattePtr> gone;  // freed after the lock is
     {
         const std::lock_guard lock(mutex_);
         bytes_ += matte->size_bytes();
@@ -75,8 +76,9 @@ void MatteShelf::write(const std::string& path, MattePtr matte) {
         kept_[path] = {matte, ++clock_};
         errors_.erase(path);
         tasks_.push_front({path, {}, std::move(matte)});
+        ++unwritten_;
         ++arrivals_;
-        trim();
+        gone = trim();
     }
     wake_.notify_one();
 }
@@ -88,8 +90,7 @@ std::string MatteShelf::take_write_error() {
 
 bool MatteShelf::writing() const {
     const std::lock_guard lock(mutex_);
-    return running_ > 0 || std::any_of(tasks_.begin(), tasks_.end(),
-                                       [](const Task& task) { return task.matte != nullptr; });
+    return unwritten_ > 0;
 }
 
 void MatteShelf::flush() {
@@ -102,18 +103,20 @@ void MatteShelf::flush() {
 }
 
 std::uint64_t MatteShelf::arrivals() const {
-    const std::lock_guard lock(mutex_);
-    return arrivals_;
+    return arrivals_.load();
 }
 
-void MatteShelf::trim() {
+std::vector<MattePtr> MatteShelf::trim() {
+    std::vector<MattePtr> gone;
     while (bytes_ > budget_bytes_ && kept_.size() > 1) {
         const auto oldest = std::min_element(
             kept_.begin(), kept_.end(),
             [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
         bytes_ -= oldest->second.matte->size_bytes();
+        gone.push_back(std::move(oldest->second.matte));
         kept_.erase(oldest);
     }
+    return gone;
 }
 
 void MatteShelf::work() {
@@ -141,12 +144,18 @@ void MatteShelf::work() {
         --running_;
         ++arrivals_;
         if (task.matte) {
+            --unwritten_;
             if (!written) write_error_ = written.error().text();
         } else if (read) {
             auto matte = std::make_shared<const Matte>(std::move(*read));
             bytes_ += matte->size_bytes();
             kept_[task.name] = {std::move(matte), ++clock_};
-            trim();
+            std::vector<MattePtr> gone = trim();
+            if (!gone.empty()) {
+                lock.unlock();
+                gone.clear();
+                lock.lock();
+            }
         } else {
             errors_[task.name] = read.error().text();
         }

@@ -2,6 +2,7 @@
 // Mattes in memory, by name: read by a background thread when they are asked for, written by it
 // when they are painted.
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
@@ -37,6 +39,7 @@ class MatteShelf {
     void write(const std::string& path, MattePtr matte);
     /// What went wrong with writing since the last call; empty: nothing.
     [[nodiscard]] std::string take_write_error();
+    /// Whether a painted matte is not on the disk yet.
     [[nodiscard]] bool writing() const;
     /// Waits until everything is on the disk.
     void flush();
@@ -50,7 +53,8 @@ class MatteShelf {
         MattePtr matte;  // to write
     };
     void work();
-    void trim();
+    /// What has to go, to be freed without the lock.
+    [[nodiscard]] std::vector<MattePtr> trim();
 
     const std::size_t budget_bytes_;
     mutable std::mutex mutex_;
@@ -64,8 +68,9 @@ class MatteShelf {
     std::map<std::string, std::string> errors_;
     std::string write_error_;
     std::size_t bytes_ = 0;
-    std::uint64_t clock_ = 0, arrivals_ = 0;
-    int running_ = 0;
+    std::uint64_t clock_ = 0;
+    std::atomic<std::uint64_t> arrivals_ = 0;
+    int running_ = 0, unwritten_ = 0;
     bool stop_ = false;
     std::thread thread_;
 };

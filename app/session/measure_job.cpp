@@ -96,6 +96,11 @@ class Measurer {
                 "The reference frame is not the first measured one: no floor, no sharpness kept.");
             return out;
         }
+        if (region().placement_moves()) {
+            out_.warnings.push_back(
+                "The placement has keys over time: no floor, no sharpness kept.");
+            return out;
+        }
         WEFT_TRY(plane, ideal_plane(options_.project, region(), shot_->plate->size()));
         WEFT_TRY(map, plane_from_plate(region().placement));
         out.ideal = IdealInputs{std::move(plane), map, {}};
@@ -156,20 +161,28 @@ Expected<ImageF3> ResultReader::read(int frame) const {
 
 Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan, Size plate) {
     const Region& region = *project.regions.front();
-    const std::string& path =
-        region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
-    WEFT_TRY(picture, read_image(path));
-    const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
-    const std::string& given =
-        region.texture.space.empty() ? project.color.texture_space : region.texture.space;
-    WEFT_TRY(space, parse_color_space(!given.empty() ? given : is_float ? "linear" : "srgb"));
-    WEFT_TRY(display, make_color_transform(space, {"srgb"}));
-    ImageU8x3 codes = make_views(picture.rgb, *display).display;
-    if (!region.texture.plane.empty()) return codes;
+    const auto read = [&](const std::string& path) -> Expected<ImageU8x3> {
+        WEFT_TRY(picture, read_image(path));
+        const bool is_float =
+            picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
+        const std::string& given =
+            region.texture.space.empty() ? project.color.texture_space : region.texture.space;
+        WEFT_TRY(space, parse_color_space(!given.empty() ? given : is_float ? "linear" : "srgb"));
+        WEFT_TRY(display, make_color_transform(space, {"srgb"}));
+        return make_views(picture.rgb, *display).display;
+    };
+    if (!region.texture.plane.empty()) return read(region.texture.plane);
+    std::vector<ImageU8x3> samples;
+    WEFT_TRY(first, read(region.texture.sample));
+    samples.push_back(std::move(first));
+    for (const std::string& path : region.texture.also) {
+        WEFT_TRY(further, read(path));
+        samples.push_back(std::move(further));
+    }
     PlaneOptions grow = plane_options(plan, static_cast<std::uint64_t>(project.settings.seed),
                                       plane_size(plan.placement, plate));
     grow.tileable = true;
-    WEFT_TRY(plane, grow_plane(codes, grow));
+    WEFT_TRY(plane, grow_plane({samples.begin(), samples.end()}, grow));
     return std::move(plane.pixels);
 }
 

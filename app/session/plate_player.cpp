@@ -1,6 +1,7 @@
 #include "app/session/plate_player.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/session/background.h"
 #include "engine/color/color_space.h"
@@ -37,46 +38,40 @@ PlatePlayer::~PlatePlayer() {
         thread.join();
 }
 
-void PlatePlayer::want(std::vector<int> frames) {
+bool PlatePlayer::try_want(const std::vector<int>& frames) {
     {
-        const std::lock_guard lock(mutex_);
-        if (frames == wanted_) return;
-        wanted_ = std::move(frames);
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock) return false;
+        if (frames == wanted_) return true;
+        wanted_ = frames;
     }
     wake_.notify_all();
+    return true;
 }
 
-PicturePtr PlatePlayer::get(int frame) const {
-    const std::lock_guard lock(mutex_);
+bool PlatePlayer::try_read(int frame, Reading& reading) const {
+    PicturePtr old;  // freed after the lock is
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return false;
     const auto found = pictures_.find(frame);
-    return found == pictures_.end() ? nullptr : found->second;
-}
-
-PlatePlayer::State PlatePlayer::state(int frame) const {
-    const std::lock_guard lock(mutex_);
-    if (pictures_.contains(frame)) return State::kCached;
-    return errors_.contains(frame) ? State::kFailed : State::kEmpty;
-}
-
-std::string PlatePlayer::error(int frame) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = errors_.find(frame);
-    return found == errors_.end() ? std::string() : found->second;
-}
-
-std::size_t PlatePlayer::size_bytes() const {
-    const std::lock_guard lock(mutex_);
-    return bytes_;
-}
-
-int PlatePlayer::cached_count() const {
-    const std::lock_guard lock(mutex_);
-    return static_cast<int>(pictures_.size());
-}
-
-std::uint64_t PlatePlayer::arrivals() const {
-    const std::lock_guard lock(mutex_);
-    return arrivals_;
+    const auto failed = errors_.find(frame);
+    old = std::exchange(reading.picture, found == pictures_.end() ? nullptr : found->second);
+    reading.error = failed == errors_.end() ? std::string() : failed->second;
+    reading.frame = frame;
+    reading.bytes = bytes_;
+    const std::uint64_t now = arrivals_.load() + 1;
+    if (reading.arrivals == now) return true;
+    reading.arrivals = now;
+    const std::vector<int>& all = reader_->frames();
+    reading.states.assign(all.size(), State::kEmpty);
+    const auto mark = [&](const auto& frames, State state) {
+        for (const auto& [number, content] : frames)
+            if (const auto at = std::lower_bound(all.begin(), all.end(), number); at != all.end())
+                reading.states[static_cast<std::size_t>(at - all.begin())] = state;
+    };
+    mark(errors_, State::kFailed);
+    mark(pictures_, State::kCached);
+    return true;
 }
 
 bool PlatePlayer::next_frame(int& frame) {
@@ -102,20 +97,26 @@ bool PlatePlayer::next_frame(int& frame) {
     return false;
 }
 
-void PlatePlayer::make_room(std::size_t bytes) {
+std::vector<PicturePtr> PlatePlayer::make_room(std::size_t bytes) {
+    std::vector<PicturePtr> gone;
+    if (pictures_.empty() || bytes_ + bytes <= budget_bytes_) return gone;
     // Unwanted frames go first, then the least urgent.
-    const auto urgency = [&](int frame) {
-        return static_cast<std::size_t>(std::find(wanted_.begin(), wanted_.end(), frame) -
-                                        wanted_.begin());
-    };
-    while (!pictures_.empty() && bytes_ + bytes > budget_bytes_) {
-        auto worst = pictures_.begin();
-        for (auto it = pictures_.begin(); it != pictures_.end(); ++it) {
-            if (urgency(it->first) > urgency(worst->first)) worst = it;
-        }
+    std::map<int, std::size_t> urgency;
+    for (std::size_t k = 0; k < wanted_.size(); ++k)
+        urgency.emplace(wanted_[k], k);
+    std::vector<std::pair<std::size_t, int>> order;
+    for (const auto& [frame, picture] : pictures_) {
+        const auto found = urgency.find(frame);
+        order.emplace_back(found == urgency.end() ? wanted_.size() : found->second, frame);
+    }
+    std::sort(order.begin(), order.end());
+    for (; !order.empty() && bytes_ + bytes > budget_bytes_; order.pop_back()) {
+        const auto worst = pictures_.find(order.back().second);
         bytes_ -= bytes_of(worst->second);
+        gone.push_back(std::move(worst->second));
         pictures_.erase(worst);
     }
+    return gone;
 }
 
 void PlatePlayer::keep(int frame, Expected<PlateFrame> decoded) {
@@ -124,6 +125,7 @@ void PlatePlayer::keep(int frame, Expected<PlateFrame> decoded) {
         const bool eight_bit = decoded->depth == PixelDepth::kU8 && reader_->display_encoded();
         picture = make_picture(decoded->rgb, eight_bit, srgb_.get(), linear_.get());
     }
+    std::vector<PicturePtr> gone;  // freed after the lock is: pictures are large
     const std::lock_guard lock(mutex_);
     std::erase(decoding_, frame);
     ++arrivals_;
@@ -131,7 +133,7 @@ void PlatePlayer::keep(int frame, Expected<PlateFrame> decoded) {
         errors_[frame] = decoded.error().text();
         return;
     }
-    make_room(bytes_of(picture));
+    gone = make_room(bytes_of(picture));
     bytes_ += bytes_of(picture);
     pictures_[frame] = std::move(picture);
 }

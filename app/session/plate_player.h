@@ -2,6 +2,7 @@
 // Decoded frames for viewing and playback: a bounded cache that background threads fill in the
 // order in which the frames will be wanted.
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <map>
@@ -16,10 +17,20 @@
 
 namespace weft {
 
-/// Never blocks its caller: all functions return at once. Thread-safe.
+/// Thread-safe. The window's thread asks with try_want() and try_read(), which never wait: a worker
+/// of low priority may be interrupted while it holds the lock, for as long as a busy machine likes.
 class PlatePlayer {
   public:
     enum class State : std::uint8_t { kEmpty, kCached, kFailed };
+    /// What there is, as of the last try_read() that succeeded.
+    struct Reading {
+        int frame = 0;
+        PicturePtr picture;         ///< Of `frame`; null when it is not decoded (yet).
+        std::string error;          ///< Why `frame` could not be read.
+        std::vector<State> states;  ///< By index into the reader's frames.
+        std::size_t bytes = 0;
+        std::uint64_t arrivals = 0;  ///< Of `states`; 0: never read.
+    };
 
     /// `srgb` and `linear` take the plate's space to the screen's; null: it is there already.
     PlatePlayer(std::shared_ptr<const FrameReader> reader,
@@ -29,22 +40,19 @@ class PlatePlayer {
 
     /// The frames wanted next, the most urgent first; replaces what was wanted before. Frames that
     /// are not among them go first when memory is short.
-    void want(std::vector<int> frames);
-    /// Null when it is not decoded (yet).
-    [[nodiscard]] PicturePtr get(int frame) const;
-    [[nodiscard]] State state(int frame) const;
-    /// Why a frame could not be read; empty when it could.
-    [[nodiscard]] std::string error(int frame) const;
-    [[nodiscard]] std::size_t size_bytes() const;
-    [[nodiscard]] int cached_count() const;
+    /// False, and nothing happens, when a worker is at the cache just now.
+    bool try_want(const std::vector<int>& frames);
+    /// Likewise. `reading` may be that of another frame: only what differs is filled in.
+    bool try_read(int frame, Reading& reading) const;
     /// Grows whenever a frame arrives: what tells a waiting window to draw again.
-    [[nodiscard]] std::uint64_t arrivals() const;
+    [[nodiscard]] std::uint64_t arrivals() const { return arrivals_.load(); }
 
   private:
     void work();
     [[nodiscard]] bool next_frame(int& frame);
     void keep(int frame, Expected<PlateFrame> decoded);
-    void make_room(std::size_t bytes);
+    /// What has to go, to be freed without the lock.
+    [[nodiscard]] std::vector<PicturePtr> make_room(std::size_t bytes);
 
     std::shared_ptr<const FrameReader> reader_;
     std::shared_ptr<const ColorTransform> srgb_, linear_;
@@ -56,7 +64,7 @@ class PlatePlayer {
     std::map<int, std::string> errors_;
     std::vector<int> decoding_;
     std::size_t bytes_ = 0;
-    std::uint64_t arrivals_ = 0;
+    std::atomic<std::uint64_t> arrivals_ = 0;
     bool stop_ = false;
     std::vector<std::thread> threads_;
 };

@@ -1,6 +1,7 @@
 #include "app/session/preview.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <set>
 
@@ -90,6 +91,7 @@ struct Preview::Impl {
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, const CancelToken& token);
     void collect_confidence(const Opened& opened);
 
+    void changed() { shown.changes = ++news; }
     void signal() {
         ++signals;
         wake.notify_all();
@@ -115,8 +117,9 @@ struct Preview::Impl {
     std::shared_ptr<const OverlayPicture> overlay;
     std::string overlay_key;
     std::map<RegionId, std::map<int, float>> confidences;
-    std::uint64_t mattes = 0;
+    std::atomic<std::uint64_t> mattes = 0;
     PreviewView shown;
+    std::atomic<std::uint64_t> news = 0;
     // What is to be analysed.
     OpenedPtr to_analyse;
     std::vector<int> analyse_frames, analyse_first;
@@ -137,7 +140,7 @@ void Preview::Impl::set_state(PreviewView::State state, std::string error) {
     if (shown.state == state && shown.error == error) return;
     shown.state = state;
     shown.error = std::move(error);
-    ++shown.changes;
+    changed();
 }
 
 void Preview::Impl::render_loop() {
@@ -230,7 +233,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     old_frames.swap(frames);
     frame_bytes = 0;
     shown.warnings = std::move(warnings);
-    ++shown.changes;
+    changed();
     if (!same_analysis) {
         confidences.clear();
         ++mattes;
@@ -320,27 +323,29 @@ bool Preview::Impl::render(const PreviewRequest& now, int frame) {
             sum += p ? p->size_bytes() : 0;
         return sum;
     };
+    std::vector<PreviewFrame> gone;  // freed after the lock is: pictures are large
     const std::lock_guard lock(mutex);
     if (frames.contains(frame)) frame_bytes -= bytes_of(frames[frame]);
     frame_bytes += bytes_of(*made);
-    frames[frame] = std::move(*made);
+    gone.push_back(std::exchange(frames[frame], std::move(*made)));
     while (frame_bytes > budget_bytes && frames.size() > 1) {
         // The one furthest from where the artist is.
         const auto first = frames.begin(), last = std::prev(frames.end());
         const auto far =
             std::abs(first->first - now.frame) > std::abs(last->first - now.frame) ? first : last;
         frame_bytes -= bytes_of(far->second);
+        gone.push_back(std::move(far->second));
         frames.erase(far);
     }
     shown.frame_seconds = seconds_since(start);
-    ++shown.changes;
+    changed();
     return true;
 }
 
 bool Preview::Impl::draw_overlay(const PreviewRequest& now) {
     if (now.overlay == Overlay::kNone || now.overlay_region == 0) {
         const std::lock_guard lock(mutex);
-        if (overlay) ++shown.changes;
+        if (overlay) changed();
         overlay.reset();
         overlay_key.clear();
         return false;
@@ -357,7 +362,7 @@ bool Preview::Impl::draw_overlay(const PreviewRequest& now) {
                                  static_cast<int>(k), now.frame, {});
         const std::lock_guard lock(mutex);
         overlay = made ? std::make_shared<const OverlayPicture>(std::move(*made)) : nullptr;
-        ++shown.changes;
+        changed();
     }
     overlay_key = key;
     return true;
@@ -390,7 +395,7 @@ void Preview::Impl::analyse_loop() {
         const std::lock_guard lock(mutex);
         shown.analysing = false;
         analysing_key.clear();
-        ++shown.changes;
+        changed();
         signal();
     }
 }
@@ -408,7 +413,7 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
             shown.seconds_left = seconds_since(start) / static_cast<double>(event.done) *
                                  static_cast<double>(event.total - event.done);
         }
-        ++shown.changes;
+        changed();
         ++mattes;
         signal();
     };
@@ -419,7 +424,7 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
     shown.state = PreviewView::State::kFailed;
     shown.error = done.error().text();
     failed_pixels = wanted_pixels;
-    ++shown.changes;
+    changed();
 }
 
 void Preview::Impl::collect_confidence(const Opened& work) {
@@ -446,23 +451,27 @@ Preview::Preview(AnalysisCacheOptions cache, std::size_t budget_bytes)
     : impl_(std::make_unique<Impl>(std::move(cache), budget_bytes)) {}
 Preview::~Preview() = default;
 
-void Preview::request(PreviewRequest request) {
+bool Preview::try_request(const PreviewRequest& request) {
     std::string pixels = pixel_key(request.project);
     std::string analysis = analysis_key(request.project);
-    const std::lock_guard lock(impl_->mutex);
+    std::optional<PreviewRequest> next = request;  // the one before is freed after the lock is
+    const std::unique_lock lock(impl_->mutex, std::try_to_lock);
+    if (!lock) return false;
     if (impl_->wanted_pixels != pixels) {
         impl_->failed_pixels.clear();
         impl_->grow_cancel.cancel();
     }
     if (!impl_->analysing_key.empty() && impl_->analysing_key != analysis)
         impl_->analysis_cancel.cancel();
-    impl_->wanted = std::move(request);
+    impl_->wanted.swap(next);
     impl_->wanted_pixels = std::move(pixels);
     impl_->wanted_analysis = std::move(analysis);
     impl_->signal();
+    return true;
 }
 
 void Preview::clear() {
+    std::map<int, PreviewFrame> old;  // freed after the lock is: pictures are large
     const std::lock_guard lock(impl_->mutex);
     impl_->wanted.reset();
     impl_->wanted_pixels.clear();
@@ -470,62 +479,49 @@ void Preview::clear() {
     impl_->failed_pixels.clear();
     impl_->analysis_cancel.cancel();
     impl_->grow_cancel.cancel();
-    impl_->frames.clear();
+    old.swap(impl_->frames);
     impl_->frame_bytes = 0;
     impl_->overlay.reset();
     impl_->confidences.clear();
-    const std::uint64_t changes = impl_->shown.changes;
     impl_->shown = {};
-    impl_->shown.changes = changes + 1;
+    impl_->changed();
 }
 
 void Preview::pause() {
     const std::lock_guard lock(impl_->mutex);
     impl_->paused = true;
     impl_->analysis_cancel.cancel();
-    ++impl_->shown.changes;
+    impl_->changed();
 }
 
 void Preview::resume() {
     const std::lock_guard lock(impl_->mutex);
     impl_->paused = false;
     impl_->analysis_news = impl_->to_analyse != nullptr;
-    ++impl_->shown.changes;
+    impl_->changed();
     impl_->signal();
 }
 
-bool Preview::paused() const {
-    const std::lock_guard lock(impl_->mutex);
-    return impl_->paused;
+bool Preview::try_read(int frame, RegionId region, PreviewReading& reading) const {
+    PreviewReading old;  // freed after the lock is
+    const std::unique_lock lock(impl_->mutex, std::try_to_lock);
+    if (!lock) return false;
+    std::swap(old, reading);
+    reading.view = impl_->shown;
+    reading.paused = impl_->paused;
+    reading.overlay = impl_->overlay;
+    if (const auto found = impl_->confidences.find(region); found != impl_->confidences.end())
+        reading.confidence = found->second;
+    if (!impl_->opened || impl_->opened->pixels != impl_->wanted_pixels) return true;
+    for (const auto& [number, pictures] : impl_->frames)
+        reading.there.push_back(number);
+    if (const auto found = impl_->frames.find(frame); found != impl_->frames.end())
+        reading.frame = found->second;
+    return true;
 }
 
-PreviewView Preview::view() const {
-    const std::lock_guard lock(impl_->mutex);
-    return impl_->shown;
-}
-
-PreviewFrame Preview::frame(int frame) const {
-    const std::lock_guard lock(impl_->mutex);
-    if (!impl_->opened || impl_->opened->pixels != impl_->wanted_pixels) return {};
-    const auto found = impl_->frames.find(frame);
-    return found == impl_->frames.end() ? PreviewFrame{} : found->second;
-}
-
-bool Preview::has(int frame) const {
-    const std::lock_guard lock(impl_->mutex);
-    return impl_->opened && impl_->opened->pixels == impl_->wanted_pixels &&
-           impl_->frames.contains(frame);
-}
-
-std::shared_ptr<const OverlayPicture> Preview::overlay() const {
-    const std::lock_guard lock(impl_->mutex);
-    return impl_->overlay;
-}
-
-std::map<int, float> Preview::confidence(RegionId region) const {
-    const std::lock_guard lock(impl_->mutex);
-    const auto found = impl_->confidences.find(region);
-    return found == impl_->confidences.end() ? std::map<int, float>{} : found->second;
+std::uint64_t Preview::news() const {
+    return impl_->news.load();
 }
 
 Expected<Matte> Preview::propagated_matte(RegionId region, int frame) const {
@@ -549,8 +545,7 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int frame) const {
 }
 
 std::uint64_t Preview::matte_version() const {
-    const std::lock_guard lock(impl_->mutex);
-    return impl_->mattes;
+    return impl_->mattes.load();
 }
 
 }  // namespace weft

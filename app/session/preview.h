@@ -71,27 +71,37 @@ struct PreviewView {
     double frame_seconds = 0;   ///< What the last frame took to render.
 };
 
-/// All functions return at once. Thread-safe.
+/// What the preview has to show, as of the last Preview::try_read() that succeeded.
+struct PreviewReading {
+    PreviewView view;
+    bool paused = false;
+    PreviewFrame frame;      ///< Of the newest request's content only.
+    std::vector<int> there;  ///< The frames that are rendered, likewise; ascending.
+    std::shared_ptr<const OverlayPicture> overlay;
+    /// How sure the propagation was, by frame; empty for mattes that come from files.
+    std::map<int, float> confidence;
+};
+
+/// Thread-safe. The window's thread asks with try_request() and try_read(), which never wait: a
+/// worker of low priority may be interrupted while it holds the lock, for as long as a busy machine
+/// likes.
 class Preview {
   public:
     explicit Preview(AnalysisCacheOptions cache, std::size_t budget_bytes = std::size_t{512} << 20);
     ~Preview();
 
-    void request(PreviewRequest request);
+    /// False, and nothing happens, when a worker is at its books just now.
+    bool try_request(const PreviewRequest& request);
     /// Forgets the shot and stops all work.
     void clear();
     /// Stops the analysis until the next request that changes it, or resume().
     void pause();
     void resume();
-    [[nodiscard]] bool paused() const;
 
-    [[nodiscard]] PreviewView view() const;
-    /// Of the newest request's content only.
-    [[nodiscard]] PreviewFrame frame(int frame) const;
-    [[nodiscard]] bool has(int frame) const;
-    [[nodiscard]] std::shared_ptr<const OverlayPicture> overlay() const;
-    /// How sure the propagation was, by frame; empty for mattes that come from files.
-    [[nodiscard]] std::map<int, float> confidence(RegionId region) const;
+    /// Pictures of `frame`, confidence of `region`. False, and `reading` stays, likewise.
+    bool try_read(int frame, RegionId region, PreviewReading& reading) const;
+    /// Grows with everything that try_read() would tell.
+    [[nodiscard]] std::uint64_t news() const;
     /// Reads a propagated matte; to be called in the background. Error: not propagated yet.
     [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int frame) const;
     /// Changes whenever propagated mattes may have changed.

@@ -7,6 +7,7 @@
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
+#include "engine/synthesis/plane_energy.h"
 
 namespace weft {
 namespace {
@@ -95,26 +96,20 @@ Status draw_seams(const Shot& shot, int region, const TextureCoords& coords,
     PlaneOptions options =
         plane_options(plan, shot.plan.seed, plane_size(plan.placement, shot.source->size()));
     options.tileable = true;
-    WEFT_TRY(plane, grow_plane(synthesis_sample(plan), options, cancel));
+    WEFT_TRY(plane, grow_texture(plan, options, cancel));
     const int width = plane.source.width(), height = plane.source.height();
-    const ImageU8x3 sample = synthesis_sample(plan);
+    const std::vector<ImageU8x3> samples = synthesis_samples(plan);
+    const SampleAtlas atlas({samples.begin(), samples.end()}, plan.orientations);
+    const Image<std::int32_t, 2> source = atlas_positions(atlas, plane);
     Matte energy(width, height);
-    const auto differ = [&](int x, int y, int dx, int dy) {
-        const std::int32_t* a = plane.source.pixel(x, y);
-        const std::int32_t* b = plane.source.pixel((x + dx) % width, (y + dy) % height);
-        if (b[0] - a[0] == dx && b[1] - a[1] == dy) return 0;
-        // The colour that the first piece would have gone on with, against the one that is there.
-        const int u = std::min(a[0] + dx, sample.width() - 1);
-        const int v = std::min(a[1] + dy, sample.height() - 1);
-        int sum = 0;
-        for (int c = 0; c < 3; ++c)
-            sum += std::abs(sample.pixel(u, v)[c] - sample.pixel(b[0], b[1])[c]);
-        return 24 + sum;
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            energy.at(x, y) = static_cast<std::uint8_t>(
-                std::min(255, 2 * std::max(differ(x, y, 1, 0), differ(x, y, 0, 1))));
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            // Seams that cost next to nothing are to be seen as well.
+            const PlaneEnergy here = texel_energy(atlas, source, {x, y}, true);
+            const double shown = here.length_px > 0 ? 48 + here.energy : 0;
+            energy.at(x, y) = static_cast<std::uint8_t>(std::min(255.0, shown));
+        }
+    }
     const auto wrap = [](float v, int n) {
         const int k = static_cast<int>(std::floor(v)) % n;
         return k < 0 ? k + n : k;

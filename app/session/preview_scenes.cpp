@@ -11,9 +11,13 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         const RegionPlan& plan = shot.plan.regions[k];
         const Region& region = *shot.project.regions[shot.region_index[k]];
         Hasher hasher;
+        for (const ShotTexture& further : shot.textures[k].also)
+            hasher.text(further.id);
         hasher.text(shot.textures[k].id).text(shot.spaces.textures[k].name);
         hasher.value(plan.random_key).value(shot.plan.seed).value(static_cast<int>(plan.temporal));
         hasher.value(static_cast<int>(plan.seam)).value(plan.overlap_px).value(plan.feather_px);
+        hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
+        hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
         // The light that the scene is relative to comes from the analysis.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
@@ -21,9 +25,18 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         Keys key;
         key.texture = hasher.finish().hex();
         const Size size = plane_size(plan.placement, shot.source->size());
-        key.exact = key.texture + (plan.texture->is_plane ? std::string()
-                                                          : " " + std::to_string(size.width) + "x" +
-                                                                std::to_string(size.height));
+        // Seams between histories depend on where the texture lies.
+        Hasher placed;
+        if (plan.reference_frames.size() > 1) {
+            const PlanePlacement& p = plan.placement;
+            placed.value(p.scale).value(p.rotate_deg).value(p.offset_px.x).value(p.offset_px.y);
+            for (const Vec2 c : p.corners.value_or(std::array<Vec2, 4>{}))
+                placed.value(c.x).value(c.y);
+        }
+        key.exact = placed.finish().hex() + key.texture +
+                    (plan.texture->is_plane
+                         ? std::string()
+                         : " " + std::to_string(size.width) + "x" + std::to_string(size.height));
         keys.push_back(std::move(key));
     }
     return keys;

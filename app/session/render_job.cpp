@@ -10,7 +10,6 @@
 
 #include "app/session/job_warnings.h"
 #include "app/session/output_check.h"
-#include "engine/compute/backend_registry.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -50,7 +49,7 @@ class RenderJob {
         const auto work = Clock::now();
         WEFT_CHECK_OK(timed(result_.seconds.analyse, [&]() -> Status {
             if (to_render_.empty()) return {};
-            return analyse_shot(*shot_->source, plan_, *store_, cancel_, progress_);
+            return analyse_shot(*shot_->source, plan_, *store_, cancel_, progress_, backend_.get());
         }));
         WEFT_CHECK_OK(timed(result_.seconds.synthesise, [&] { return make_scenes(); }));
         WEFT_CHECK_OK(timed(result_.seconds.render, [&] { return render_all(); }));
@@ -74,9 +73,7 @@ class RenderJob {
 
     Status open() {
         use_threads(spec_.threads);
-        BackendRegistry registry;
-        register_cuda(registry);
-        WEFT_TRY(choice, registry.choose(spec_.backend));
+        WEFT_TRY(choice, choose_backend(spec_.backend));
         backend_ = choice.backend;
         result_.backend = backend_->name();
         result_.backend_description = backend_->description();
@@ -169,12 +166,17 @@ class RenderJob {
         if (to_render_.empty()) return {};
         for (std::size_t k = 0; k < plan_.regions.size(); ++k) {
             if (const auto& texture = *plan_.regions[k].texture; !texture.is_plane) {
-                const auto warning = sample_warning(synthesis_sample(plan_.regions[k]));
-                if (warning) result_.warnings.push_back(shot_->textures[k].path + ": " + *warning);
+                const auto samples = synthesis_samples(plan_.regions[k]);
+                for (std::size_t i = 0; i < samples.size(); ++i) {
+                    const auto warning = sample_warning(samples[i]);
+                    const ShotTexture& first = shot_->textures[k];
+                    const std::string& path = i == 0 ? first.path : first.also[i - 1].path;
+                    if (warning) result_.warnings.push_back(path + ": " + *warning);
+                }
             }
             WEFT_CHECK_OK(check_reference(k));
-            auto scene =
-                make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_, {});
+            auto scene = make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_,
+                                    {}, backend_.get());
             if (!scene) {
                 const std::size_t at = shot_->region_index[k];
                 return fail_in(std::move(scene).error(), "Region '" +
@@ -281,8 +283,10 @@ class RenderJob {
                 "': its matte is empty on the reference frame " + std::to_string(frame) +
                 ". Place the texture on a frame that shows the surface (--reference-frame).");
         }
-        const std::vector<std::string> of_frames = warnings_of(result_.frames);
-        result_.warnings.insert(result_.warnings.end(), of_frames.begin(), of_frames.end());
+        for (const std::vector<std::string>& lines :
+             {warnings_of(result_.frames), backend_->remarks()}) {
+            result_.warnings.insert(result_.warnings.end(), lines.begin(), lines.end());
+        }
     }
 
     const JobSpec& spec_;
@@ -304,6 +308,12 @@ class RenderJob {
 };
 
 }  // namespace
+
+Expected<BackendChoice> choose_backend(const std::string& name) {
+    BackendRegistry registry;
+    register_cuda(registry);
+    return registry.choose(name);
+}
 
 void use_threads(int threads) {
     set_thread_count(threads);

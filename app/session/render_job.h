@@ -8,6 +8,7 @@
 
 #include "app/session/analysis_cache.h"
 #include "app/session/shot.h"
+#include "engine/compute/backend_registry.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
 #include "engine/synthesis/texture_plane.h"
@@ -61,6 +62,9 @@ struct JobResult {
     std::string movie;
     Size size;
 };
+
+/// "auto", "cpu" or one of CUDA's names. Errors: as BackendRegistry::choose().
+[[nodiscard]] Expected<BackendChoice> choose_backend(const std::string& name);
 
 /// Analyses, synthesises, renders and writes. Frames appear whole or not at all; what was written
 /// before an error or a cancellation stays. The bytes do not depend on the number of threads.

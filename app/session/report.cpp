@@ -35,12 +35,22 @@ Json plane_json(const PlaneStats& stats) {
     return {{"seconds",
              {{"search", stats.search_s},
               {"seam", stats.seam_s},
+              {"refine", stats.refine_s},
               {"other", stats.other_s},
               {"total", stats.total_s}}},
             {"seam_energy", stats.seam_energy},
             {"seam_length_px", stats.seam_length_px},
             {"seam_energy_per_area", stats.seam_energy_per_area},
-            {"peak_graph_bytes", stats.peak_graph_bytes}};
+            {"peak_graph_bytes", stats.peak_graph_bytes},
+            {"placements", stats.placements},
+            {"refinements", stats.refinements}};
+}
+
+void add_credit(const ShotTexture& texture, Json& entry) {
+    entry["author"] = texture.author.empty() ? "unknown" : texture.author;
+    entry["licence"] = texture.licence.empty() ? "unknown" : texture.licence;
+    if (!texture.source.empty()) entry["source"] = texture.source;
+    if (!texture.library_id.empty()) entry["library_id"] = texture.library_id;
 }
 
 Json textures_json(const JobResult& result) {
@@ -53,10 +63,14 @@ Json textures_json(const JobResult& result) {
                    {"size", {t.size.width, t.size.height}},
                    {"space", result.spaces.textures[k].name},
                    {"kind", t.is_plane ? "plane" : "sample"}};
-        entry["author"] = t.author.empty() ? "unknown" : t.author;
-        entry["licence"] = t.licence.empty() ? "unknown" : t.licence;
-        if (!t.source.empty()) entry["source"] = t.source;
-        if (!t.library_id.empty()) entry["library_id"] = t.library_id;
+        add_credit(t, entry);
+        for (const ShotTexture& further : t.also) {
+            Json sample{{"path", further.path},
+                        {"id", further.id},
+                        {"size", {further.size.width, further.size.height}}};
+            add_credit(further, sample);
+            entry["also"].push_back(std::move(sample));
+        }
         if (k < result.planes.size() && result.planes[k])
             entry["synthesis"] = plane_json(*result.planes[k]);
         out.push_back(std::move(entry));
@@ -87,31 +101,30 @@ Json settings_json(const Project& project) {
 }
 
 std::string report_json(const JobSpec& spec, const JobResult& result) {
-    const Json report{
-        {"version", kVersion},
-        {"backend",
-         {{"name", result.backend},
-          {"device", result.backend_description},
-          {"passed_over", result.passed_over}}},
-        {"threads", thread_count()},
-        {"size", {result.size.width, result.size.height}},
-        {"spaces",
-         {{"plate", result.spaces.plate.name},
-          {"working", result.spaces.working.name},
-          {"out", result.spaces.out.name}}},
-        {"frames", frames_json(result)},
-        {"fps", result.fps},
-        {"seconds_per_stage",
-         {{"open", result.seconds.open},
-          {"analyse", result.seconds.analyse},
-          {"synthesise", result.seconds.synthesise},
-          {"render", result.seconds.render},
-          {"total", result.seconds.total}}},
-        {"peak_rss_bytes", result.peak_rss_bytes},
-        {"textures", textures_json(result)},
-        {"settings", settings_json(spec.project)},
-        {"movie", result.movie},
-        {"warnings", result.warnings}};
+    const Json report{{"version", kVersion},
+                      {"backend",
+                       {{"name", result.backend},
+                        {"device", result.backend_description},
+                        {"passed_over", result.passed_over}}},
+                      {"threads", thread_count()},
+                      {"size", {result.size.width, result.size.height}},
+                      {"spaces",
+                       {{"plate", result.spaces.plate.name},
+                        {"working", result.spaces.working.name},
+                        {"out", result.spaces.out.name}}},
+                      {"frames", frames_json(result)},
+                      {"fps", result.fps},
+                      {"seconds_per_stage",
+                       {{"open", result.seconds.open},
+                        {"analyse", result.seconds.analyse},
+                        {"synthesise", result.seconds.synthesise},
+                        {"render", result.seconds.render},
+                        {"total", result.seconds.total}}},
+                      {"peak_rss_bytes", result.peak_rss_bytes},
+                      {"textures", textures_json(result)},
+                      {"settings", settings_json(spec.project)},
+                      {"movie", result.movie},
+                      {"warnings", result.warnings}};
     // Paths may hold bytes that are no UTF-8; they are replaced rather than refused.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

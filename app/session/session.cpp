@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/project/project_file.h"
+#include "app/session/background.h"
 #include "app/session/kept_textures.h"
 #include "app/session/session_measuring.h"
 #include "texture_db/library.h"
@@ -237,7 +238,9 @@ void Session::advance_playback(double now_s) {
         if (next > last || next < first) next = playing_ > 0 ? first : last;
         const int frame = frames[static_cast<std::size_t>(next)];
         // The first time round it waits for what is not decoded yet; then it runs in real time.
-        if (player_->state(frame) == PlatePlayer::State::kEmpty) {
+        const auto& states = plate_reading_.states;
+        if (states.empty() ||
+            states[static_cast<std::size_t>(next)] == PlatePlayer::State::kEmpty) {
             frame_at_s_ = now_s;
             break;
         }
@@ -267,15 +270,19 @@ void Session::want_frames() {
         if (next < first) next = last;
         wanted.push_back(frames[static_cast<std::size_t>(next)]);
     }
-    player_->want(std::move(wanted));
+    (void)player_->try_want(wanted);  // else the next frame asks again
 }
 
 // ---- the preview -----------------------------------------------------------------------------
 
 void Session::request_preview() {
-    if (!request_due_ || !reader_ || painting_) return;
-    request_due_ = false;
-    requested_version_ = document_version_;
+    if (!request_due_ || painting_) return;
+    if (!reader_) {
+        request_due_ = false;
+        return;
+    }
+    // It reads the painted mattes from the disk.
+    if (shelf_.writing()) return;
     PreviewRequest request;
     request.project = resolved();
     request.project.settings.quality = preview_quality_;
@@ -291,7 +298,9 @@ void Session::request_preview() {
         }
     }
     if (!any) {
+        request_due_ = false;
         preview_.clear();
+        preview_reading_ = {};
         view_.result_wanted = false;
         return;
     }
@@ -313,7 +322,10 @@ void Session::request_preview() {
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     for (int k = from; k < std::min(at, to); ++k)
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
-    preview_.request(std::move(request));
+    if (!preview_.try_request(request)) return;  // the next frame asks again
+    request_due_ = false;
+    preview_reading_.frame = {};
+    preview_reading_.there.clear();
 }
 
 void Session::apply_texture(const std::string& path, RegionId region) {
@@ -341,11 +353,10 @@ void Session::fetch_texture(const std::string& path, RegionId region) {
                                 : fs::path(project_dir(path_)) / kept_textures_name(path_);
     fetching_.emplace();
     fetching_->region = region;
-    fetching_->path = std::async(
-        std::launch::async,
-        [path, folder = folder.string(), library = options_.texture_library,
-         excluded =
-             licence_list(document().settings.excluded_licences)]() -> Expected<std::string> {
+    fetching_->path =
+        in_background([path, folder = folder.string(), library = options_.texture_library,
+                       excluded = licence_list(
+                           document().settings.excluded_licences)]() -> Expected<std::string> {
             WEFT_TRY(texture, resolve_texture(library, path));
             WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
             return keep_texture(texture, folder);
@@ -385,26 +396,37 @@ void Session::dismiss(int notice) {
 void Session::flush() {
     end_stroke();
     shelf_.flush();
+    finish_chores(true);
     recovery_.flush();
 }
 
 bool Session::busy() const {
     return playing_ != 0 || painting_ || changing_ || fetching_ || opening_.valid() ||
+           !chores_.empty() || request_due_ ||
            (measuring_ && view_.report.state == QualityReport::State::kMeasuring);
 }
 
 std::uint64_t Session::news() const {
-    return shelf_.arrivals() + preview_.view().changes + jobs_.changes() +
+    return shelf_.arrivals() + preview_.news() + jobs_.changes() +
            (player_ ? player_->arrivals() : 0);
 }
 
 void Session::update(double now_s) {
+    const auto part = [&](const char* name) {
+        if (clock_) clock_->enter(name);
+    };
+    part("files");
+    finish_chores(false);
+    part("plate");
     take_plate();
     advance_playback(now_s);
+    want_frames();
+    part("mattes");
     take_changed_matte();
     take_texture();
+    part("preview");
     request_preview();
-    want_frames();
+    part("notices");
     if (const std::string error = shelf_.take_write_error(); !error.empty())
         notify(NoticeKind::kError, error);
     if (const std::string error = recovery_.take_error(); !error.empty())
@@ -412,11 +434,17 @@ void Session::update(double now_s) {
     std::erase_if(notices_, [&](const Notice& n) {
         return n.kind != NoticeKind::kError && now_s - n.at_s > kToastSeconds;
     });
+    part("document");
     show_document();
+    part("plate");
     show_plate();
+    part("mattes");
     show_mattes();
+    part("preview");
     show_result();
+    part("marks");
     show_marks();
+    part("jobs");
     view_.jobs = jobs_.views();
     watch_jobs();
     view_.notices = notices_;

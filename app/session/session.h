@@ -2,7 +2,9 @@
 // One artist at work on one shot: the document with its history, the pictures, the mattes, the
 // preview and the jobs. Takes actions, publishes a view.
 
+#include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -10,6 +12,7 @@
 #include "app/project/history.h"
 #include "app/session/action.h"
 #include "app/session/editor_settings.h"
+#include "app/session/frame_clock.h"
 #include "app/session/plate_player.h"
 #include "app/session/recovery.h"
 #include "app/session/session_view.h"
@@ -47,7 +50,10 @@ class Session {
     [[nodiscard]] std::uint64_t news() const;
     void dismiss(int notice);
     void notify(NoticeKind kind, std::string text);
-    /// Waits until everything painted is on the disk: for tests and before leaving.
+    /// Where update() and act() note what they spend their time on; null: nowhere.
+    void set_clock(FrameClock* clock) { clock_ = clock; }
+    /// Waits until everything painted is on the disk and what was begun with files is done: for
+    /// tests and before leaving.
     void flush();
     [[nodiscard]] std::string job_log(int id) const { return jobs_.log_tail(id); }
     /// The document as it was left must not be offered again.
@@ -66,12 +72,15 @@ class Session {
     void open_demo();
     void open_any(const std::string& path);
     void save(const std::string& path);
-    [[nodiscard]] Expected<Project> moved_to(const std::string& path) const;
     void recover(bool accept);
     void document_changed();
     void open_plate_in_background();
     void take_plate();
     void remember_recent(const std::string& path);
+    void saved_as(const Project& written, const std::string& path,
+                  const std::map<std::string, std::string>& moved);
+    void finish_chores(bool wait);
+    void end_player();
 
     // ---- frames ----
     void go_to(int frame);
@@ -140,6 +149,13 @@ class Session {
     std::string opened_plate_dir_;
     std::shared_ptr<const FrameReader> reader_;
     std::shared_ptr<PlatePlayer> player_;
+    PlatePlayer::Reading plate_reading_;
+    PreviewReading preview_reading_;
+    /// Things whose end must be waited for, by threads that may.
+    std::vector<std::future<void>> endings_;
+    /// Work on files; what it returns is done on the session's own thread.
+    using Finish = std::function<void()>;
+    std::vector<std::future<Finish>> chores_;
 
     int frame_ = 0;
     int playing_ = 0;
@@ -178,7 +194,7 @@ class Session {
     };
     std::optional<Fetching> fetching_;  // a texture out of the library
 
-    int requested_frame_ = 0;
+    int read_frame_ = 0;
     bool stages_ = false;
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;
@@ -190,6 +206,7 @@ class Session {
     std::vector<Notice> notices_;
     int last_notice_ = 0;
     std::shared_ptr<Measuring> measuring_;
+    FrameClock* clock_ = nullptr;
 };
 
 }  // namespace weft

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/project/project_file.h"
+#include "app/session/background.h"
 #include "app/session/session.h"
 #include "engine/color/color_space.h"
 #include "engine/media/plates.h"
@@ -38,6 +39,35 @@ Expected<Project> project_for_plate(const std::string& path) {
         }
     }
     return project;
+}
+
+// The document as it is written to another place: what lies below that folder by relative paths,
+// and what was painted or fetched before there was a project copied beside it.
+Status move_to(const std::string& path, const std::string& unsaved, const std::string& from_dir,
+               Project& project, std::map<std::string, std::string>& moved) {
+    const std::string dir = project_dir(path), stem = fs::path(path).stem().string();
+    std::string failed;
+    project = map_paths(resolve_paths(project, from_dir), [&](const std::string& from) {
+        if (!from.starts_with(unsaved)) return relative_to(dir, from);
+        const bool texture = from.find("/textures/") != std::string::npos;
+        const fs::path to = fs::path(dir) / (stem + (texture ? "_textures" : "_mattes")) /
+                            fs::path(from).filename();
+        std::error_code error;
+        fs::create_directories(to.parent_path(), error);
+        fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+        // A texture's author and licence go with it; one of the artist's own has none.
+        std::error_code none;
+        const std::string credit = texture_credit_path(from);
+        if (!error && fs::exists(credit, none))
+            fs::copy_file(credit, texture_credit_path(to.string()),
+                          fs::copy_options::overwrite_existing, error);
+        if (error && failed.empty())
+            failed = from + " cannot be copied beside the project: " + error.message() +
+                     ". Free some space there, or save elsewhere.";
+        return moved[from] = relative_to(dir, to.string());
+    });
+    if (!failed.empty()) return fail(ErrorCode::kUnreadable, failed);
+    return {};
 }
 
 }  // namespace
@@ -143,35 +173,6 @@ void Session::open_any(const std::string& given) {
     start_document(std::move(*project), "");
 }
 
-// The document as it is written to another place: what lies below that folder by relative paths,
-// and what was painted or fetched before there was a project copied beside it.
-Expected<Project> Session::moved_to(const std::string& path) const {
-    const std::string dir = project_dir(path), stem = fs::path(path).stem().string();
-    const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
-    std::string failed;
-    Project moved = map_paths(
-        resolve_paths(history_.current(), project_dir(path_)), [&](const std::string& from) {
-            if (!from.starts_with(unsaved)) return relative_to(dir, from);
-            const bool texture = from.find("/textures/") != std::string::npos;
-            const fs::path to = fs::path(dir) / (stem + (texture ? "_textures" : "_mattes")) /
-                                fs::path(from).filename();
-            std::error_code error;
-            fs::create_directories(to.parent_path(), error);
-            fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-            // A texture's author and licence go with it; one of the artist's own has none.
-            std::error_code none;
-            const std::string credit = texture_credit_path(from);
-            if (!error && fs::exists(credit, none))
-                fs::copy_file(credit, texture_credit_path(to.string()),
-                              fs::copy_options::overwrite_existing, error);
-            if (error && failed.empty())
-                failed = from + " cannot be copied beside the project: " + error.message() + ".";
-            return relative_to(dir, to.string());
-        });
-    if (!failed.empty()) return fail(ErrorCode::kUnreadable, failed);
-    return moved;
-}
-
 void Session::save(const std::string& path) {
     if (!open_) return;
     if (path.empty()) {
@@ -180,30 +181,64 @@ void Session::save(const std::string& path) {
     }
     end_stroke();
     const std::string whole = fs::absolute(path).string();
-    shelf_.flush();
-    Project project = history_.current();
-    if (whole != path_) {
-        auto moved = moved_to(whole);
-        if (!moved) {
-            notify(NoticeKind::kError, moved.error().text());
-            return;
+    const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
+    view_.saving = true;
+    chores_.push_back(
+        in_background([this, whole, unsaved, from = path_, project = history_.current(),
+                       serial = history_.serial()]() mutable -> Finish {
+            shelf_.flush();
+            Status written;
+            std::map<std::string, std::string> moved;
+            if (whole != from) written = move_to(whole, unsaved, project_dir(from), project, moved);
+            if (written) written = save_project(whole, project);
+            return [this, whole, from, serial, written, moved = std::move(moved),
+                    project = std::move(project)] {
+                view_.saving = false;
+                if (!written) {
+                    notify(NoticeKind::kError, written.error().text());
+                    return;
+                }
+                // Another project may have been opened meanwhile.
+                if (path_ != from) return;
+                if (whole != from) {
+                    saved_as(project, whole, moved);
+                } else {
+                    history_.mark_saved(serial);
+                }
+                if (!history_.modified()) recovery_.clear();
+                remember_recent(path_);
+                ++document_version_;
+                notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
+            };
+        }));
+}
+
+// The document has a place now; what was changed while it was written stays changed.
+void Session::saved_as(const Project& written, const std::string& path,
+                       const std::map<std::string, std::string>& moved) {
+    const std::string dir = project_dir(path);
+    Project now =
+        map_paths(resolve_paths(history_.current(), project_dir(path_)), [&](const std::string& p) {
+            const auto found = moved.find(p);
+            return found == moved.end() ? relative_to(dir, p) : found->second;
+        });
+    path_ = path;
+    const bool same = now == written;
+    history_.push(std::move(now), "Save as " + fs::path(path).filename().string());
+    document_changed();
+    if (same) history_.mark_saved();
+}
+
+void Session::finish_chores(bool wait) {
+    for (std::size_t k = 0; k < chores_.size();) {
+        if (!wait && chores_[k].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+            ++k;
+            continue;
         }
-        project = std::move(*moved);
+        const Finish finish = chores_[k].get();
+        chores_.erase(chores_.begin() + static_cast<std::ptrdiff_t>(k));
+        finish();
     }
-    if (const Status saved = save_project(whole, project); !saved) {
-        notify(NoticeKind::kError, saved.error().text());
-        return;
-    }
-    if (whole != path_) {
-        path_ = whole;
-        history_.push(std::move(project), "Save as " + fs::path(whole).filename().string());
-        document_changed();
-    }
-    history_.mark_saved();
-    recovery_.clear();
-    remember_recent(path_);
-    ++document_version_;
-    notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
 }
 
 void Session::remember_recent(const std::string& path) {
@@ -237,6 +272,7 @@ void Session::recover(bool accept) {
 void Session::close_cleanly() {
     end_stroke();
     shelf_.flush();
+    finish_chores(true);
     recovery_.clear();
     recovery_.flush();
 }
@@ -245,13 +281,13 @@ void Session::open_plate_in_background() {
     opened_plate_ = document().plate;
     opened_plate_dir_ = project_dir(path_);
     if (opening_.valid()) abandoned_.push_back(std::move(opening_));
-    player_.reset();
+    end_player();
     reader_.reset();
     view_.plate = {};
     Plate plate = opened_plate_;
     plate.path = resolve_path(opened_plate_dir_, plate.path);
     if (plate.path.empty()) return;
-    opening_ = std::async(std::launch::async, [plate]() -> Expected<OpenedPlate> {
+    opening_ = in_background([plate]() -> Expected<OpenedPlate> {
         OpenedPlate out;
         WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
         out.reader = reader;
@@ -267,11 +303,20 @@ void Session::open_plate_in_background() {
     });
 }
 
+// A worker may be in the middle of a large frame: that is waited for elsewhere.
+void Session::end_player() {
+    plate_reading_ = {};
+    if (player_)
+        endings_.push_back(in_background(
+            [player = std::exchange(player_, nullptr)]() mutable { player.reset(); }));
+}
+
 void Session::take_plate() {
     const auto over = [](auto& future) {
         return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     };
     std::erase_if(abandoned_, over);
+    std::erase_if(endings_, over);
     if (!opening_.valid() || !over(opening_)) return;
     auto opened = opening_.get();
     if (!opened) {

@@ -79,8 +79,6 @@ void Session::submit(const SubmitJob& action) {
         notify(NoticeKind::kError, frames.error().text());
         return;
     }
-    // What was painted last must be on the disk before the renderer reads it.
-    shelf_.flush();
     request.project = resolve_paths(history_.current(), project_dir(path_));
     request.project.output.path = fs::absolute(action.output).string();
     request.project.output.movie =
@@ -90,13 +88,20 @@ void Session::submit(const SubmitJob& action) {
     request.skip_existing = action.skip_existing;
     request.label = (document().name.empty() ? "Shot" : document().name) + ", frames " +
                     format_frame_list(*frames);
-    if (const auto id = jobs_.submit(request)) {
-        known_jobs_[*id] = JobState::kWaiting;
-        notify(NoticeKind::kInfo, "Rendering " + std::to_string(frames->size()) + " frames to " +
-                                      request.project.output.path + ".");
-    } else {
-        notify(NoticeKind::kError, id.error().text());
-    }
+    chores_.push_back(in_background([this, request]() -> Finish {
+        // What was painted last must be on the disk before the renderer reads it.
+        shelf_.flush();
+        const auto id = jobs_.submit(request);
+        return [this, request, id] {
+            if (!id) {
+                notify(NoticeKind::kError, id.error().text());
+                return;
+            }
+            known_jobs_.emplace(*id, JobState::kWaiting);
+            notify(NoticeKind::kInfo, "Rendering " + std::to_string(request.frames.size()) +
+                                          " frames to " + request.project.output.path + ".");
+        };
+    }));
 }
 
 void Session::command(const CommandJob& action) {
@@ -131,7 +136,11 @@ void Session::measure(const std::string& pattern) {
         notify(NoticeKind::kWarning, "Select the region that is to be measured.");
         return;
     }
-    if (measuring_) measuring_->cancelled = true;
+    if (measuring_) {
+        measuring_->cancelled = true;
+        endings_.push_back(
+            in_background([old = std::exchange(measuring_, nullptr)]() mutable { old.reset(); }));
+    }
     measuring_ = std::make_shared<Measuring>();
     measuring_->report.state = QualityReport::State::kMeasuring;
     measuring_->report.pattern = pattern;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/project/project_file.h"
+#include "app/session/background.h"
 #include "app/session/session.h"
 #include "engine/core/hash.h"
 #include "engine/media/image_files.h"
@@ -185,8 +186,7 @@ void Session::change_matte(std::function<Matte(const Matte&)> change, std::strin
     changing_->region = selected_;
     changing_->frame = frame_;
     changing_->label = std::move(label);
-    changing_->matte = std::async(
-        std::launch::async,
+    changing_->matte = in_background(
         [change = std::move(change), matte = std::move(*before)] { return change(matte); });
 }
 

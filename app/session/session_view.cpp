@@ -85,10 +85,14 @@ void Session::show_plate() {
     plate.fps = document().plate.fps > 0 ? document().plate.fps
                 : reader_->fps() > 0     ? reader_->fps()
                                          : 24;
-    plate.cached_bytes = player_->size_bytes();
     // While a frame is decoded the last one stays: a black flash says nothing.
-    if (PicturePtr picture = player_->get(frame_)) view_.plate_picture = std::move(picture);
-    view_.frame_error = player_->error(frame_);
+    if (!player_->try_read(frame_, plate_reading_) && plate_reading_.frame != frame_) {
+        plate_reading_.picture.reset();
+        plate_reading_.error.clear();
+    }
+    plate.cached_bytes = plate_reading_.bytes;
+    if (plate_reading_.picture) view_.plate_picture = plate_reading_.picture;
+    view_.frame_error = plate_reading_.error;
     if (!view_.frame_error.empty()) view_.plate_picture.reset();
     view_.frame_file = reader_->path_of(frame_);
 }
@@ -103,12 +107,15 @@ void Session::show_mattes() {
 }
 
 void Session::show_result() {
-    view_.preview = preview_.view();
-    view_.analysis_paused = preview_.paused();
+    if (!preview_.try_read(frame_, selected_, preview_reading_) && view_.frame != read_frame_)
+        preview_reading_.frame = {};
+    read_frame_ = view_.frame;
+    view_.preview = preview_reading_.view;
+    view_.analysis_paused = preview_reading_.paused;
     view_.preview_quality = preview_quality_;
     view_.overlay = overlay_;
     view_.stages_shown = stages_;
-    view_.stages = preview_.frame(frame_);
+    view_.stages = preview_reading_.frame;
     const PicturePtr& final = view_.stages.stages[static_cast<std::size_t>(Stage::kFinal)];
     view_.result_current = final != nullptr;
     if (final) {
@@ -118,7 +125,7 @@ void Session::show_result() {
     // An older look at this very frame stays until the new one is there, marked as such.
     view_.result_picture =
         view_.result_wanted && last_result_frame_ == frame_ ? last_result_ : nullptr;
-    view_.overlay_picture = preview_.overlay();
+    view_.overlay_picture = preview_reading_.overlay;
     if (view_.overlay_picture && view_.overlay_picture->frame != frame_)
         view_.overlay_picture.reset();
     if (measuring_) {
@@ -132,13 +139,17 @@ void Session::show_marks() {
     view_.marks.assign(reader_ ? frames.size() : 0, {});
     if (!reader_) return;
     const Region* region = region_by_id(document(), selected_);
-    const std::map<int, float> confidence = preview_.confidence(selected_);
+    const std::map<int, float>& confidence = preview_reading_.confidence;
+    for (const int frame : preview_reading_.there)
+        if (const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
+            at != frames.end())
+            view_.marks[static_cast<std::size_t>(at - frames.begin())].result = true;
     for (std::size_t k = 0; k < frames.size(); ++k) {
         FrameMarks& mark = view_.marks[k];
-        const PlatePlayer::State state = player_->state(frames[k]);
-        mark.plate = state == PlatePlayer::State::kCached;
-        mark.failed = state == PlatePlayer::State::kFailed;
-        mark.result = preview_.has(frames[k]);
+        if (k < plate_reading_.states.size()) {
+            mark.plate = plate_reading_.states[k] == PlatePlayer::State::kCached;
+            mark.failed = plate_reading_.states[k] == PlatePlayer::State::kFailed;
+        }
         if (!region) continue;
         mark.matte_key = region->matte->keyframes.contains(frames[k]);
         mark.reference = std::find(region->reference_frames.begin(), region->reference_frames.end(),

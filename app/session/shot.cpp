@@ -5,6 +5,7 @@
 
 #include "app/session/frame_plan.h"
 #include "app/session/project_source.h"
+#include "app/session/track_file.h"
 #include "engine/core/hash.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
@@ -169,11 +170,17 @@ class ShotOpener {
         }
         plan.true_motion = !region.motion.files.empty();
         plan.motion_forward = region.motion.direction == MotionDirection::kForward;
+        WEFT_CHECK_OK(add_track(region.motion, plan));
         plan.placement = plane_placement(region.placement);
+        WEFT_CHECK_OK(add_placement_keys(region, plan));
         WEFT_CHECK_OK(plane_from_plate(plan.placement));
         plan.seam = region.synthesis.seam;
         plan.overlap_px = region.synthesis.overlap_px;
         plan.feather_px = region.synthesis.feather_px;
+        plan.seam_cost = region.synthesis.seam_cost;
+        plan.refine_passes = region.synthesis.refine;
+        plan.orientations = {region.synthesis.rotations, region.synthesis.mirror};
+        plan.align = region.synthesis.align;
         plan.temporal = region.temporal.mode;
         plan.blend = static_cast<float>(region.temporal.blend);
         plan.weight = static_cast<float>(region.temporal.weight);
@@ -185,6 +192,14 @@ class ShotOpener {
         plan.focus = final ? static_cast<float>(region.finish.focus) : 0.0f;
         WEFT_TRY(metered, grain_frames(region, plan, *shot_.plate));
         plan.grain_frames = std::move(metered);
+        if (!final)
+            plan.shutter_deg = 0.0f;
+        else if (region.finish.shutter_deg)
+            plan.shutter_deg = static_cast<float>(*region.finish.shutter_deg);
+        else
+            plan.shutter_deg.reset();
+        WEFT_TRY(blurred, shutter_frames(region, plan, *shot_.plate));
+        plan.shutter_evidence = std::move(blurred);
         WEFT_TRY(evidence, light_evidence(region, plan, shot_.plan, *shot_.plate));
         plan.light_evidence = std::move(evidence);
         plan.has_lines = !region.lines.files.empty();
@@ -240,6 +255,44 @@ class ShotOpener {
         return out;
     }
 
+    struct OpenTexture {
+        ImageF3 pixels;
+        ColorSpace space;
+        ShotTexture named;
+    };
+    Expected<OpenTexture> open_texture(const Region& region, const std::string& path, bool is_plane,
+                                       int overlap_px) {
+        WEFT_TRY(read, read_texture(path));
+        auto& [picture, credit] = read;
+        if (!is_plane) {
+            // Now, not after minutes of analysis.
+            if (const Status fits = check_sample(picture.rgb.size(), overlap_px); !fits)
+                return fail_in(fits.error(), path);
+        }
+        const std::string& given =
+            region.texture.space.empty() ? shot_.project.color.texture_space : region.texture.space;
+        WEFT_TRY(texture_space, space(given, float_depth(picture.depth) ? kLinear : kSrgb));
+        if (picture.nonfinite > 0) {
+            shot_.warnings.push_back("The texture " + path + " has " +
+                                     std::to_string(picture.nonfinite) +
+                                     " pixels of NaN or infinity; they are taken as black.");
+        }
+        OpenTexture out;
+        out.pixels = std::move(picture.rgb);
+        out.space = texture_space;
+        for (int k = 0; k < out.pixels.height(); ++k) {
+            float* row = out.pixels.row(k);
+            std::replace_if(
+                row, row + out.pixels.stride(), [](float v) { return !std::isfinite(v); }, 0.0f);
+        }
+        Hasher hasher;
+        hasher.image(out.pixels);
+        out.named = {region.name, path,          hasher.finish().hex(), out.pixels.size(),
+                     is_plane,    credit.author, credit.licence,        credit.source,
+                     {},          credit.id};
+        return out;
+    }
+
     Status add_texture(const Region& region, RegionPlan& plan) {
         const bool is_plane = !region.texture.plane.empty();
         const std::string& path = is_plane ? region.texture.plane : region.texture.sample;
@@ -247,43 +300,73 @@ class ShotOpener {
             return fail(ErrorCode::kUsage,
                         "It has no texture. Give a sample (--texture) or a plane (--plane).");
         }
-        WEFT_TRY(read, read_texture(path));
-        auto& [picture, credit] = read;
-        if (!is_plane) {
-            // Now, not after minutes of analysis.
-            if (const Status fits = check_sample(picture.rgb.size(), plan.overlap_px); !fits)
-                return fail_in(fits.error(), path);
-        }
-        const std::string& given =
-            region.texture.space.empty() ? shot_.project.color.texture_space : region.texture.space;
-        WEFT_TRY(texture_space, space(given, float_depth(picture.depth) ? kLinear : kSrgb));
+        WEFT_TRY(first, open_texture(region, path, is_plane, plan.overlap_px));
+        const ColorSpace texture_space = first.space;
         WEFT_TRY(working_from_texture, make_color_transform(texture_space, shot_.spaces.working));
         WEFT_TRY(display_from_texture, make_color_transform(texture_space, {kSrgb}));
-        if (picture.nonfinite > 0) {
-            shot_.warnings.push_back("The texture " + path + " has " +
-                                     std::to_string(picture.nonfinite) +
-                                     " pixels of NaN or infinity; they are taken as black.");
-        }
         auto texture = std::make_shared<TexturePicture>();
-        texture->pixels = std::move(picture.rgb);
+        texture->pixels = std::move(first.pixels);
         texture->is_plane = is_plane;
         texture->wrap = region.texture.wrap;
-        for (int k = 0; k < texture->pixels.height(); ++k) {
-            float* row = texture->pixels.row(k);
-            std::replace_if(
-                row, row + texture->pixels.stride(), [](float v) { return !std::isfinite(v); },
-                0.0f);
+        for (const std::string& further : region.texture.also) {
+            if (is_plane) break;
+            WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));
+            // One space for all: the first one's.
+            WEFT_TRY(to_first, make_color_transform(sample.space, texture_space));
+            to_first->apply(sample.pixels);
+            texture->also.push_back(std::move(sample.pixels));
+            first.named.also.push_back(std::move(sample.named));
         }
-        Hasher hasher;
-        hasher.image(texture->pixels);
-        shot_.textures.push_back({region.name, path, hasher.finish().hex(), texture->pixels.size(),
-                                  is_plane, credit.id, credit.author, credit.licence,
-                                  credit.source});
+        shot_.textures.push_back(std::move(first.named));
         shot_.spaces.textures.push_back(texture_space);
         plan.texture = std::move(texture);
         plan.working_from_texture = working_from_texture;
         plan.display_from_texture = display_from_texture;
         plan.working_from_display = working_from_display_;
+        return {};
+    }
+
+    [[nodiscard]] Status add_track(const MotionSource& motion, RegionPlan& plan) const {
+        if (motion.track.empty()) return {};
+        if (plan.true_motion) {
+            return fail(ErrorCode::kUsage,
+                        "It has both a track and files of true motion. Give one of --track and "
+                        "--motion.");
+        }
+        WEFT_TRY(track, read_corner_track(motion.track,
+                                          {shot_.plate->size(), shot_.plate->frames().front()}));
+        plan.track = std::move(track);
+        return {};
+    }
+
+    static Status add_placement_keys(const Region& region, RegionPlan& plan) {
+        const Placement& given = region.placement;
+        const auto read = [](const std::string& text, std::size_t count,
+                             const char* flag) -> Expected<KeyedNumbers> {
+            auto keys = parse_keyed_number(text, count);
+            if (!keys) return fail_in(std::move(keys).error(), flag);
+            return keys;
+        };
+        WEFT_TRY(scale, read(given.scale_keys, 1, "--scale-keys"));
+        WEFT_TRY(rotate, read(given.rotate_keys, 1, "--rotate-keys"));
+        WEFT_TRY(offset, read(given.offset_keys, 2, "--offset-keys"));
+        for (const auto& [frame, values] : scale.keys) {
+            if (!(values[0] >= 0.001f))
+                return fail(ErrorCode::kUsage, "--scale-keys: a scale must be 0.001 or more");
+        }
+        plan.scale_keys = std::move(scale);
+        plan.rotate_keys = std::move(rotate);
+        plan.offset_keys = std::move(offset);
+        if (plan.placement_moves() && region.temporal.mode != TemporalMode::kLocked) {
+            return fail(ErrorCode::kUsage,
+                        "A placement with keys needs --temporal locked: the other modes make the "
+                        "texture where it lies.");
+        }
+        const auto smaller = [](const auto& a, const auto& b) { return a.second < b.second; };
+        if (!plan.scale_keys.empty()) {
+            const auto& keys = plan.scale_keys.keys;
+            plan.placement.scale = std::min_element(keys.begin(), keys.end(), smaller)->second[0];
+        }
         return {};
     }
 
@@ -350,13 +433,18 @@ Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
 
 Status check_texture_licences(const Shot& shot) {
     std::vector<TextureCredit> credits;
-    for (const ShotTexture& t : shot.textures) {
+    const auto add = [&](const std::string& region, const ShotTexture& t) {
         TextureCredit credit;
-        credit.region = t.region;
+        credit.region = region;
         credit.name = t.path;
         credit.author = t.author;
         credit.licence = t.licence;
         credits.push_back(std::move(credit));
+    };
+    for (const ShotTexture& t : shot.textures) {
+        add(t.region, t);
+        for (const ShotTexture& further : t.also)
+            add(t.region, further);
     }
     return check_licences(credits, licence_list(shot.project.settings.excluded_licences));
 }

@@ -24,7 +24,9 @@ struct ShotTexture {
     Size size;
     bool is_plane = false;
     /// Of a texture that came from a library; empty: not known.
-    std::string library_id, author, licence, source;
+    std::string author, licence, source;
+    std::vector<ShotTexture> also;  ///< Further samples that are grown together with it.
+    std::string library_id;         ///< Of a library's texture.
 };
 
 /// Everything that analysing and rendering need. Shared and immutable once made; thread-safe.

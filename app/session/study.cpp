@@ -43,7 +43,7 @@ class Study {
         Project to_render = result_.project;
         if (!options_.render_with_motion) {
             to_render.regions.front() =
-                to_render.regions.front().with([](Region& r) { r.motion = MotionSource{}; });
+                to_render.regions.front().with([](Region& r) { r.motion.files.clear(); });
         }
         WEFT_TRY(methods, plan_study(options_, to_render, plane_path_));
         for (StudyMethod& method : methods) {
@@ -167,6 +167,7 @@ class Study {
         job.project.color.out_space.clear();
         job.project.regions.front() = job.project.regions.front().with([&](Region& r) {
             r.texture.sample.clear();
+            r.texture.also.clear();
             r.texture.plane = plane_path_;
             r.texture.space.clear();
         });

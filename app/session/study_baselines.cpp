@@ -106,7 +106,7 @@ class BaselineRenderer {
             options.seed = shot_->plan.seed;
             options.region = region().random_key;
             options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame));
-            const ImageU8x3 made = patch_match_texture(synthesis_sample(region()), options);
+            const ImageU8x3 made = patch_match_texture(synthesis_samples(region()).front(), options);
             for (int y = 0; y < made.height(); ++y)
                 std::copy_n(made.row(y), 3 * made.width(), picture.pixel(box.x0, box.y0 + y));
         }

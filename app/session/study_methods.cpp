@@ -33,6 +33,7 @@ class Planner {
             add("still", "Still texture on the screen", StudyRole::kBaseline, [&](Region& r) {
                 r.temporal.mode = TemporalMode::kNone;
                 r.texture.sample.clear();
+                r.texture.also.clear();
                 r.texture.plane = plane_;
             });
         }

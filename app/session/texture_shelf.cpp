@@ -125,8 +125,7 @@ std::vector<TextureSuggestion> TextureShelf::suggestions(const std::string& key)
 }
 
 std::uint64_t TextureShelf::arrivals() const {
-    const std::lock_guard lock(mutex_);
-    return arrivals_;
+    return arrivals_.load();
 }
 
 void TextureShelf::scan(const std::vector<std::string>& folders) {
@@ -157,8 +156,9 @@ void TextureShelf::scan(const std::vector<std::string>& folders) {
 void TextureShelf::publish() {
     auto cards = std::make_shared<std::vector<TextureCard>>(folder_cards_);
     cards->insert(cards->end(), library_cards_.begin(), library_cards_.end());
+    std::shared_ptr<const std::vector<TextureCard>> old;  // freed after the lock is
     const std::lock_guard lock(mutex_);
-    cards_ = std::move(cards);
+    old = std::exchange(cards_, std::move(cards));
     ++arrivals_;
 }
 
@@ -317,17 +317,32 @@ void TextureShelf::make_thumbnail(const Wish& wish) {
             nullptr, nullptr);
         picture = make_picture(shrink(*whole, wish.longest_px));
     }
+    std::vector<PicturePtr> gone;  // freed after the lock is
     const std::lock_guard lock(mutex_);
     if (picture) bytes_ += picture->size_bytes();
     kept_[wish.path + "@" + std::to_string(wish.longest_px)] = {picture, wish.longest_px, ++clock_};
     ++arrivals_;
-    while (bytes_ > budget_bytes_ && kept_.size() > 1) {
-        const auto oldest = std::min_element(
-            kept_.begin(), kept_.end(),
-            [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
-        if (oldest->second.picture) bytes_ -= oldest->second.picture->size_bytes();
-        kept_.erase(oldest);
+    gone = trim();
+}
+
+// Those that were not looked at for longest go, and more than need be: looking for them takes a
+// while when there are thousands.
+std::vector<PicturePtr> TextureShelf::trim() {
+    std::vector<PicturePtr> gone;
+    if (bytes_ <= budget_bytes_) return gone;
+    std::vector<std::pair<std::uint64_t, std::map<std::string, Kept>::iterator>> order;
+    order.reserve(kept_.size());
+    for (auto it = kept_.begin(); it != kept_.end(); ++it)
+        order.emplace_back(it->second.used, it);
+    std::sort(order.begin(), order.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [used, it] : order) {
+        if (bytes_ <= budget_bytes_ / 8 * 7 || kept_.size() == 1) break;
+        if (it->second.picture) bytes_ -= it->second.picture->size_bytes();
+        gone.push_back(std::move(it->second.picture));
+        kept_.erase(it);
     }
+    return gone;
 }
 
 const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {

@@ -2,6 +2,7 @@
 // The textures that the drawer shows: their cards at once, their thumbnails as they are asked for,
 // the visible ones first.
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -82,6 +83,7 @@ class TextureShelf {
     void publish();
     void scan(const std::vector<std::string>& folders);
     void make_thumbnail(const Wish& wish);
+    [[nodiscard]] std::vector<PicturePtr> trim();
     void rank(const std::string& key, const Picture& plate, const Matte& matte,
               const std::string& excluded_licences);
     [[nodiscard]] const Look* look_of(const std::string& path);
@@ -100,7 +102,8 @@ class TextureShelf {
     };
     std::map<std::string, Kept> kept_;
     std::size_t bytes_ = 0;
-    std::uint64_t clock_ = 0, arrivals_ = 0;
+    std::uint64_t clock_ = 0;
+    std::atomic<std::uint64_t> arrivals_ = 0;
     std::string ranked_key_, rank_due_;
     PicturePtr rank_plate_;
     std::shared_ptr<const Matte> rank_matte_;

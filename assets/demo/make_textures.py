@@ -47,10 +47,10 @@ def brick():
     inside = np.clip(edge / 1.8 + 0.3, 0, 1)
     relief = np.clip(edge / 4, 0, 1) ** 0.5 * 2.4
     relief += 0.55 * noise(height, width, 1.2) + 0.7 * noise(height, width, 3)
-    tones = np.array([[0.52, 0.23, 0.16], [0.60, 0.29, 0.19], [0.44, 0.19, 0.15], [0.64, 0.35, 0.24], [0.36, 0.18, 0.16]])
+    tones = np.array([[0.52, 0.27, 0.19], [0.56, 0.30, 0.22], [0.49, 0.24, 0.18], [0.58, 0.33, 0.25], [0.45, 0.23, 0.18]])
     pick = rng.integers(0, len(tones), (8, 4))
-    clay = tones[pick[row % 8, column]] * (1 + 0.16 * rng.standard_normal((8, 4))[row % 8, column])[..., None]
-    clay = clay * (1 + 0.20 * noise(height, width, 2.2) + 0.14 * noise(height, width, 9))[..., None]
+    clay = tones[pick[row % 8, column]] * (1 + 0.06 * rng.standard_normal((8, 4))[row % 8, column])[..., None]
+    clay = clay * (1 + 0.14 * noise(height, width, 2.2) + 0.08 * noise(height, width, 9))[..., None]
     mortar = np.array([0.62, 0.58, 0.52]) * (1 + 0.14 * noise(height, width, 1.3))[..., None]
     shade = 0.30 + 0.92 * lit(relief, 0.55)
     save("brick", (inside[..., None] * clay + (1 - inside[..., None]) * mortar) * shade[..., None])

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/composite/moving_light.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 
@@ -17,6 +18,7 @@ constexpr std::size_t kFewest = 400;  // flat pixels
 constexpr std::size_t kFewestInBin = 100;
 constexpr double kLeastDeviation = 0.35 / 255;  // less is not seen
 constexpr double kMostDeviation = 0.1;          // more is no grain
+constexpr double kMostOfUsual = 2.5;            // grain of one luma beside that of all
 constexpr double kLeastShare = 0.25;  // of the flat pixels' difference that must not be motion
 
 float luma_of(const float* p) {
@@ -189,14 +191,21 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
     const float flat = *at;
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
-            if (!known.row(y)[x] || gradient2.row(y)[x] > flat) continue;
+            if (gradient2.row(y)[x] > flat) known.row(y)[x] = 0;
+        }
+    }
+    const std::vector<float> variances = leave_out_moving_light(difference, known);
+    block_variances_.insert(block_variances_.end(), variances.begin(), variances.end());
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            if (!known.row(y)[x]) continue;
             const float* d = difference.pixel(x, y);
             pixels_.push_back(
                 {{d[0], d[1], d[2]}, gradient2.row(y)[x], luma.row(y)[x], gain.row(y)[x]});
             for (int v = -kReach; v <= kReach; ++v) {
                 for (int u = -kReach; u <= kReach; ++u) {
                     const int nx = x + u, ny = y + v;
-                    if (!known.row(ny)[nx] || gradient2.row(ny)[nx] > flat) continue;
+                    if (!known.row(ny)[nx]) continue;
                     const auto lag = static_cast<std::size_t>((v + kReach) * kLags + u + kReach);
                     lag_counts_[lag] += 1;
                     for (std::size_t c = 0; c < 3; ++c)
@@ -211,7 +220,7 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
 GrainModel GrainMeter::model() const {
     GrainModel model;
     const std::size_t n = pixels_.size();
-    if (n < kFewest) return model;
+    if (n < kFewest || block_variances_.empty()) return model;
     // Squared difference = grain · gain + motion · gradient²: a line for each channel.
     std::array<double, 3> motion{}, grain{};
     std::array<double, 3> all{};
@@ -233,11 +242,19 @@ GrainModel GrainMeter::model() const {
                    static_cast<double>(quantum_) * quantum_ / 12;
     }
     const double most = std::max({grain[0], grain[1], grain[2]});
-    const bool seen = most > kLeastDeviation * kLeastDeviation &&
+    // Grain is everywhere. A texture under light that moves, or what is followed badly, differs as
+    // finely, but not in most places.
+    std::vector<float> variances = block_variances_;
+    const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+    std::nth_element(variances.begin(), middle, variances.end());
+    const double usual = *middle / mean_gain - static_cast<double>(quantum_) * quantum_ / 12;
+    const bool seen = usual > kLeastDeviation * kLeastDeviation &&
+                      most > kLeastDeviation * kLeastDeviation &&
                       most < kMostDeviation * kMostDeviation &&
                       most * mean_gain > kLeastShare * std::max({all[0], all[1], all[2]});
     if (!seen) return model;
 
+    const double most_in_bin = kMostOfUsual * kMostOfUsual * usual;
     std::array<std::array<double, 3>, 3> together{};
     std::array<std::array<double, kBins>, 3> sums{};
     std::array<std::size_t, kBins> counts{};
@@ -259,8 +276,8 @@ GrainModel GrainMeter::model() const {
             const double weight =
                 static_cast<double>(counts[b]) / static_cast<double>(counts[b] + kFewestInBin);
             const double own = counts[b] > 0 ? sums[c][b] / static_cast<double>(counts[b]) : mean;
-            model.deviation[c][b] =
-                static_cast<float>(std::sqrt(std::max(0.0, weight * own + (1 - weight) * mean)));
+            model.deviation[c][b] = static_cast<float>(
+                std::sqrt(std::clamp(weight * own + (1 - weight) * mean, 0.0, most_in_bin)));
         }
         auto acf = lag_sums_[c];
         for (std::size_t k = 0; k < acf.size(); ++k)

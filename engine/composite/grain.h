@@ -47,6 +47,7 @@ class GrainMeter {
     };
     float quantum_;
     std::vector<Pixel> pixels_;
+    std::vector<float> block_variances_;  // of the difference
     std::array<std::array<double, kLags * kLags>, 3> lag_sums_{};
     std::array<double, kLags * kLags> lag_counts_{};
 };

@@ -1,11 +1,11 @@
 #include "engine/lighting/clip_reflectance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "engine/core/parallel.h"
-#include "engine/lighting/bilateral_grid.h"
-#include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -14,15 +14,22 @@ namespace {
 
 constexpr int kFewestFrames = 3;
 constexpr float kSplatKnown = 0.2f;  // of a pixel's weight
-constexpr int kDetailRadius = 3;     // small pixels: what is finer is compared
-constexpr int kWindow = 12;          // in which the frame is compared with the reflectance
-constexpr float kDoubts = 0.35f, kTrusts = 0.7f;  // share of the detail's energy that it explains
-constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noise
-constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
-constexpr int kFineRollings = 2;
-constexpr int kLongestPeriod = 64;  // small pixels
-constexpr float kMoving = 0.25f;    // ln units: light that changes more is no paint
-constexpr float kPeriods = 1.0f;    // pieces up to so many periods are paint
+constexpr int kLongestPeriod = 64;   // small pixels
+constexpr float kPeriods = 1.0f;     // pieces up to so many periods are paint
+constexpr int kLevelRounds = 3;
+
+// Quantiles, as a share of the values below.
+using Share = std::array<std::ptrdiff_t, 2>;
+constexpr Share kMiddle{1, 2}, kUpperQuarter{3, 4};
+// Out of moving shadows for a fifth of the frames is enough to be known as it is outside of them.
+constexpr Share kLit{4, 5};
+
+float quantile(std::vector<float>& values, Share share) {
+    const auto n = static_cast<std::ptrdiff_t>(values.size());
+    const auto at = values.begin() + std::min(n - 1, n * share[0] / share[1]);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
 
 // The box of positions that a sample's pixels have on the reference frame.
 Recti mapped_box(const SurfaceSample& s, const ImageF2& ref_from_cur) {
@@ -51,108 +58,12 @@ Recti mapped_box(const SurfaceSample& s, const ImageF2& ref_from_cur) {
         .intersected(limit);
 }
 
-ImageF1 box_mean(const ImageF1& plane, const ImageF1& weight, const ImageF1& total, int radius) {
-    ImageF1 mean = weighted(plane, weight);
-    box_blur(mean, radius);
-    for (std::size_t i = 0; i < mean.size_bytes() / sizeof(float); ++i)
-        mean.data()[i] /= std::max(total.data()[i], 1e-4f);
-    return mean;
-}
-
-ImageF1 detail_of(const ImageF1& plane, const ImageF1& weight, const ImageF1& total) {
-    ImageF1 detail = box_mean(plane, weight, total, kDetailRadius);
-    for (std::size_t i = 0; i < detail.size_bytes() / sizeof(float); ++i)
-        detail.data()[i] = plane.data()[i] - detail.data()[i];
-    return detail;
-}
-
-// Bilinear lookup of a canvas; false where any corner is unknown.
-bool lookup(const ClipReflectance& r, float u, float v, float& value, float& trust) {
-    u -= static_cast<float>(r.box.x0), v -= static_cast<float>(r.box.y0);
-    if (!(u >= 0 && v >= 0 && u < static_cast<float>(r.box.width() - 1) &&
-          v < static_cast<float>(r.box.height() - 1)))
-        return false;
-    const int x = static_cast<int>(u), y = static_cast<int>(v);
-    const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-    const float* t0 = r.trust.pixel(x, y);
-    const float* t1 = r.trust.pixel(x, y + 1);
-    trust = std::min(std::min(t0[0], t0[1]), std::min(t1[0], t1[1]));
-    if (!(trust > 0)) return false;
-    const float* a = r.value.pixel(x, y);
-    const float* b = r.value.pixel(x, y + 1);
-    const float top = a[0] + fx * (a[1] - a[0]), low = b[0] + fx * (b[1] - b[0]);
-    value = top + fy * (low - top);
-    return true;
-}
-
-// The reflectance as this frame shows it, and where it is known.
-struct Seen {
-    ImageF1 value, known;
-};
-
-Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2& ref_from_cur) {
-    Seen seen{ImageF1(s.box.size()), ImageF1(s.box.size())};
-    parallel_rows(s.box.height(), 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < s.box.width(); ++x) {
-                if (s.weight.row(y)[x] == 0) continue;
-                const float* d = ref_from_cur.pixel(x, y);
-                float value = 0, trust = 0;
-                if (!lookup(r, static_cast<float>(x + s.box.x0) + d[0],
-                            static_cast<float>(y + s.box.y0) + d[1], value, trust))
-                    continue;
-                seen.value.row(y)[x] = value;
-                seen.known.row(y)[x] = s.weight.row(y)[x] * trust;
-            }
-        }
-    });
-    return seen;
-}
-
-float smooth_step(float x, float low, float high) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-}
-
-// How much of the frame's detail the reflectance explains, 0 to 1, in windows. Only detail is
-// compared: a shadow's edge is in it along a line, the pattern everywhere.
-ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
-    ImageF1 total = seen.known;
-    box_blur(total, kDetailRadius);
-    const ImageF1 mine = detail_of(s.luma, seen.known, total);
-    const ImageF1 clip = detail_of(seen.value, seen.known, total);
-    ImageF1 left(s.box.size()), whole(s.box.size());
-    for (std::size_t i = 0; i < left.size_bytes() / sizeof(float); ++i) {
-        const float rest = mine.data()[i] - clip.data()[i];
-        left.data()[i] = seen.known.data()[i] * rest * rest;
-        whole.data()[i] = seen.known.data()[i] * mine.data()[i] * mine.data()[i];
+ImageF1 difference_of(const ImageF1& a, const ImageF1& b, const ImageF1& known) {
+    ImageF1 out(a.size());
+    for (std::size_t i = 0; i < out.size_bytes() / sizeof(float); ++i) {
+        if (known.data()[i] > 0) out.data()[i] = a.data()[i] - b.data()[i];
     }
-    ImageF1 share(s.box.size());
-    ImageF1 weight = seen.known;
-    for (ImageF1* plane : {&left, &whole, &weight})
-        box_blur(*plane, kWindow);
-    for (std::size_t i = 0; i < share.size_bytes() / sizeof(float); ++i) {
-        if (!(seen.known.data()[i] > 0)) continue;
-        const float energy = whole.data()[i] + kMinEnergy * weight.data()[i];
-        share.data()[i] = smooth_step(1.0f - left.data()[i] / energy, kDoubts, kTrusts);
-    }
-    return share;
-}
-
-// Takes the noise, and what a small error of the motion leaves of the pattern, out of light whose
-// edges are its own.
-ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
-    ImageF1 guide = weighted(luma, weight), total = weight;
-    gaussian_blur(guide, kFineSigma);
-    gaussian_blur(total, kFineSigma);
-    for (std::size_t i = 0; i < guide.size_bytes() / sizeof(float); ++i) {
-        guide.data()[i] =
-            total.data()[i] > 1e-3f ? guide.data()[i] / total.data()[i] : luma.data()[i];
-    }
-    const ImageF1 values = weighted(luma, weight);
-    for (int i = 0; i < kFineRollings; ++i)
-        guide = joint_bilateral(values, weight, guide, {kFineSpace, kFineRange});
-    return guide;
+    return out;
 }
 
 }  // namespace
@@ -162,13 +73,8 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     Part part;
     part.box = mapped_box(s, ref_from_cur);
     if (part.box.empty()) return;
-    const ImageF1 light = log_shading(s, options_);
-    std::vector<float> levels;
-    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i) {
-        if (s.weight.data()[i] > 0) levels.push_back(light.data()[i]);
-    }
-    part.level = median_of(levels, 0.0f);
-    part.residue = part.light = part.weight = ImageF1(part.box.size());
+    downscale_ = s.downscale;
+    part.luma = part.paint = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
     for (int y = 0; y < s.box.height(); ++y) {
         for (int x = 0; x < s.box.width(); ++x) {
@@ -184,18 +90,77 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
                 continue;
             const int i = static_cast<int>(u), j = static_cast<int>(v);
             const float fx = u - static_cast<float>(i), fy = v - static_cast<float>(j);
-            const float l = light.row(y)[x], r = s.luma.row(y)[x] - l;
+            const float luma = s.luma.row(y)[x];
+            const float paint = s.paint.empty() ? 0.0f : s.paint.row(y)[x];
             const auto put = [&](int a, int b, float share) {
                 share *= w;
                 part.weight.row(b)[a] += share;
-                part.residue.row(b)[a] += share * r;
-                part.light.row(b)[a] += share * l;
+                part.luma.row(b)[a] += share * luma;
+                part.paint.row(b)[a] += share * paint;
             };
             put(i, j, (1 - fx) * (1 - fy)), put(i + 1, j, fx * (1 - fy));
             put(i, j + 1, (1 - fx) * fy), put(i + 1, j + 1, fx * fy);
         }
     }
+    for (std::size_t i = 0; i < part.weight.size_bytes() / sizeof(float); ++i) {
+        float& w = part.weight.data()[i];
+        if (w > kSplatKnown) {
+            part.luma.data()[i] /= w;
+            part.paint.data()[i] /= w;
+        } else {
+            w = 0;
+        }
+    }
     parts_.push_back(std::move(part));
+}
+
+// What `value` says of each place in the frames that show it, by its quantile; 0, and unknown,
+// where fewer than kFewestFrames do.
+template <typename Value>
+ImageF1 ReflectanceGatherer::over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
+                                       ImageF1& known, const Value& value) const {
+    ImageF1 out(box.size());
+    known = ImageF1(box.size());
+    parallel_rows(box.height(), 8, [&](int y0, int y1) {
+        std::vector<float> values;
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < box.width(); ++x) {
+                values.clear();
+                for (const Part& part : parts_) {
+                    const int u = x + box.x0 - part.box.x0, v = y + box.y0 - part.box.y0;
+                    if (u < 0 || v < 0 || u >= part.box.width() || v >= part.box.height()) continue;
+                    if (part.weight.row(v)[u] > 0) values.push_back(value(part, u, v));
+                }
+                if (static_cast<int>(values.size()) < kFewestFrames) continue;
+                known.row(y)[x] = 1;
+                out.row(y)[x] = quantile(values, share);
+            }
+        }
+    });
+    return out;
+}
+
+// The light that the whole frame has or lacks, told at places that other frames show too. The
+// upper quarter: shadows may lie on most of it.
+void ReflectanceGatherer::find_levels(const Recti& box) {
+    ImageF1 known;
+    std::vector<float> differences;
+    for (int round = 0; round < kLevelRounds; ++round) {
+        const ImageF1 usual = over_time(box, kMiddle, known, [](const Part& part, int u, int v) {
+            return part.luma.row(v)[u] - part.level;
+        });
+        for (Part& part : parts_) {
+            differences.clear();
+            for (int v = 0; v < part.box.height(); ++v) {
+                for (int u = 0; u < part.box.width(); ++u) {
+                    const int x = u + part.box.x0 - box.x0, y = v + part.box.y0 - box.y0;
+                    if (part.weight.row(v)[u] > 0 && known.row(y)[x] > 0)
+                        differences.push_back(part.luma.row(v)[u] - usual.row(y)[x]);
+                }
+            }
+            if (!differences.empty()) part.level = quantile(differences, kUpperQuarter);
+        }
+    }
 }
 
 ClipReflectance ReflectanceGatherer::finish() {
@@ -203,86 +168,34 @@ ClipReflectance ReflectanceGatherer::finish() {
     if (static_cast<int>(parts_.size()) < kFewestFrames) return out;
     for (const Part& part : parts_)
         out.box = out.box.united(part.box);
-    out.value = out.trust = ImageF1(out.box.size());
-    parallel_rows(out.box.height(), 8, [&](int y0, int y1) {
-        std::vector<float> values;
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < out.box.width(); ++x) {
-                values.clear();
-                for (const Part& part : parts_) {
-                    const int u = x + out.box.x0 - part.box.x0, v = y + out.box.y0 - part.box.y0;
-                    if (u < 0 || v < 0 || u >= part.box.width() || v >= part.box.height()) continue;
-                    const float w = part.weight.row(v)[u];
-                    if (w > kSplatKnown) values.push_back(part.residue.row(v)[u] / w);
-                }
-                if (static_cast<int>(values.size()) < kFewestFrames) continue;
-                out.trust.row(y)[x] = 1;
-                out.value.row(y)[x] = median_of(values, 0.0f);
-            }
-        }
-    });
-    add_static_remains(out);
-    return out;
-}
-
-// What is left of the pattern in every frame's light stays at its place of the surface, as light
-// that moves does not. On the surface itself, where no moving shadow is in the way, larger pieces
-// of the pattern can be told from light than in a frame: up to the pattern's period.
-void ReflectanceGatherer::add_static_remains(ClipReflectance& r) const {
+    find_levels(out.box);
+    // The surface as if no shadow moved over it: what is left of light in it stays at its place,
+    // and is told from the pattern as in one frame.
     SurfaceSample still;
-    still.box = r.box;
-    still.downscale = 1;
-    still.full = r.box.size();
-    still.luma = still.weight = ImageF1(r.box.size());
-    parallel_rows(r.box.height(), 8, [&](int y0, int y1) {
-        std::vector<float> values;
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < r.box.width(); ++x) {
-                if (!(r.trust.row(y)[x] > 0)) continue;
-                values.clear();
-                for (const Part& part : parts_) {
-                    const int u = x + r.box.x0 - part.box.x0, v = y + r.box.y0 - part.box.y0;
-                    if (u < 0 || v < 0 || u >= part.box.width() || v >= part.box.height()) continue;
-                    const float w = part.weight.row(v)[u];
-                    if (w > kSplatKnown) values.push_back(part.light.row(v)[u] / w - part.level);
-                }
-                if (values.empty()) continue;
-                // The upper quartile: a shadow that stays for half of the frames moves all the
-                // same.
-                const auto upper =
-                    values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
-                std::nth_element(values.begin(), upper, values.end());
-                const float value = *upper;
-                if (*std::max_element(upper, values.end()) - value > kMoving) continue;
-                still.luma.row(y)[x] = value;
-                still.weight.row(y)[x] = 1;
-            }
-        }
+    still.box = out.box;
+    still.downscale = downscale_;
+    still.full = Size{out.box.width() * downscale_, out.box.height() * downscale_};
+    still.luma = over_time(out.box, kLit, out.trust, [](const Part& part, int u, int v) {
+        return part.luma.row(v)[u] - part.level;
     });
-    const int period = pattern_period_px(r.value, r.trust, kLongestPeriod);
-    if (period == 0) return;
-    const ImageF1 light =
-        light_beyond_period(still, r.value, static_cast<float>(period) * kPeriods);
-    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i) {
-        if (still.weight.data()[i] > 0) r.value.data()[i] += still.luma.data()[i] - light.data()[i];
+    still.paint = over_time(out.box, kMiddle, still.weight,
+                            [](const Part& part, int u, int v) { return part.paint.row(v)[u]; });
+    if (!std::any_of(still.weight.data(),
+                     still.weight.data() + still.weight.size_bytes() / sizeof(float),
+                     [](float w) { return w > 0; })) {
+        return {};
     }
-}
-
-Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflectance,
-                     const ImageF2& ref_from_cur, const ShadingOptions& options) {
-    if (sample.box.empty()) return shading_from_log(ImageF1(), sample);
-    ImageF1 light = log_shading(sample, options);
-    if (!reflectance.box.empty()) {
-        const Seen seen = moved_here(sample, reflectance, ref_from_cur);
-        const ImageF1 share = agreement(sample, seen);
-        ImageF1 lit = sample.luma;
-        for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
-            lit.data()[i] -= seen.value.data()[i];
-        const ImageF1 fine = without_noise(lit, seen.known);
-        for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
-            light.data()[i] += share.data()[i] * (fine.data()[i] - light.data()[i]);
+    ImageF1 light = log_shading(still, options_);
+    out.value = difference_of(still.luma, light, out.trust);
+    const int period = pattern_period_px(out.value, out.trust, kLongestPeriod);
+    if (period > 0) {
+        // On the surface itself larger pieces of the pattern can be told from light than in a
+        // frame: up to the pattern's period.
+        light =
+            light_beyond_period(light, out.trust, out.value, static_cast<float>(period) * kPeriods);
+        out.value = difference_of(still.luma, light, out.trust);
     }
-    return shading_from_log(light, sample);
+    return out;
 }
 
 }  // namespace weft

@@ -1,7 +1,10 @@
 #pragma once
 // The old surface's reflectance from several frames: it is constant at one place of the surface
-// over time, light is not (Weiss 2001, with the median of residues in place of gradients).
+// over time, light is not (Weiss 2001; here the upper quantile of the lightness itself, which
+// leaves moving shadows out however fine they are).
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "engine/core/image.h"
@@ -33,13 +36,16 @@ class ReflectanceGatherer {
   private:
     struct Part {
         Recti box;
-        ImageF1 residue;  // ln reflectance as this frame alone shows it
-        ImageF1 light;    // ln shading
+        ImageF1 luma, paint;  // of the frame, ln
         ImageF1 weight;
-        float level = 0;  // median ln shading
+        float level = 0;  // ln light that the whole frame has beyond others
     };
-    void add_static_remains(ClipReflectance& reflectance) const;
+    template <typename Value>
+    [[nodiscard]] ImageF1 over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
+                                    ImageF1& known, const Value& value) const;
+    void find_levels(const Recti& box);
 
+    int downscale_ = 1;
     ShadingOptions options_;
     std::vector<Part> parts_;
 };

@@ -81,15 +81,15 @@ float pattern_presence(float deviation) {
 // What a blur leaves of a pattern is wide and faint, and looks like light. Differences from the
 // surface's smooth light (a quadratic) that are no larger than such remains are taken for them; the
 // non-negative garrote (Gao 1998) takes the faint ones out and leaves shadows as they are.
-void remove_remains(ImageF1& light, const SurfaceSample& s, float pattern, float most) {
-    const QuadraticFit smooth(light, s.weight);
+void remove_remains(ImageF1& light, const ImageF1& weight, float pattern, float most) {
+    const QuadraticFit smooth(light, weight);
     ImageF1 rest(light.size());
     for (int y = 0; y < light.height(); ++y) {
         for (int x = 0; x < light.width(); ++x)
             rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
     }
     const ImageF1 none(light.size());
-    const float deviation = deviation_between(rest, none, s.weight);
+    const float deviation = deviation_between(rest, none, weight);
     // Where the surface's light is no quadratic, nothing says what is faint.
     const float fits = std::clamp(2.0f - deviation / std::max(1e-6f, most * pattern), 0.0f, 1.0f);
     const float limit = kRemains * deviation * fits;
@@ -107,24 +107,24 @@ void remove_remains(ImageF1& light, const SurfaceSample& s, float pattern, float
 
 // Rolling guidance (Zhang et al. 2014, eq. 5): the blur takes the pattern away, filtering the
 // unblurred luma under the guidance of the result brings back the edges of what is wider.
-ImageF1 without_pattern(const SurfaceSample& s, float pattern_px) {
+ImageF1 without_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
     float sigma = kPatternSigma * pattern_px;
-    const ImageF1 weighted_luma = weighted(s.luma, s.weight);
-    ImageF1 guide = blurred(weighted_luma, s.weight, sigma).value;
-    const float presence = pattern_presence(deviation_between(guide, s.luma, s.weight));
+    const ImageF1 weighted_luma = weighted(luma, weight);
+    ImageF1 guide = blurred(weighted_luma, weight, sigma).value;
+    const float presence = pattern_presence(deviation_between(guide, luma, weight));
     if (presence < 1) {
         sigma *= kPlainSigma + (1.0f - kPlainSigma) * presence;
-        guide = blurred(weighted_luma, s.weight, sigma).value;
+        guide = blurred(weighted_luma, weight, sigma).value;
     }
-    const ImageF1 wide = blurred(weighted(guide, s.weight), s.weight, 2.0f * sigma).value;
-    const float residue = deviation_between(guide, wide, s.weight);
+    const ImageF1 wide = blurred(weighted(guide, weight), weight, 2.0f * sigma).value;
+    const float residue = deviation_between(guide, wide, weight);
     const BilateralScale rolling{kRollingSigma * sigma,
                                  std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
     for (int i = 0; i < kRollings; ++i)
-        guide = joint_bilateral(weighted_luma, s.weight, guide, rolling);
-    ImageF1 light = joint_bilateral(weighted(guide, s.weight), s.weight, guide,
-                                    {kStepSigma * sigma, kStepRange});
-    remove_remains(light, s, deviation_between(s.luma, light, s.weight),
+        guide = joint_bilateral(weighted_luma, weight, guide, rolling);
+    ImageF1 light =
+        joint_bilateral(weighted(guide, weight), weight, guide, {kStepSigma * sigma, kStepRange});
+    remove_remains(light, weight, deviation_between(luma, light, weight),
                    kRemainsOfPattern * presence);
     return light;
 }
@@ -139,26 +139,40 @@ float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) 
 SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
     SurfaceSample sample = sample_surface(linear, visible, std::clamp(options.downscale, 1, 16));
     if (options.chromaticity && !sample.box.empty()) {
-        remove_chromatic_reflectance(
+        sample.paint = chromatic_reflectance(
             sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1);
     }
     return sample;
 }
 
 ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
-    return without_pattern(sample, small_pattern(sample, options));
+    const float pattern_px = small_pattern(sample, options);
+    if (sample.paint.empty()) return without_pattern(sample.luma, sample.weight, pattern_px);
+    ImageF1 unpainted = sample.luma;
+    for (std::size_t i = 0; i < unpainted.size_bytes() / sizeof(float); ++i)
+        unpainted.data()[i] -= sample.paint.data()[i];
+    return without_pattern(unpainted, sample.weight, pattern_px);
 }
 
-ImageF1 light_beyond_period(const SurfaceSample& still, const ImageF1& pattern, float period_px) {
+ImageF1 light_beyond_period(const ImageF1& still, const ImageF1& weight, const ImageF1& pattern,
+                            float period_px) {
     const float sigma = kPatternSigma * period_px;
-    const ImageF1 weighted_luma = weighted(still.luma, still.weight);
-    ImageF1 light = blurred(weighted_luma, still.weight, sigma).value;
-    for (int i = 0; i < kRollings; ++i) {
-        light = joint_bilateral(weighted_luma, still.weight, light,
-                                {kRollingSigma * sigma, kStillRange});
+    // Form is light: what is smooth over the whole surface is no piece of a pattern.
+    const QuadraticFit smooth(still, weight);
+    ImageF1 form(still.size()), rest(still.size());
+    for (int y = 0; y < still.height(); ++y) {
+        for (int x = 0; x < still.width(); ++x) {
+            form.row(y)[x] = smooth.at(x, y);
+            rest.row(y)[x] = weight.row(y)[x] * (still.row(y)[x] - form.row(y)[x]);
+        }
     }
+    ImageF1 light = blurred(rest, weight, sigma).value;
+    for (int i = 0; i < kRollings; ++i)
+        light = joint_bilateral(rest, weight, light, {kRollingSigma * sigma, kStillRange});
     const ImageF1 none(pattern.size());
-    remove_remains(light, still, deviation_between(pattern, none, still.weight), kStillRemains);
+    remove_remains(light, weight, deviation_between(pattern, none, weight), kStillRemains);
+    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
+        light.data()[i] += form.data()[i];
     return light;
 }
 

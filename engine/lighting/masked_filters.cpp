@@ -9,6 +9,8 @@
 namespace weft {
 namespace {
 
+constexpr float kLeastWeight = 1e-3f;
+
 constexpr int kBand = 16;
 constexpr int kStrip = 64;  // columns that one task blurs vertically
 
@@ -150,6 +152,21 @@ void fill_unknown(ImageF1& plane, const Matte& known) {
         if (!known.data()[i]) plane.data()[i] = 0;
     }
     fill(plane, weight);
+}
+
+ImageF1 high_pass(const ImageF1& plane, const ImageF1& weight, const ImageF1& weight_mean,
+                  int window) {
+    ImageF1 mean = weighted(plane, weight);
+    box_blur(mean, window);
+    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            float* m = mean.row(y);
+            const float* total = weight_mean.row(y);
+            for (int x = 0; x < plane.width(); ++x)
+                m[x] = plane.row(y)[x] - m[x] / std::max(total[x], kLeastWeight);
+        }
+    });
+    return mean;
 }
 
 }  // namespace weft

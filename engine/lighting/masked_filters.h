@@ -19,4 +19,9 @@ void gaussian_blur(ImageF1& plane, float sigma_px);
 /// Gortler et al. 1996). Leaves known pixels as they are; all 0 if nothing is known.
 void fill_unknown(ImageF1& plane, const Matte& known);
 
+/// `plane` less its mean over a window of `radius_px`, from known pixels only. `weight_mean`: the
+/// weight under that box blur. All H×W.
+[[nodiscard]] ImageF1 high_pass(const ImageF1& plane, const ImageF1& weight,
+                                const ImageF1& weight_mean, int radius_px);
+
 }  // namespace weft

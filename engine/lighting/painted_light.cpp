@@ -163,14 +163,14 @@ std::vector<float> KeyedNumbers::at(int frame) const {
     return out;
 }
 
-Expected<KeyedNumbers> parse_keyed_number(std::string_view text) {
+Expected<KeyedNumbers> parse_keyed_number(std::string_view text, std::size_t count) {
     KeyedNumbers out;
     std::vector<std::string_view> keys;
     for (const std::string_view part : split(trimmed(text), ' ')) {
         if (!part.empty()) keys.push_back(part);
     }
     for (const std::string_view key : keys)
-        WEFT_CHECK_OK(add_key(out, key, keys.size() == 1, 1));
+        WEFT_CHECK_OK(add_key(out, key, keys.size() == 1, count));
     WEFT_CHECK_OK(put_in_order(out));
     return out;
 }

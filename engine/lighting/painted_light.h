@@ -29,8 +29,10 @@ struct Lamp {
     KeyedNumbers numbers;
 };
 
-/// "1:1 24:0.3": one number with keys by frame. Errors: Usage with what is wrong.
-[[nodiscard]] Expected<KeyedNumbers> parse_keyed_number(std::string_view text);
+/// "1:1 24:0.3": keys by frame, each of `count` numbers ("1:0,0 24:10,5"). Errors: Usage with what
+/// is wrong.
+[[nodiscard]] Expected<KeyedNumbers> parse_keyed_number(std::string_view text,
+                                                        std::size_t count = 1);
 
 /// Lamps between ";", a lamp's keys between "|", each with its frame before a colon or none where
 /// there is one key only: "point 1: 320,180 200 1.5 | 24: 400,180 200 1; gradient 0,0 0,480 1.2

@@ -8,6 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/quadratic_fit.h"
+#include "engine/lighting/sky_shade.h"
 
 namespace weft {
 namespace {
@@ -17,7 +18,6 @@ constexpr float kMaxDeviations = 3.0f;  // chromaticities beyond are held there
 constexpr double kRidge = 0.02;         // of the terms' variance: flat colours explain nothing
 // Chromaticities (ln) that vary less than this are noise, or the floor's doing, not paint.
 constexpr float kMinDeviation = 0.15f;
-constexpr float kMinWeight = 1e-3f;
 // Share of the differences' energy that colour must explain: below the first the relation is chance
 // or the bluish tint of shadows and is left alone, from the second on it is taken whole.
 constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
@@ -60,9 +60,11 @@ Standard standard_of(const ImageF1& plane, const ImageF1& weight,
 using Terms = std::array<ImageF1, kTerms>;
 
 // u, v, u², uv, v² of the standardised chromaticity.
-Terms terms_of(const SurfaceSample& s) {
-    const Standard rg = standard_of(s.red_green, s.weight);
-    const Standard bg = standard_of(s.blue_green, s.weight);
+Terms terms_of(const SurfaceSample& s, const SkyShade& shade) {
+    ImageF1 red_green = s.red_green, blue_green = s.blue_green;
+    shade.take_out(red_green, blue_green);
+    const Standard rg = standard_of(red_green, s.weight);
+    const Standard bg = standard_of(blue_green, s.weight);
     Terms terms;
     terms.fill(ImageF1(s.box.size()));
     parallel_rows(s.box.height(), 16, [&](int y0, int y1) {
@@ -74,7 +76,7 @@ Terms terms_of(const SurfaceSample& s) {
                         (plane.row(y)[x] - standard.mean) * standard.inverse_deviation,
                         -kMaxDeviations, kMaxDeviations);
                 };
-                const float u = at(s.red_green, rg), v = at(s.blue_green, bg);
+                const float u = at(red_green, rg), v = at(blue_green, bg);
                 const std::array<float, kTerms> values{u, v, u * u, u * v, v * v};
                 for (int k = 0; k < kTerms; ++k)
                     terms[static_cast<std::size_t>(k)].row(y)[x] =
@@ -83,22 +85,6 @@ Terms terms_of(const SurfaceSample& s) {
         }
     });
     return terms;
-}
-
-// plane − its mean over the window, from known pixels only.
-ImageF1 high_pass(const ImageF1& plane, const ImageF1& weight, const ImageF1& weight_mean,
-                  int window) {
-    ImageF1 mean = weighted(plane, weight);
-    box_blur(mean, window);
-    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            float* m = mean.row(y);
-            const float* total = weight_mean.row(y);
-            for (int x = 0; x < plane.width(); ++x)
-                m[x] = plane.row(y)[x] - m[x] / std::max(total[x], kMinWeight);
-        }
-    });
-    return mean;
 }
 
 using Normal = std::array<std::array<double, kTerms + 1>, kTerms>;
@@ -210,16 +196,16 @@ void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
 
 }  // namespace
 
-void remove_chromatic_reflectance(SurfaceSample& sample, int window_px) {
-    if (sample.box.empty()) return;
-    const Terms terms = terms_of(sample);
+ImageF1 chromatic_reflectance(const SurfaceSample& sample, int window_px) {
+    const SkyShade shade(sample, window_px);
+    const Terms terms = terms_of(sample, shade);
     ImageF1 weight_mean = sample.weight;
     box_blur(weight_mean, window_px);
     Terms differences;
     for (std::size_t k = 0; k < kTerms; ++k)
         differences[k] = high_pass(terms[k], sample.weight, weight_mean, window_px);
     const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
-    const auto coefficients = trusted_coefficients(differences, target, sample.weight);
+    const auto coefficients = trusted_coefficients(differences, target, shade.weight_of_paint());
 
     ImageF1 explained(sample.box.size());
     parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {
@@ -236,8 +222,9 @@ void remove_chromatic_reflectance(SurfaceSample& sample, int window_px) {
     keep_tint_of_light(explained, sample.weight);
     const float mean = standard_of(explained, sample.weight).mean;
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
-        if (sample.weight.data()[i] > 0) sample.luma.data()[i] -= explained.data()[i] - mean;
+        explained.data()[i] = sample.weight.data()[i] > 0 ? explained.data()[i] - mean : 0.0f;
     }
+    return explained;
 }
 
 }  // namespace weft

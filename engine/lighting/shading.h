@@ -52,16 +52,17 @@ struct Shading {
 [[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible,
                                        const ShadingOptions& options);
 
-/// The two halves of estimate_shading: the plate as the estimate sees it, the colour of the
-/// surface's paint taken out, and the light in it.
+/// The two halves of estimate_shading: the plate as the estimate sees it, with what the surface's
+/// colour says of its paint, and the light in it.
 [[nodiscard]] SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible,
                                          const ShadingOptions& options);
 /// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
 [[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
 /// Of `still`, ln light that has no fine pattern left, what is wider than `period_px` of its pixels
-/// or stands out from what may be left of `pattern`, its ln reflectance: the light.
-[[nodiscard]] ImageF1 light_beyond_period(const SurfaceSample& still, const ImageF1& pattern,
-                                          float period_px);
+/// or stands out from what may be left of `pattern`, its ln reflectance: the light. All H×W, as is
+/// `weight`, the trust in each pixel.
+[[nodiscard]] ImageF1 light_beyond_period(const ImageF1& still, const ImageF1& weight,
+                                          const ImageF1& pattern, float period_px);
 /// Makes a Shading of it.
 [[nodiscard]] Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample);
 

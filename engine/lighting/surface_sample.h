@@ -11,6 +11,7 @@ struct SurfaceSample {
     Recti box;           ///< Where the planes lie in the small picture; empty for an empty matte.
     ImageF1 weight;      ///< Trust in [0, 1]; 0 where nothing of the surface is seen.
     ImageF1 luma;        ///< ln(Y + floor); 0 where weight is 0.
+    ImageF1 paint;       ///< What of luma the surface's own colour explains; empty: nothing.
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
     float floor = 0;     ///< Keeps black from weighing more than it should; linear light.

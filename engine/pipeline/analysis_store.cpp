@@ -137,28 +137,47 @@ Bytes encode(const Shading& shading) {
         .take();
 }
 
+namespace {
+
 // Luma is a natural logarithm.
 constexpr float kLumaSteps = kLogSteps * 1.44269504f;
 
+std::vector<std::int16_t> luma_codes(const ImageF1& luma) {
+    std::vector<std::int16_t> codes(luma.size_bytes() / sizeof(float));
+    std::transform(luma.data(), luma.data() + codes.size(), codes.begin(), [](float v) {
+        return static_cast<std::int16_t>(
+            std::clamp(std::floor(v * kLumaSteps + 0.5f), -32768.0f, 32767.0f));
+    });
+    return codes;
+}
+
+ImageF1 from_luma_codes(const std::vector<std::int16_t>& codes, Size size) {
+    ImageF1 luma(size);
+    std::transform(codes.begin(), codes.end(), luma.data(),
+                   [](std::int16_t code) { return static_cast<float>(code) / kLumaSteps; });
+    return luma;
+}
+
+}  // namespace
+
 Bytes encode(const SurfaceSample& s) {
-    const std::size_t n = s.luma.size_bytes() / sizeof(float);
-    std::vector<std::int16_t> luma(n);
-    std::vector<std::uint8_t> weight(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        luma[i] = static_cast<std::int16_t>(
-            std::clamp(std::floor(s.luma.data()[i] * kLumaSteps + 0.5f), -32768.0f, 32767.0f));
-        // Above 0 stays above 0: it says where the surface is.
-        const float w = s.weight.data()[i];
-        weight[i] = static_cast<std::uint8_t>(
-            w > 0 ? std::clamp(w * 255.0f + 0.5f, 1.0f, 255.0f) : 0.0f);
-    }
+    // Above 0 stays above 0: it says where the surface is.
+    std::vector<std::uint8_t> weight(s.weight.size_bytes() / sizeof(float));
+    std::transform(s.weight.data(), s.weight.data() + weight.size(), weight.begin(), [](float w) {
+        return static_cast<std::uint8_t>(w > 0 ? std::clamp(w * 255.0f + 0.5f, 1.0f, 255.0f)
+                                               : 0.0f);
+    });
+    const std::vector<std::int16_t> luma = luma_codes(s.luma);
+    const std::vector<std::int16_t> paint =
+        luma_codes(s.paint.empty() ? ImageF1(s.luma.size()) : s.paint);
     return Writer()
         .value(s.full)
         .value(s.downscale)
         .value(s.box)
         .value(s.floor)
-        .raw(luma.data(), n * sizeof luma[0])
-        .raw(weight.data(), n)
+        .raw(luma.data(), luma.size() * sizeof luma[0])
+        .raw(paint.data(), paint.size() * sizeof paint[0])
+        .raw(weight.data(), weight.size())
         .take();
 }
 
@@ -168,6 +187,10 @@ Bytes encode(const GrainModel& grain) {
 
 Bytes encode(const ImageU8x3& picture) {
     return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
+}
+
+Bytes encode(float number) {
+    return Writer().value(number).take();
 }
 
 Expected<StoredMatte> decode_matte(const Bytes& bytes) {
@@ -225,19 +248,23 @@ Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
     }
     if (s.box.empty()) return s;
     const Recti frame = rect_of(reduced_size(s.full, s.downscale));
-    if (s.box.intersected(frame) != s.box || !reader.holds(area(s.box.size()), 3)) {
+    if (s.box.intersected(frame) != s.box || !reader.holds(area(s.box.size()), 5)) {
         return damaged("light");
     }
-    s.weight = s.luma = ImageF1(s.box.size());
-    const std::size_t n = s.luma.size_bytes() / sizeof(float);
-    std::vector<std::int16_t> luma(n);
+    s.weight = ImageF1(s.box.size());
+    const std::size_t n = s.weight.size_bytes() / sizeof(float);
+    std::vector<std::int16_t> luma(n), paint(n);
     std::vector<std::uint8_t> weight(n);
-    if (!reader.raw(luma.data(), n * sizeof luma[0]).raw(weight.data(), n).complete())
+    if (!reader.raw(luma.data(), n * sizeof luma[0])
+             .raw(paint.data(), n * sizeof paint[0])
+             .raw(weight.data(), n)
+             .complete()) {
         return damaged("light");
-    for (std::size_t i = 0; i < n; ++i) {
-        s.luma.data()[i] = static_cast<float>(luma[i]) / kLumaSteps;
-        s.weight.data()[i] = static_cast<float>(weight[i]) / 255.0f;
     }
+    s.luma = from_luma_codes(luma, s.box.size());
+    s.paint = from_luma_codes(paint, s.box.size());
+    std::transform(weight.begin(), weight.end(), s.weight.data(),
+                   [](std::uint8_t w) { return static_cast<float>(w) / 255.0f; });
     return s;
 }
 
@@ -257,6 +284,14 @@ Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
     ImageU8x3 out(size);
     if (!reader.raw(out.data(), out.size_bytes()).complete()) return damaged("texture");
     return out;
+}
+
+Expected<float> decode_number(const Bytes& bytes) {
+    Reader reader(bytes);
+    float number = 0;
+    reader.value(number);
+    if (!reader.complete() || !std::isfinite(number)) return damaged("number");
+    return number;
 }
 
 }  // namespace weft

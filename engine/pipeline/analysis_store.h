@@ -17,13 +17,17 @@
 namespace weft {
 
 enum class AnalysisKind : std::uint8_t {
-    kMatteForward,  ///< Propagated from the keyframe before (only while the mattes are made).
-    kMatte,         ///< Propagated and merged, with its confidence.
-    kCoords,        ///< ref_from_cur
-    kCoordsOneWay,  ///< The same between two references, as the first of them found it.
+    kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made).
+    kMatte,          ///< Propagated and merged, with its confidence.
+    kCoords,         ///< ref_from_cur
+    kCoordsOneWay,   ///< The same between two references, as the first of them found it.
+    kHistoryBefore,  ///< Between two references: as followed from the one before,
+    kHistoryAfter,   ///< and from the one after.
+    kHeldBetween,    ///< Such a frame shows the drawing of the frame before in time.
     kLightSample,  ///< The plate as the estimate of light sees it (only while light is estimated).
     kShading,
     kGrain,        ///< At the reference frame.
+    kShutter,      ///< The plate's, at the reference frame.
     kPaperTexture  ///< The paper mode's synthesised picture.
 };
 
@@ -71,6 +75,7 @@ struct StoredMatte {
 [[nodiscard]] Bytes encode(const SurfaceSample& sample);
 [[nodiscard]] Bytes encode(const GrainModel& grain);
 [[nodiscard]] Bytes encode(const ImageU8x3& picture);
+[[nodiscard]] Bytes encode(float number);
 /// Errors: RenderFailed when the bytes are not what the encoder wrote.
 [[nodiscard]] Expected<StoredMatte> decode_matte(const Bytes& bytes);
 [[nodiscard]] Expected<LatticeField> decode_lattice(const Bytes& bytes);
@@ -78,5 +83,6 @@ struct StoredMatte {
 [[nodiscard]] Expected<SurfaceSample> decode_light_sample(const Bytes& bytes);
 [[nodiscard]] Expected<GrainModel> decode_grain(const Bytes& bytes);
 [[nodiscard]] Expected<ImageU8x3> decode_picture(const Bytes& bytes);
+[[nodiscard]] Expected<float> decode_number(const Bytes& bytes);
 
 }  // namespace weft

@@ -31,8 +31,11 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
         const RegionPlan& region = plan.regions[k];
         if (!region.propagated()) continue;
-        Job job{static_cast<int>(k), region.matte_keys, analysed_span(plan, region),
-                {region.matte_steadiness}, {}};
+        Job job{static_cast<int>(k),
+                region.matte_keys,
+                analysed_span(plan, region),
+                {region.matte_steadiness},
+                {}};
         bool complete = true;
         for (int f = job.span.first; f <= job.span.last && complete; ++f) {
             complete = store.has({job.region, f, AnalysisKind::kMatte});

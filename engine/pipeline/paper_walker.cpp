@@ -53,8 +53,12 @@ Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
                        static_cast<int>(std::ceil(high.y)) - origin.y + 1}};
 }
 
-PaperWalker::PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plate)
-    : region_(region), seed_(seed), plane_(frame_plane(region.placement, plate)) {
+PaperWalker::PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plate,
+                         const Backend* backend)
+    : region_(region),
+      seed_(seed),
+      backend_(backend),
+      plane_(frame_plane(region.placement, plate)) {
     if (plane_) plane_from_plate_ = *plane_from_plate(region.placement);
 }
 
@@ -88,10 +92,10 @@ Expected<ImageU8x3> PaperWalker::advance(int frame, const LatticeField& prev_fro
 
 Expected<ImageU8x3> PaperWalker::synthesise(int frame, const Warped* previous,
                                             const CancelToken& cancel) const {
-    PlaneOptions options = plane_options(region_, seed_, plane_->size);
+    PlaneOptions options = plane_options(region_, seed_, plane_->size, backend_);
     options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame));
     if (previous) options.guide = PlaneGuide{previous->picture, previous->known, region_.weight};
-    WEFT_TRY(plane, grow_plane(synthesis_sample(region_), options, cancel));
+    WEFT_TRY(plane, grow_texture(region_, options, cancel));
     return std::move(plane.pixels);
 }
 

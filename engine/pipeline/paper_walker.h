@@ -24,7 +24,7 @@ struct FramePlane {
 /// the cut's data term with λ_t; then T_t ← α T_t + (1 − α) warp(T_{t−1}).
 class PaperWalker {
   public:
-    PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plate);
+    PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plate, const Backend* backend);
     /// The first frame, when there is no previous one.
     [[nodiscard]] Expected<ImageU8x3> start(int frame, const CancelToken& cancel);
     [[nodiscard]] Expected<ImageU8x3> advance(int frame, const LatticeField& prev_from_cur,
@@ -41,6 +41,7 @@ class PaperWalker {
 
     const RegionPlan& region_;
     std::uint64_t seed_;
+    const Backend* backend_;
     Expected<FramePlane> plane_;
     Mat3 plane_from_plate_{1};
     ImageU8x3 last_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,11 @@
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/painted_light.h"
 #include "engine/lighting/shading.h"
+#include "engine/motion/corner_track.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/seam/seam.h"
+#include "engine/seam/seam_cost.h"
+#include "engine/synthesis/sample_atlas.h"
 #include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
 #include "engine/temporal/temporal_mode.h"
@@ -23,7 +27,8 @@ namespace weft {
 
 /// A texture as it was read: exactly one of `sample` (to be grown) and `plane` (used as it is).
 struct TexturePicture {
-    ImageF3 pixels;  ///< In the texture's own space.
+    ImageF3 pixels;             ///< In the texture's own space.
+    std::vector<ImageF3> also;  ///< Further samples of the same material, in the same space.
     bool is_plane = false;
     WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
 };
@@ -40,7 +45,21 @@ struct RegionPlan {
     std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.
     bool true_motion = false;
     bool motion_forward = true;  ///< A file of true motion points to the next frame, else back.
-    PlanePlacement placement;
+    CornerTrack track;           ///< Of the plane that the surface follows; empty: none.
+    PlanePlacement placement;    ///< Of keyed scales the smallest, for which the plane is grown.
+    KeyedNumbers scale_keys, rotate_keys, offset_keys;  ///< Over time, instead of placement's own.
+    [[nodiscard]] bool placement_moves() const {
+        return !scale_keys.empty() || !rotate_keys.empty() || !offset_keys.empty();
+    }
+    /// The placement as it is on a frame, always with respect to the reference frame.
+    [[nodiscard]] PlanePlacement placement_at(int frame) const {
+        PlanePlacement out = placement;
+        if (!scale_keys.empty()) out.scale = scale_keys.at(frame)[0];
+        if (!rotate_keys.empty()) out.rotate_deg = rotate_keys.at(frame)[0];
+        if (!offset_keys.empty())
+            out.offset_px = {offset_keys.at(frame)[0], offset_keys.at(frame)[1]};
+        return out;
+    }
     // Texture.
     std::shared_ptr<const TexturePicture> texture;
     std::shared_ptr<const ColorTransform> working_from_texture, display_from_texture,
@@ -48,6 +67,10 @@ struct RegionPlan {
     SeamMethod seam = SeamMethod::kGraphCut;
     int overlap_px = 36;
     int feather_px = 0;
+    SeamCost seam_cost = SeamCost::kGradient;
+    int refine_passes = 2;
+    Orientations orientations;
+    bool align = true;
     // Time.
     TemporalMode temporal = TemporalMode::kLocked;
     float blend = 0.2f;   ///< α of the paper mode.
@@ -81,6 +104,13 @@ struct RegionPlan {
     // Finish: what the plate's camera does to a picture.
     float grain = 0, focus = 0;     ///< Strengths; 0: none.
     std::vector<int> grain_frames;  ///< Grain is measured on these, from the reference on.
+    /// How long the shutter is open, in degrees of 360 a frame: the texture is blurred along its
+    /// motion. Without a number it is the plate's own, measured on the frames `shutter_evidence`.
+    std::optional<float> shutter_deg = 0.0f;
+    std::vector<int> shutter_evidence;  ///< A run of frames with the reference at its beginning.
+    [[nodiscard]] bool estimates_shutter() const {
+        return !shutter_deg && !shutter_evidence.empty();
+    }
     // Ink on top: from a pass, or found in the plate.
     bool has_lines = false, extract_lines = false;
     float line_width_px = 4;
@@ -88,13 +118,13 @@ struct RegionPlan {
 
 /// What holds for the whole shot.
 struct ShotPlan {
-    std::vector<int> frames;              ///< To be rendered, ascending.
+    std::vector<int> frames;  ///< To be rendered, ascending.
     FlowQuality quality = FlowQuality::kFinal;
     std::uint64_t seed = 1;
     bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
         out_from_plate, display_from_working;
-    float plate_quantum = 0;  ///< The step of the plate's codes, of 1; 0: floating point.
+    float plate_quantum = 0;          ///< The step of the plate's codes, of 1; 0: floating point.
     std::vector<RegionPlan> regions;  ///< Lowest layer first.
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
@@ -22,16 +23,16 @@ int plane_side(int plate_px, float scale) {
 
 Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
                                   std::optional<PlaneStats>& stats, const CancelToken& cancel,
-                                  const ProgressFn& progress) {
+                                  const ProgressFn& progress, const Backend* backend) {
     const TexturePicture& texture = *region.texture;
     if (texture.is_plane) {
         return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
                             texture.wrap);
     }
     PlaneOptions options =
-        plane_options(region, plan.seed, plane_size(region.placement, plate));
+        plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = true;
-    WEFT_TRY(plane, grow_plane(synthesis_sample(region), options, cancel, progress));
+    WEFT_TRY(plane, grow_texture(region, options, cancel, progress));
     stats = plane.stats;
     return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
 }
@@ -41,8 +42,9 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
 Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
                             const AnalysisStore& store, int index, int frame, RegionScene& scene) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
-    const bool from_plate = region.light_source == LightSource::kPlate &&
-                            (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
+    const bool from_plate =
+        region.light_source == LightSource::kPlate &&
+        (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
     if (!from_plate) return {};
     WEFT_TRY(plate, source.plate(frame));
     const ImageF3 working = transformed(*plate, *plan.working_from_plate);
@@ -62,8 +64,11 @@ Size plane_size(const PlanePlacement& placement, Size plate) {
 }
 
 ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& plane) {
-    const ImageF3 sample = transformed(region.texture->pixels, *region.working_from_texture);
-    const ImageU8x3 sample8 = synthesis_sample(region);
+    std::vector<ImageF3> samples;
+    samples.push_back(transformed(region.texture->pixels, *region.working_from_texture));
+    for (const ImageF3& further : region.texture->also)
+        samples.push_back(transformed(further, *region.working_from_texture));
+    const std::vector<ImageU8x3> samples8 = synthesis_samples(region);
     ImageF3 out(plane.pixels.size());
     parallel_rows(out.height(), 32, [&](int y0, int y1) {
         ImageF3 before(out.width(), 1), after(out.width(), 1);
@@ -71,6 +76,9 @@ ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& pla
             bool feathered = false;
             for (int x = 0; x < out.width(); ++x) {
                 const std::int32_t* from = plane.source.pixel(x, y);
+                const std::size_t which = plane.origin.empty() ? 0 : plane.origin.pixel(x, y)[0];
+                const ImageF3& sample = samples[which];
+                const ImageU8x3& sample8 = samples8[which];
                 for (int c = 0; c < 3; ++c) {
                     const std::uint8_t was = sample8.pixel(from[0], from[1])[c];
                     const std::uint8_t is = plane.pixels.pixel(x, y)[c];
@@ -93,20 +101,30 @@ ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& pla
 
 Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                  const AnalysisStore& store, int region_index,
-                                 const CancelToken& cancel, const ProgressFn& progress) {
+                                 const CancelToken& cancel, const ProgressFn& progress,
+                                 const Backend* backend) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
     WEFT_TRY(plane_from, plane_from_plate(region.placement));
     scene.plane_from_plate = plane_from;
     if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
-        WEFT_TRY(plane, make_plane(plan, region, source.size(), scene.stats, cancel, progress));
+        WEFT_TRY(plane,
+                 make_plane(plan, region, source.size(), scene.stats, cancel, progress, backend));
         scene.plane = std::move(plane);
+        WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
+        scene.seams = std::move(seams);
     }
     const int reference = region.reference_frames.front();
     if (region.grain > 0 && !region.grain_frames.empty()) {
         WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kGrain}));
         WEFT_TRY(grain, decode_grain(bytes));
         scene.grain = grain;
+    }
+    scene.shutter_deg = region.shutter_deg.value_or(0.0f);
+    if (region.estimates_shutter()) {
+        WEFT_TRY(bytes, store.get({region_index, reference, AnalysisKind::kShutter}));
+        WEFT_TRY(degrees, decode_number(bytes));
+        scene.shutter_deg = degrees;
     }
     WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
     if (region.light_source == LightSource::kImage) {

@@ -12,6 +12,7 @@
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
 #include "engine/synthesis/texture_plane.h"
+#include "engine/temporal/history_seam.h"
 
 namespace weft {
 
@@ -22,6 +23,8 @@ struct RegionScene {
     std::optional<Shading> picture_light;
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
     GrainModel grain;
+    float shutter_deg = 0;
+    std::vector<HistorySeam> seams;   ///< Between the histories from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
 };
 
@@ -30,11 +33,13 @@ struct RegionScene {
 /// depends on the plate and the placement only, so that every part of a shot gets the same plane.
 [[nodiscard]] Size plane_size(const PlanePlacement& placement, Size plate);
 
-/// Grows a region's plane and takes S₀ from the analysis of its (first) reference frame.
+/// Grows a region's plane, with the backend's search if it has one, and takes S₀ from the analysis
+/// of its (first) reference frame.
 [[nodiscard]] Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                                const AnalysisStore& store, int region,
                                                const CancelToken& cancel,
-                                               const ProgressFn& progress);
+                                               const ProgressFn& progress,
+                                               const Backend* backend = nullptr);
 
 /// A plane's pixels in the working space: each texel takes the sample's pixel that its source map
 /// names, at the sample's full precision; what feathering changed in 8 bit is added.

@@ -11,20 +11,25 @@
 #include "engine/core/rng.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
-#include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
-#include "engine/pipeline/synthesis_inputs.h"
+#include "engine/pipeline/region_surface.h"
 
 namespace weft {
 namespace {
 
-// The renderer of one frame, with what its regions share.
+constexpr float kKnee = 0.9f;  // of the roll-off
+
+enum class Place { kDevice, kCpu };
+
+// The renderer of one frame, with what its regions share. On a device the frame stays there from
+// the first region to the last.
 class FrameRenderer {
   public:
     FrameRenderer(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
-                  const Backend& backend, int frame, std::shared_ptr<const ImageF3> plate)
+                  const Backend& backend, int frame, std::shared_ptr<const ImageF3> plate,
+                  Place place)
         : source_(source),
           plan_(plan),
           store_(store),
@@ -33,25 +38,40 @@ class FrameRenderer {
           plate_(std::move(plate)),
           working_(transformed(*plate_, *plan.working_from_plate)),
           canvas_(working_),
-          touched_(plate_->size()) {}
+          touched_(plate_->size()) {
+        if (place == Place::kDevice) device_ = backend.open_frame(canvas_);
+    }
 
+    /// After an error: whether it was the device's, and the CPU may still do it.
+    [[nodiscard]] bool device_failed() const { return device_failed_; }
     Status add(int index, const RegionScene& scene);
-    RenderedFrame finish();
+    Expected<RenderedFrame> finish();
 
   private:
     [[nodiscard]] Expected<Matte> composite_matte(int index);
-    // The texture as the region shows it, in the working space and before light, H×W of `box`.
-    [[nodiscard]] Expected<ImageF3> texture(int index, const RegionScene& scene, const Recti& box,
-                                            const Matte& matte) const;
-    [[nodiscard]] Expected<TextureCoords> coords(int index, const RegionScene& scene,
-                                                 const Recti& box) const;
-    Status light(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
-                 ImageF3& texture);
+    // The light that falls on the region, or nothing.
+    [[nodiscard]] Expected<std::optional<Shading>> shading(int index, const RegionScene& scene);
+    Status light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
+                 const std::optional<Shading>& shading, ImageF3& texture);
     // What the plate's camera does to a picture: its blur before light, which has it already, and
     // its grain after.
-    void match_focus(int index, const Recti& box, const Matte& matte, ImageF3& texture) const;
-    void put_grain(int index, const RegionScene& scene, const Recti& box, const Matte& matte,
+    void match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
+    void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
+    // The texture in the working space, finished and laid into the canvas. `matte` covers the
+    // frame, `inside` the box.
+    Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
+                      const RegionScene& scene, const Matte& matte, const Matte& inside,
+                      const std::optional<Shading>& shading);
+    Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
+                         const RegionScene& scene, const Matte& inside,
+                         const std::optional<Shading>& shading);
+    // An error of the device is remembered as one.
+    template <class T>
+    Expected<T> of_device(Expected<T> result) {
+        device_failed_ = device_failed_ || !result;
+        return result;
+    }
     // The region's ink, from its pass or found in the plate, over the lit texture.
     Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture);
 
@@ -66,10 +86,21 @@ class FrameRenderer {
     Matte touched_;
     std::optional<PlateViews> views_;
     bool lit_ = false;
+    std::unique_ptr<FrameCanvas> device_;
+    Recti device_box_;  // where the canvas on the device differs from canvas_
+    bool device_failed_ = false;
 };
 
 const RegionPlan& region_of(const ShotPlan& plan, int index) {
     return plan.regions[static_cast<std::size_t>(index)];
+}
+
+// Whether a device can do all that a region asks for: texture, a gain of light, composite.
+bool fits_device(const RegionPlan& region, const RegionScene& scene) {
+    const bool light = !region.lights() || (region.light.form == LightForm::kGain &&
+                                            region.cast <= 0 && region.highlights <= 0);
+    const bool grain = region.grain > 0 && scene.grain.present();
+    return light && !grain && !(region.focus > 0) && !region.has_lines && !region.extract_lines;
 }
 
 Expected<Matte> FrameRenderer::composite_matte(int index) {
@@ -82,70 +113,21 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
     return without_holdout(extent, holdout);
 }
 
-Expected<TextureCoords> FrameRenderer::coords(int index, const RegionScene& scene,
-                                              const Recti& box) const {
-    if (region_of(plan_, index).temporal != TemporalMode::kLocked) {
-        constexpr int kCoarse = 64;
-        return texture_coords(LatticeField(plate_->size(), kCoarse), scene.plane_from_plate, box);
-    }
-    WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kCoords}));
-    WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-    return texture_coords(ref_from_cur, scene.plane_from_plate, box);
-}
-
-Expected<ImageF3> FrameRenderer::texture(int index, const RegionScene& scene, const Recti& box,
-                                         const Matte& matte) const {
+Expected<std::optional<Shading>> FrameRenderer::shading(int index, const RegionScene& scene) {
     const RegionPlan& region = region_of(plan_, index);
-    WEFT_TRY(at, coords(index, scene, box));
-    ImageF3 out(box.size());
-    SampleRequest request;
-    request.coords = at.uv;
-    request.matte = matte;
-    request.quality =
-        plan_.quality == FlowQuality::kDraft ? SampleQuality::kDraft : SampleQuality::kFinal;
-    if (!scene.plane.empty()) {
-        request.plane = &scene.plane;
-        backend_.sample_plane(request, out);
-        return out;
-    }
-
-    // A plane of this frame alone, which begins at a texel of its own.
-    WEFT_TRY(frame_area, frame_plane(region.placement, plate_->size()));
-    ImageF3 picture;
-    if (region.temporal == TemporalMode::kPaper) {
-        WEFT_TRY(bytes, store_.get({index, frame_, AnalysisKind::kPaperTexture}));
-        WEFT_TRY(codes, decode_picture(bytes));
-        picture = ImageF3(codes.size());
-        std::transform(codes.data(), codes.data() + codes.size_bytes(), picture.data(),
-                       [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
-        region.working_from_display->apply(picture);
-    } else {
-        PlaneOptions options = plane_options(region, plan_.seed, frame_area.size);
-        options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
-        WEFT_TRY(plane, grow_plane(synthesis_sample(region), options));
-        picture = plane_in_working_space(region, plane);
-    }
-    const PlanePyramid pyramid(picture, WrapMode::kMirror);
-    for (int y = 0; y < at.uv.height(); ++y) {
-        for (int x = 0; x < at.uv.width(); ++x) {
-            at.uv.pixel(x, y)[0] -= static_cast<float>(frame_area.origin.x);
-            at.uv.pixel(x, y)[1] -= static_cast<float>(frame_area.origin.y);
-        }
-    }
-    request.plane = &pyramid;
-    backend_.sample_plane(request, out);
-    return out;
+    if (!region.lights() || is_transfer(region.light.form)) return std::nullopt;
+    if (scene.picture_light) return scene.picture_light;
+    return region_shading(source_, region, store_, index, frame_, working_);
 }
 
-Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box,
-                            const Matte& matte, ImageF3& texture) {
+Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
+                            const std::optional<Shading>& shading, ImageF3& texture) {
     const RegionPlan& region = region_of(plan_, index);
     if (!region.lights()) return {};
     LightOptions options = region.light;
     options.strength = region.strength_at(frame_);
     const Vec2i origin(box.x0, box.y0);
     const ViewF3 old_surface = working_.view().crop(box);
-    lit_ = true;
     if (is_transfer(options.form)) {
         if (options.form == LightForm::kStatistics)
             transfer_statistics(texture, old_surface, matte, options.strength);
@@ -153,13 +135,9 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
             match_histogram(texture, old_surface, matte, options.strength);
         return {};
     }
-    if (scene.picture_light) {
-        apply_light(texture, origin, matte, *scene.picture_light, scene.reference_shading, options);
-        return {};
-    }
-    WEFT_TRY(shading, region_shading(source_, region, store_, index, frame_, working_));
     if (!shading) return {};
     apply_light(texture, origin, matte, *shading, scene.reference_shading, options);
+    if (scene.picture_light) return {};
     if (region.cast > 0) {
         WEFT_TRY(whole, composite_matte(index));
         apply_cast(texture, origin, matte, *shading, scene.reference_shading,
@@ -169,7 +147,7 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
     return {};
 }
 
-void FrameRenderer::match_focus(int index, const Recti& box, const Matte& matte,
+void FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
                                 ImageF3& texture) const {
     const float strength = region_of(plan_, index).focus;
     if (!(strength > 0)) return;
@@ -178,8 +156,8 @@ void FrameRenderer::match_focus(int index, const Recti& box, const Matte& matte,
     blur_inside(texture, matte, strength * blur_between(edge_blur_px(texture, matte), plate_px));
 }
 
-void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& box,
-                              const Matte& matte, ImageF3& texture) const {
+void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
+                              ImageF3& texture) const {
     const RegionPlan& region = region_of(plan_, index);
     if (!(region.grain > 0) || !scene.grain.present()) return;
     const auto frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
@@ -189,8 +167,7 @@ void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& 
     texture = transformed(display, *region.working_from_display);
 }
 
-Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
-                              ImageF3& texture) {
+Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture) {
     const RegionPlan& region = region_of(plan_, index);
     if (!region.has_lines && !region.extract_lines) return {};
     Matte ink;
@@ -205,6 +182,46 @@ Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte,
     return {};
 }
 
+Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
+                                 const RegionScene& scene, const Matte& matte, const Matte& inside,
+                                 const std::optional<Shading>& shading) {
+    WEFT_TRY(texture, surface.texture(box, inside));
+    match_focus(index, box, inside, texture);
+    WEFT_CHECK_OK(light(index, scene, box, inside, shading, texture));
+    put_grain(index, scene, box, inside, texture);
+    // The ink has the plate's grain already.
+    WEFT_CHECK_OK(lay_ink(index, box, matte, texture));
+    const ImageView<float, 3> area = canvas_.view().crop(box);
+    const ImageF3 old_surface = unmix_surface(area, inside);
+    composite_over(area, area, old_surface, inside, texture);
+    return {};
+}
+
+Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, const Recti& box,
+                                    const RegionScene& scene, const Matte& inside,
+                                    const std::optional<Shading>& shading) {
+    WEFT_TRY(lookup, surface.lookup(box));
+    const ImageView<float, 3> area = canvas_.view().crop(box);
+    // Over another region the old surface is what that one shows.
+    if (!device_box_.intersected(box).empty()) {
+        WEFT_CHECK_OK(of_device(device_->read(box, area)));
+    }
+    const ImageF3 old_surface = unmix_surface(area, inside);
+    LayerRequest layer;
+    layer.texture.plane = lookup.shown();
+    layer.texture.coords = lookup.coords.uv;
+    layer.texture.matte = inside;
+    layer.texture.quality = surface.quality();
+    layer.origin = {box.x0, box.y0};
+    layer.old_surface = old_surface;
+    if (shading) {
+        layer.gain = GainRequest{shading->value, shading->downscale, scene.reference_shading,
+                                 region_of(plan_, index).strength_at(frame_)};
+    }
+    device_box_ = device_box_.united(box);
+    return of_device(device_->add(layer));
+}
+
 Status FrameRenderer::add(int index, const RegionScene& scene) {
     WEFT_TRY(matte, composite_matte(index));
     const Recti box = matte_bounds(matte);
@@ -214,24 +231,29 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
         const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
         std::copy(row, row + box.width(), inside.row(y));
     }
-    WEFT_TRY(surface, texture(index, scene, box, inside));
-    match_focus(index, box, inside, surface);
-    WEFT_CHECK_OK(light(index, scene, box, inside, surface));
-    put_grain(index, scene, box, inside, surface);
-    // The ink has the plate's grain already.
-    WEFT_CHECK_OK(lay_ink(index, box, matte, surface));
-
-    const ImageView<float, 3> area = canvas_.view().crop(box);
-    const ImageF3 old_surface = unmix_surface(area, inside);
-    composite_over(area, area, old_surface, inside, surface);
+    lit_ = lit_ || region_of(plan_, index).lights();
+    WEFT_TRY(falling, shading(index, scene));
+    const RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
+    if (device_) {
+        WEFT_CHECK_OK(add_on_device(index, surface, box, scene, inside, falling));
+    } else {
+        WEFT_CHECK_OK(add_on_cpu(index, surface, box, scene, matte, inside, falling));
+    }
     std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(),
                    touched_.data(), [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
     return {};
 }
 
-RenderedFrame FrameRenderer::finish() {
+Expected<RenderedFrame> FrameRenderer::finish() {
     RenderedFrame out;
-    if (lit_ && plan_.display_referred) out.above_one = roll_off(canvas_, touched_);
+    const bool rolls_off = lit_ && plan_.display_referred;
+    if (device_) {
+        const auto knee = rolls_off ? std::optional(kKnee) : std::nullopt;
+        WEFT_TRY(above_one, of_device(device_->finish(knee, canvas_)));
+        out.above_one = above_one;
+    } else if (rolls_off) {
+        out.above_one = roll_off(canvas_, touched_, kKnee);
+    }
     plan_.out_from_working->apply(canvas_);
     out.pixels = transformed(*plate_, *plan_.out_from_plate);
     for (int y = 0; y < touched_.height(); ++y) {
@@ -253,11 +275,30 @@ Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& p
                                      const AnalysisStore& store, const Backend& backend,
                                      int frame) {
     WEFT_TRY(plate, source.plate(frame));
-    FrameRenderer renderer(source, plan, store, backend, frame, std::move(plate));
+    const auto on = [&](Place place, bool& again) -> Expected<RenderedFrame> {
+        FrameRenderer renderer(source, plan, store, backend, frame, plate, place);
+        const auto draw = [&]() -> Expected<RenderedFrame> {
+            for (std::size_t k = 0; k < scenes.size(); ++k) {
+                WEFT_CHECK_OK(renderer.add(static_cast<int>(k), scenes[k]));
+            }
+            return renderer.finish();
+        };
+        auto rendered = draw();
+        again = renderer.device_failed();
+        return rendered;
+    };
+    bool fits = true, again = false;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
-        WEFT_CHECK_OK(renderer.add(static_cast<int>(k), scenes[k]));
+        const RegionSurface surface(plan, static_cast<int>(k), scenes[k], store, backend, frame,
+                                    plate->size());
+        fits = fits && fits_device(plan.regions[k], scenes[k]) && surface.is_one_lookup();
     }
-    return renderer.finish();
+    // A device that fails half-way has told the backend why; the CPU then renders the frame.
+    if (fits) {
+        auto rendered = on(Place::kDevice, again);
+        if (!again) return rendered;
+    }
+    return on(Place::kCpu, again);
 }
 
 }  // namespace weft

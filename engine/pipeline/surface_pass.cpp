@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/temporal/held_frames.h"
+#include "engine/temporal/history_seam.h"
+#include "engine/temporal/shutter.h"
 #include "engine/temporal/surface_walker.h"
 
 namespace weft {
@@ -19,14 +22,17 @@ struct Job {
     FrameSpan span;
     std::vector<int> references;  // ascending
     int primary = 0;              // the reference that holds the placement
-    bool coords = false, shading = false, paper = false, grain = false;
+    bool coords = false, shading = false, paper = false, grain = false, shutter = false;
 
     std::optional<SurfaceWalker> walker;
+    int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
     HeldFrames held;
     bool held_now = false;
+    std::set<int> held_frames;  // whose drawing is that of the frame before in time
     std::optional<Shading> last_shading;
     std::optional<PaperWalker> painter;
-    Matte last_visible;
+    Matte last_visible, extent_now;
+    ShutterMeter shutter_meter;
     std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
     ImageF3 last_display;
     Matte last_metered;
@@ -48,6 +54,7 @@ struct Job {
             if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
             if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
         }
+        if (shutter && !store.has({region, primary, AnalysisKind::kShutter})) return false;
         return !grain || store.has({region, primary, AnalysisKind::kGrain});
     }
 };
@@ -69,7 +76,9 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
         job.paper = region.temporal == TemporalMode::kPaper;
         job.shading = region.estimates_light();
         job.grain = region.grain > 0 && !region.grain_frames.empty();
-        if ((job.coords || job.paper || job.shading || job.grain) && !job.complete(store)) {
+        job.shutter = region.estimates_shutter();
+        if ((job.coords || job.paper || job.shading || job.grain || job.shutter) &&
+            !job.complete(store)) {
             jobs.push_back(std::move(job));
         }
     }
@@ -96,7 +105,7 @@ Legs legs_of(const std::vector<Job>& jobs) {
         leg->motion |= motion;
     };
     for (const Job& job : jobs) {
-        const bool motion = !job.plan->true_motion;
+        const bool motion = !job.plan->true_motion && job.plan->track.empty();
         widen(legs.forward, job.primary, job.span.last, motion);
         if (job.span.first < job.primary || job.references.back() > job.primary) {
             widen(legs.backward, job.references.back(), job.span.first, motion);
@@ -130,6 +139,7 @@ class Follower {
         WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
                                               : advance(job, at, visible));
         WEFT_CHECK_OK(measure_grain(job, at, visible));
+        WEFT_CHECK_OK(measure_shutter(job, at, visible));
         return keep_all(job, at, visible);
     }
 
@@ -148,7 +158,7 @@ class Follower {
             return {};
         }
         WEFT_CHECK_OK(advance(job, at, visible));
-        return at.frame > job.primary ? blend(job, at.frame) : keep_all(job, at, visible);
+        return at.frame > job.primary ? blend(job, at.frame, visible) : keep_all(job, at, visible);
     }
 
     // Leg 3: up from the references before the primary one.
@@ -157,7 +167,7 @@ class Follower {
         WEFT_TRY(visible, visible_at(job, at));
         if (job.is_reference(at.frame)) return restart(job, at, visible);
         WEFT_CHECK_OK(advance(job, at, visible));
-        return blend(job, at.frame);
+        return blend(job, at.frame, visible);
     }
 
   private:
@@ -167,7 +177,9 @@ class Follower {
                  extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
         WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, at.frame));
         job.held_now = job.held.advance({at.views->display, extent, holdout});
+        if (job.held_now) job.held_frames.insert(walking_back_ ? at.frame + 1 : at.frame);
         Matte visible = without_holdout(extent, holdout);
+        job.extent_now = std::move(extent);
         drop_nonfinite(visible, at.views->finite);
         return visible;
     }
@@ -183,11 +195,13 @@ class Follower {
             placed = corrected(LatticeField(context_.source.size(), options.spacing_px), *pins);
             base = &*placed;
         }
-        job.walker.emplace(at.views->luma, visible, options, base);
+        job.walker.emplace(at.views->luma, visible, options, base, job.extent_now);
+        job.walked_to = job.anchored_at = at.frame;
         job.last_shading.reset();
         job.last_visible = visible;
         if (job.paper && at.frame == job.primary) {
-            job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size());
+            job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size(),
+                                context_.backend);
             WEFT_TRY(picture, job.painter->start(at.frame, context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
@@ -209,27 +223,42 @@ class Follower {
     }
 
     Status advance(Job& job, const SweepFrame& at, const Matte& visible) {
-        if (job.plan->true_motion) {
+        if (!job.plan->track.empty()) {
+            follow_track(job, at, visible);
+        } else if (job.plan->true_motion) {
             WEFT_TRY(motion, true_motion(job, at.frame));
             job.walker->advance(at.views->luma, visible, motion);
         } else if (job.held_now) {
             job.walker->hold();
         } else {
-            job.walker->advance(at.views->luma, visible, *at.prev_from_cur);
+            job.walker->advance(at.views->luma, visible, *at.prev_from_cur, job.extent_now);
         }
         job.last_visible = visible;
         if (const auto* pins = pins_at(job, at.frame)) {
             const LatticeField placed = corrected(job.walker->ref_from_cur(), *pins);
             job.walker->anchor_here(at.views->luma, visible, &placed);
+            job.anchored_at = at.frame;
         } else if (job.is_reference(at.frame)) {
             job.walker->anchor_here(at.views->luma, visible);
+            job.anchored_at = at.frame;
         }
+        job.walked_to = at.frame;
         if (job.painter) {
             WEFT_TRY(picture,
                      job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
         return {};
+    }
+
+    // The track gives the motion to any frame at once: nothing adds up.
+    void follow_track(Job& job, const SweepFrame& at, const Matte& visible) const {
+        const auto motion_to = [&](int frame) {
+            return plane_motion(job.plan->track.at(at.frame), job.plan->track.at(frame),
+                                context_.source.size(), job.walker->ref_from_cur().spacing());
+        };
+        job.walker->advance_known(at.views->luma, visible, motion_to(job.walked_to),
+                                  motion_to(job.anchored_at));
     }
 
     // prev_from_cur from the files, which point one way in time: the other way is inverted, by what
@@ -284,20 +313,52 @@ class Follower {
         return keep(job, job.primary, AnalysisKind::kGrain, encode(grain));
     }
 
-    // Between two references the histories from both are carried and their difference is spread
-    // over the interval.
-    Status blend(Job& job, int frame) {
+    Status measure_shutter(Job& job, const SweepFrame& at, const Matte& visible) {
+        const std::vector<int>& frames = job.plan->shutter_evidence;
+        if (!job.shutter || at.frame > frames.back()) return {};
+        if (at.frame > job.primary)
+            job.shutter_meter.add(at.views->luma, visible, job.walker->prev_from_cur());
+        if (at.frame < frames.back()) return {};
+        return keep(job, job.primary, AnalysisKind::kShutter, encode(job.shutter_meter.degrees()));
+    }
+
+    // Where a frame lies between two references, 0 to 1: frames of one drawing lie at one place.
+    static float position_between(const Job& job, int frame, int before, int after) {
+        int first = frame, last = frame + 1;
+        while (first > before && job.held_frames.contains(first))
+            --first;
+        while (last <= after && job.held_frames.contains(last))
+            ++last;
+        if (first > before && last > after) return 1;
+        return static_cast<float>(first - before) / static_cast<float>(after - before);
+    }
+
+    // Between two references the histories from both are carried. Their difference is spread over
+    // the interval; where it is too large for that, both are kept for a seam to choose.
+    Status blend(Job& job, int frame, const Matte& visible) {
         if (!job.coords) return {};
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
-        const float s =
-            static_cast<float>(frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
+        const float s = position_between(job, frame, *(after - 1), *after);
         const float smooth = s * s * (3 - 2 * s);
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
         const LatticeField& mine = job.walker->ref_from_cur();
         // Walking back, the walker comes from the reference after.
+        const LatticeField& from_before = walking_back_ ? other : mine;
+        const LatticeField& from_after = walking_back_ ? mine : other;
+        constexpr float kSlowestPx = 0.2f;  // a frame, at a plate 854 px wide: nobody sees it move
+        const float limit_px = kSlowestPx * static_cast<float>(context_.source.size().width) /
+                               854.0f * static_cast<float>(*after - *(after - 1));
+        const HistoryLayers layers =
+            spread_disagreement(from_before, from_after, smooth, limit_px, visible);
+        if (layers.apart) {
+            if (job.held_frames.contains(frame))
+                WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHeldBetween, encode(1.0f)));
+            WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHistoryBefore, encode(layers.before)));
+            WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHistoryAfter, encode(layers.after)));
+        }
         return keep(job, frame, AnalysisKind::kCoords,
-                    encode(walking_back_ ? mix(other, mine, smooth) : mix(mine, other, smooth)));
+                    encode(mix(from_before, from_after, smooth)));
     }
 
     Status keep(const Job& job, int frame, AnalysisKind kind, const Bytes& bytes) {
@@ -345,7 +406,8 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     WEFT_CHECK_OK(run(legs.again, &Follower::again));
     for (const Job& job : jobs) {
         if (job.gathers_light())
-            WEFT_CHECK_OK(estimate_light(context, job.region, {job.span.first, job.span.last}, store));
+            WEFT_CHECK_OK(
+                estimate_light(context, job.region, {job.span.first, job.span.last}, store));
     }
     return {};
 }

@@ -34,6 +34,7 @@ struct PassContext {
     const ShotPlan& plan;
     CancelToken cancel;
     std::function<void(int frame, double seconds)> step;  ///< Called after every frame.
+    const Backend* backend = nullptr;                     ///< For growing textures, if any.
 };
 
 using SweepVisitor = std::function<Status(const SweepFrame&)>;

@@ -34,6 +34,11 @@ class Canvas {
     /// 1 where a stored row is filled, else 0.
     [[nodiscard]] const std::uint8_t* filled_row(int y) const { return filled_.row(y); }
 
+    /// The same of a stored rectangle.
+    [[nodiscard]] ViewU8x1 filled_part(const Recti& rect) const {
+        return filled_.view().crop(rect);
+    }
+
     /// Shows sample pixel `from` with the colour `rgb` at `p`, a stored position.
     void set(Vec2i p, const std::uint8_t* rgb, Vec2i from) {
         std::uint8_t* out = pixels_.pixel(p.x, p.y);

@@ -1,5 +1,6 @@
 #include "engine/synthesis/grow_canvas.h"
 
+#include "engine/synthesis/device_search.h"
 #include "engine/synthesis/plane_energy.h"
 #include "engine/synthesis/refine.h"
 #include "engine/synthesis/stage_timer.h"
@@ -23,7 +24,8 @@ bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& 
     if (refines(options)) {
         canvas.any_locked() ? again.emplace(canvas) : again.emplace(canvas.size(), canvas.torus());
     }
-    Sweep sweep(atlas, options, canvas);
+    DeviceSearch device(atlas, options, canvas);
+    Sweep sweep(atlas, options, canvas, device);
     if (!sweep.run(stats, cancel, progress)) return false;
     if (!again) return true;
 
@@ -32,9 +34,10 @@ bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& 
     if (recount_energy(atlas, again->source(), canvas.torus()).energy <
         recount_energy(atlas, canvas.source(), canvas.torus()).energy) {
         canvas = std::move(*again);
+        device.show(canvas, rect_of(canvas.size()));
     }
     again.reset();
-    Refiner refiner(atlas, options, canvas);
+    Refiner refiner(atlas, options, canvas, device);
     for (int pass = 1; pass < options.refine_passes; ++pass) {
         if (cancel.cancelled()) return false;
         if (refiner.pass(pass, stats) <= 0) break;

@@ -7,7 +7,8 @@ namespace weft {
 
 /// A picture for PlaneGuide::target: the sample's mean colour, as bright as asked for. `wanted` is
 /// V (max of R, G, B) in 8 bits, of the plane's size; it is scaled so that its mean over the plane
-/// is the mean colour's V, because a sample cannot get brighter than it is. Pure.
+/// is the mean colour's V, because a sample cannot get brighter than it is, and smoothed (σ 12 px),
+/// because detail of a picture is not light. Pure.
 [[nodiscard]] ImageU8x3 light_guide(ViewU8x3 sample, ViewU8x1 wanted);
 
 }  // namespace weft

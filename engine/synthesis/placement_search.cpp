@@ -33,6 +33,19 @@ bool better(const OverlapCost& a, const OverlapCost& b) {
 
 }  // namespace
 
+std::vector<std::uint8_t> allowed_translations(Vec2i lo, Vec2i hi,
+                                               const std::vector<Vec2i>& forbidden) {
+    const auto columns = static_cast<std::size_t>(hi.x - lo.x + 1);
+    std::vector<std::uint8_t> ok(columns * static_cast<std::size_t>(hi.y - lo.y + 1), 1);
+    for (const Vec2i t : forbidden) {
+        if (t.x < lo.x || t.x > hi.x || t.y < lo.y || t.y > hi.y) continue;
+        ok[static_cast<std::size_t>(t.y - lo.y) * columns + static_cast<std::size_t>(t.x - lo.x)] =
+            0;
+    }
+    if (std::find(ok.begin(), ok.end(), 1) == ok.end()) std::fill(ok.begin(), ok.end(), 1);
+    return ok;
+}
+
 struct PlacementSearch::Once {
     std::once_flag direct, fft;
 };
@@ -47,25 +60,9 @@ std::size_t PlacementSearch::count() const {
            static_cast<std::size_t>(hi_.y - lo_.y + 1);
 }
 
-Vec2i PlacementSearch::translation(std::size_t index) const {
-    const auto row = static_cast<std::size_t>(hi_.x - lo_.x + 1);
-    return {lo_.x + static_cast<int>(index % row), lo_.y + static_cast<int>(index / row)};
-}
-
-std::vector<std::uint8_t> PlacementSearch::allowed(const std::vector<Vec2i>& forbidden) const {
-    std::vector<std::uint8_t> ok(count(), 1);
-    for (const Vec2i t : forbidden) {
-        if (t.x < lo_.x || t.x > hi_.x || t.y < lo_.y || t.y > hi_.y) continue;
-        ok[static_cast<std::size_t>(t.y - lo_.y) * static_cast<std::size_t>(hi_.x - lo_.x + 1) +
-           static_cast<std::size_t>(t.x - lo_.x)] = 0;
-    }
-    if (std::find(ok.begin(), ok.end(), 1) == ok.end()) std::fill(ok.begin(), ok.end(), 1);
-    return ok;
-}
-
 Shortlist PlacementSearch::find(const MatchTarget& target, const std::vector<Vec2i>& forbidden,
                                 SearchMethod method) {
-    const std::vector<std::uint8_t> ok = allowed(forbidden);
+    const std::vector<std::uint8_t> ok = allowed_translations(lo_, hi_, forbidden);
     if (method == SearchMethod::kFastest) {
         method = direct_is_faster(target) ? SearchMethod::kDirect : SearchMethod::kFft;
     }

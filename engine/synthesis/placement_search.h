@@ -26,6 +26,15 @@ struct Shortlist {
 /// How much worse than the best a good placement may be, in mean squared difference.
 inline constexpr std::uint32_t kGoodNumerator = 130, kGoodDenominator = 100;
 
+/// Translations t ∈ [lo, hi] by index, row by row.
+[[nodiscard]] inline Vec2i translation_at(Vec2i lo, Vec2i hi, std::size_t index) {
+    const auto row = static_cast<std::size_t>(hi.x - lo.x + 1);
+    return {lo.x + static_cast<int>(index % row), lo.y + static_cast<int>(index / row)};
+}
+/// One byte per translation: 0 for the forbidden ones, unless all are, else 1.
+[[nodiscard]] std::vector<std::uint8_t> allowed_translations(Vec2i lo, Vec2i hi,
+                                                             const std::vector<Vec2i>& forbidden);
+
 /// Searches one sample (or one window of it) over blocks of one size, with the translations
 /// t ∈ [lo, hi], t being where the sample's origin lies in the block. What a search
 /// method needs of the sample is prepared once, at its first use. Thread-safe.
@@ -41,8 +50,9 @@ class PlacementSearch {
 
   private:
     [[nodiscard]] std::size_t count() const;
-    [[nodiscard]] Vec2i translation(std::size_t index) const;
-    [[nodiscard]] std::vector<std::uint8_t> allowed(const std::vector<Vec2i>& forbidden) const;
+    [[nodiscard]] Vec2i translation(std::size_t index) const {
+        return translation_at(lo_, hi_, index);
+    }
     [[nodiscard]] Shortlist find_direct(const MatchTarget& target,
                                         const std::vector<std::uint8_t>& allowed);
     [[nodiscard]] Shortlist find_fft(const MatchTarget& target,

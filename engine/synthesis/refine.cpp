@@ -58,8 +58,9 @@ void add_unary(SeamProblem& problem, int x, int y, std::int32_t cost_of_new) {
 
 }  // namespace
 
-Refiner::Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas)
-    : atlas_(atlas), options_(options), canvas_(canvas) {
+Refiner::Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
+                 DeviceSearch& device)
+    : atlas_(atlas), options_(options), canvas_(canvas), device_(device) {
     Size least = atlas.pages().front().rect.size();
     for (const SampleAtlas::Page& page : atlas.pages()) {
         least.width = std::min(least.width, page.rect.width());
@@ -74,11 +75,10 @@ Refiner::Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& 
             for (const int x : starts(page.rect.width(), w.width)) {
                 const Vec2i at{page.rect.x0 + x, page.rect.y0 + y};
                 const Recti rect{at.x, at.y, at.x + w.width, at.y + w.height};
-                windows_.push_back(
-                    {rect,
-                     std::make_unique<PlacementSearch>(
-                         atlas.pixels().crop(rect), block_,
-                         Vec2i{block_.width - w.width, block_.height - w.height}, Vec2i{0, 0})});
+                const Vec2i lo{block_.width - w.width, block_.height - w.height};
+                windows_.push_back({rect, lo,
+                                    std::make_unique<PlacementSearch>(atlas.pixels().crop(rect),
+                                                                      block_, lo, Vec2i{0, 0})});
             }
         }
     }
@@ -189,7 +189,7 @@ Vec2i Refiner::source_at(int x, int y) const {
 }
 
 // The best place of one window of the atlas for the block, other than what the block shows already.
-std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) const {
+std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) {
     const Window& window = windows_[rng.below(windows_.size())];
     const Vec2i start{window.rect.x0, window.rect.y0};
     std::vector<Vec2i> shown;
@@ -199,7 +199,10 @@ std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) const {
             if (shown.empty() || shown.back() != t) shown.push_back(t);
         }
     }
-    const Shortlist list = window.search->find({block.pixels, block.filled, {}, {}, 1, 0}, shown);
+    auto found = device_.find(block.rect, window.rect, window.lo, {0, 0}, shown);
+    const Shortlist list =
+        found ? *std::move(found)
+              : window.search->find({block.pixels, block.filled, {}, {}, 1, 0}, shown);
     if (std::find(shown.begin(), shown.end(), list.best) != shown.end()) return std::nullopt;
     return list.good[rng.below(list.good.size())] + Vec2i{block.rect.x0, block.rect.y0} - start;
 }
@@ -282,6 +285,7 @@ Refiner::Outcome Refiner::refine_block(const Recti& rect, Rng rng) {
     outcome.gained = before - energy_around(rect);
     if (outcome.gained > 0) {
         outcome.laid = 1;
+        device_.show(canvas_, rect);
         return outcome;
     }
     for (const Undo& u : undo)

@@ -8,6 +8,7 @@
 
 #include "engine/core/rng.h"
 #include "engine/synthesis/canvas.h"
+#include "engine/synthesis/device_search.h"
 #include "engine/synthesis/placement_search.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_plane.h"
@@ -24,7 +25,9 @@ inline constexpr float kRefineGradientFloor = 64;
 /// energy never rises. Guides take no part.
 class Refiner {
   public:
-    Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas);
+    /// `device` belongs to the canvas, and is told of every block.
+    Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
+            DeviceSearch& device);
 
     /// One round over the plane's worst places, which are so far apart that they are worked on at
     /// once. Returns how much energy it took away, and adds to the refinements and peak bytes.
@@ -34,6 +37,7 @@ class Refiner {
     // A part of the atlas in which one search looks for a block's place.
     struct Window {
         Recti rect;
+        Vec2i lo;  ///< Translations go up to 0.
         std::unique_ptr<PlacementSearch> search;
     };
     struct Outcome {
@@ -46,13 +50,14 @@ class Refiner {
     [[nodiscard]] std::vector<Vec2i> apart(const std::vector<Vec2i>& corners) const;
     [[nodiscard]] double energy_around(const Recti& rect) const;
     [[nodiscard]] Outcome refine_block(const Recti& rect, Rng rng);
-    [[nodiscard]] std::optional<Vec2i> find_origin(const Block& block, Rng& rng) const;
+    [[nodiscard]] std::optional<Vec2i> find_origin(const Block& block, Rng& rng);
     [[nodiscard]] SeamProblem problem_for(const Block& block, Vec2i origin) const;
     [[nodiscard]] Vec2i source_at(int x, int y) const;
 
     const SampleAtlas& atlas_;
     const PlaneOptions& options_;
     Canvas& canvas_;
+    DeviceSearch& device_;
     Size block_;
     std::vector<Window> windows_;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <climits>
-#include <cmath>
 #include <mutex>
 
 #include "engine/core/parallel.h"
@@ -13,14 +12,14 @@
 namespace weft {
 namespace {
 
-constexpr std::uint32_t kWeightUnit = 256;
 constexpr std::size_t kPagesPerStep = 2;
 constexpr double kAlignTolerance_px = 2;
 
 }  // namespace
 
-Sweep::Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas)
-    : atlas_(atlas), options_(options), canvas_(canvas) {
+Sweep::Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
+             DeviceSearch& device)
+    : atlas_(atlas), options_(options), canvas_(canvas), device_(device) {
     if (options.align && atlas.pages().size() == 1) period_ = find_period(atlas.pixels());
     const Size plane = options.size;
     if (canvas.torus() && (!period_.holds({plane.width, 0}, kAlignTolerance_px) ||
@@ -301,28 +300,35 @@ void Sweep::forbid_thin_contacts(const Block& block, Image<std::uint8_t, 1>& bad
     }
 }
 
-Sweep::Choice Sweep::choose(std::size_t index, int x, Rng& rng) {
-    Choice choice;
-    choice.block = next_block(bands_[index], x);
-    const Block& block = choice.block;
+Shortlist Sweep::find(const Place& place, const Block& block, const PlacementMemory& earlier) {
+    const Vec2i to_canvas{block.rect.x0 - place.window.x0, block.rect.y0 - place.window.y0};
+    const std::vector<Vec2i> bad = forbidden(block, to_canvas, earlier);
+    if (auto found = device_.find(block.rect, place.window, {x_.lo, y_.lo}, {x_.hi, y_.hi}, bad)) {
+        return *std::move(found);
+    }
     MatchTarget target{block.pixels, block.filled, {}, {}, 1, 0};
     GuideBlock guide;
     if (options_.guide) {
         guide = copy_guide(block.rect);
         target.guide = guide.pixels;
         target.guide_known = guide.known;
-        target.fill_weight = kWeightUnit;
-        target.guide_weight =
-            static_cast<std::uint32_t>(std::lround(options_.guide->weight * kWeightUnit));
+        target.fill_weight = PlaneGuide::kFillWeight;
+        target.guide_weight = options_.guide->guide_weight();
     }
+    return place.search->find(target, bad);
+}
+
+Sweep::Choice Sweep::choose(std::size_t index, int x, Rng& rng) {
+    Choice choice;
+    choice.block = next_block(bands_[index], x);
+    const Block& block = choice.block;
     const PlacementMemory earlier = memory(index, block.rect);
     Shortlist best;
     const Place* where = nullptr;
     const std::size_t tries = std::min(kPagesPerStep, atlas_.pages().size());
     for (std::size_t i = 0; i < tries; ++i) {
         const Place& place = places_[rng.below(places_.size())];
-        const Vec2i to_canvas{block.rect.x0 - place.window.x0, block.rect.y0 - place.window.y0};
-        Shortlist list = place.search->find(target, forbidden(block, to_canvas, earlier));
+        Shortlist list = find(place, block, earlier);
         if (where && at_most(best.best_cost, list.best_cost)) continue;
         best = std::move(list);
         where = &place;
@@ -357,6 +363,7 @@ int Sweep::lay(std::size_t index, int x) {
             lay_patch(canvas_, choice.block, atlas_.pixels(), patch, options_);
         band.peak_bytes = std::max(band.peak_bytes, bytes);
     }
+    device_.show(canvas_, patch.rect);
     band.placed.push_back({patch.origin, patch.rect});
     band.count.store(number + 1, std::memory_order_release);
     return patch.rect.x1;

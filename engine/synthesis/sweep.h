@@ -11,6 +11,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/rng.h"
 #include "engine/synthesis/canvas.h"
+#include "engine/synthesis/device_search.h"
 #include "engine/synthesis/patch_seam.h"
 #include "engine/synthesis/placement_memory.h"
 #include "engine/synthesis/placement_search.h"
@@ -27,7 +28,9 @@ namespace weft {
 /// its reach, so that several bands grow at once with the result of growing one after another.
 class Sweep {
   public:
-    Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas);
+    /// `device` belongs to the canvas, and is told of every patch.
+    Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
+          DeviceSearch& device);
     ~Sweep();
 
     /// Fills the canvas by up to thread_count() threads; false when it was cancelled. Adds to the
@@ -82,6 +85,8 @@ class Sweep {
     void wait_for(std::size_t index, int x);
     int lay(std::size_t index, int x);
     [[nodiscard]] Choice choose(std::size_t index, int x, Rng& rng);
+    [[nodiscard]] Shortlist find(const Place& place, const Block& block,
+                                 const PlacementMemory& earlier);
     [[nodiscard]] Block next_block(const Band& band, int x) const;
     [[nodiscard]] GuideBlock copy_guide(const Recti& rect) const;
     [[nodiscard]] PlacementMemory memory(std::size_t index, const Recti& block) const;
@@ -94,6 +99,7 @@ class Sweep {
     const SampleAtlas& atlas_;
     const PlaneOptions& options_;
     Canvas& canvas_;
+    DeviceSearch& device_;
     TexturePeriod period_;
     SweepAxis x_, y_;  ///< Of the smallest page; all others fit it.
     std::vector<Place> places_;

@@ -90,6 +90,20 @@ Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, const PlaneOpt
 
 }  // namespace
 
+Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas, const TexturePlane& plane) {
+    Image<std::int32_t, 2> out = plane.source;
+    if (plane.origin.empty()) return out;
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            std::int32_t* s = out.pixel(x, y);
+            const std::uint8_t* origin = plane.origin.pixel(x, y);
+            const Vec2i at = atlas.position_of({origin[0], origin[1], {s[0], s[1]}});
+            s[0] = at.x, s[1] = at.y;
+        }
+    }
+    return out;
+}
+
 Status check_sample(Size sample, int overlap_px) {
     if (sample.width < 2 * kLeastOverlap || sample.height < 2 * kLeastOverlap) {
         return fail(ErrorCode::kUsage, "The texture sample is " + text_of(sample) +

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/compute/backend.h"
 #include "engine/core/cancel.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
@@ -24,6 +25,12 @@ struct PlaneGuide {
     ViewU8x3 target;  ///< As large as the plane.
     ViewU8x1 known;   ///< 0 where the target says nothing.
     float weight = 1.0f;
+
+    /// Weights are integers in placement costs: of a filled pixel, and of a guided one.
+    static constexpr std::uint32_t kFillWeight = 256;
+    [[nodiscard]] std::uint32_t guide_weight() const {
+        return static_cast<std::uint32_t>(weight * static_cast<float>(kFillWeight) + 0.5f);
+    }
 };
 
 /// Rounds of refinement that a plane gets unless told otherwise. In the first all cuts are made
@@ -44,6 +51,8 @@ struct PlaneOptions {
     int refine_passes = kDefaultRefinePasses;  ///< Rounds of blocks over the worst seams, 0 is off.
     Orientations orientations;  ///< Turned and mirrored samples besides upright ones.
     bool align = true;          ///< Keep a texture that repeats by itself (bricks, tiles) in step.
+    /// Searches for placements if it can do so faster than the CPU; the plane is the same.
+    const Backend* backend = nullptr;
 };
 
 /// Times in seconds of wall clock; total includes planning and cold caches. Where several threads
@@ -67,6 +76,10 @@ struct TexturePlane {
     Image<std::uint8_t, 2> origin;
     PlaneStats stats;
 };
+
+/// The source map as positions in the atlas of the same samples and orientations.
+[[nodiscard]] Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas,
+                                                     const TexturePlane& plane);
 
 /// Whether a sample of this size can be grown with this overlap. Errors: Usage, saying what would
 /// do.

@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/core/parallel.h"
+#include "engine/core/quad.h"
 
 namespace weft {
 namespace {
@@ -13,27 +14,6 @@ namespace {
 // Columns, as GLM keeps them: the map (u, v) → (a u + c v + tx, b u + d v + ty).
 Mat3 affine(float a, float b, float c, float d, Vec2 t) {
     return {a, b, 0, c, d, 0, t.x, t.y, 1};
-}
-
-// The homography of the unit square onto four corners in order (Heckbert 1989, eq. 2.9–2.11).
-Mat3 square_to_quad(const std::array<Vec2, 4>& q) {
-    const Vec2 d1 = q[1] - q[2], d2 = q[3] - q[2], s = q[0] - q[1] + q[2] - q[3];
-    const float den = d1.x * d2.y - d2.x * d1.y;
-    const float g = (s.x * d2.y - d2.x * s.y) / den;
-    const float h = (d1.x * s.y - s.x * d1.y) / den;
-    const Vec2 u = q[1] - q[0] + g * q[1], v = q[3] - q[0] + h * q[3];
-    return {u.x, u.y, g, v.x, v.y, h, q[0].x, q[0].y, 1};
-}
-
-bool convex(const std::array<Vec2, 4>& q) {
-    int positive = 0, negative = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Vec2 a = q[(k + 1) % 4] - q[k], b = q[(k + 2) % 4] - q[(k + 1) % 4];
-        const float cross = a.x * b.y - a.y * b.x;
-        positive += cross > 1e-3f;
-        negative += cross < -1e-3f;
-    }
-    return positive == 4 || negative == 4;
 }
 
 }  // namespace
@@ -49,12 +29,12 @@ Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
         return glm::inverse(
             affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px));
     }
-    if (!convex(*p.corners)) {
+    if (!is_convex<float>(*p.corners)) {
         return fail(ErrorCode::kUsage,
                     "The four corners must go around a convex quadrilateral: top left, top right, "
                     "bottom right, bottom left.");
     }
-    const Mat3 plate_from_square = square_to_quad(*p.corners);
+    const Mat3 plate_from_square = square_to_quad<float>(*p.corners);
     // Plate pixels per unit of the square along its two edges, at its top left corner.
     const Vec2 origin = project(plate_from_square, {0, 0});
     constexpr float kStep = 1e-3f;

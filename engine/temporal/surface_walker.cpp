@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/motion/contour_flow.h"
+#include "engine/motion/outline_register.h"
 #include "engine/motion/relocalise.h"
 #include "engine/motion/surface_fit.h"
 #include "engine/temporal/anchors.h"
@@ -33,7 +34,7 @@ std::int64_t count_of(ViewU8x1 visible) {
 struct SurfaceWalker::State {
     SurfaceWalkerOptions options;
     LatticeField ref_from_cur, prev_from_cur;
-    Matte last_luma, last_visible;
+    Matte last_luma, last_visible, last_extent;
 
     AnchorSet anchors;
     LatticeField anchor_from_cur;  // of the present anchor
@@ -86,12 +87,13 @@ struct SurfaceWalker::State {
                                   fit_options());
     }
 
-    [[nodiscard]] LatticeField fit_outline(ViewU8x1 luma, ViewU8x1 visible) const {
-        const FlowField motion = estimate_contour_flow(luma, visible, last_luma, last_visible);
+    [[nodiscard]] LatticeField fit_outline(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent) const {
+        const FlowField motion = estimate_contour_flow(luma, extent, last_luma, last_extent);
         SurfaceFitOptions fit = fit_options();
         fit.finest_px = 12;
         fit.correlation_px = 4;
-        return fit_surface_motion(motion.d, motion.valid, fit);
+        return register_outline({last_luma, last_extent, last_visible}, {luma, extent, visible},
+                                fit_surface_motion(motion.d, motion.valid, fit));
     }
 
     [[nodiscard]] SurfaceFitOptions fit_options() const {
@@ -190,7 +192,7 @@ void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8
 }
 
 SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
-                             const LatticeField* ref_from_start)
+                             const LatticeField* ref_from_start, ViewU8x1 extent)
     : state_(std::make_unique<State>()) {
     const LatticeField still(luma.size(), options.spacing_px);
     state_->options = options;
@@ -198,6 +200,7 @@ SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalke
     state_->prev_from_cur = still;
     state_->last_luma = copy_of(luma);
     state_->last_visible = copy_of(visible);
+    state_->last_extent = copy_of(extent.empty() ? visible : extent);
     state_->become_anchor(registration_picture(luma, visible));
 }
 
@@ -206,11 +209,13 @@ SurfaceWalker::SurfaceWalker(SurfaceWalker&&) noexcept = default;
 SurfaceWalker& SurfaceWalker::operator=(SurfaceWalker&&) noexcept = default;
 
 const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
-                                           const FlowField& prev_from_cur) {
+                                           const FlowField& prev_from_cur, ViewU8x1 extent) {
     State& s = *state_;
+    if (extent.empty()) extent = visible;
     const auto keep = [&]() -> const LatticeField& {
         s.last_luma = copy_of(luma);
         s.last_visible = copy_of(visible);
+        s.last_extent = copy_of(extent);
         return s.ref_from_cur;
     };
     if (s.options.exact_motion) {
@@ -226,7 +231,7 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);
     // What has just come into view has no motion yet.
     s.follow(was_hidden   ? s.prev_from_cur
-             : by_outline ? s.fit_outline(luma, visible)
+             : by_outline ? s.fit_outline(luma, visible, extent)
                           : s.fit_motion(luma, visible, prev_from_cur));
     // Without structure inside there is nothing to be registered by: the chain goes on alone.
     if (!by_outline) {
@@ -238,6 +243,16 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         }
     }
     return keep();
+}
+
+void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
+                                  LatticeField anchor_from_cur) {
+    State& s = *state_;
+    s.prev_from_cur = std::move(prev_from_cur);
+    s.correct(s.anchors.present_index(), std::move(anchor_from_cur));
+    s.last_luma = copy_of(luma);
+    s.last_visible = copy_of(visible);
+    s.last_extent = copy_of(visible);
 }
 
 void SurfaceWalker::hold() {

@@ -20,7 +20,7 @@ struct SurfaceWalkerOptions {
 /// was on it (method: "Temporal consistency", surface-locked mode).
 ///
 /// Motion from frame to frame is fitted (fit_surface_motion) and chained; where the region shows
-/// nothing but its outline (structure_to_noise), from that (estimate_contour_flow). A chain drifts,
+/// nothing but its outline (structure_to_noise), from that (register_outline). A chain drifts,
 /// so each frame is also registered against an *anchor*, at first the reference frame itself: by a
 /// homography where one explains the picture, else by a smooth field (register_planar,
 /// register_lattice). When too little of the anchor is to be seen, the present frame becomes the
@@ -28,10 +28,11 @@ struct SurfaceWalkerOptions {
 class SurfaceWalker {
   public:
     /// `luma`: the frame to start from, 8 bit. `visible`: extent matte without holdouts, the same
-    /// size. `ref_from_start`: where the start's pixels were on the reference frame; the walk
-    /// starts on the reference frame itself without it.
+    /// size. `extent`: the matte with what is hidden; empty: `visible`. `ref_from_start`: where the
+    /// start's pixels were on the reference frame; the walk starts on the reference frame itself
+    /// without it.
     SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
-                  const LatticeField* ref_from_start = nullptr);
+                  const LatticeField* ref_from_start = nullptr, ViewU8x1 extent = {});
     ~SurfaceWalker();
     SurfaceWalker(SurfaceWalker&&) noexcept;
     SurfaceWalker& operator=(SurfaceWalker&&) noexcept;
@@ -40,13 +41,17 @@ class SurfaceWalker {
     /// where it was in the frame before (of the walk); its `valid` says where that can be trusted.
     /// Returns ref_from_cur, which is defined everywhere: behind holdouts and outside the matte the
     /// surface's motion is continued.
-    const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur);
+    const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
+                                ViewU8x1 extent = {});
+    /// Goes on to a frame whose motion is known as a whole: of the step, and to the frame at which
+    /// the walk is anchored. Nothing is estimated and nothing registered.
+    void advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
+                       LatticeField anchor_from_cur);
     /// Goes on to a frame that shows the same drawing as the one before: nothing moves.
     void hold();
     /// Makes the present frame, whose pictures these are, the anchor: further reference frames.
     /// With `ref_from_here` the surface lies there from now on, whatever the walk has found.
-    void anchor_here(ViewU8x1 luma, ViewU8x1 visible,
-                     const LatticeField* ref_from_here = nullptr);
+    void anchor_here(ViewU8x1 luma, ViewU8x1 visible, const LatticeField* ref_from_here = nullptr);
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;
     /// The surface's motion of the last step, defined everywhere.

@@ -51,8 +51,9 @@ const std::vector<Floor> kFloors{
     // function that writes a file whole
     {"app/project",
      {"engine/core", "engine/compute/wrap_mode.h", "engine/lighting/light_source.h",
-      "engine/lighting/shading.h", "engine/seam/seam.h", "engine/temporal/temporal_mode.h",
-      "engine/media/image_files.h", "engine/media/atomic_file.h"}},
+      "engine/lighting/shading.h", "engine/seam/seam.h", "engine/seam/seam_cost.h",
+      "engine/temporal/temporal_mode.h", "engine/media/image_files.h",
+      "engine/media/atomic_file.h"}},
     // 5
     {"app/session", {"engine", "gpu", "texture_db", "app/project"}},
     // 6

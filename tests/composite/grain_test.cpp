@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -118,6 +119,58 @@ TEST(Grain, ACleanPlateHasNone) {
         }
     }
     EXPECT_FALSE(measured(clean, clean).present());
+}
+
+// Bars of shade, 16 px apart, that sweep over a grey surface by 3 px a frame.
+ImageF3 barred(int frame) {
+    ImageF3 out(kWidth, kHeight, 0.5f);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const float phase =
+                0.39f * static_cast<float>(x + 3 * frame) + 0.05f * static_cast<float>(y);
+            const float shade = std::clamp(2.0f * std::sin(phase), -1.0f, 0.0f);
+            for (int c = 0; c < 3; ++c)
+                out.at(x, y, c) += 0.2f * shade;
+        }
+    }
+    return out;
+}
+
+TEST(Grain, ShadowsThatSweepOverACleanPlateAreNoGrain) {
+    EXPECT_FALSE(measured(barred(0), barred(1)).present());
+}
+
+// A fine texture that does not move, in a fifth of the picture under a shadow that comes: there it
+// differs as finely as grain would.
+TEST(Grain, AFineTextureUnderAComingShadowIsNoGrain) {
+    const auto plate = [](bool shade) {
+        Rng rng(3);
+        ImageF3 out(kWidth, kHeight, 0.5f);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const float value = 0.5f + 0.1f * static_cast<float>(rng.uniform() - 0.5);
+                for (int c = 0; c < 3; ++c)
+                    out.at(x, y, c) = value * (shade && x >= kWidth * 4 / 5 ? 0.4f : 1.0f);
+            }
+        }
+        return out;
+    };
+    EXPECT_FALSE(measured(plate(false), plate(true)).present());
+}
+
+TEST(Grain, IsMeasuredBesideAMovingShadowAndUnderADimmingLight) {
+    const auto plate = [](int frame) {
+        ImageF3 base(kWidth, kHeight, 0.3f - 0.02f * static_cast<float>(frame));
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < 40 + 8 * frame; ++x) {
+                for (int c = 0; c < 3; ++c)
+                    base.at(x, y, c) -= 0.1f;
+            }
+        }
+        return base;
+    };
+    const GrainModel model = measured(grainy(plate(0), 7), grainy(plate(1), 8));
+    EXPECT_NEAR(model.deviation[1][2], 4.0f / 255.0f, 0.6f / 255.0f);
 }
 
 TEST(Grain, APatternThatIsFollowedBadlyIsNotTakenForGrain) {

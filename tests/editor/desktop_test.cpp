@@ -54,13 +54,10 @@ class Desktop : public ::testing::Test {
         return false;
     }
 
-    // Held for as long as a hand holds a key: the software renderer draws few frames a second.
-    void press(const std::vector<std::string>& keys) const {
-        for (const std::string& key : keys)
-            tool("keydown " + key);
-        rest(0.4);
-        for (auto key = keys.rbegin(); key != keys.rend(); ++key)
-            tool("keyup " + *key);
+    // Pressed and released at once: the software renderer draws few frames a second, and none of
+    // it may be lost.
+    void press(const std::string& chord) const {
+        tool("key " + chord);
         rest(0.4);
     }
 
@@ -80,8 +77,8 @@ TEST_F(Desktop, AStrokeByMouseAndKeyboardIsSaved) {
     // Without a window manager nobody else gives the window the keyboard.
     tool("search --onlyvisible --name Weft windowfocus");
     tool("mousemove 600 400 click 2");
-    press({"ctrl", "shift", "n"});
-    press({"b"});
+    press("ctrl+shift+n");
+    press("b");
     tool("mousemove 500 350");
     rest(0.3);
     tool("mousedown 1");

@@ -93,6 +93,67 @@ TEST(ClipReflectance, BricksAreNotLight) {
               0.2 * scene::detail_energy(half, lit_small, 7));
 }
 
+// The shadow of leaves: bars of a third, 8 px wide and 24 apart, that sweep by 7 px a frame.
+bool in_bar(int x, int frame) {
+    return (x + 7 * frame) % 24 < 8;
+}
+
+TEST(ClipReflectance, ShadowsAsFineAsBricksAreLightIfTheyMove) {
+    const Matte matte = scene::box_matte({10, 10, 310, 230});
+    ReflectanceGatherer gatherer({});
+    std::vector<SurfaceSample> samples;
+    for (int f = 0; f < 12; ++f) {
+        ImageF3 plate = scene::plate(1, 1000);
+        for (int y = 0; y < plate.height(); ++y) {
+            for (int x = 0; x < plate.width(); ++x) {
+                for (int c = 0; in_bar(x, f) && c < 3; ++c)
+                    plate.at(x, y, c) *= 0.33f;
+            }
+        }
+        samples.push_back(light_sample(plate, matte, {}));
+        gatherer.add(samples.back(), ImageF2(samples.back().box.size()));
+    }
+    const ClipReflectance reflectance = gatherer.finish();
+    const SurfaceSample& sample = samples[5];
+    const Shading s = shading_with(sample, reflectance, ImageF2(sample.box.size()), {});
+    double lit = 0, shaded = 0;
+    int lit_count = 0, shaded_count = 0;
+    for (int y = 20; y < 100; ++y) {
+        for (int x = 60; x < 100; ++x) {
+            const bool left = in_bar(2 * x - 2, 5), right = in_bar(2 * x + 3, 5);
+            if (left && right) shaded += s.value.at(x, y), ++shaded_count;
+            if (!left && !right && !in_bar(2 * x, 5)) lit += s.value.at(x, y), ++lit_count;
+        }
+    }
+    ASSERT_GT(shaded_count, 100);
+    EXPECT_NEAR((shaded / shaded_count) / (lit / lit_count), 0.33, 0.06);
+}
+
+TEST(ClipReflectance, FormIsNoPatternHoweverItRepeats) {
+    // Bricks on a column, dark towards both sides.
+    const Matte matte = scene::box_matte({10, 10, 310, 230});
+    const auto form = [](int x) {
+        const float u = (static_cast<float>(x) - 160.0f) / 160.0f;
+        return 1.0f - 0.7f * u * u;
+    };
+    ReflectanceGatherer gatherer({});
+    SurfaceSample sample;
+    for (int f = 0; f < 5; ++f) {
+        ImageF3 plate = scene::plate(1, 1000);
+        for (int y = 0; y < plate.height(); ++y) {
+            for (int x = 0; x < plate.width(); ++x) {
+                for (int c = 0; c < 3; ++c)
+                    plate.at(x, y, c) *= form(x) / scene::light(x, y, 1000);
+            }
+        }
+        sample = light_sample(plate, matte, {});
+        gatherer.add(sample, ImageF2(sample.box.size()));
+    }
+    const Shading s = shading_with(sample, gatherer.finish(), ImageF2(sample.box.size()), {});
+    EXPECT_NEAR(s.value.at(20, 60) / s.value.at(80, 60), form(40), 0.06f);
+    EXPECT_NEAR(s.value.at(140, 60) / s.value.at(80, 60), form(280), 0.06f);
+}
+
 TEST(ClipReflectance, ALightThatDimsIsFollowed) {
     const Clip c = clip(0.6f);
     const float first = shading_at(c, 0).value.at(140, 60);

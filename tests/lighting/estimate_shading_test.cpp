@@ -181,5 +181,24 @@ TEST(EstimateShading, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.inside, five.inside);
 }
 
+// Sand-coloured plaster with darker and redder blotches, and the shadow of a low sun on it, which
+// only the sky fills.
+TEST(EstimateShading, TheBlueOfAShadowIsNoPaint) {
+    ImageF3 plate(scene::kSize);
+    for (int y = 0; y < plate.height(); ++y) {
+        for (int x = 0; x < plate.width(); ++x) {
+            const float blotch = 0.1f * std::sin(0.9f * static_cast<float>(x)) *
+                                 std::sin(0.7f * static_cast<float>(y));
+            const bool shade = x >= 120 && x < 200;
+            plate.at(x, y, 0) = 0.60f * (1 + blotch) * (shade ? 0.24f : 1.0f);
+            plate.at(x, y, 1) = 0.42f * (1 + 1.5f * blotch) * (shade ? 0.31f : 1.0f);
+            plate.at(x, y, 2) = 0.25f * (1 + 2.0f * blotch) * (shade ? 0.45f : 1.0f);
+        }
+    }
+    const Shading s = estimate_shading(plate, scene::box_matte({10, 10, 310, 230}), {});
+    EXPECT_NEAR(s.value.at(80, 60) / s.value.at(30, 60), 0.30f, 0.04f);
+    EXPECT_NEAR(s.value.at(80, 60) / s.value.at(130, 60), 0.30f, 0.04f);
+}
+
 }  // namespace
 }  // namespace weft

@@ -112,6 +112,26 @@ TEST(Analysis, AHeldDrawingHasTheSameCoordinatesToTheBit) {
     EXPECT_NE(stored_coords(store, 6).nodes(), stored_coords(store, 5).nodes());
 }
 
+TEST(Analysis, AHeldDrawingHoldsBetweenReferencesToo) {
+    MemoryShot shot = make_wall();
+    for (const int held : {4, 5})
+        shot.plates[held] = shot.plates[3];
+    shot.plates[9] = shot.plates[8];
+    // A correction of 6 px that has to be spread between frames 2 and 9.
+    RegionPlan region = region_from({2, 9});
+    region.corrections[9] = {{{80, 60}, {86, 60}}};
+    for (const std::vector<int>& references : {std::vector<int>{2, 9}, std::vector<int>{9, 2}}) {
+        region.reference_frames = references;
+        MemoryAnalysisStore store;
+        analyse(shot, make_plan(region), store);
+        EXPECT_EQ(stored_coords(store, 4).nodes(), stored_coords(store, 3).nodes());
+        EXPECT_EQ(stored_coords(store, 5).nodes(), stored_coords(store, 3).nodes());
+        EXPECT_NE(stored_coords(store, 6).nodes(), stored_coords(store, 5).nodes());
+        EXPECT_EQ(stored_coords(store, 8).nodes(), stored_coords(store, 9).nodes())
+            << "a drawing with a reference lies as the reference does";
+    }
+}
+
 TEST(Analysis, ACorrectionHoldsFromItsFrameOnAndIsSpreadBeforeIt) {
     const MemoryShot shot = make_wall();
     RegionPlan region = region_from({2, 8});
@@ -205,6 +225,29 @@ TEST(Analysis, TakesTrueMotionPointingEitherWay) {
                 << frame << (forward ? " forward" : " backward");
         }
     }
+}
+
+TEST(Analysis, FollowsATrackExactlyBothWaysAndThroughCorrections) {
+    const MemoryShot shot = make_wall(false, false);  // the picture says that nothing moves
+    RegionPlan region = region_from({5});
+    for (int frame = kFirst; frame <= kLast; ++frame) {
+        Quad<double>& quad = region.track[frame];
+        const Vec2 corners[] = {{30, 30}, {120, 35}, {125, 90}, {25, 85}};
+        for (std::size_t k = 0; k < 4; ++k)
+            quad[k] = wall_moved(corners[k], frame);
+    }
+    MemoryAnalysisStore store;
+    analyse(shot, make_plan(region), store);
+    for (int frame = kFirst; frame <= kLast; ++frame)
+        EXPECT_LT(coords_error(store, frame, 5), 1e-3f) << frame;
+
+    region.reference_frames = {5, 8};
+    region.corrections[8] = {{{80, 56}, {82, 56}}};
+    MemoryAnalysisStore corrected;
+    analyse(shot, make_plan(region), corrected);
+    EXPECT_EQ(stored_coords(corrected, 5).at({80, 56}), (Vec2{0, 0}));
+    for (const int frame : {8, 10})
+        EXPECT_NEAR(coords_error(corrected, frame, 5), 2.0f, 1e-2f) << frame;
 }
 
 TEST(Analysis, AMissingFileOfTrueMotionIsTold) {

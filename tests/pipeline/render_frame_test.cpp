@@ -139,6 +139,29 @@ TEST(RenderFrame, LaterRegionsLieOnTop) {
     EXPECT_STREQ(at(green, red, 80), "red");
 }
 
+TEST(RenderFrame, KeysMoveThePlacementOverTime) {
+    // Left half black, right half white, one texel a pixel.
+    auto texture = std::make_shared<TexturePicture>();
+    texture->is_plane = true;
+    texture->wrap = WrapMode::kClamp;
+    texture->pixels = ImageF3(kShotSize);
+    for (int y = 0; y < kShotSize.height; ++y) {
+        for (int x = kShotSize.width / 2; x < kShotSize.width; ++x)
+            std::fill_n(texture->pixels.pixel(x, y), 3, 1.0f);
+    }
+    const MemoryShot shot = make_wall(false, false);
+    RegionPlan region = make_region(texture);
+    region.offset_keys.keys = {{2, {0, 0}}, {4, {20, 0}}};
+    const Renderer renderer(shot, make_plan(region, 1, 5));
+    const int edges[] = {80, 80, 90, 100, 100};
+    for (int frame = 1; frame <= 5; ++frame) {
+        const RenderedFrame out = renderer.frame(frame);
+        const int edge = edges[frame - 1];
+        EXPECT_LT(out.pixels.at(edge - 3, 56, 0), 0.05f) << frame;
+        EXPECT_GT(out.pixels.at(edge + 3, 56, 0), 0.95f) << frame;
+    }
+}
+
 TEST(RenderFrame, IsAPureFunction) {
     const MemoryShot shot = make_wall(true);
     RegionPlan region = make_region(sample_texture());

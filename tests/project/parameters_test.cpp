@@ -104,6 +104,10 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--reference-frame",
                              "--motion",
                              "--motion-direction",
+                             "--track",
+                             "--scale-keys",
+                             "--rotate-keys",
+                             "--offset-keys",
                              "--seam",
                              "--overlap",
                              "--temporal",
@@ -140,6 +144,20 @@ TEST(Parameters, TextsReachTheRightMember) {
     set("--overlap", "24");
     set("--matte-value", "7");
     set("--matte-invert", "true");
+    set("--texture-also", "moss 2.jpg\nlib/moss,3.png");
+    set("--rotations", "true");
+    set("--align", "false");
+    set("--refine", "5");
+    set("--seam-cost", "paper");
+    EXPECT_EQ(region.texture.also, (std::vector<std::string>{"moss 2.jpg", "lib/moss,3.png"}));
+    EXPECT_EQ(
+        format_parameter(region_parameter("--texture-also"), ParameterValue(region.texture.also)),
+        "moss 2.jpg\nlib/moss,3.png");
+    EXPECT_TRUE(region.synthesis.rotations);
+    EXPECT_FALSE(region.synthesis.mirror);
+    EXPECT_FALSE(region.synthesis.align);
+    EXPECT_EQ(region.synthesis.refine, 5);
+    EXPECT_EQ(region.synthesis.seam_cost, SeamCost::kPaper);
     EXPECT_EQ(region.placement.scale, 2.5);
     EXPECT_EQ(region.placement.offset_px, (PlatePoint{-3, 4.5}));
     ASSERT_TRUE(region.placement.corners_px);

@@ -84,7 +84,7 @@ TEST(ProjectPaths, EveryPathOfTheDocumentIsResolved) {
     const Region& region = *resolved.regions[0];
     for (const std::string& path :
          {resolved.plate.path, resolved.output.path, resolved.output.movie, region.texture.sample,
-          region.texture.plane, region.motion.files, region.light.image,
+          region.texture.also.at(1), region.texture.plane, region.motion.files, region.light.image,
           region.matte->keyframes.at(-5).path, region.matte->keyframes.at(100).path,
           region.holdouts->at(0).files})
         EXPECT_TRUE(path.starts_with("/p/")) << path;

@@ -20,15 +20,20 @@ Region full_region() {
     MatteSource holdout;
     holdout.files = "hold/####.png";
     r.holdouts = std::vector<MatteSource>{holdout};
-    r.texture = {"brick.jpg", "plane.exr", WrapMode::kMirror, "linear", {}};
+    r.texture = {
+        "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};
     r.placement.scale = 0.1;
     r.placement.rotate_deg = -12.5;
     r.placement.offset_px = {3, -4.25};
     r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
+    r.placement.scale_keys = "1:1 24:1.5";
+    r.placement.rotate_keys = "1:0 24:90";
+    r.placement.offset_keys = "1:0,0 24:10,5";
     r.reference_frames = {12, 40};
     r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
-    r.motion = {"flow/####.flo", MotionDirection::kBackward, {}};
-    r.synthesis = {SeamMethod::kDynamicProgramming, 24, 3, {}};
+    r.motion = {"flow/####.flo", MotionDirection::kBackward, "pins.nk", {}};
+    r.synthesis = {
+        SeamMethod::kDynamicProgramming, 24, 3, SeamCost::kPaper, 5, true, true, false, {}};
     r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};
     r.light.source = LightSource::kImage;
     r.light.image = "light.png";
@@ -40,7 +45,7 @@ Region full_region() {
     r.light.highlights = 0.5;
     r.light.albedo = "albedo/####.exr";
     r.light.lighting = "lighting/####.exr";
-    r.finish = {0.5, 0.25, {}};
+    r.finish = {0.5, 0.25, 172.8, {}};
     r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
 }

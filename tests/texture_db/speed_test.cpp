@@ -137,7 +137,7 @@ TEST(Speed, OfTwoHundredThousandDescriptors) {
             // The four patches have descriptors as a trained library gives them.
             for (std::size_t i = 0; i < 4; ++i) {
                 const auto d = index.descriptor(i);
-                static_cast<void>(texture_features(middle_sample(plate.crop({0, 0, 96, 96}))));
+                static_cast<void>(texture_features(middle_sample(plate.view().crop({0, 0, 96, 96}))));
                 look->descriptors.emplace_back(d.begin(), d.end());
             }
             const RegionJudge judge(index, request, region, *look);

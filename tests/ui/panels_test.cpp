@@ -223,5 +223,28 @@ INSTANTIATE_TEST_SUITE_P(States, EveryState,
                                          Look{"Huge", huge_view}),
                          [](const auto& state) { return state.param.name; });
 
+TEST_F(PanelTest, LeavingWaitsForTheSaveAndStaysWhenItFails) {
+    view.modified = true;
+    shell->ask_to_leave();
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Save"));
+    EXPECT_EQ(emitted<Save>().size(), 1u);
+    view.saving = true;
+    robot->frames(3);
+    EXPECT_FALSE(shell->state().leave);
+    view.saving = false;  // and still modified: it went wrong
+    robot->frames(3);
+    EXPECT_FALSE(shell->state().leave);
+    EXPECT_FALSE(shell->state().leave_asked);
+
+    shell->ask_to_leave();
+    robot->frames(2);
+    view.saving = true;
+    ASSERT_TRUE(robot->click("Save"));
+    view.saving = view.modified = false;
+    robot->frames(2);
+    EXPECT_TRUE(shell->state().leave);
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -98,6 +98,8 @@ TEST_F(EditorSession, SavingMakesPathsRelativeAndOpensAgain) {
     paint();
     const std::string path = (folder / "shot.weft").string();
     session->act(SaveAs{path});
+    EXPECT_TRUE(session->view().saving);
+    ASSERT_TRUE(wait([&] { return !session->view().saving; }));
     robot->frames(2);
     EXPECT_FALSE(session->view().modified);
     EXPECT_EQ(project().plate.path, "frames/####.png");

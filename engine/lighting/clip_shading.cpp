@@ -1,0 +1,149 @@
+// The light of a frame, the surface's reflectance known from the clip.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/bilateral_grid.h"
+#include "engine/lighting/clip_reflectance.h"
+#include "engine/lighting/masked_filters.h"
+
+namespace weft {
+namespace {
+
+constexpr int kDetailRadius = 3;  // small pixels: what is finer is compared
+constexpr int kWindow = 12;       // in which the frame is compared with the reflectance
+constexpr float kDoubts = 0.35f, kTrusts = 0.7f;  // share of the reflectance's detail that shows
+constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noise
+constexpr float kOutlier = 3.0f;  // deviations of the detail: what stands out more is light
+constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
+constexpr int kFineRollings = 2;
+
+ImageF1 box_mean(const ImageF1& plane, const ImageF1& weight, const ImageF1& total, int radius) {
+    ImageF1 mean = weighted(plane, weight);
+    box_blur(mean, radius);
+    for (std::size_t i = 0; i < mean.size_bytes() / sizeof(float); ++i)
+        mean.data()[i] /= std::max(total.data()[i], 1e-4f);
+    return mean;
+}
+
+ImageF1 detail_of(const ImageF1& plane, const ImageF1& weight, const ImageF1& total) {
+    ImageF1 detail = box_mean(plane, weight, total, kDetailRadius);
+    for (std::size_t i = 0; i < detail.size_bytes() / sizeof(float); ++i)
+        detail.data()[i] = plane.data()[i] - detail.data()[i];
+    return detail;
+}
+
+// Bilinear lookup of a canvas; false where any corner is unknown.
+bool lookup(const ClipReflectance& r, float u, float v, float& value, float& trust) {
+    u -= static_cast<float>(r.box.x0), v -= static_cast<float>(r.box.y0);
+    if (!(u >= 0 && v >= 0 && u < static_cast<float>(r.box.width() - 1) &&
+          v < static_cast<float>(r.box.height() - 1)))
+        return false;
+    const int x = static_cast<int>(u), y = static_cast<int>(v);
+    const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
+    const float* t0 = r.trust.pixel(x, y);
+    const float* t1 = r.trust.pixel(x, y + 1);
+    trust = std::min(std::min(t0[0], t0[1]), std::min(t1[0], t1[1]));
+    if (!(trust > 0)) return false;
+    const float* a = r.value.pixel(x, y);
+    const float* b = r.value.pixel(x, y + 1);
+    const float top = a[0] + fx * (a[1] - a[0]), low = b[0] + fx * (b[1] - b[0]);
+    value = top + fy * (low - top);
+    return true;
+}
+
+// The reflectance as this frame shows it, and where it is known.
+struct Seen {
+    ImageF1 value, known;
+};
+
+Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2& ref_from_cur) {
+    Seen seen{ImageF1(s.box.size()), ImageF1(s.box.size())};
+    parallel_rows(s.box.height(), 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < s.box.width(); ++x) {
+                if (s.weight.row(y)[x] == 0) continue;
+                const float* d = ref_from_cur.pixel(x, y);
+                float value = 0, trust = 0;
+                if (!lookup(r, static_cast<float>(x + s.box.x0) + d[0],
+                            static_cast<float>(y + s.box.y0) + d[1], value, trust))
+                    continue;
+                seen.value.row(y)[x] = value;
+                seen.known.row(y)[x] = s.weight.row(y)[x] * trust;
+            }
+        }
+    });
+    return seen;
+}
+
+float smooth_step(float x, float low, float high) {
+    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// How much of the reflectance's detail the frame shows at its place, 0 to 1, in windows: the slope
+// of one on the other. Shadows and their edges are in the frame alone and have no part in it,
+// and count no more than detail of the reflectance would.
+ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
+    ImageF1 total = seen.known;
+    box_blur(total, kDetailRadius);
+    const ImageF1 frame = detail_of(s.luma, seen.known, total);
+    const ImageF1 clip = detail_of(seen.value, seen.known, total);
+    ImageF1 shown(s.box.size()), whole(s.box.size()), share(s.box.size());
+    for (std::size_t i = 0; i < whole.size_bytes() / sizeof(float); ++i)
+        whole.data()[i] = seen.known.data()[i] * clip.data()[i] * clip.data()[i];
+    ImageF1 weight = seen.known;
+    for (ImageF1* plane : {&whole, &weight})
+        box_blur(*plane, kWindow);
+    for (std::size_t i = 0; i < shown.size_bytes() / sizeof(float); ++i) {
+        if (!(seen.known.data()[i] > 0)) continue;
+        const float limit = kOutlier * std::sqrt(whole.data()[i] / weight.data()[i] + kMinEnergy);
+        shown.data()[i] =
+            seen.known.data()[i] * clip.data()[i] * std::clamp(frame.data()[i], -limit, limit);
+    }
+    box_blur(shown, kWindow);
+    for (std::size_t i = 0; i < share.size_bytes() / sizeof(float); ++i) {
+        if (!(seen.known.data()[i] > 0)) continue;
+        const float least = kMinEnergy * weight.data()[i];
+        share.data()[i] =
+            smooth_step((shown.data()[i] + least) / (whole.data()[i] + least), kDoubts, kTrusts);
+    }
+    return share;
+}
+
+// Takes the noise, and what a small error of the motion leaves of the pattern, out of light whose
+// edges are its own.
+ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
+    ImageF1 guide = weighted(luma, weight), total = weight;
+    gaussian_blur(guide, kFineSigma);
+    gaussian_blur(total, kFineSigma);
+    for (std::size_t i = 0; i < guide.size_bytes() / sizeof(float); ++i) {
+        guide.data()[i] =
+            total.data()[i] > 1e-3f ? guide.data()[i] / total.data()[i] : luma.data()[i];
+    }
+    const ImageF1 values = weighted(luma, weight);
+    for (int i = 0; i < kFineRollings; ++i)
+        guide = joint_bilateral(values, weight, guide, {kFineSpace, kFineRange});
+    return guide;
+}
+
+}  // namespace
+
+Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflectance,
+                     const ImageF2& ref_from_cur, const ShadingOptions& options) {
+    if (sample.box.empty()) return shading_from_log(ImageF1(), sample);
+    ImageF1 light = log_shading(sample, options);
+    if (!reflectance.box.empty()) {
+        const Seen seen = moved_here(sample, reflectance, ref_from_cur);
+        const ImageF1 share = agreement(sample, seen);
+        ImageF1 lit = sample.luma;
+        for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
+            lit.data()[i] -= seen.value.data()[i];
+        const ImageF1 fine = without_noise(lit, seen.known);
+        for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
+            light.data()[i] += share.data()[i] * (fine.data()[i] - light.data()[i]);
+    }
+    return shading_from_log(light, sample);
+}
+
+}  // namespace weft

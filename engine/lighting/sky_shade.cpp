@@ -1,0 +1,92 @@
+#include "engine/lighting/sky_shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/masked_filters.h"
+
+namespace weft {
+namespace {
+
+// Per unit of ln luma that goes with the sun, ln R/G falls and ln B/G rises by so much (daylight of
+// 2,500 K to 6,500 K over a sky of 7,000 K to 20,000 K). Paint seldom does both; white beside
+// indigo rises by more.
+constexpr float kFaintestSky = 0.03f, kSky = 0.08f, kBluestSky = 0.35f, kBluerThanSky = 0.5f;
+constexpr float kFaintShade = 0.08f, kShade = 0.2f;  // ln luma: less says nothing
+constexpr int kDetail = 4;                           // of the window: paint may be finer
+constexpr float kLeastWeight = 1e-3f;
+// Share of the wide differences' energy that is such shade: up to the first it is chance.
+constexpr float kNoShade = 0.5f, kSomeShade = 0.8f;
+
+float rise(float x, float low, float high) {
+    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// How much a difference looks like the sun's light missing: 0 to 1.
+float looks_like_shade(float luma, float red_green, float blue_green) {
+    const float seen = rise(std::abs(luma), kFaintShade, kShade);
+    if (seen == 0) return 0;
+    const auto bluish = [](float slope) {
+        return rise(slope, kFaintestSky, kSky) * (1.0f - rise(slope, kBluestSky, kBluerThanSky));
+    };
+    return seen * bluish(red_green / luma) * bluish(-blue_green / luma);
+}
+
+struct Sums {
+    double all = 0, shade = 0;  // energy of ln luma
+    double red = 0, blue = 0;   // moments of the shade's chromaticity with its luma
+};
+
+}  // namespace
+
+SkyShade::SkyShade(const SurfaceSample& s, int window_px) : weight_of_paint_(s.box.size()) {
+    const int around = std::max(1, window_px / kDetail);
+    ImageF1 weight_mean = s.weight, near = s.weight;
+    box_blur(weight_mean, window_px);
+    box_blur(near, around);
+    const auto wide = [&](const ImageF1& plane) {
+        ImageF1 d = weighted(high_pass(plane, s.weight, weight_mean, window_px), s.weight);
+        box_blur(d, around);
+        for (std::size_t i = 0; i < d.size_bytes() / sizeof(float); ++i)
+            d.data()[i] /= std::max(near.data()[i], kLeastWeight);
+        return d;
+    };
+    const ImageF1 red = wide(s.red_green), blue = wide(s.blue_green), luma = wide(s.luma);
+    std::vector<Sums> rows(static_cast<std::size_t>(s.box.height()));
+    parallel_rows(s.box.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            Sums sums;
+            for (int x = 0; x < s.box.width(); ++x) {
+                const float l = luma.row(y)[x], r = red.row(y)[x], b = blue.row(y)[x];
+                const float shade = looks_like_shade(l, r, b), w = s.weight.row(y)[x];
+                weight_of_paint_.row(y)[x] = w * (1.0f - shade);
+                const double energy = static_cast<double>(w) * l;
+                sums.all += energy * l, sums.shade += shade * energy * l;
+                sums.red += shade * energy * r, sums.blue += shade * energy * b;
+            }
+            rows[static_cast<std::size_t>(y)] = sums;
+        }
+    });
+    Sums all;
+    for (const Sums& r : rows)
+        all.all += r.all, all.shade += r.shade, all.red += r.red, all.blue += r.blue;
+    const double length = std::hypot(all.red, all.blue);
+    if (!(all.all > 0 && length > 0)) return;
+    red_ = static_cast<float>(all.red / length), blue_ = static_cast<float>(all.blue / length);
+    presence_ = rise(static_cast<float>(all.shade / all.all), kNoShade, kSomeShade);
+}
+
+void SkyShade::take_out(ImageF1& red_green, ImageF1& blue_green) const {
+    if (presence_ == 0) return;
+    for (std::size_t i = 0; i < red_green.size_bytes() / sizeof(float); ++i) {
+        float& r = red_green.data()[i];
+        float& b = blue_green.data()[i];
+        const float along = presence_ * (r * red_ + b * blue_);
+        r -= along * red_, b -= along * blue_;
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,19 @@
+#pragma once
+#include "engine/compute/plane_pyramid.h"
+#include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+#include "engine/temporal/history_seam.h"
+
+namespace weft {
+
+/// The seams in space and time of a region in locked mode: one for each interval between two
+/// references on which the histories do not agree (AnalysisKind::kHistoryAfter). They depend on the
+/// texture, so they are no part of the analysis. Errors: those of the source and the store.
+[[nodiscard]] Expected<std::vector<HistorySeam>> make_history_seams(const ShotSource& source,
+                                                                    const ShotPlan& plan,
+                                                                    const AnalysisStore& store,
+                                                                    int region,
+                                                                    const PlanePyramid& plane);
+
+}  // namespace weft

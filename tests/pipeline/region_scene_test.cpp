@@ -1,0 +1,74 @@
+#include "engine/pipeline/region_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "engine/pipeline/synthesis_inputs.h"
+#include "tests/pipeline/memory_shot.h"
+
+namespace weft {
+namespace {
+
+// A second sample, unlike the first.
+ImageF3 other_sample() {
+    ImageF3 out(70, 64);
+    const WaveTexture red(41), green(42), blue(43);
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            const Vec2 p = centre_of(x, y);
+            out.at(x, y, 0) = static_cast<float>(code_of(red(p))) / 255.0f;
+            out.at(x, y, 1) = static_cast<float>(code_of(green(p))) / 255.0f;
+            out.at(x, y, 2) = static_cast<float>(code_of(blue(p))) / 255.0f;
+        }
+    }
+    return out;
+}
+
+TEST(RegionScene, APlaneOfSeveralTurnedSamplesShowsTheirPixels) {
+    auto texture = std::make_shared<TexturePicture>(*sample_texture());
+    texture->also.push_back(other_sample());
+    RegionPlan region = make_region(texture);
+    region.orientations = {.rotations = true, .mirror = true};
+    region.refine_passes = 1;
+    const auto plane = grow_texture(region, plane_options(region, 3, {260, 220}));
+    ASSERT_TRUE(plane) << plane.error().text();
+    ImageF3 picture = plane_in_working_space(region, *plane);
+    color("linear", "srgb")->apply(picture);
+    std::set<int> samples, orientations;
+    int wrong = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            samples.insert(plane->origin.pixel(x, y)[0]);
+            orientations.insert(plane->origin.pixel(x, y)[1]);
+            for (int c = 0; c < 3; ++c) {
+                const long code = std::lround(255 * picture.at(x, y, c));
+                wrong += code != plane->pixels.at(x, y, c);
+            }
+        }
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(samples.size(), 2u);
+    EXPECT_GT(orientations.size(), 3u);
+}
+
+TEST(RegionScene, SettingsReachTheSynthesis) {
+    RegionPlan region = make_region(sample_texture());
+    region.refine_passes = 7;
+    region.seam_cost = SeamCost::kPaper;
+    region.align = false;
+    region.orientations.mirror = true;
+    const PlaneOptions o = plane_options(region, 3, {260, 220});
+    EXPECT_EQ(o.refine_passes, 7);
+    EXPECT_EQ(o.seam_cost, SeamCost::kPaper);
+    EXPECT_FALSE(o.align);
+    EXPECT_TRUE(o.orientations.mirror);
+    EXPECT_FALSE(o.orientations.rotations);
+    const PlaneOptions standard = plane_options(make_region(sample_texture()), 3, {260, 220});
+    EXPECT_EQ(standard.refine_passes, kDefaultRefinePasses);
+    EXPECT_TRUE(standard.align);
+}
+
+}  // namespace
+}  // namespace weft
