@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <vector>
 
 #include "texture_db/library.h"
 
@@ -17,7 +18,9 @@ Expected<std::map<std::string, std::string>> keep_all(const Project& project,
     std::vector<TextureCredit> credits;
     std::map<std::string, ResolvedTexture> textures;
     for (const Leaf<Region>& region : project.regions) {
-        for (const std::string& name : {region->texture.sample, region->texture.plane}) {
+        std::vector<std::string> names{region->texture.sample, region->texture.plane};
+        names.insert(names.end(), region->texture.also.begin(), region->texture.also.end());
+        for (const std::string& name : names) {
             if (!names_library_texture(name)) continue;
             auto texture = resolve_texture(library, name);
             if (!texture)
@@ -49,10 +52,14 @@ Expected<Project> keep_library_textures(const Project& project, const std::strin
     Project out = project;
     for (Leaf<Region>& leaf : out.regions) {
         leaf = leaf.with([&](Region& region) {
-            for (std::string* path : {&region.texture.sample, &region.texture.plane}) {
-                if (const auto file = files.find(*path); file != files.end())
-                    *path = (fs::path(named) / file->second).string();
-            }
+            const auto rename = [&](std::string& path) {
+                if (const auto file = files.find(path); file != files.end())
+                    path = (fs::path(named) / file->second).string();
+            };
+            rename(region.texture.sample);
+            rename(region.texture.plane);
+            for (std::string& path : region.texture.also)
+                rename(path);
         });
     }
     return out;

@@ -432,13 +432,18 @@ Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
 
 Status check_texture_licences(const Shot& shot) {
     std::vector<TextureCredit> credits;
-    for (const ShotTexture& t : shot.textures) {
+    const auto add = [&](const std::string& region, const ShotTexture& t) {
         TextureCredit credit;
-        credit.region = t.region;
+        credit.region = region;
         credit.name = t.path;
         credit.author = t.author;
         credit.licence = t.licence;
         credits.push_back(std::move(credit));
+    };
+    for (const ShotTexture& t : shot.textures) {
+        add(t.region, t);
+        for (const ShotTexture& further : t.also)
+            add(t.region, further);
     }
     return check_licences(credits, licence_list(shot.project.settings.excluded_licences));
 }
