@@ -104,7 +104,7 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     Project expected;
     expected.plate.path = "frames/####.png";
     expected.output.path = "out/####.png";
-    expected.settings = {Quality::kDraft, 3, "1-40", {}};
+    expected.settings = {Quality::kDraft, 3, "1-40", {}, {}};
     expected.extra = {{"kept", "1"}};
     Region wall;
     wall.id = 1;

@@ -57,7 +57,7 @@ Project full_project() {
     p.name = "Shot 010";
     p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, {}};
     p.color = {"linear", "srgb", "linear", {}};
-    p.settings = {Quality::kDraft, 9007199254740991, "1-40", {}};
+    p.settings = {Quality::kDraft, 9007199254740991, "1-40", "GPL", {}};
     p.output = {"out/####.exr", OutputDepth::kHalf, 80, "piz", "review.mp4", {}};
     p.regions.emplace_back(full_region());
     Region second;
