@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "app/cli/commands.h"
-#include "app/session/render_job.h"
+#include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
@@ -216,15 +216,7 @@ int report_repetition(const BenchOptions& options, const ImageU8x3& sample) {
 }  // namespace
 
 int bench_command(const BenchOptions& options) {
-    set_thread_count(options.threads);
-    const auto isa = parse_isa(options.isa);
-    if (isa && !isa_available(*isa)) {
-        return report_error({ErrorCode::kNoBackend,
-                             "This processor lacks " + options.isa + ". Leave --isa out.",
-                             {}});
-    }
-    force_isa(isa);
-    const auto chosen = choose_backend(options.backend);
+    const auto chosen = choose_engine(options.threads, options.isa, options.backend);
     if (!chosen) return report_error(chosen.error());
     const Backend& backend = *chosen->backend;
     const auto sample = middle_of(options.sample);

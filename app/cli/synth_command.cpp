@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app/cli/commands.h"
-#include "app/session/render_job.h"
+#include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
@@ -187,21 +187,13 @@ nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repe
 }  // namespace
 
 int synth_command(const SynthOptions& options) {
-    set_thread_count(options.threads);
-    const auto isa = parse_isa(options.isa);
-    if (isa && !isa_available(*isa)) {
-        return report_error({ErrorCode::kNoBackend,
-                             "This processor lacks " + options.isa + ". Leave --isa out.",
-                             {}});
-    }
-    force_isa(isa);
-    const auto chosen = choose_backend(options.backend);
+    const auto chosen = choose_engine(options.threads, options.isa, options.backend);
     if (!chosen) return report_error(chosen.error());
     const Backend& backend = *chosen->backend;
-    for (const std::string& line : chosen->passed_over)
-        print(stderr, "weft: passed over " + line + "\n");
     const auto plane = run(options, backend);
     if (!plane) return report_error(plane.error());
+    for (const std::string& remark : backend.remarks())
+        print(stderr, "weft: " + remark + "\n");
     if (options.json) {
         print(stdout, json_of(*plane, measure_repetition(*plane), backend, options).dump(2) + "\n");
         return 0;

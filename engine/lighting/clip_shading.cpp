@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
 #include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/masked_filters.h"
@@ -74,11 +75,6 @@ Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2&
         }
     });
     return seen;
-}
-
-float smooth_step(float x, float low, float high) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
 }
 
 // How much of the reflectance's detail the frame shows at its place, 0 to 1, in windows: the slope

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
 #include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/masked_filters.h"
@@ -74,8 +75,7 @@ float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weigh
 }
 
 float pattern_presence(float deviation) {
-    const float t = std::clamp((deviation - kPlain) / (kPatterned - kPlain), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
+    return smooth_step(deviation, kPlain, kPatterned);
 }
 
 // What a blur leaves of a pattern is wide and faint, and looks like light. Differences from the

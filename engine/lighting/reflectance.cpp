@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/quadratic_fit.h"
 #include "engine/lighting/sky_shade.h"
@@ -166,10 +167,9 @@ std::array<double, kTerms> trusted_coefficients(const Terms& differences, const 
     for (std::size_t k = 0; k < kTerms; ++k)
         explained += coefficients[k] * normal[k][kTerms];
     const double share = explained / std::max(1e-12, energy(target, weight));
-    const double t =
-        std::clamp((share - kExplainsNothing) / (kExplains - kExplainsNothing), 0.0, 1.0);
+    const double trust = smooth_step(share, kExplainsNothing, kExplains);
     for (double& c : coefficients)
-        c *= t * t * (3.0 - 2.0 * t);
+        c *= trust;
     return coefficients;
 }
 
@@ -187,8 +187,7 @@ void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
         return 1.0 / (static_cast<double>(inverse) * inverse);
     };
     const double share = variance(wide) / std::max(1e-12, variance(explained));
-    const double t = std::clamp((kPaint - share) / (kPaint - kTint), 0.0, 1.0);
-    const auto keep = static_cast<float>(t * t * (3.0 - 2.0 * t));
+    const auto keep = static_cast<float>(1.0 - smooth_step(share, kTint, kPaint));
     const float mean = standard_of(wide, weight).mean;
     for (std::size_t i = 0; i < wide.size_bytes() / sizeof(float); ++i)
         explained.data()[i] -= keep * (wide.data()[i] - mean);
@@ -197,14 +196,14 @@ void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
 }  // namespace
 
 ImageF1 chromatic_reflectance(const SurfaceSample& sample, int window_px) {
-    const SkyShade shade(sample, window_px);
-    const Terms terms = terms_of(sample, shade);
     ImageF1 weight_mean = sample.weight;
     box_blur(weight_mean, window_px);
+    const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
+    const SkyShade shade(sample, weight_mean, target, window_px);
+    const Terms terms = terms_of(sample, shade);
     Terms differences;
     for (std::size_t k = 0; k < kTerms; ++k)
         differences[k] = high_pass(terms[k], sample.weight, weight_mean, window_px);
-    const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
     const auto coefficients = trusted_coefficients(differences, target, shade.weight_of_paint());
 
     ImageF1 explained(sample.box.size());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
 #include "engine/lighting/masked_filters.h"
 
 namespace weft {
@@ -20,17 +21,13 @@ constexpr float kLeastWeight = 1e-3f;
 // Share of the wide differences' energy that is such shade: up to the first it is chance.
 constexpr float kNoShade = 0.5f, kSomeShade = 0.8f;
 
-float rise(float x, float low, float high) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-}
-
 // How much a difference looks like the sun's light missing: 0 to 1.
 float looks_like_shade(float luma, float red_green, float blue_green) {
-    const float seen = rise(std::abs(luma), kFaintShade, kShade);
+    const float seen = smooth_step(std::abs(luma), kFaintShade, kShade);
     if (seen == 0) return 0;
     const auto bluish = [](float slope) {
-        return rise(slope, kFaintestSky, kSky) * (1.0f - rise(slope, kBluestSky, kBluerThanSky));
+        return smooth_step(slope, kFaintestSky, kSky) *
+               (1.0f - smooth_step(slope, kBluestSky, kBluerThanSky));
     };
     return seen * bluish(red_green / luma) * bluish(-blue_green / luma);
 }
@@ -42,19 +39,22 @@ struct Sums {
 
 }  // namespace
 
-SkyShade::SkyShade(const SurfaceSample& s, int window_px) : weight_of_paint_(s.box.size()) {
+SkyShade::SkyShade(const SurfaceSample& s, const ImageF1& weight_mean, const ImageF1& luma_detail,
+                   int window_px)
+    : weight_of_paint_(s.box.size()) {
     const int around = std::max(1, window_px / kDetail);
-    ImageF1 weight_mean = s.weight, near = s.weight;
-    box_blur(weight_mean, window_px);
+    ImageF1 near = s.weight;
     box_blur(near, around);
-    const auto wide = [&](const ImageF1& plane) {
-        ImageF1 d = weighted(high_pass(plane, s.weight, weight_mean, window_px), s.weight);
+    const auto wide = [&](const ImageF1& detail) {
+        ImageF1 d = weighted(detail, s.weight);
         box_blur(d, around);
         for (std::size_t i = 0; i < d.size_bytes() / sizeof(float); ++i)
             d.data()[i] /= std::max(near.data()[i], kLeastWeight);
         return d;
     };
-    const ImageF1 red = wide(s.red_green), blue = wide(s.blue_green), luma = wide(s.luma);
+    const ImageF1 red = wide(high_pass(s.red_green, s.weight, weight_mean, window_px));
+    const ImageF1 blue = wide(high_pass(s.blue_green, s.weight, weight_mean, window_px));
+    const ImageF1 luma = wide(luma_detail);
     std::vector<Sums> rows(static_cast<std::size_t>(s.box.height()));
     parallel_rows(s.box.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -76,7 +76,7 @@ SkyShade::SkyShade(const SurfaceSample& s, int window_px) : weight_of_paint_(s.b
     const double length = std::hypot(all.red, all.blue);
     if (!(all.all > 0 && length > 0)) return;
     red_ = static_cast<float>(all.red / length), blue_ = static_cast<float>(all.blue / length);
-    presence_ = rise(static_cast<float>(all.shade / all.all), kNoShade, kSomeShade);
+    presence_ = smooth_step(static_cast<float>(all.shade / all.all), kNoShade, kSomeShade);
 }
 
 void SkyShade::take_out(ImageF1& red_green, ImageF1& blue_green) const {

@@ -9,9 +9,11 @@ namespace weft {
 /// Finlayson et al. 2004, here as a range of directions, since the camera is not known).
 class SkyShade {
   public:
-    /// `window_px` of the small picture: differences within it are judged. `sample.box` must not
-    /// be empty.
-    SkyShade(const SurfaceSample& sample, int window_px);
+    /// `window_px` of the small picture: differences within it are judged. `weight_mean`: the
+    /// sample's weight under the box blur of that radius; `luma_detail`: high_pass() of its luma
+    /// (masked_filters.h). `sample.box` must not be empty.
+    SkyShade(const SurfaceSample& sample, const ImageF1& weight_mean, const ImageF1& luma_detail,
+             int window_px);
 
     /// The sample's weight, less where a difference is such shade and says nothing of paint.
     [[nodiscard]] const ImageF1& weight_of_paint() const { return weight_of_paint_; }
