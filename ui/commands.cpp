@@ -187,6 +187,9 @@ void add_view_commands(std::vector<Command>& out) {
     add_overlay("view.grid", "Texture grid", icons::kGrid, "G", Overlay::kGrid);
     add_overlay("view.stretch", "Stretch", icons::kScale, "S", Overlay::kStretch);
     add_overlay("view.arrows", "Motion arrows", icons::kMotion, "V", Overlay::kMotion);
+    add_overlay("view.trust", "Trust in the motion", icons::kAlert, "Shift+T", Overlay::kTrust);
+    add_overlay("view.pieces", "Where pixels come from", icons::kCrosshairs, "Shift+X",
+                Overlay::kPieces);
     using Channel = DisplaySettings::Channel;
     const auto add_channel = [&](const char* id, const char* name, const char* key, Channel which) {
         out.push_back(command(

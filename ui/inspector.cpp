@@ -475,7 +475,7 @@ void motion_inspector(Ctx& c) {
     }
     if (section(c, "Look at")) {
         const PanelName panel(c, "Look at");
-        for (const char* id : {"view.grid", "view.stretch", "view.arrows"}) {
+        for (const char* id : {"view.grid", "view.stretch", "view.arrows", "view.trust"}) {
             const Command* command = c.commands.find(id);
             bool on = command->checked(c);
             if (checkbox(c, command->name.c_str(), on)) command->run(c);

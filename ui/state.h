@@ -83,6 +83,8 @@ struct DrawerState {
     std::string search;
     std::string material;  ///< Empty: all.
     bool favourites_only = false, recent_only = false;
+    std::string origin, licence, look;  ///< Further conditions; empty: any.
+    std::shared_ptr<const TextureAnswer> answer;  ///< To words and conditions.
     std::string collection;  ///< Name of the one that is shown; empty: none.
     std::string new_collection;
     std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
@@ -126,7 +128,7 @@ struct UiState {
     DrawerState drawer;
     BrowserState browser;
     ExportState output;
-    float inspector_w = 320, timeline_h = 112, drawer_h = 288, review_h = 240;  ///< Unscaled.
+    float inspector_w = 320, timeline_h = 112, drawer_h = 320, review_h = 240;  ///< Unscaled.
     float strip_h = 176;
     bool panels_hidden = false;
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;

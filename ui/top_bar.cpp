@@ -69,6 +69,8 @@ void menus(Ctx& c) {
                      "view.grid",
                      "view.stretch",
                      "view.arrows",
+                     "view.trust",
+                     "view.pieces",
                      "-",
                      "view.reset",
                      "view.panels",

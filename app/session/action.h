@@ -182,10 +182,18 @@ struct ApplyTexture {
     bool operator==(const ApplyTexture&) const = default;
 };
 /// What the strip of small results compares.
-enum class StripKind : std::uint8_t { kNone, kKeyframes, kTextures, kScale, kLight, kSeams };
+enum class StripKind : std::uint8_t {
+    kNone,
+    kKeyframes,
+    kTextures,
+    kScale,
+    kLight,
+    kSeams,
+    kSuggested
+};
 struct ShowStrip {
     StripKind kind = StripKind::kNone;
-    std::vector<std::string> textures;  ///< Files, for kTextures.
+    std::vector<std::string> textures;  ///< Files or "db:ID", for kTextures and kSuggested.
     bool operator==(const ShowStrip&) const = default;
 };
 /// Goes to the card's frame, or makes its setting the region's.
