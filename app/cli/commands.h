@@ -86,6 +86,11 @@ struct DiffOptions {
     std::string a, b;
     std::string frames;
     double tolerance = 0;  ///< Largest difference that counts as the same.
+    /// Where `b` should look like `a`: features, interior, soft edge. Empty: no such comparison.
+    std::string matte;
+    std::optional<int> matte_value;
+    std::string matte_channel;
+    std::string worst;  ///< Picture of the ten worst crops to write, or empty.
     bool json = false;
 };
 int diff_command(const DiffOptions& options);

@@ -61,10 +61,26 @@ void add_diff(CLI::App& app, int& exit) {
                      "Largest difference that counts as the same, white = 1 [0]")
         ->check(CLI::NonNegativeNumber)
         ->type_name("");
+    command
+        ->add_option("--matte", options->matte,
+                     "Matte of what should look alike: says how far its features are off, and what "
+                     "differs inside and in the soft edge")
+        ->type_name("PATTERN");
+    command->add_option("--matte-value", options->matte_value, "Id matte: where the pixel equals N")
+        ->type_name("N");
+    command->add_option("--matte-channel", options->matte_channel, "R, G, B, A, Y or a name")
+        ->type_name("");
+    command
+        ->add_option("--worst", options->worst,
+                     "Picture of the ten worst crops to write, with --matte: the first sequence "
+                     "above, the second below it, the difference at the bottom")
+        ->type_name("FILE");
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
         "Exit code 0 when they are the same, 8 when they differ.\n"
-        "Example:\n  weft diff 'out/####.png' 'retake/####.png'");
+        "Examples:\n  weft diff 'out/####.png' 'retake/####.png'\n"
+        "  weft diff 'second_rendering/####.png' 'out/####.png' --matte 'mattes/####.png' "
+        "--worst worst.png");
     command->callback([=, &exit] { exit = diff_command(*options); });
 }
 

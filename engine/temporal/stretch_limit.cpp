@@ -71,6 +71,23 @@ Similarity fit(const LatticeField& field, const ImageF1& weight) {
 
 }  // namespace
 
+LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
+    ImageF1 weight(field.nodes().size());
+    for (int j = 0; j < weight.height(); ++j) {
+        for (int i = 0; i < weight.width(); ++i)
+            weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
+    }
+    const Similarity target = fit(field, weight);
+    LatticeField out(field.full_size(), field.spacing());
+    for (int j = 0; j < weight.height(); ++j) {
+        for (int i = 0; i < weight.width(); ++i) {
+            const Vec2 p = out.node_position(i, j);
+            out.set_node(i, j, target(p) - p);
+        }
+    }
+    return out;
+}
+
 bool limit_stretch(LatticeField& field, ViewU8x1 visible) {
     const Size size = field.nodes().size();
     ImageF1 excess(size), weight(size);

@@ -11,4 +11,8 @@ namespace weft {
 /// whether anything changed inside `visible`.
 bool limit_stretch(LatticeField& ref_from_cur, ViewU8x1 visible);
 
+/// The similarity (rotation, scale, translation) that fits a field best over `visible`, everywhere.
+/// Pure.
+[[nodiscard]] LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible);
+
 }  // namespace weft
