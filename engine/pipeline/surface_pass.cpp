@@ -232,6 +232,9 @@ class Follower {
         } else if (job.held_now) {
             job.walker->hold();
         } else {
+            const bool between =
+                at.frame > job.references.front() && at.frame < job.references.back();
+            job.walker->hide_reanchoring(job.coords && !between);
             job.walker->advance(at.views->luma, visible, *at.prev_from_cur, job.extent_now);
         }
         job.last_visible = visible;
@@ -294,7 +297,22 @@ class Follower {
         return invert_flow(cur_from_prev);
     }
 
+    // While a seam hides that a stretched texture was let go, both are kept for it to choose.
+    Status keep_stretched(const Job& job, int frame) {
+        const LatticeField* stretched = job.walker->stretched();
+        if (!stretched || !job.coords) return {};
+        const LatticeField& relaxed = job.walker->ref_from_cur();
+        const bool back = walking_back_;
+        if (job.held_now)
+            WEFT_CHECK_OK(
+                keep(job, back ? frame + 1 : frame, AnalysisKind::kHeldBetween, encode(1.0f)));
+        WEFT_CHECK_OK(
+            keep(job, frame, AnalysisKind::kHistoryBefore, encode(back ? relaxed : *stretched)));
+        return keep(job, frame, AnalysisKind::kHistoryAfter, encode(back ? *stretched : relaxed));
+    }
+
     Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
+        WEFT_CHECK_OK(keep_stretched(job, at.frame));
         if (job.coords || job.gathers_light()) {
             WEFT_CHECK_OK(
                 keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));

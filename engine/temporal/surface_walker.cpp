@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/motion/contour_flow.h"
@@ -42,6 +43,12 @@ struct SurfaceWalker::State {
     int since_older_tried = 0;     // frames
 
     // While nothing of the surface is to be seen, and then until it is found again.
+    // After the texture was let go back to its own shape: how it lay before, carried on for the
+    // frames over which a seam hides the change.
+    LatticeField relaxed_at_event, stretched_at_event, stretched;
+    int hiding_left = 0;  // frames
+    bool hide_reanchoring = false;
+
     bool lost = false;
     int hidden_for = 0, searched_for = 0;  // frames
     std::int64_t largest_px = 0;           // the most that was visible of it in one frame
@@ -52,7 +59,7 @@ struct SurfaceWalker::State {
     struct Searched {
         RegistrationPicture picture;
         LatticeField prev_from_cur;
-        bool a_sliver = false;  // too little of it to tell how it moves
+        bool a_sliver = false;
     };
     std::vector<Searched> searched;
     std::vector<LatticeField> found_late;
@@ -80,6 +87,12 @@ struct SurfaceWalker::State {
     }
 
     [[nodiscard]] bool is_hidden(std::int64_t visible_px);
+    // Whether too little of it is seen to tell how it moves.
+    [[nodiscard]] bool is_sliver(std::int64_t visible_px) const {
+        return 6 * visible_px < largest_px;
+    }
+    bool reanchor(ViewU8x1 visible);
+    void carry_stretched();
     void note_steady(ViewU8x1 visible, std::int64_t visible_px);
     void find_late(const RegistrationPicture& cur, ViewU8x1 visible);
     void wait_out_of_view();
@@ -162,7 +175,9 @@ void SurfaceWalker::State::wait_out_of_view() {
 // were seen, each registered against this frame. A sliver is held to have moved as the whole does.
 void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 visible) {
     const Anchor here{cur, ref_from_cur, 0};
-    const LatticeField usual = inverse(similar_motion(prev_from_cur, visible));
+    const bool here_too = is_sliver(count_of(visible)) && !steady_step.nodes().empty();
+    const LatticeField usual =
+        inverse(here_too ? steady_step : similar_motion(prev_from_cur, visible));
     LatticeField here_from_frame(frame_size(), options.spacing_px);
     LatticeField step = prev_from_cur;
     for (std::size_t k = searched.size(); k-- > 0;) {
@@ -206,7 +221,7 @@ void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visib
         return;
     }
     if (searched.size() == kMostKept) searched.erase(searched.begin());
-    searched.push_back({cur, prev_from_cur, 6 * visible_px < largest_px});
+    searched.push_back({cur, prev_from_cur, is_sliver(visible_px)});
 }
 
 // Takes another anchor of an earlier generation where one explains the frame. Generations below
@@ -224,6 +239,28 @@ bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int genera
     return false;
 }
 
+// Where much of the surface is past the limit the texture goes back to its own shape at once, and
+// what it was is carried on beside it for a while.
+bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
+    if (!hide_reanchoring || hiding_left > 0) return false;
+    std::optional<LatticeField> relaxed = relaxed_stretch(ref_from_cur, visible);
+    if (!relaxed) return false;
+    stretched_at_event = std::exchange(ref_from_cur, std::move(*relaxed));
+    relaxed_at_event = ref_from_cur;
+    stretched = stretched_at_event;
+    hiding_left = kReanchorFrames;
+    return true;
+}
+
+// Both lie on the surface alike, so whatever the registration finds holds for both.
+void SurfaceWalker::State::carry_stretched() {
+    if (hiding_left == 0 || --hiding_left == 0) {
+        stretched = {};
+        return;
+    }
+    stretched = compose(compose(ref_from_cur, inverse(relaxed_at_event)), stretched_at_event);
+}
+
 void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8x1 visible) {
     const Registered found =
         register_against(anchors.present(), cur, anchor_from_cur, options.quality);
@@ -232,7 +269,7 @@ void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
     correct(anchors.present_index(),
             mix(anchor_from_cur, found.anchor_from_cur, found.planar ? kPlanarGain : kSmoothGain));
-    if (limit_stretch(ref_from_cur, visible)) {
+    if (reanchor(visible) || limit_stretch(ref_from_cur, visible)) {
         // The texture slid: older anchors would pull it back.
         anchors.clear();
         become_anchor(cur);
@@ -282,14 +319,17 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         s.follow(s.fit_motion(luma, visible, prev_from_cur));
         return keep();
     }
+    const bool hiding = s.hiding_left > 0;
     const std::int64_t visible_px = count_of(visible);
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
     if (s.is_hidden(visible_px)) {
         s.wait_out_of_view();
+        if (hiding) s.carry_stretched();
         return keep();
     }
     const auto noted = [&]() -> const LatticeField& {
         s.note_steady(visible, visible_px);
+        if (hiding) s.carry_stretched();
         return keep();
     };
     const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);
@@ -307,6 +347,13 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         }
     }
     return noted();
+}
+
+const LatticeField* SurfaceWalker::stretched() const {
+    return state_->stretched.nodes().empty() ? nullptr : &state_->stretched;
+}
+void SurfaceWalker::hide_reanchoring(bool hide) {
+    state_->hide_reanchoring = hide;
 }
 
 std::vector<LatticeField> SurfaceWalker::take_found_late() {

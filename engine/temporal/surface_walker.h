@@ -49,6 +49,12 @@ class SurfaceWalker {
     /// at first, and is found some frames later. The latest first: of the frame before the present
     /// one, the one before that, and so on. Empties it.
     [[nodiscard]] std::vector<LatticeField> take_found_late();
+    /// Whether, from here on, a texture that has become stretched or sheared past the limit over
+    /// much of the surface goes back to its own shape at once (relaxed_stretch()), which a seam is
+    /// to hide over the next frames. Otherwise it slides back slowly. Off at first.
+    void hide_reanchoring(bool hide);
+    /// For kReanchorFrames frames after that: ref_from_cur as it would be without. Else null.
+    [[nodiscard]] const LatticeField* stretched() const;
     /// Goes on to a frame whose motion is known as a whole: of the step, and to the frame at which
     /// the walk is anchored. Nothing is estimated and nothing registered.
     void advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
