@@ -19,8 +19,8 @@ constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noi
 constexpr float kOutlier = 3.0f;  // deviations of the detail: what stands out more is light
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
-constexpr float kShown = 0.95f;
-constexpr std::int64_t kFewDoubts = 200;  // of so many places one may be in doubt
+constexpr float kShown = 0.5f;
+constexpr std::int64_t kFewDoubts = 100;  // of so many places one may be in doubt
 
 ImageF1 box_mean(const ImageF1& plane, const ImageF1& weight, const ImageF1& total, int radius) {
     ImageF1 mean = weighted(plane, weight);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostDegree = 6;
 constexpr std::size_t kMostTerms = (kMostDegree + 1) * (kMostDegree + 2) / 2;
-constexpr int kSamples = 96;  // along the longer side: the fit is smooth
+constexpr int kSamples = 40;  // along the longer side: the fit is smooth
 constexpr int kRounds = 8;
 constexpr double kCauchy = 0.1;  // ln units
 constexpr double kRidge = 1e-5;
