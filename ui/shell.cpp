@@ -68,13 +68,16 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     layout(c);
     part("windows");
     // Nobody looks at the strip elsewhere.
-    if (view.strip.kind != StripKind::kNone &&
-        (state_.workspace != Workspace::kLight || state_.panels_hidden || !view.open))
-        c.emit(ShowStrip{});
+    const bool strip_seen =
+        view.open && !state_.panels_hidden &&
+        (state_.workspace == Workspace::kLight ||
+         (state_.workspace == Workspace::kTexture && view.strip.kind == StripKind::kSuggested));
+    if (view.strip.kind != StripKind::kNone && !strip_seen) c.emit(ShowStrip{});
     ui::notices(c);
     ui::tour(c);
     ui::history_window(c);
     ui::settings_window(c);
+    ui::shot_window(c);
     ui::shortcut_sheet(c);
     ui::about_window(c);
     ui::file_browser(c);
@@ -154,19 +157,28 @@ void Shell::layout(Ctx& c) {
     state_.inspector_w = std::clamp(state_.inspector_w, 240.0f, most_w);
     const float inspector_w = panels ? std::floor(t.px(state_.inspector_w)) : 0;
     const float tools_w = panels ? t.px(44) : 0;
-    const float timeline_h =
-        panels ? std::floor(t.px(std::clamp(state_.timeline_h, 96.0f, 260.0f))) : 0;
+    // On a low screen the picture comes first.
+    const bool low = screen.y / t.scale < 800;
+    const float timeline_least = low ? 84.0f : 96.0f;
+    float timeline_unscaled = std::clamp(state_.timeline_h, timeline_least, 260.0f);
+    if (low && state_.timeline_h <= UiState{}.timeline_h) timeline_unscaled = timeline_least;
+    const float timeline_h = panels ? std::floor(t.px(timeline_unscaled)) : 0;
     const bool drawer = panels && state_.workspace == Workspace::kTexture;
     const bool report = panels && state_.workspace == Workspace::kReview;
-    const bool strip = panels && state_.workspace == Workspace::kLight;
+    const bool four = state_.viewer.compare == Compare::kFourUp;
+    const bool strip = panels && state_.workspace == Workspace::kLight && !(low && four);
     const float least_view = t.px(120);
     float extra_h = drawer   ? t.px(state_.drawer_h)
                     : report ? t.px(state_.review_h)
                     : strip  ? t.px(state_.strip_h)
                              : 0;
-    // On a low screen the picture keeps more than half.
-    const float most_h = std::min(body_h - timeline_h - least_view, 0.42f * body_h);
-    if (state_.drawer_h <= 288) extra_h = std::min(extra_h, most_h);
+    // Unless the artist has drawn it larger, the picture keeps more than half.
+    const UiState fresh;
+    const float most_h = std::min(body_h - timeline_h - least_view, (low ? 0.36f : 0.42f) * body_h);
+    const bool own_size = (drawer && state_.drawer_h > fresh.drawer_h) ||
+                          (strip && state_.strip_h > fresh.strip_h) ||
+                          (report && state_.review_h > fresh.review_h);
+    if (!own_size) extra_h = std::min(extra_h, most_h);
     extra_h =
         std::floor(std::clamp(extra_h, 0.0f, std::max(0.0f, body_h - timeline_h - least_view)));
     const float left_w = screen.x - inspector_w - (panels ? 1 : 0);
@@ -205,10 +217,10 @@ void Shell::layout(Ctx& c) {
         splitter(c, "##inspector", {screen.x - inspector_w - hit / 2, top}, {hit, body_h}, true,
                  state_.inspector_w, -1, 240, most_w, 320);
         splitter(c, "##timeline", {0, top + view_h + extra_h - hit / 2}, {left_w, hit}, false,
-                 state_.timeline_h, -1, 96, 260, 112);
+                 state_.timeline_h, -1, timeline_least, 260, fresh.timeline_h);
         if (drawer)
             splitter(c, "##drawer", {0, top + view_h - hit / 2}, {left_w, hit}, false,
-                     state_.drawer_h, -1, 150, 900, 288);
+                     state_.drawer_h, -1, 150, 900, fresh.drawer_h);
         if (strip)
             splitter(c, "##strip", {0, top + view_h - hit / 2}, {left_w, hit}, false,
                      state_.strip_h, -1, 110, 500, 176);

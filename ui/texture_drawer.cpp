@@ -45,15 +45,21 @@ void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>&
     DrawerCache& cache = d.cache;
     const std::string wanted = lower(d.search);
     // The library knows its words better than a comparison of letters does.
-    const auto similar = c.textures.similar(d.similar_key);
-    const auto answered = d.similar_key.empty() ? c.textures.search(wanted) : similar;
+    std::shared_ptr<const std::vector<std::string>> answered = c.textures.similar(d.similar_key);
+    if (d.similar_key.empty()) {
+        const TextureQuestion question{wanted + (d.look.empty() ? "" : " " + d.look), d.origin,
+                                       d.licence};
+        d.answer = c.textures.search(question);
+        if (d.answer) answered = {d.answer, &d.answer->paths};
+    }
     std::size_t collected = 0;
     for (const auto& [name, paths] : c.settings.collections)
         collected += paths.size() + 1;
     std::string key = d.similar_key + "\n" + d.collection + std::to_string(collected) + "\n" +
                       wanted + "\n" + d.material + (d.favourites_only ? "\nf" : "\n") +
                       (d.recent_only ? "r" : "") + std::to_string(c.settings.favourites.size()) +
-                      "/" + std::to_string(c.settings.recent_textures.size());
+                      "/" + std::to_string(c.settings.recent_textures.size()) + "\n" + d.origin +
+                      "\n" + d.licence + "\n" + d.look;
     if (cache.cards == cards && cache.answered == answered && cache.key == key) return;
     if (cache.cards != cards) {
         cache.materials.clear();
@@ -73,7 +79,10 @@ void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>&
                 cache.shown.push_back(found->second);
     }
     for (const TextureCard& card : *cards)
-        if (d.similar_key.empty() && (!answered || !card.path.starts_with("db:")) &&
+        if (d.similar_key.empty() &&
+            (card.path.starts_with("db:")
+                 ? !answered
+                 : d.origin.empty() && d.licence.empty() && d.look.empty()) &&
             matches(c, card, wanted))
             cache.shown.push_back(&card);
 }
@@ -188,11 +197,10 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::EndChild();
 }
 
-bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* caption,
-          const char* below) {
+bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* caption) {
     const Theme& t = c.theme;
     ImGui::SetCursorScreenPos(at);
-    const float h = side + t.px(below ? 34 : 20);
+    const float h = side + t.px(20);
     ImGui::PushID(card.path.c_str());
     const bool pressed = ImGui::InvisibleButton("##texture", {side, h});
     c.note(caption);
@@ -209,14 +217,63 @@ bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* ca
     ImGui::PushFont(t.small);
     text_in(list, t.small, {at.x, at.y + side + t.px(2)}, {at.x + side, at.y + side + t.px(18)},
             picked ? t.text : t.quiet, fitted(caption, side).c_str(), 0);
-    if (below)
-        text_in(list, t.small, {at.x, at.y + side + t.px(17)},
-                {at.x + side, at.y + side + t.px(33)}, t.accent_hover, fitted(below, side).c_str(),
-                0);
     ImGui::PopFont();
     if (pressed) c.state.drawer.picked = card.path;
     if (twice) c.emit(ApplyTexture{card.path, 0});
     return pressed;
+}
+
+// One suggestion: the artist's own frame with the texture on it, and why.
+void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, ImVec2 at,
+                ImVec2 size) {
+    const Theme& t = c.theme;
+    ImGui::SetCursorScreenPos(at);
+    ImGui::PushID(card.path.c_str());
+    const float h = size.y + t.px(38);
+    if (ImGui::InvisibleButton("##suggestion", {size.x, h})) c.state.drawer.picked = card.path;
+    c.note(card.name);
+    const bool hovered = ImGui::IsItemHovered();
+    if (hovered && ImGui::IsMouseDoubleClicked(0)) c.emit(ApplyTexture{card.path, 0});
+    tooltip(c, (card.name + ". " + why.reason + ". Double-click puts it on the region").c_str());
+    drag_source(c, card);
+    ImGui::PopID();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 max(at.x + size.x, at.y + size.y);
+    list.AddRectFilled(at, max, t.field, t.radius);
+    PicturePtr shown;
+    const bool mine = c.view.strip.kind == StripKind::kSuggested;
+    for (const StripCard& made : c.view.strip.cards)
+        if (mine && made.note == card.path) shown = made.picture;
+    const ImTextureID id = shown ? c.pictures.texture(shown) : nullptr;
+    if (id) {
+        // Filled, its middle cut to the card's shape.
+        const float pw = static_cast<float>(shown->size.width);
+        const float ph = static_cast<float>(shown->size.height);
+        const float wide = size.x / size.y, is = pw / ph;
+        const float u = is > wide ? 0.5f * (1 - wide / is) : 0;
+        const float v = is < wide ? 0.5f * (1 - is / wide) : 0;
+        list.AddImageRounded(id, at, max, {u, v}, {1 - u, 1 - v}, IM_COL32_WHITE, t.radius);
+        const float corner = t.px(30);
+        thumbnail(c, card.path, {max.x - corner, max.y - corner}, max);
+    } else {
+        // Until it is made the texture itself, repeated.
+        list.PushClipRect(at, max, true);
+        for (float x = at.x; x < max.x; x += size.y)
+            thumbnail(c, card.path, {x, at.y}, {x + size.y, max.y});
+        list.AddRectFilled({at.x, max.y - t.px(18)}, max, t.scrim);
+        list.PopClipRect();
+        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "on its way…");
+    }
+    const bool picked = c.state.drawer.picked == card.path;
+    if (picked || hovered)
+        list.AddRect({at.x - 1, at.y - 1}, {max.x + 1, max.y + 1},
+                     picked ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(picked ? 2 : 1));
+    ImGui::PushFont(t.small);
+    text_in(list, t.small, {at.x, max.y + t.px(2)}, {max.x, max.y + t.px(19)}, t.text,
+            fitted(card.name, size.x).c_str(), 0);
+    text_in(list, t.small, {at.x, max.y + t.px(18)}, {max.x, max.y + t.px(36)}, t.quiet,
+            fitted(why.reason, size.x).c_str(), 0);
+    ImGui::PopFont();
 }
 
 void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
@@ -232,28 +289,36 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
         c.textures.suggest_for(key, c.view.plate_picture, matte, excluded);
     const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
-    if (found.empty()) return;
+    if (found.empty()) {
+        if (!c.textures.suggested(key))
+            quiet(c, ("Looking for textures that suit " + region->name + "…").c_str());
+        return;
+    }
     const PanelName name(c, "Suggested");
     ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
-    ImGui::TextUnformatted(("Suggested for " + region->name).c_str());
+    ImGui::TextUnformatted(("Suggested for " + region->name + ", on this frame").c_str());
     ImGui::PopStyleColor();
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = t.px(72), step = t.px(172), room = ImGui::GetContentRegionAvail().x;
-    int shown = 0;
+    const float w = t.px(148), h = t.px(92), step = w + t.px(10);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const auto fit = static_cast<std::size_t>(std::max(1.0f, std::floor((room + t.px(10)) / step)));
+    std::vector<std::string> paths;
+    std::size_t shown = 0;
     for (const TextureSuggestion& s : found) {
         const auto card = std::find_if(cards.begin(), cards.end(),
                                        [&](const TextureCard& x) { return x.path == s.path; });
-        const float x = at.x + step * static_cast<float>(shown);
-        if (card == cards.end() || x + side > at.x + room) continue;
-        cell(c, *card, {x, at.y}, side, card->name.c_str(), nullptr);
-        ImGui::PushFont(t.small);
-        ImGui::GetWindowDrawList()->AddText(t.small, t.small->FontSize,
-                                            {x + side + t.px(5), at.y + t.px(2)}, t.quiet,
-                                            s.reason.c_str(), nullptr, step - side - t.px(10));
-        ImGui::PopFont();
+        if (shown == fit || card == cards.end()) continue;
+        paths.push_back(s.path);
+        suggestion(c, *card, s, {at.x + step * static_cast<float>(shown), at.y}, {w, h});
         ++shown;
     }
-    ImGui::SetCursorScreenPos({at.x, at.y + side + t.px(24)});
+    // Rendered on the frame while somebody looks at them.
+    if (c.view.strip.kind != StripKind::kSuggested || paths != c.state.strip_textures) {
+        c.state.strip_textures = paths;
+        c.emit(ShowStrip{StripKind::kSuggested, paths});
+    }
+    ImGui::SetCursorScreenPos({at.x, at.y + h + t.px(44)});
+    ImGui::Dummy({0, 0});
 }
 
 void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
@@ -272,7 +337,8 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         quiet(c, ("Like the rectangle on frame " + std::to_string(d.similar_frame) +
                   (c.textures.similar(d.similar_key) ? "" : "  ·  looking…"))
                      .c_str());
-    } else if (wanted.empty() && d.material.empty() && d.collection.empty()) {
+    } else if (wanted.empty() && d.material.empty() && d.collection.empty() && d.origin.empty() &&
+               d.licence.empty() && d.look.empty() && !d.favourites_only && !d.recent_only) {
         suggested(c, cards);
     }
     if (shown.empty()) {
@@ -302,7 +368,7 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
                 const auto index = static_cast<std::size_t>(r * columns + k);
                 if (index >= shown.size()) break;
                 cell(c, *shown[index], {at.x + static_cast<float>(k) * (side + gap), at.y}, side,
-                     shown[index]->name.c_str(), nullptr);
+                     shown[index]->name.c_str());
             }
             ImGui::SetCursorScreenPos(at);
             ImGui::Dummy({0, row_h - ImGui::GetStyle().ItemSpacing.y});
@@ -370,6 +436,63 @@ void large(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::EndChild();
 }
 
+// Words of the library's own that say how a texture looks.
+constexpr const char* kLooks[] = {"dark", "light",  "rough",  "smooth",    "striped", "regular",
+                                  "fine", "coarse", "glossy", "colourful", "warm",    "cold"};
+
+// One chip that opens a list; an entry is taken or given back.
+void chip_list(Ctx& c, const char* name, std::string& value,
+               const std::vector<TextureCount>& entries) {
+    const Theme& t = c.theme;
+    const std::string label =
+        (value.empty() ? std::string(name) : fitted(value, t.px(110))) + "##" + name;
+    ImGui::PushID(name);
+    if (ui::chip(c, label.c_str(), !value.empty())) ImGui::OpenPopup("##entries");
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
+    if (ImGui::BeginPopup("##entries")) {
+        const PanelName within(c, name);
+        if (ImGui::MenuItem("Any", nullptr, value.empty())) value.clear();
+        c.note("Any");
+        for (const TextureCount& entry : entries) {
+            const std::string count = entry.count > 0 ? std::to_string(entry.count) : "";
+            if (ImGui::MenuItem(entry.value.c_str(), count.c_str(), value == entry.value))
+                value = value == entry.value ? "" : entry.value;
+            c.note(entry.value);
+        }
+        ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+}
+
+// Where the textures come from, under which licence, and what they look like.
+void facets(Ctx& c) {
+    DrawerState& d = c.state.drawer;
+    const auto all = c.textures.everything();
+    if (!all) return;
+    const PanelName name(c, "Facets");
+    const auto& counts = d.answer ? *d.answer : *all;
+    const auto origin = [&](const char* value, const char* label) {
+        int count = 0;
+        for (const TextureCount& one : counts.origins)
+            if (one.value == value) count = one.count;
+        const bool active = d.origin == value;
+        if (count == 0 && !active) return;
+        if (chip(c, (std::string(label) + " " + std::to_string(count)).c_str(), active))
+            d.origin = active ? "" : value;
+        ImGui::SameLine();
+    };
+    origin("package", "Photographs");
+    origin("procedural", "Procedural");
+    origin("file", "Own");
+    chip_list(c, "Licence", d.licence, all->licences);
+    ImGui::SameLine();
+    std::vector<TextureCount> looks;
+    for (const char* look : kLooks)
+        looks.push_back({look, 0});
+    chip_list(c, "Look", d.look, looks);
+}
+
 }  // namespace
 
 void texture_drawer(Ctx& c, ImVec2 size) {
@@ -385,12 +508,19 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     ImGui::SetCursorScreenPos({origin.x + t.px(10), origin.y + t.px(6)});
     input(c, "Search textures", c.state.drawer.search, "Search textures", t.px(260),
           icons::kMagnify);
-    ImGui::SameLine();
+    ImGui::SameLine(0, t.px(12));
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + t.px(2));
+    facets(c);
     const std::string activity = c.textures.activity();
+    const bool narrowed = c.state.drawer.cache.shown.size() != cards->size();
     const std::string count =
-        std::to_string(cards->size()) + " textures" + (activity.empty() ? "" : "  ·  " + activity);
-    ImGui::AlignTextToFramePadding();
-    quiet(c, count.c_str());
+        !activity.empty() ? activity
+                          : (narrowed ? std::to_string(c.state.drawer.cache.shown.size()) + " of "
+                                      : std::string()) +
+                                std::to_string(cards->size()) + " textures";
+    text_in(list, t.small, {origin.x + size.x - right, origin.y},
+            {origin.x + size.x - t.px(12), origin.y + head}, t.quiet,
+            fitted(count, right - t.px(20)).c_str(), 1);
     ImGui::SetCursorScreenPos({origin.x, origin.y + head});
     materials(c, *cards, {left, body});
     ImGui::SetCursorScreenPos({origin.x + left, origin.y + head});

@@ -8,6 +8,7 @@
 
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/viewer_overlays.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -28,7 +29,7 @@ PicturePtr shown_result(const Ctx& c) {
 std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
     const SessionView& v = c.view;
     const ViewerState& s = c.state.viewer;
-    ViewMap whole{min, max, s.center, s.zoom};
+    ViewMap whole{min, max, s.center, s.zoom, s.aspect};
     const auto part = [&](float x0, float y0, float x1, float y1) {
         ViewMap map = whole;
         const float w = max.x - min.x, h = max.y - min.y;
@@ -63,190 +64,14 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
     return {{whole, shown_result(c), nullptr, {}, "", true}};
 }
 
-void pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, ImU32 color,
-          const char* icon = nullptr) {
-    const Theme& t = c.theme;
-    const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text.c_str()).x +
-                    t.px(16) + (icon ? t.px(16) : 0);
-    const ImVec2 max(at.x + w, at.y + t.px(22));
-    list.AddRectFilled(at, max, t.scrim, t.radius);
-    if (icon) icon_in(c, list, {at.x + t.px(3), at.y}, {at.x + t.px(21), max.y}, color, icon);
-    text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
-}
-
-void draw_mattes(Ctx& c, ImDrawList& list, const Pane& pane) {
-    const SessionView& v = c.view;
-    const bool in_mask = c.state.workspace == Workspace::kMask;
-    const ImVec2 min = pane.map.to_screen({0, 0});
-    const ImVec2 max = pane.map.to_screen(
-        {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
-    for (const RegionMatteView& matte : v.mattes) {
-        const Region* region = region_by_id(v.project, matte.region);
-        if (!region || matte.pixels.empty()) continue;
-        if (v.solo != 0 && v.solo != matte.region) continue;
-        const bool selected = matte.region == v.selected;
-        if (!in_mask && !selected) continue;
-        MatteDraw draw;
-        draw.pixels = matte.pixels;
-        draw.key = matte.region;
-        draw.version = matte.version;
-        draw.changed = matte.changed;
-        draw.min = min;
-        draw.max = max;
-        draw.clip_min = pane.map.min;
-        draw.clip_max = pane.map.max;
-        draw.color = region_color(region->color, region->id);
-        // While one works on the texture only the outline shows, or its colour would mislead.
-        draw.opacity = !in_mask ? 0.0f : selected ? 0.38f : 0.14f;
-        draw.outline = selected;
-        c.pictures.draw(list, draw);
-    }
-}
-
-void draw_overlay(Ctx& c, ImDrawList& list, const Pane& pane) {
-    const auto& over = c.view.overlay_picture;
-    if (!over) return;
-    const Theme& t = c.theme;
-    MatteDraw draw;
-    draw.pixels = over->value;
-    draw.where = over->where;
-    draw.key = 1'000'000;
-    draw.version = over->id;
-    draw.heat = over->kind != Overlay::kGrid;
-    draw.color = t.text;
-    draw.opacity = over->kind == Overlay::kSeams ? 1.0f : 0.75f;
-    draw.min = pane.map.to_screen({0, 0});
-    draw.max = pane.map.to_screen(
-        {static_cast<float>(over->value.width()), static_cast<float>(over->value.height())});
-    draw.clip_min = pane.map.min;
-    draw.clip_max = pane.map.max;
-    if (over->kind != Overlay::kMotion) {
-        c.pictures.draw(list, draw);
-        return;
-    }
-    list.PushClipRect(pane.map.min, pane.map.max, true);
-    for (const auto& arrow : over->arrows) {
-        const ImVec2 from = pane.map.to_screen(arrow.to), to = pane.map.to_screen(arrow.at);
-        const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
-        list.AddLine(from, to, IM_COL32(0, 0, 0, 160), t.px(3));
-        list.AddLine(from, to, t.warn, t.px(1.5f));
-        if (length < t.px(5)) {
-            list.AddCircleFilled(to, t.px(2), t.warn, 8);
-            continue;
-        }
-        const float ux = dx / length, uy = dy / length, h = t.px(5);
-        list.AddTriangleFilled(to, {to.x - h * ux - 0.6f * h * uy, to.y - h * uy + 0.6f * h * ux},
-                               {to.x - h * ux + 0.6f * h * uy, to.y - h * uy - 0.6f * h * ux},
-                               t.warn);
-    }
-    list.PopClipRect();
-}
-
-// The legend that stands beside every heat picture.
-void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
-    const auto& over = c.view.overlay_picture;
-    const Theme& t = c.theme;
-    if (c.view.overlay == Overlay::kNone) return;
-    static constexpr const char* kNames[] = {"",      "Texture grid", "Stretch",
-                                             "Light", "Seams",        "Motion"};
-    const std::string name = kNames[static_cast<int>(c.view.overlay)];
-    const float w = t.px(190),
-                h = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion
-                        ? t.px(52)
-                        : t.px(26);
-    const ImVec2 a(max.x - w - t.px(10), min.y + t.px(10)),
-        b(max.x - t.px(10), min.y + t.px(10) + h);
-    list.AddRectFilled(a, b, t.scrim, t.radius);
-    text_in(
-        list, t.small, {a.x + t.px(8), a.y}, {b.x, a.y + t.px(24)}, t.text,
-        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": being made…")).c_str(),
-        0);
-    if (h < t.px(40)) return;
-    constexpr int kSteps = 48;
-    const float x0 = a.x + t.px(8), x1 = b.x - t.px(8);
-    for (int k = 0; k < kSteps; ++k) {
-        const float u0 = static_cast<float>(k) / kSteps, u1 = static_cast<float>(k + 1) / kSteps;
-        list.AddRectFilled({x0 + u0 * (x1 - x0), a.y + t.px(24)},
-                           {x0 + u1 * (x1 - x0) + 0.5f, a.y + t.px(32)}, heat_color(u0));
-    }
-    text_in(list, t.small, {x0, a.y + t.px(32)}, {x1, b.y}, t.quiet,
-            number_text(static_cast<double>(over->low), 0).c_str(), 0);
-    text_in(list, t.small, {x0, a.y + t.px(32)}, {x1, b.y}, t.quiet,
-            number_text(static_cast<double>(over->high), 0).c_str(), 1);
-}
-
-// What the picture is, and what is being worked out, in words.
-void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
-    const SessionView& v = c.view;
-    const Theme& t = c.theme;
-    ImVec2 at(min.x + t.px(10), min.y + t.px(10));
-    if (!v.frame_error.empty()) {
-        pill(c, list, at, fitted(v.frame_error, max.x - min.x - t.px(60)), t.bad, icons::kAlert);
-        return;
-    }
-    if (c.state.viewer.hold_original || c.state.viewer.compare == Compare::kPlate) {
-        pill(c, list, at, "Plate", t.text);
-        return;
-    }
-    if (!v.result_wanted) {
-        std::string what = "Plate";
-        if (const Region* region = v.selected_region())
-            if (const auto found = v.unready.find(region->id); found != v.unready.end())
-                what += "  ·  " + found->second;
-        if (v.project.regions.empty()) what += "  ·  Add a region to begin";
-        pill(c, list, at, what, t.text);
-        return;
-    }
-    if (v.preview.state == PreviewView::State::kFailed) {
-        pill(c, list, at, fitted("No result: " + v.preview.error, max.x - min.x - t.px(60)), t.bad,
-             icons::kAlert);
-        return;
-    }
-    if (v.result_current && !v.stages.approximate) {
-        pill(c, list, at, v.preview_quality == Quality::kDraft ? "Result, draft" : "Result", t.good,
-             icons::kCheck);
-        return;
-    }
-    std::string what;
-    switch (v.preview.state) {
-        case PreviewView::State::kOpening:
-            what = "Reading the shot…";
-            break;
-        case PreviewView::State::kAnalysing:
-            what =
-                v.analysis_paused ? "Plate  ·  Analysis is paused" : "Plate  ·  Analysing the shot";
-            if (!v.analysis_paused && v.preview.total > 0) {
-                what +=
-                    " " + std::to_string(v.preview.done) + "/" + std::to_string(v.preview.total);
-                if (v.preview.seconds_left > 0)
-                    what += ", " + time_text(v.preview.seconds_left) + " left";
-            }
-            break;
-        case PreviewView::State::kGrowing:
-            what = "Growing the texture…";
-            break;
-        default:
-            what = "Updating…";
-    }
-    pill(c, list, at, what, t.warn, icons::kTimer);
-    if (v.preview.state == PreviewView::State::kAnalysing && v.preview.total > 0 &&
-        !v.analysis_paused) {
-        const float w = t.px(220), y = at.y + t.px(25);
-        const float part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
-        list.AddRectFilled({at.x, y}, {at.x + w, y + t.px(3)}, t.scrim, t.px(2));
-        list.AddRectFilled({at.x, y}, {at.x + w * part, y + t.px(3)}, t.warn, t.px(2));
-    }
-}
-
 // Zoom, exposure, gamma, channels and comparisons, at the foot of the picture.
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     ViewerState& s = c.state.viewer;
-    const float h = t.px(30), bar_w = t.px(474);
+    const float bar_w = t.px(534);
     if (max.x - min.x < bar_w + t.px(20)) return;
-    const ImVec2 at(std::floor(max.x - bar_w - t.px(10)), max.y - h - t.px(10));
+    const ImVec2 at(std::floor(max.x - bar_w - t.px(4)), min.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + bar_w, at.y + h}, t.scrim, t.radius);
     ImGui::SetCursorScreenPos({at.x + t.px(4), at.y + t.px(2)});
     const PanelName name(c, "View");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(2), 0});
@@ -280,6 +105,13 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     if (ImGui::IsItemClicked())
         s.display.channel =
             static_cast<DisplaySettings::Channel>((static_cast<int>(s.display.channel) + 1) % 5);
+    ImGui::SameLine();
+    constexpr const char* kCurves[] = {"sRGB", "Video", "Raw"};
+    value("##Curve", kCurves[static_cast<int>(s.display.curve)], t.px(46),
+          "What the screen is taken for: sRGB, video (BT.1886), or linear light as it is", nullptr);
+    if (ImGui::IsItemClicked())
+        s.display.curve =
+            static_cast<DisplaySettings::Curve>((static_cast<int>(s.display.curve) + 1) % 3);
     ImGui::SameLine(0, t.px(10));
     const auto tool = [&](const char* id) {
         const Command* command = c.commands.find(id);
@@ -303,9 +135,12 @@ void read_pixel(Ctx& c, const ViewMap& map, const PicturePtr& picture, bool hove
     if (!hovered || !picture) return;
     const Vec2 p = map.to_plate(ImGui::GetIO().MousePos);
     const Vec2i at(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
-    if (!rect_of(picture->size).contains(at.x, at.y)) return;
+    const Size plate = c.view.plate.size;
+    if (!rect_of(plate).contains(at.x, at.y)) return;
     s.pixel = at;
-    s.value = picture->at(at.x, at.y);
+    // The picture may be a smaller one of the same frame.
+    s.value = picture->at(at.x * picture->size.width / plate.width,
+                          at.y * picture->size.height / plate.height);
 }
 
 void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
@@ -321,7 +156,7 @@ void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const bool pan = ImGui::IsMouseDragging(2, 0) ||
                      (c.state.tool == Tool::kPan && active && ImGui::IsMouseDragging(0, 1));
     if (pan && (hovered || active)) {
-        s.center.x -= io.MouseDelta.x / s.zoom;
+        s.center.x -= io.MouseDelta.x / (s.zoom * s.aspect);
         s.center.y -= io.MouseDelta.y / s.zoom;
         s.fit = false;
     }
@@ -376,13 +211,19 @@ void no_picture(Ctx& c) {
 void viewer(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Viewer", size, t.surround, false, 0);
-    const ImVec2 min = ImGui::GetCursorScreenPos(), max(min.x + size.x, min.y + size.y);
+    // A bar at the foot says what is seen and how, so that nothing covers the picture.
+    const float bar_h = t.px(30);
+    const ImVec2 min = ImGui::GetCursorScreenPos(), foot(min.x + size.x, min.y + size.y);
+    size.y = std::max(t.px(40), size.y - bar_h);
+    const ImVec2 max(min.x + size.x, min.y + size.y);
     ViewerState& s = c.state.viewer;
     const bool two_wide = s.compare == Compare::kSideBySide, four = s.compare == Compare::kFourUp;
     const Size plate = c.view.plate.size;
     if (s.fit && !plate.empty()) {
         const ImVec2 one(size.x * (two_wide || four ? 0.5f : 1.0f), size.y * (four ? 0.5f : 1.0f));
-        s.zoom = fit_zoom(one, plate, t.px(four || two_wide ? 4 : 12));
+        const Size shown{static_cast<int>(static_cast<float>(plate.width) * s.aspect),
+                         plate.height};
+        s.zoom = fit_zoom(one, shown, t.px(four || two_wide ? 4 : 12));
         s.center = Vec2(static_cast<float>(plate.width), static_cast<float>(plate.height)) * 0.5f;
     }
     s.hold_original =
@@ -423,12 +264,12 @@ void viewer(Ctx& c, ImVec2 size) {
             text_in(list, t.regular, pane.map.min, pane.map.max, t.off,
                     c.view.result_wanted ? "Being worked out…" : "Nothing to show yet");
         }
-        if (pane.mattes && s.mattes_shown) draw_mattes(c, list, pane);
-        draw_overlay(c, list, pane);
+        if (pane.mattes && s.mattes_shown) draw_mattes(c, list, pane.map);
+        draw_overlay(c, list, pane.map);
         if (panes.size() > 1) {
             list.AddRect(pane.map.min, pane.map.max, t.line);
-            pill(c, list, {pane.map.min.x + t.px(10), pane.map.min.y + t.px(10)}, pane.label,
-                 t.text);
+            picture_pill(c, list, {pane.map.min.x + t.px(10), pane.map.min.y + t.px(10)},
+                         pane.label, t.text);
         }
     }
     // The pane under the mouse is the one that is worked in; all share zoom and centre.
@@ -443,11 +284,9 @@ void viewer(Ctx& c, ImVec2 size) {
     const bool wiping = panes.size() == 1 && move_wipe(c, map, hovered);
     if (!wiping) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);
-    // Beside the first pane's label, and only while there is something to say.
-    const bool several = panes.size() > 1;
-    if (!several || !c.view.result_current)
-        draw_state(c, list, {min.x + (several ? t.px(70) : 0), min.y}, max);
-    view_controls(c, min, max);
+    draw_provenance(c, list, map, hovered);
+    draw_state(c, list, {min.x, max.y}, foot);
+    view_controls(c, {min.x, max.y}, foot);
     if (ImGui::BeginDragDropTargetCustom(ImRect(min, max), ImGui::GetID("##drop"))) {
         if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("TEXTURE"))
             drop_texture(c, map, std::string(static_cast<const char*>(payload->Data)));

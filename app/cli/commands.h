@@ -18,7 +18,9 @@ namespace weft {
 struct RunOptions {
     std::string backend = "auto";
     int threads = 0;
-    bool overwrite = false, skip_existing = false;
+    bool overwrite = false, skip_existing = false, resume = false;
+    std::int64_t memory_bytes = 0;  ///< 0: no limit.
+    std::string recipe;             ///< Path of the recipe file.
     bool dry_run = false;
     AnalysisCacheOptions cache;
     std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
@@ -29,6 +31,13 @@ struct RunOptions {
 
 /// `weft replace` and `weft render`: the project has its paths resolved.
 int render_command(const Project& project, const RunOptions& run);
+
+struct VerifyCommandOptions {
+    std::string recipe, frames;
+    bool quick = false;
+};
+/// `weft verify`
+int verify_command(const VerifyCommandOptions& options, const RunOptions& run);
 
 int matte_command(const Project& project, const std::string& output, const RunOptions& run);
 

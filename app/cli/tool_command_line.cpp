@@ -84,6 +84,29 @@ void add_diff(CLI::App& app, int& exit) {
     command->callback([=, &exit] { exit = diff_command(*options); });
 }
 
+void add_verify(CLI::App& app, int& exit) {
+    CLI::App* command =
+        app.add_subcommand("verify", "Prove that frames are what their recipe gives");
+    const auto run = std::make_shared<RunOptions>();
+    const auto options = std::make_shared<VerifyCommandOptions>();
+    run->cache.keep = false;
+    command->add_option("recipe", options->recipe, "File that --recipe wrote")
+        ->required()
+        ->type_name("PATH");
+    command->add_option("--frames", options->frames, "Frames to verify [all of the recipe]");
+    command->add_flag("--quick", options->quick, "Compare hashes only, render nothing");
+    command->add_option("--threads", run->threads, "Threads to use; 0 is one a processor")
+        ->check(CLI::Range(0, 1024));
+    add_progress_flags(*command, *run);
+    command->footer(
+        "Compares every input and every frame with the hashes of the recipe, and renders the "
+        "frames again\ninto a private folder. Exit code 0 when all bytes are the same, 8 when "
+        "some differ.\n"
+        "Examples:\n  weft render shot.weft --recipe shot.recipe.json\n"
+        "  weft verify shot.recipe.json --frames 1001,1048");
+    command->callback([=, &exit] { exit = verify_command(*options, *run); });
+}
+
 void add_demo(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("demo", "Render the demo shot");
     const auto run = std::make_shared<RunOptions>();
@@ -101,6 +124,7 @@ void add_demo(CLI::App& app, int& exit) {
 void add_tool_commands(CLI::App& app, int& exit) {
     add_measure(app, exit);
     add_diff(app, exit);
+    add_verify(app, exit);
     add_demo(app, exit);
 }
 

@@ -54,6 +54,13 @@ bool ScriptRunner::reached(const std::string& what) const {
     }
     if (what == "result") return v.result_current && !v.stages.approximate;
     if (what == "stages") return v.stages.stages[0] != nullptr;
+    if (what == "full_result")
+        return v.result_current && !v.stages.approximate && v.stages.proxy == 1;
+    if (what == "strip") {
+        for (const StripCard& card : v.strip.cards)
+            if (!card.picture && card.error.empty()) return false;
+        return !v.strip.cards.empty();
+    }
     if (what == "overlay") return v.overlay_picture != nullptr;
     if (what == "analysis") return !v.preview.analysing && v.result_current;
     if (what == "failure") return v.preview.state == PreviewView::State::kFailed;

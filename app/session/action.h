@@ -174,7 +174,24 @@ struct PauseAnalysis {
     bool operator==(const PauseAnalysis&) const = default;
 };
 
+/// Writes the selected region's mattes of the marked range (else of the whole shot).
+struct ExportMattes {
+    std::string pattern;
+    bool operator==(const ExportMattes&) const = default;
+};
+/// Keeps the mattes of that range as they are now, or lets them follow again.
+struct FreezeMattes {
+    bool frozen = true;
+    bool operator==(const FreezeMattes&) const = default;
+};
+
 // ---- textures, preview ----
+/// Scales the texture so that so many of its bricks fit on a line over the plate.
+struct ScaleByLine {
+    Vec2 from{0, 0}, to{0, 0};
+    double count = 1;
+    bool operator==(const ScaleByLine&) const = default;
+};
 /// To a region (0: the selected one).
 struct ApplyTexture {
     std::string path;
@@ -182,10 +199,18 @@ struct ApplyTexture {
     bool operator==(const ApplyTexture&) const = default;
 };
 /// What the strip of small results compares.
-enum class StripKind : std::uint8_t { kNone, kKeyframes, kTextures, kScale, kLight, kSeams };
+enum class StripKind : std::uint8_t {
+    kNone,
+    kKeyframes,
+    kTextures,
+    kScale,
+    kLight,
+    kSeams,
+    kSuggested
+};
 struct ShowStrip {
     StripKind kind = StripKind::kNone;
-    std::vector<std::string> textures;  ///< Files, for kTextures.
+    std::vector<std::string> textures;  ///< Files or "db:ID", for kTextures and kSuggested.
     bool operator==(const ShowStrip&) const = default;
 };
 /// Goes to the card's frame, or makes its setting the region's.
@@ -232,7 +257,8 @@ using Action =
                  GoToFrame, StepFrames, StepKeyframe, Play, MarkRange, BeginStroke, ContinueStroke,
                  EndStroke, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes,
                  ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
-                 CopyKeyframe, PaintInstead, PauseAnalysis, ApplyTexture, ShowOverlay, ShowStages,
-                 SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+                 CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis,
+                 ApplyTexture, ShowOverlay, ShowStages, SetPreviewQuality, SubmitJob, CommandJob,
+                 MeasureResult>;
 
 }  // namespace weft

@@ -1,23 +1,19 @@
 #pragma once
 // Results on the screen while the artist works: the shot's analysis in one background thread, the
 // frames rendered from it in another. The newest request wins; what is shown is what a render
-// writes, or nothing.
+// writes (smaller at first, where the plate is large), or nothing.
 
 #include <array>
-#include <condition_variable>
-#include <deque>
 #include <map>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/project/project.h"
 #include "app/session/analysis_cache.h"
 #include "app/session/matte_shelf.h"
 #include "app/session/picture.h"
+#include "app/session/provenance.h"
 #include "engine/core/cancel.h"
 
 namespace weft {
@@ -27,7 +23,34 @@ enum class Stage : std::uint8_t { kTexture, kLit, kFinal };
 inline constexpr int kStageCount = 3;
 
 /// What is drawn over the picture to judge the work by.
-enum class Overlay : std::uint8_t { kNone, kGrid, kStretch, kLight, kSeams, kMotion };
+enum class Overlay : std::uint8_t {
+    kNone,
+    kGrid,
+    kStretch,
+    kLight,
+    kSeams,
+    kMotion,
+    kTrust,  ///< How far the surface looks different from the reference frame, where it came from.
+    kPieces  ///< Which piece of the sample each pixel shows.
+};
+
+/// A small result beside the picture: another frame, or this one with another setting.
+struct StripWish {
+    std::string label;
+    std::string note;  ///< More about it, for whoever draws it.
+    Project project;   ///< As in PreviewRequest.
+    int frame = 0;
+    RegionId around = 0;  ///< Only the part of the frame where this region is; 0: all of it.
+    std::string key;      ///< Of its pixels; see strip_key().
+};
+
+/// Where a StripWish stands.
+struct StripCard {
+    std::string label, note;
+    int frame = 0;
+    PicturePtr picture;  ///< Null while it is being made.
+    std::string error;   ///< Why it cannot be.
+};
 
 struct PreviewRequest {
     Project project;  ///< With absolute paths, and only the regions that can be shown.
@@ -37,12 +60,15 @@ struct PreviewRequest {
     bool stages = false;     ///< Also the pictures before the final one.
     Overlay overlay = Overlay::kNone;
     RegionId overlay_region = 0;
+    std::vector<StripWish> cards;  ///< To be made when the frame is there.
+    bool hurried = false;          ///< Something is moving: no time for full size.
 };
 
 struct PreviewFrame {
     std::array<PicturePtr, kStageCount> stages;  ///< By Stage; only the final one may be there.
     /// The texture was grown for another scale; the right one is being made.
     bool approximate = false;
+    int proxy = 1;  ///< By how much the pictures are smaller than the plate.
 };
 
 /// A value in 0–255 for each pixel of the overlay's region, with a matte of where it holds.
@@ -56,7 +82,8 @@ struct OverlayPicture {
     struct Arrow {
         Vec2 at, to;
     };
-    std::vector<Arrow> arrows;  ///< Motion since the reference frame, in pixels.
+    std::vector<Arrow> arrows;                     ///< Motion since the reference frame, in pixels.
+    std::shared_ptr<const Provenance> provenance;  ///< Of kPieces.
 };
 
 struct PreviewView {
@@ -68,7 +95,8 @@ struct PreviewView {
     double seconds_left = 0;  ///< 0: not known yet.
     std::vector<std::string> warnings;
     std::uint64_t changes = 0;  ///< Grows with every news.
-    double frame_seconds = 0;   ///< What the last frame took to render.
+    double frame_seconds = 0;   ///< What the last frame of full size took to render.
+    double first_seconds = 0;   ///< What the last picture of the wanted frame took.
 };
 
 /// What the preview has to show, as of the last Preview::try_read() that succeeded.
@@ -80,6 +108,7 @@ struct PreviewReading {
     std::shared_ptr<const OverlayPicture> overlay;
     /// How sure the propagation was, by frame; empty for mattes that come from files.
     std::map<int, float> confidence;
+    std::map<std::string, StripCard> cards;  ///< Those that are made, by StripWish::key.
 };
 
 /// Thread-safe. The window's thread asks with try_request() and try_read(), which never wait: a
@@ -87,7 +116,9 @@ struct PreviewReading {
 /// likes.
 class Preview {
   public:
-    explicit Preview(AnalysisCacheOptions cache, std::size_t budget_bytes = std::size_t{512} << 20);
+    /// `texture_library`: for textures "db:ID"; empty: the user's own.
+    explicit Preview(AnalysisCacheOptions cache, std::string texture_library = {},
+                     std::size_t budget_bytes = std::size_t{384} << 20);
     ~Preview();
 
     /// False, and nothing happens, when a worker is at its books just now.
@@ -116,5 +147,7 @@ class Preview {
 [[nodiscard]] std::string pixel_key(const Project& project);
 /// The same for the analysis.
 [[nodiscard]] std::string analysis_key(const Project& project);
+/// The same for a card.
+[[nodiscard]] std::string strip_key(const StripWish& wish);
 
 }  // namespace weft

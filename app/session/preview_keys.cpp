@@ -52,4 +52,9 @@ std::string analysis_key(const Project& project) {
     return text_of(p);
 }
 
+std::string strip_key(const StripWish& wish) {
+    return std::to_string(wish.frame) + " " + std::to_string(wish.around) + " " +
+           pixel_key(wish.project);
+}
+
 }  // namespace weft

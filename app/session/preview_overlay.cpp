@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "engine/core/parallel.h"
 #include "engine/pipeline/plate_views.h"
@@ -86,42 +89,91 @@ Status draw_light(const AnalysisStore& store, int region, int frame, float refer
     return {};
 }
 
+int wrapped(float v, int n) {
+    const int k = static_cast<int>(std::floor(v)) % n;
+    return k < 0 ? k + n : k;
+}
+
+// Calls body(pixel of the frame, texel) inside the matte.
+template <class Body>
+void for_texels(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out,
+                Body&& body) {
+    const int width = plane.source.width(), height = plane.source.height();
+    parallel_rows(out.value.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < out.value.width(); ++x) {
+                if (out.where.at(x, y) == 0) continue;
+                const float* uv = coords.uv.pixel(x, y);
+                out.value.at(x, y) = body(wrapped(uv[0], width), wrapped(uv[1], height));
+            }
+        }
+    });
+}
+
 // Where pieces of the sample meet in the plane, by how much they differ there.
-Status draw_seams(const Shot& shot, int region, const TextureCoords& coords,
-                  const CancelToken& cancel, OverlayPicture& out) {
-    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
+void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
     out.unit = "difference at the seam";
     out.high = 64;
-    if (plan.texture->is_plane) return {};
-    PlaneOptions options =
-        plane_options(plan, shot.plan.seed, plane_size(plan.placement, shot.source->size()));
-    options.tileable = true;
-    WEFT_TRY(plane, grow_texture(plan, options, cancel));
-    const int width = plane.source.width(), height = plane.source.height();
-    const std::vector<ImageU8x3> samples = synthesis_samples(plan);
-    const SampleAtlas atlas({samples.begin(), samples.end()}, plan.orientations);
-    const Image<std::int32_t, 2> source = atlas_positions(atlas, plane);
-    Matte energy(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            // Seams that cost next to nothing are to be seen as well.
-            const PlaneEnergy here = texel_energy(atlas, source, {x, y}, true);
-            const double shown = here.length_px > 0 ? 48 + here.energy : 0;
-            energy.at(x, y) = static_cast<std::uint8_t>(std::min(255.0, shown));
+    const int width = plane.energy.width();
+    for_texels(coords, plane, out, [&](int u, int v) {
+        return std::max(plane.energy.at(u, v), plane.energy.at((u + 1) % width, v));
+    });
+}
+
+// Pieces of the sample in greys of their own.
+void draw_pieces(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
+    for_texels(coords, plane, out, [&](int u, int v) {
+        const std::int32_t* from = plane.source.pixel(u, v);
+        const auto piece =
+            static_cast<std::uint32_t>((from[0] - u) * 92821 + (from[1] - v) * 68917);
+        return static_cast<std::uint8_t>((piece * 2654435761u) >> 24);
+    });
+}
+
+// Luma over its surroundings: what light does not change much.
+ImageF1 pattern_of(const ImageF3& plate, const ColorTransform& display_from_plate) {
+    const Matte luma = make_views(plate, display_from_plate).luma;
+    const cv::Mat codes(luma.height(), luma.width(), CV_8UC1,
+                        const_cast<std::uint8_t*>(luma.data()));
+    cv::Mat value, around;
+    codes.convertTo(value, CV_32F);
+    cv::boxFilter(value, around, CV_32F, {17, 17});
+    ImageF1 out(luma.size());
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            out.at(x, y) = value.at<float>(y, x) / (around.at<float>(y, x) + 6.0f);
+    return out;
+}
+
+// How far the surface looks different from what it was on the reference frame: where motion has
+// lost it, or something else is seen.
+Status draw_trust(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
+                  OverlayPicture& out) {
+    out.unit = "difference from the reference";
+    out.low = 0;
+    out.high = 1;
+    WEFT_TRY(here, shot.source->plate(frame));
+    WEFT_TRY(there, shot.source->plate(reference));
+    const ImageF1 now = pattern_of(*here, *shot.plan.display_from_plate);
+    const ImageF1 before = pattern_of(*there, *shot.plan.display_from_plate);
+    cv::Mat difference(now.height(), now.width(), CV_32FC1, cv::Scalar(0));
+    parallel_rows(now.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < now.width(); ++x) {
+                if (out.where.at(x, y) == 0) continue;
+                const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                const Vec2 q = p + ref_from_cur.at(p);
+                const int u = std::clamp(static_cast<int>(q.x), 0, now.width() - 1);
+                const int v = std::clamp(static_cast<int>(q.y), 0, now.height() - 1);
+                difference.at<float>(y, x) = std::abs(now.at(x, y) - before.at(u, v));
+            }
         }
-    }
-    const auto wrap = [](float v, int n) {
-        const int k = static_cast<int>(std::floor(v)) % n;
-        return k < 0 ? k + n : k;
-    };
-    for (int y = 0; y < out.value.height(); ++y) {
-        for (int x = 0; x < out.value.width(); ++x) {
-            if (out.where.at(x, y) == 0) continue;
-            const float* uv = coords.uv.pixel(x, y);
-            const int u = wrap(uv[0], width), v = wrap(uv[1], height);
-            out.value.at(x, y) = std::max(energy.at(u, v), energy.at((u + 1) % width, v));
-        }
-    }
+    });
+    cv::boxFilter(difference, difference, CV_32F, {9, 9});
+    constexpr float kLost = 0.35f;
+    for (int y = 0; y < now.height(); ++y)
+        for (int x = 0; x < now.width(); ++x)
+            out.value.at(x, y) = code(difference.at<float>(y, x) / kLost);
     return {};
 }
 
@@ -139,10 +191,52 @@ void draw_motion(const LatticeField& ref_from_cur, OverlayPicture& out) {
 
 }  // namespace
 
-Expected<OverlayPicture> make_overlay(Overlay kind, const Shot& shot, const AnalysisStore& store,
-                                      const RegionScene& scene, int region, int frame,
-                                      const CancelToken& cancel) {
+Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& shot, int region,
+                                                                  const RegionScene& scene,
+                                                                  const CancelToken& cancel) {
+    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
+    if (plan.texture->is_plane || scene.plane.empty()) return nullptr;
+    if (map_ && map_of_ == scene.plane.identity()) return map_;
+    PlaneOptions options = plane_options(plan, shot.plan.seed, scene.plane.size());
+    options.tileable = true;
+    WEFT_TRY(plane, grow_texture(plan, options, cancel));
+    const std::vector<ImageU8x3> samples = synthesis_samples(plan);
+    const SampleAtlas atlas({samples.begin(), samples.end()}, plan.orientations);
+    const Image<std::int32_t, 2> position = atlas_positions(atlas, plane);
+    auto map = std::make_shared<PlaneMap>();
+    map->energy = Matte(plane.source.size());
+    parallel_rows(map->energy.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < map->energy.width(); ++x) {
+                // Seams that cost next to nothing are to be seen as well.
+                const PlaneEnergy here = texel_energy(atlas, position, {x, y}, true);
+                const double shown = here.length_px > 0 ? 48 + here.energy : 0;
+                map->energy.at(x, y) = static_cast<std::uint8_t>(std::min(255.0, shown));
+            }
+        }
+    });
+    if (!plane.origin.empty()) {
+        map->which = Image<std::uint8_t, 1>(plane.origin.size());
+        for (int y = 0; y < plane.origin.height(); ++y)
+            for (int x = 0; x < plane.origin.width(); ++x)
+                map->which.at(x, y) = plane.origin.pixel(x, y)[0];
+    }
+    const TextureSource& from =
+        shot.project.regions[shot.region_index[static_cast<std::size_t>(region)]]->texture;
+    map->samples.push_back(std::filesystem::path(from.sample).filename().string());
+    for (const std::string& further : from.also)
+        map->samples.push_back(std::filesystem::path(further).filename().string());
+    map->source = std::move(plane.source);
+    map_ = std::move(map);
+    map_of_ = scene.plane.identity();
+    return map_;
+}
+
+Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
+                                            const AnalysisStore& store, const RegionScene& scene,
+                                            int region, int frame, const CancelToken& cancel) {
     const Size size = shot.source->size();
+    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
     OverlayPicture out;
     out.kind = kind;
     out.frame = frame;
@@ -159,20 +253,46 @@ Expected<OverlayPicture> make_overlay(Overlay kind, const Shot& shot, const Anal
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
     const TextureCoords coords =
         texture_coords(ref_from_cur, scene.plane_from_plate, rect_of(size));
-    const ImageF3& sample = shot.plan.regions[static_cast<std::size_t>(region)].texture->pixels;
+    std::shared_ptr<const PlaneMap> plane;
+    if (kind == Overlay::kSeams || kind == Overlay::kPieces) {
+        WEFT_TRY(map, plane_map(shot, region, scene, cancel));
+        plane = std::move(map);
+    }
     switch (kind) {
         case Overlay::kGrid:
-            draw_grid(coords, sample.size(), out);
+            draw_grid(coords, plan.texture->pixels.size(), out);
             break;
         case Overlay::kStretch:
             draw_stretch(coords, out);
             break;
         case Overlay::kSeams:
-            WEFT_CHECK_OK(draw_seams(shot, region, coords, cancel, out));
+            if (plane) draw_seams(coords, *plane, out);
             break;
         case Overlay::kMotion:
             draw_motion(ref_from_cur, out);
             break;
+        case Overlay::kTrust:
+            WEFT_CHECK_OK(
+                draw_trust(shot, ref_from_cur, plan.reference_frames.front(), frame, out));
+            break;
+        case Overlay::kPieces: {
+            if (plane) draw_pieces(coords, *plane, out);
+            auto asked = std::make_shared<Provenance>();
+            asked->ref_from_cur = std::move(ref_from_cur);
+            asked->plane_from_plate = scene.plane_from_plate;
+            asked->plane = plane;
+            const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
+            asked->texture = std::filesystem::path(texture.path).filename().string();
+            asked->reference_frame = plan.reference_frames.front();
+            asked->reference_shading = scene.reference_shading;
+            if (store.has({region, frame, AnalysisKind::kShading})) {
+                WEFT_TRY(light, store.get({region, frame, AnalysisKind::kShading}));
+                WEFT_TRY(shading, decode_shading(light));
+                asked->shading = std::move(shading);
+            }
+            out.provenance = std::move(asked);
+            break;
+        }
         case Overlay::kLight:
         case Overlay::kNone:
             break;

@@ -1,5 +1,8 @@
 #include "app/session/preview_scenes.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "engine/core/hash.h"
 
 namespace weft {
@@ -44,24 +47,26 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
 
 bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
     const std::vector<Keys> wanted = keys_of(shot, analysis);
-    std::vector<RegionScene> scenes(wanted.size());
-    std::vector<Keys> keys(wanted.size());
-    std::vector<bool> taken(keys_.size(), false);
+    for (std::size_t k = 0; k < keys_.size(); ++k)
+        if (!keys_[k].exact.empty()) bank_.push_front({keys_[k], std::move(scenes_[k])});
+    scenes_.clear();
+    scenes_.resize(wanted.size());
+    keys_.assign(wanted.size(), {});
     // Exact matches first, then planes of another size.
     for (const bool by_texture : {false, true}) {
         for (std::size_t k = 0; k < wanted.size(); ++k) {
-            for (std::size_t old = 0; old < keys_.size() && keys[k].exact.empty(); ++old) {
-                const bool fits = by_texture ? keys_[old].texture == wanted[k].texture
-                                             : keys_[old].exact == wanted[k].exact;
-                if (taken[old] || !fits || keys_[old].exact.empty()) continue;
-                taken[old] = true;
-                scenes[k] = std::move(scenes_[old]);
-                keys[k] = keys_[old];
-            }
+            if (!keys_[k].exact.empty()) continue;
+            const auto found = std::find_if(bank_.begin(), bank_.end(), [&](const Kept& kept) {
+                return by_texture ? kept.keys.texture == wanted[k].texture
+                                  : kept.keys.exact == wanted[k].exact;
+            });
+            if (found == bank_.end()) continue;
+            scenes_[k] = std::move(found->scene);
+            keys_[k] = found->keys;
+            bank_.erase(found);
         }
     }
-    scenes_ = std::move(scenes);
-    keys_ = std::move(keys);
+    trim();
     exact_ = keys_ == wanted;
     bool usable = true;
     for (std::size_t k = 0; k < scenes_.size(); ++k) {
@@ -73,6 +78,15 @@ bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
             scenes_[k].plane_from_plate = *placed;
     }
     return usable;
+}
+
+void PreviewScenes::trim() {
+    std::size_t bytes = 0;
+    for (auto kept = bank_.begin(); kept != bank_.end();) {
+        for (const PlanePyramid::Level& level : kept->scene.plane.levels())
+            bytes += level.size_bytes();
+        kept = bytes > kBankBytes ? bank_.erase(kept) : std::next(kept);
+    }
 }
 
 Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,

@@ -30,7 +30,7 @@ Session::Session(SessionOptions options, EditorSettings* settings)
     : options_(std::move(options)),
       settings_(settings ? settings : &own_settings_),
       history_(Project{}),
-      preview_(options_.cache),
+      preview_(options_.cache, options_.texture_library),
       recovery_((fs::path(options_.state_folder) / "recovery").string(),
                 [this] { shelf_.flush(); }),
       jobs_(options_.program, (fs::path(options_.state_folder) / "jobs").string()) {
@@ -173,6 +173,9 @@ void Session::act(const Action& action) {
             },
             [&](const CopyKeyframe& a) { copy_keyframe(a.from, a.to); },
             [&](const PaintInstead&) { paint_instead(); },
+            [&](const ExportMattes& a) { export_mattes(a.pattern); },
+            [&](const FreezeMattes& a) { freeze_mattes(a.frozen); },
+            [&](const ScaleByLine& a) { scale_by_line(a); },
             [&](const PauseAnalysis& a) { a.paused ? preview_.pause() : preview_.resume(); },
             [&](const ApplyTexture& a) { apply_texture(a.path, a.region ? a.region : selected_); },
             [&](const ShowOverlay& a) {
@@ -325,6 +328,8 @@ void Session::request_preview() {
     request.stages = stages_;
     request.overlay = overlay_;
     request.overlay_region = selected_;
+    request.cards = strip_wishes_;
+    request.hurried = playing_ != 0;
     // The marked range, or as much around the playhead as a look needs.
     constexpr int kAround = 24;
     const auto [first, last] = played_range();
@@ -422,7 +427,7 @@ bool Session::busy() const {
 
 std::uint64_t Session::news() const {
     return shelf_.arrivals() + preview_.news() + jobs_.changes() +
-           (player_ ? player_->arrivals() : 0) + (strip_ ? strip_->news() : 0);
+           (player_ ? player_->arrivals() : 0);
 }
 
 void Session::update(double now_s) {

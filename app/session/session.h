@@ -14,7 +14,6 @@
 #include "app/session/editor_settings.h"
 #include "app/session/frame_clock.h"
 #include "app/session/plate_player.h"
-#include "app/session/preview_strip.h"
 #include "app/session/recovery.h"
 #include "app/session/session_view.h"
 
@@ -28,7 +27,7 @@ struct SessionOptions {
     std::string state_folder;     ///< See editor_state_folder().
     std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
     AnalysisCacheOptions cache;
-    std::size_t plate_budget_bytes = std::size_t{1} << 30;
+    std::size_t plate_budget_bytes = std::size_t{640} << 20;
     bool offer_recovery = true;
 };
 
@@ -110,10 +109,17 @@ class Session {
     void fill_between_shapes();
     void show_shape();
 
+    // ---- mattes to files (session_matte_files.cpp), size from a line (session_placing.cpp) ----
+    void write_mattes(const std::string& pattern,
+                      std::function<void(const std::vector<int>&)> then);
+    void export_mattes(const std::string& pattern);
+    void freeze_mattes(bool frozen);
+    void scale_by_line(const ScaleByLine& action);
+
     // ---- the strip (session_strip.cpp) ----
     void show_strip();
     [[nodiscard]] std::vector<int> strip_frames() const;
-    [[nodiscard]] std::vector<PreviewStrip::Wish> strip_wishes(const Region* region);
+    [[nodiscard]] std::vector<StripWish> strip_wishes(const Region* region);
     void choose_from_strip(int card);
     void copy_keyframe(int from, int to);
     [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
@@ -215,7 +221,7 @@ class Session {
     int read_frame_ = 0;
     StripKind strip_kind_ = StripKind::kNone;
     std::vector<std::string> strip_textures_;
-    std::unique_ptr<PreviewStrip> strip_;
+    std::vector<StripWish> strip_wishes_;
     std::uint64_t strip_version_ = 0;  // of the document that its cards were asked for
     int strip_frame_ = 0;
     std::vector<std::function<void()>> strip_choices_;

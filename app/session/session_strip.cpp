@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "app/project/project_file.h"
-#include "app/session/preview_strip.h"
 #include "app/session/session.h"
 
 namespace weft {
@@ -39,6 +38,7 @@ std::vector<Variant> variants_of(StripKind kind, const Region& region) {
             break;
         case StripKind::kNone:
         case StripKind::kKeyframes:
+        case StripKind::kSuggested:
         case StripKind::kTextures:
             break;
     }
@@ -63,60 +63,78 @@ std::vector<int> Session::strip_frames() const {
     return out;
 }
 
+// The cards are asked for together with the picture; here what has come is put in their order.
 void Session::show_strip() {
     StripView& shown = view_.strip;
     shown.kind = strip_kind_;
     const Region* region = region_by_id(document(), selected_);
     const bool possible =
         reader_ && view_.result_wanted && (region || strip_kind_ == StripKind::kKeyframes);
-    if (strip_kind_ == StripKind::kNone || !possible || tried_ || painting_) {
-        if (strip_ && strip_kind_ == StripKind::kNone) strip_->want({});
-        if (!possible || strip_kind_ == StripKind::kNone) shown.cards.clear();
+    if (strip_kind_ == StripKind::kNone || !possible) {
+        if (!strip_wishes_.empty()) request_due_ = true;
+        strip_wishes_.clear();
+        shown.cards.clear();
         strip_version_ = 0;
         return;
     }
-    if (!strip_) strip_ = std::make_unique<PreviewStrip>(options_.cache);
     const bool of_frame = strip_kind_ != StripKind::kKeyframes;
-    if (strip_version_ != document_version_ || (of_frame && strip_frame_ != frame_)) {
+    const bool stale = strip_version_ != document_version_ || (of_frame && strip_frame_ != frame_);
+    if (stale && !tried_ && !painting_ && !playing_) {
         strip_version_ = document_version_;
         strip_frame_ = frame_;
-        strip_->want(strip_wishes(region));
+        strip_wishes_ = strip_wishes(region);
+        for (StripWish& wish : strip_wishes_)
+            wish.key = strip_key(wish);
+        request_due_ = true;
     }
-    const bool idle = view_.result_current && !view_.stages.approximate && !view_.preview.analysing;
-    strip_->update(idle);
-    shown.cards = strip_->cards();
+    shown.cards.clear();
+    for (const StripWish& wish : strip_wishes_) {
+        StripCard card{wish.label, wish.note, wish.frame, nullptr, {}};
+        if (const auto made = preview_reading_.cards.find(wish.key);
+            made != preview_reading_.cards.end()) {
+            card.picture = made->second.picture;
+            card.error = made->second.error;
+        }
+        shown.cards.push_back(std::move(card));
+    }
 }
 
-std::vector<PreviewStrip::Wish> Session::strip_wishes(const Region* region) {
-    std::vector<PreviewStrip::Wish> wishes;
+std::vector<StripWish> Session::strip_wishes(const Region* region) {
+    std::vector<StripWish> wishes;
     strip_choices_.clear();
     bool any = false;
     const Project base = project_to_preview(any);
     if (strip_kind_ == StripKind::kKeyframes) {
         for (const int frame : strip_frames()) {
-            wishes.push_back({"Frame " + std::to_string(frame), base, frame});
+            wishes.push_back({"Frame " + std::to_string(frame), {}, base, frame, 0, {}});
             strip_choices_.push_back([this, frame] { act(GoToFrame{frame}); });
         }
         return wishes;
     }
     const auto with = [&](const Edit& edit, std::string label, std::function<void()> choice) {
         if (auto changed = apply_edit(base, edit)) {
-            wishes.push_back({std::move(label), std::move(*changed), frame_});
+            wishes.push_back({std::move(label), {}, std::move(*changed), frame_, 0, {}});
             strip_choices_.push_back(std::move(choice));
         }
     };
     const RegionRef ref{region->id, {}};
-    if (strip_kind_ == StripKind::kTextures) {
-        wishes.push_back({"As it is", base, frame_});
-        strip_choices_.push_back([] {});
+    if (strip_kind_ == StripKind::kTextures || strip_kind_ == StripKind::kSuggested) {
+        if (strip_kind_ == StripKind::kTextures) {
+            wishes.push_back({"As it is", {}, base, frame_, 0, {}});
+            strip_choices_.push_back([] {});
+        }
         for (const std::string& path : strip_textures_) {
             TextureSource texture = region->texture;
-            texture.sample = resolve_path(project_dir(path_), path);
+            texture.sample =
+                names_library_texture(path) ? path : resolve_path(project_dir(path_), path);
             texture.plane.clear();
             with(SetTexture{ref, texture}, std::filesystem::path(path).stem().string(),
                  [this, path] {
                      act(ApplyTexture{path, 0});
                  });
+            if (!wishes.empty()) wishes.back().note = path;
+            if (strip_kind_ == StripKind::kSuggested && !wishes.empty())
+                wishes.back().around = region->id;
         }
     }
     for (const Variant& variant : variants_of(strip_kind_, *region))

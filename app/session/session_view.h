@@ -15,7 +15,6 @@
 #include "app/session/matte_shelf.h"
 #include "app/session/picture.h"
 #include "app/session/preview.h"
-#include "app/session/preview_strip.h"
 #include "app/session/roto_shape.h"
 
 namespace weft {

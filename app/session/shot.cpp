@@ -54,10 +54,13 @@ class ShotOpener {
         const Plate& plate = shot_.project.plate;
         if (plate.path.empty())
             return fail(ErrorCode::kUsage, "No plate is set. Give one with --plate.");
-        WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
-        for (const std::string& w : reader->warnings())
+        shot_.plate = options_.plate;
+        if (!shot_.plate) {
+            WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
+            shot_.plate = cached(reader, options_.cache_bytes);
+        }
+        for (const std::string& w : shot_.plate->warnings())
             shot_.warnings.push_back(w);
-        shot_.plate = cached(reader, options_.cache_bytes);
         WEFT_TRY(frames, frames_to_render(shot_.project, *shot_.plate));
         shot_.plan.frames = std::move(frames);
         shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft

@@ -48,6 +48,8 @@ struct OpenShotOptions {
     std::size_t cache_bytes = 256u << 20;  ///< For decoded plates.
     bool textures = true;                  ///< Without: enough to propagate mattes.
     std::string texture_library;           ///< For "db:ID"; empty: the user's own.
+    /// The plate of this very project, when it is open already; null: it is opened.
+    std::shared_ptr<const CachedReader> plate;
 };
 
 /// Opens the plate, resolves the frames, spaces and textures, and checks that every file that the

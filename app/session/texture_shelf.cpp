@@ -54,6 +54,13 @@ void statistics(ViewU8x3 picture, Inside&& inside, float mean[3], float& contras
     grain = step_count ? static_cast<float>(steps / static_cast<double>(step_count)) : 0;
 }
 
+std::vector<TextureCount> counts_of(const std::vector<FacetCount>& facets) {
+    std::vector<TextureCount> out;
+    for (const FacetCount& facet : facets)
+        out.push_back({facet.value, facet.count});
+    return out;
+}
+
 }  // namespace
 
 TextureShelf::TextureShelf(std::size_t budget_bytes)
@@ -122,6 +129,11 @@ void TextureShelf::suggest_for(const std::string& key, PicturePtr plate,
 std::vector<TextureSuggestion> TextureShelf::suggestions(const std::string& key) const {
     const std::lock_guard lock(mutex_);
     return key == ranked_key_ ? ranked_ : std::vector<TextureSuggestion>{};
+}
+
+bool TextureShelf::suggested(const std::string& key) const {
+    const std::lock_guard lock(mutex_);
+    return key == ranked_key_;
 }
 
 std::uint64_t TextureShelf::arrivals() const {
@@ -209,7 +221,6 @@ void TextureShelf::take_library() {
     SearchQuery all;
     all.sort = TextureSort::kMaterial;
     all.limit = 100'000;
-    all.facets = false;
     const auto found = library_->search(all);
     if (!found) return;
     library_cards_.clear();
@@ -219,6 +230,14 @@ void TextureShelf::take_library() {
         card.name = readable(hit.name);
         card.material = readable(hit.material);
         library_cards_.push_back(std::move(card));
+    }
+    auto counts = std::make_shared<TextureAnswer>();
+    counts->origins = counts_of(found->origins);
+    counts->licences = counts_of(found->licences);
+    {
+        const std::lock_guard lock(mutex_);
+        everything_ = std::move(counts);
+        searched_.reset();
     }
     publish();
 }
@@ -249,28 +268,40 @@ void TextureShelf::look_up(const std::string& path) {
     ++arrivals_;
 }
 
-std::shared_ptr<const std::vector<std::string>> TextureShelf::search(const std::string& words) {
+std::shared_ptr<const TextureAnswer> TextureShelf::search(const TextureQuestion& question) {
     const std::lock_guard lock(mutex_);
-    if (!library_ || words.empty()) return nullptr;
-    if (words == searched_) return search_result_;
-    search_due_ = words;
+    if (!library_ || question.empty()) return nullptr;
+    if (searched_ == question) return search_result_;
+    search_due_ = question;
     wake_.notify_all();
     return nullptr;
 }
 
-void TextureShelf::search_library(const std::string& words) {
-    SearchQuery query;
-    query.text = words;
-    query.limit = 2000;
-    query.facets = false;
-    const auto found = library_->search(query);
-    auto paths = std::make_shared<std::vector<std::string>>();
-    if (found)
-        for (const SearchHit& hit : found->hits)
-            paths->push_back("db:" + hit.id);
+std::shared_ptr<const TextureAnswer> TextureShelf::everything() const {
     const std::lock_guard lock(mutex_);
-    searched_ = words;
-    search_result_ = std::move(paths);
+    return everything_;
+}
+
+void TextureShelf::search_library(const TextureQuestion& question) {
+    SearchQuery query;
+    query.text = question.words;
+    for (const TextureOrigin origin :
+         {TextureOrigin::kProcedural, TextureOrigin::kPackage, TextureOrigin::kFile})
+        if (question.origin == name_of(origin)) query.origins.push_back(origin);
+    if (!question.licence.empty()) query.licences.push_back(question.licence);
+    query.limit = question.words.empty() ? 100'000 : 2000;
+    if (question.words.empty()) query.sort = TextureSort::kMaterial;
+    const auto found = library_->search(query);
+    auto answer = std::make_shared<TextureAnswer>();
+    if (found) {
+        for (const SearchHit& hit : found->hits)
+            answer->paths.push_back("db:" + hit.id);
+        answer->origins = counts_of(found->origins);
+        answer->licences = counts_of(found->licences);
+    }
+    const std::lock_guard lock(mutex_);
+    searched_ = question;
+    search_result_ = std::move(answer);
     ++arrivals_;
 }
 
@@ -445,7 +476,7 @@ void TextureShelf::work() {
     for (;;) {
         wake_.wait(lock, [&] {
             return stop_ || scan_due_ || library_due_ || !wishes_.empty() || !rank_due_.empty() ||
-                   !search_due_.empty() || !details_due_.empty() || !similar_due_.empty();
+                   search_due_ || !details_due_.empty() || !similar_due_.empty();
         });
         if (stop_) return;
         if (scan_due_) {
@@ -459,10 +490,10 @@ void TextureShelf::work() {
             lock.unlock();
             take_library();
             lock.lock();
-        } else if (!search_due_.empty()) {
-            const std::string words = std::exchange(search_due_, {});
+        } else if (search_due_) {
+            const TextureQuestion question = *std::exchange(search_due_, {});
             lock.unlock();
-            search_library(words);
+            search_library(question);
             lock.lock();
         } else if (!similar_due_.empty()) {
             const std::string key = std::exchange(similar_due_, {});

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,6 +35,25 @@ struct TextureSuggestion {
     float score = 0;     ///< 0–1, higher suits better.
 };
 
+/// What the drawer asks of the library; all conditions hold together.
+struct TextureQuestion {
+    std::string words;    ///< "rough grey stone"
+    std::string origin;   ///< "package" (photographs), "procedural", "file", or any.
+    std::string licence;  ///< As the source writes it, or any.
+    [[nodiscard]] bool empty() const { return words.empty() && origin.empty() && licence.empty(); }
+    bool operator==(const TextureQuestion&) const = default;
+};
+
+struct TextureCount {
+    std::string value;
+    int count = 0;
+};
+
+struct TextureAnswer {
+    std::vector<std::string> paths;               ///< The best first.
+    std::vector<TextureCount> origins, licences;  ///< Over all of them, most frequent first.
+};
+
 /// Thread-safe; nothing blocks.
 class TextureShelf {
   public:
@@ -49,9 +69,10 @@ class TextureShelf {
     [[nodiscard]] std::string activity() const;
     /// Everything known about a card; author, licence and tags of a library's texture come later.
     [[nodiscard]] TextureCard details(const TextureCard& card);
-    /// Paths in the order of how well they answer the words; null while it is worked out, or
-    /// without a library.
-    [[nodiscard]] std::shared_ptr<const std::vector<std::string>> search(const std::string& words);
+    /// The answer to a question; null while it is worked out, or without a library.
+    [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuestion& question);
+    /// The whole library's counts; null without one.
+    [[nodiscard]] std::shared_ptr<const TextureAnswer> everything() const;
     /// Looks for textures like this part of a picture, in the background. `key` stands for it.
     void find_similar(const std::string& key, PicturePtr picture, Recti part);
     /// What was found, the nearest first; null while it is worked out, or without a library.
@@ -66,6 +87,8 @@ class TextureShelf {
     void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte,
                      const std::string& excluded_licences = {});
     [[nodiscard]] std::vector<TextureSuggestion> suggestions(const std::string& key) const;
+    /// Whether they were worked out.
+    [[nodiscard]] bool suggested(const std::string& key) const;
     /// Grows whenever something arrives.
     [[nodiscard]] std::uint64_t arrivals() const;
 
@@ -82,7 +105,7 @@ class TextureShelf {
     void fill_library(const std::string& path);
     void take_library();
     void look_up(const std::string& path);
-    void search_library(const std::string& words);
+    void search_library(const TextureQuestion& question);
     void look_for_similar(const std::string& key, const Picture& picture, const Recti& part);
     void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
                    const std::string& excluded_licences);
@@ -117,9 +140,10 @@ class TextureShelf {
     std::vector<TextureSuggestion> ranked_;
     std::map<std::string, Look> looks_;  // of the working thread alone
     std::shared_ptr<TextureLibrary> library_;
-    std::string activity_, search_due_, searched_;
+    std::string activity_;
     bool library_due_ = false;
-    std::shared_ptr<const std::vector<std::string>> search_result_;
+    std::optional<TextureQuestion> search_due_, searched_;
+    std::shared_ptr<const TextureAnswer> search_result_, everything_;
     std::string similar_due_, similar_key_;
     PicturePtr similar_picture_;
     Recti similar_part_;

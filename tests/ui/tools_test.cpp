@@ -196,7 +196,8 @@ TEST_F(Tools, TheStripFollowsTheWorkspace) {
     ASSERT_FALSE(emitted<ShowStrip>().empty());
     EXPECT_EQ(emitted<ShowStrip>().back().kind, StripKind::kKeyframes);
     view.strip.kind = StripKind::kScale;
-    view.strip.cards = {{"Scale 0.50", 1003, nullptr, ""}, {"Scale 1.00", 1003, nullptr, "No"}};
+    view.strip.cards = {{"Scale 0.50", "", 1003, nullptr, ""},
+                        {"Scale 1.00", "", 1003, nullptr, "No"}};
     ASSERT_TRUE(robot->click("Strip/Scale"));
     robot->frames(2);
     clear();

@@ -1,0 +1,103 @@
+// The analysing thread of the preview.
+#include "app/session/background.h"
+#include "app/session/preview_impl.h"
+#include "engine/pipeline/analyse.h"
+#include "engine/pipeline/matte_pass.h"
+#include "engine/pipeline/surface_pass.h"
+
+namespace weft {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
+    ShotPlan plan = opened.shot->plan;
+    plan.frames = std::move(frames);
+    return plan;
+}
+
+}  // namespace
+
+int steps_to(const OpenedShot& opened, std::vector<int> frames) {
+    const ShotPlan plan = plan_for(opened, std::move(frames));
+    return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store);
+}
+
+void Preview::Impl::analyse_loop() {
+    lower_thread_priority();
+    for (;;) {
+        OpenedPtr work;
+        std::vector<int> first, all;
+        CancelToken token;
+        {
+            std::unique_lock lock(mutex);
+            wake.wait(lock, [&] { return stop || (analysis_news && !paused); });
+            if (stop) return;
+            analysis_news = false;
+            work = to_analyse;
+            first = analyse_first;
+            all = analyse_frames;
+            analysis_cancel = token;
+            analysing_key = work->analysis;
+        }
+        // What the artist looks at comes first, unless that is most of the work anyway.
+        const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
+        if (for_first > 0 && 2 * for_first < for_all) analyse(work, first, token);
+        if (!token.cancelled()) analyse(work, all, token);
+        collect_confidence(*work);
+        const std::lock_guard lock(mutex);
+        shown.analysing = false;
+        analysing_key.clear();
+        changed();
+        signal();
+    }
+}
+
+void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
+                            const CancelToken& token) {
+    const ShotPlan plan = plan_for(*work, list);
+    const auto start = Clock::now();
+    const auto progress = [&](const ProgressEvent& event) {
+        const std::lock_guard lock(mutex);
+        shown.analysing = true;
+        shown.done = static_cast<int>(event.done);
+        shown.total = static_cast<int>(event.total);
+        if (event.done > 2) {
+            shown.seconds_left = seconds_since(start) / static_cast<double>(event.done) *
+                                 static_cast<double>(event.total - event.done);
+        }
+        changed();
+        ++mattes;
+        signal();
+    };
+    const Status done = analyse_shot(*work->shot->source, plan, *work->store, token, progress);
+    if (done || token.cancelled()) return;
+    const std::lock_guard lock(mutex);
+    if (wanted_analysis != work->analysis) return;
+    shown.state = PreviewView::State::kFailed;
+    shown.error = done.error().text();
+    failed_pixels = wanted_pixels;
+    changed();
+}
+
+void Preview::Impl::collect_confidence(const OpenedShot& work) {
+    for (std::size_t k = 0; k < work.shot->plan.regions.size(); ++k) {
+        if (!work.shot->plan.regions[k].propagated()) continue;
+        const RegionId id = work.shot->project.regions[work.shot->region_index[k]]->id;
+        std::map<int, float> found;
+        for (const int frame : work.shot->plate->frames()) {
+            const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte};
+            if (!work.store->has(key)) continue;
+            const auto bytes = work.store->get(key);
+            if (!bytes) continue;
+            if (const auto matte = decode_matte(*bytes)) found[frame] = matte->confidence;
+        }
+        const std::lock_guard lock(mutex);
+        confidences[id] = std::move(found);
+        ++mattes;
+    }
+}
+
+}  // namespace weft

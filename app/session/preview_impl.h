@@ -1,0 +1,120 @@
+#pragma once
+// Internal to the preview: what its two threads share.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/session/preview.h"
+#include "app/session/preview_overlay.h"
+#include "app/session/preview_scenes.h"
+#include "app/session/proxy_shot.h"
+#include "app/session/shot.h"
+#include "engine/compute/backend.h"
+#include "engine/core/cancel.h"
+
+namespace weft {
+
+/// A project opened for work.
+struct OpenedShot {
+    std::shared_ptr<const Shot> shot;
+    std::shared_ptr<AnalysisStore> store;
+    std::string pixels, analysis;  ///< The keys of what was opened.
+};
+using OpenedPtr = std::shared_ptr<const OpenedShot>;
+
+/// Frames of analysis still to be done for these frames.
+[[nodiscard]] int steps_to(const OpenedShot& opened, std::vector<int> frames);
+
+struct Preview::Impl {
+    using Clock = std::chrono::steady_clock;
+
+    Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget);
+    ~Impl();
+
+    // ---- the rendering thread (preview_render.cpp, preview_cards.cpp) ----
+    void render_loop();
+    bool step();
+    bool step_frame(const PreviewRequest& now);
+    bool step_fill(const PreviewRequest& now, const std::string& pixels);
+    bool step_card(const PreviewRequest& now);
+    [[nodiscard]] Expected<std::shared_ptr<const Shot>> open(const Project& project);
+    bool open_shot_of(const PreviewRequest& wanted, const std::string& pixels);
+    bool render(const PreviewRequest& wanted, int frame, int factor);
+    void keep(const PreviewRequest& wanted, int frame, PreviewFrame made, double seconds);
+    bool grow(const OpenedShot& of);
+    bool draw_overlay(const PreviewRequest& wanted);
+    bool ready(int frame);
+    [[nodiscard]] Expected<PreviewFrame> pictures_of(int frame, bool stages, int factor);
+    [[nodiscard]] Expected<PicturePtr> card_picture(const OpenedShot& of, const StripWish& wish);
+    [[nodiscard]] PicturePtr picture_of(const Shot& shot, const ImageF3& pixels) const;
+    [[nodiscard]] int factor_of(const Shot& shot, std::int64_t pixels) const;
+    void set_state(PreviewView::State state, std::string error = {});
+
+    // ---- the analysing thread (preview_analysis.cpp) ----
+    void analyse_loop();
+    void analyse(const OpenedPtr& opened, const std::vector<int>& frames, const CancelToken& token);
+    void collect_confidence(const OpenedShot& opened);
+
+    void changed() { shown.changes = ++news; }
+    void signal() {
+        ++signals;
+        wake.notify_all();
+    }
+
+    const AnalysisCacheOptions cache;
+    const std::string texture_library;
+    const std::size_t budget_bytes;
+    const std::shared_ptr<const Backend> backend;
+
+    mutable std::mutex mutex;
+    std::condition_variable wake;
+    bool stop = false, paused = false;
+    std::uint64_t signals = 0;
+
+    // What is wanted.
+    std::optional<PreviewRequest> wanted;
+    std::string wanted_pixels, wanted_analysis;
+    Clock::time_point refine_at;  // when there is time for full size
+    // What there is.
+    OpenedPtr opened;
+    std::string failed_pixels;  // what could not be opened or rendered
+    std::map<int, PreviewFrame> frames;
+    std::size_t frame_bytes = 0;
+    std::shared_ptr<const OverlayPicture> overlay;
+    std::string overlay_key;
+    std::map<std::string, StripCard> cards;
+    std::map<RegionId, std::map<int, float>> confidences;
+    std::atomic<std::uint64_t> mattes = 0;
+    PreviewView shown;
+    std::atomic<std::uint64_t> news = 0;
+    // What is to be analysed.
+    OpenedPtr to_analyse;
+    std::vector<int> analyse_frames, analyse_first;
+    bool analysis_news = false;
+    std::string analysing_key;
+    CancelToken analysis_cancel, grow_cancel;
+
+    // Of the rendering thread alone.
+    PreviewScenes scenes;
+    OverlayMaker overlays;
+    std::set<int> ready_frames;
+    bool refine_due = false;
+    std::shared_ptr<const ColorTransform> srgb_from_out, linear_from_out;
+    std::shared_ptr<const CachedReader> reader;  // of the plate `reader_of`
+    Plate reader_of;
+    std::unique_ptr<ProxyPlates> proxies;
+
+    std::thread renderer, analyser;
+};
+
+}  // namespace weft

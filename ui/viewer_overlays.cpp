@@ -1,0 +1,251 @@
+// What is drawn over the picture: mattes, overlays with their legends, and in words what it is.
+#include "ui/viewer_overlays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+
+void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, ImU32 color,
+                  const char* icon) {
+    const Theme& t = c.theme;
+    const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text.c_str()).x +
+                    t.px(16) + (icon ? t.px(16) : 0);
+    const ImVec2 max(at.x + w, at.y + t.px(22));
+    list.AddRectFilled(at, max, t.scrim, t.radius);
+    if (icon) icon_in(c, list, {at.x + t.px(3), at.y}, {at.x + t.px(21), max.y}, color, icon);
+    text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
+}
+
+void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
+    const SessionView& v = c.view;
+    const bool in_mask = c.state.workspace == Workspace::kMask;
+    const ImVec2 min = map.to_screen({0, 0});
+    const ImVec2 max = map.to_screen(
+        {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
+    for (const RegionMatteView& matte : v.mattes) {
+        const Region* region = region_by_id(v.project, matte.region);
+        if (!region || matte.pixels.empty()) continue;
+        if (v.solo != 0 && v.solo != matte.region) continue;
+        const bool selected = matte.region == v.selected;
+        if (!in_mask && !selected) continue;
+        MatteDraw draw;
+        draw.pixels = matte.pixels;
+        draw.key = matte.region;
+        draw.version = matte.version;
+        draw.changed = matte.changed;
+        draw.min = min;
+        draw.max = max;
+        draw.clip_min = map.min;
+        draw.clip_max = map.max;
+        draw.color = region_color(region->color, region->id);
+        // While one works on the texture only the outline shows, or its colour would mislead.
+        draw.opacity = !in_mask ? 0.0f : selected ? 0.38f : 0.14f;
+        draw.outline = selected;
+        c.pictures.draw(list, draw);
+    }
+}
+
+void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
+    const auto& over = c.view.overlay_picture;
+    if (!over) return;
+    const Theme& t = c.theme;
+    MatteDraw draw;
+    draw.pixels = over->value;
+    draw.where = over->where;
+    draw.key = 1'000'000;
+    draw.version = over->id;
+    draw.heat = over->kind != Overlay::kGrid && over->kind != Overlay::kPieces;
+    draw.color = t.text;
+    draw.opacity = over->kind == Overlay::kSeams    ? 1.0f
+                   : over->kind == Overlay::kPieces ? 0.4f
+                                                    : 0.75f;
+    draw.min = map.to_screen({0, 0});
+    draw.max = map.to_screen(
+        {static_cast<float>(over->value.width()), static_cast<float>(over->value.height())});
+    draw.clip_min = map.min;
+    draw.clip_max = map.max;
+    if (over->kind != Overlay::kMotion) {
+        c.pictures.draw(list, draw);
+        return;
+    }
+    list.PushClipRect(map.min, map.max, true);
+    for (const auto& arrow : over->arrows) {
+        const ImVec2 from = map.to_screen(arrow.to), to = map.to_screen(arrow.at);
+        const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
+        list.AddLine(from, to, IM_COL32(0, 0, 0, 160), t.px(3));
+        list.AddLine(from, to, t.warn, t.px(1.5f));
+        if (length < t.px(5)) {
+            list.AddCircleFilled(to, t.px(2), t.warn, 8);
+            continue;
+        }
+        const float ux = dx / length, uy = dy / length, h = t.px(5);
+        list.AddTriangleFilled(to, {to.x - h * ux - 0.6f * h * uy, to.y - h * uy + 0.6f * h * ux},
+                               {to.x - h * ux + 0.6f * h * uy, to.y - h * uy - 0.6f * h * ux},
+                               t.warn);
+    }
+    list.PopClipRect();
+}
+
+// The legend that stands beside every heat picture.
+void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    const auto& over = c.view.overlay_picture;
+    const Theme& t = c.theme;
+    if (c.view.overlay == Overlay::kNone) return;
+    static constexpr const char* kNames[] = {"",      "Texture grid", "Stretch", "Light",
+                                             "Seams", "Motion",       "Trust",   "Pieces"};
+    const std::string name = kNames[static_cast<int>(c.view.overlay)];
+    const bool scale = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion &&
+                       over->kind != Overlay::kPieces;
+    const float w = t.px(220), h = scale ? t.px(52) : t.px(26);
+    const ImVec2 a(max.x - w - t.px(10), min.y + t.px(10)),
+        b(max.x - t.px(10), min.y + t.px(10) + h);
+    list.AddRectFilled(a, b, t.scrim, t.radius);
+    text_in(
+        list, t.small, {a.x + t.px(8), a.y}, {b.x, a.y + t.px(24)}, t.text,
+        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": being made…")).c_str(),
+        0);
+    if (h < t.px(40)) return;
+    constexpr int kSteps = 48;
+    const float x0 = a.x + t.px(8), x1 = b.x - t.px(8);
+    for (int k = 0; k < kSteps; ++k) {
+        const float u0 = static_cast<float>(k) / kSteps, u1 = static_cast<float>(k + 1) / kSteps;
+        list.AddRectFilled({x0 + u0 * (x1 - x0), a.y + t.px(24)},
+                           {x0 + u1 * (x1 - x0) + 0.5f, a.y + t.px(32)}, heat_color(u0));
+    }
+    text_in(list, t.small, {x0, a.y + t.px(32)}, {x1, b.y}, t.quiet,
+            number_text(static_cast<double>(over->low), 0).c_str(), 0);
+    text_in(list, t.small, {x0, a.y + t.px(32)}, {x1, b.y}, t.quiet,
+            number_text(static_cast<double>(over->high), 0).c_str(), 1);
+}
+
+namespace {
+
+struct State {
+    std::string text;
+    ImU32 color;
+    const char* icon = nullptr;
+    float part = -1;  // of the work that it waits for
+};
+
+State state_of_picture(const Ctx& c) {
+    const SessionView& v = c.view;
+    const Theme& t = c.theme;
+    if (!v.frame_error.empty()) return {v.frame_error, t.bad, icons::kAlert};
+    if (c.state.viewer.hold_original || c.state.viewer.compare == Compare::kPlate)
+        return {"Plate", t.text};
+    if (!v.result_wanted) {
+        std::string what = "Plate";
+        if (const Region* region = v.selected_region())
+            if (const auto found = v.unready.find(region->id); found != v.unready.end())
+                what += "  ·  " + found->second;
+        if (v.project.regions.empty()) what += "  ·  Add a region to begin";
+        return {what, t.text};
+    }
+    if (v.preview.state == PreviewView::State::kFailed)
+        return {"No result: " + v.preview.error, t.bad, icons::kAlert};
+    if (v.result_current && !v.stages.approximate) {
+        std::string what = v.preview_quality == Quality::kDraft ? "Result, draft" : "Result";
+        if (v.stages.proxy > 1) what += ", 1/" + std::to_string(v.stages.proxy) + " size for now";
+        if (v.preview.analysing && v.preview.total > 0)
+            what += "  ·  analysing " + std::to_string(v.preview.done) + "/" +
+                    std::to_string(v.preview.total);
+        return {what, t.good, icons::kCheck};
+    }
+    switch (v.preview.state) {
+        case PreviewView::State::kOpening:
+            return {"Reading the shot…", t.warn, icons::kTimer};
+        case PreviewView::State::kAnalysing: {
+            if (v.analysis_paused) return {"Plate  ·  Analysis is paused", t.warn, icons::kPause};
+            State out{"Plate  ·  Analysing", t.warn, icons::kTimer};
+            if (v.preview.total > 0) {
+                out.part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
+                out.text +=
+                    " " + std::to_string(v.preview.done) + "/" + std::to_string(v.preview.total);
+                if (v.preview.seconds_left > 0)
+                    out.text += ", " + time_text(v.preview.seconds_left) + " left";
+            }
+            return out;
+        }
+        case PreviewView::State::kGrowing:
+            return {"Growing the texture…", t.warn, icons::kTimer};
+        default:
+            return {"Updating…", t.warn, icons::kTimer};
+    }
+}
+
+}  // namespace
+
+// What the picture is, and what is being worked out, in words.
+void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    const State state = state_of_picture(c);
+    float x = min.x + t.px(10);
+    if (state.icon) {
+        icon_in(c, list, {x, min.y}, {x + t.px(18), max.y}, state.color, state.icon);
+        x += t.px(24);
+    }
+    // Errors may take all of the bar but for its controls.
+    const float room = std::max(t.px(60), max.x - x - t.px(550));
+    ImGui::PushFont(t.small);
+    const std::string shown = fitted(state.text, room);
+    ImGui::PopFont();
+    text_in(list, t.small, {x, min.y}, {x + room, max.y}, state.color, shown.c_str(), 0);
+    if (shown != state.text && ImGui::IsMouseHoveringRect(min, {x + room, max.y}))
+        ImGui::SetTooltip("%s", state.text.c_str());
+    if (state.part < 0) return;
+    const float y = max.y - t.px(5), w = std::min(room, t.px(220));
+    list.AddRectFilled({x, y}, {x + w, y + t.px(3)}, t.field, t.px(2));
+    list.AddRectFilled({x, y}, {x + w * state.part, y + t.px(3)}, t.warn, t.px(2));
+}
+
+// Where the pixel under the mouse comes from.
+void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered) {
+    const auto& over = c.view.overlay_picture;
+    if (!hovered || !over || !over->provenance || !c.state.viewer.pixel) return;
+    const Vec2i at = *c.state.viewer.pixel;
+    if (!rect_of(over->where.size()).contains(at.x, at.y) || over->where.at(at.x, at.y) == 0)
+        return;
+    const Provenance& from = *over->provenance;
+    const Vec2 p(static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f);
+    const Provenance::Answer found = from.at(p);
+    const auto pair = [](double x, double y) {
+        return number_text(x, 0) + ", " + number_text(y, 0);
+    };
+    std::vector<std::string> lines{found.sample};
+    if (found.in_sample)
+        lines.push_back("Sample " + pair(found.in_sample->x, found.in_sample->y));
+    else
+        lines.push_back("Texel " + pair(static_cast<double>(found.texel.x),
+                                        static_cast<double>(found.texel.y)));
+    lines.push_back(found.seam ? "On a seam, difference " + std::to_string(*found.seam)
+                               : "Inside a piece");
+    if (found.light)
+        lines.push_back("Light × " + number_text(static_cast<double>(*found.light), 2));
+    lines.push_back(
+        "From " +
+        pair(static_cast<double>(found.on_reference.x), static_cast<double>(found.on_reference.y)) +
+        " on frame " + std::to_string(from.reference_frame));
+    const Theme& t = c.theme;
+    float w = 0;
+    for (const std::string& line : lines)
+        w = std::max(w, t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, line.c_str()).x);
+    const float row = t.px(17), h = row * static_cast<float>(lines.size()) + t.px(10);
+    w += t.px(18);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    // Beside the mouse, on the side where there is room.
+    const float x =
+        mouse.x + t.px(18) + w < map.max.x ? mouse.x + t.px(18) : mouse.x - t.px(18) - w;
+    const float y = std::clamp(mouse.y + t.px(14), map.min.y, std::max(map.min.y, map.max.y - h));
+    list.AddRectFilled({x, y}, {x + w, y + h}, t.scrim, t.radius);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const float top = y + t.px(5) + row * static_cast<float>(k);
+        text_in(list, t.small, {x + t.px(9), top}, {x + w, top + row}, k == 0 ? t.text : t.quiet,
+                lines[k].c_str(), 0);
+    }
+}
+
+}  // namespace weft::ui
