@@ -18,7 +18,9 @@ namespace weft {
 struct RunOptions {
     std::string backend = "auto";
     int threads = 0;
-    bool overwrite = false, skip_existing = false;
+    bool overwrite = false, skip_existing = false, resume = false;
+    std::int64_t memory_bytes = 0;  ///< 0: no limit.
+    std::string recipe;             ///< Path of the recipe file.
     bool dry_run = false;
     AnalysisCacheOptions cache;
     std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
@@ -29,6 +31,13 @@ struct RunOptions {
 
 /// `weft replace` and `weft render`: the project has its paths resolved.
 int render_command(const Project& project, const RunOptions& run);
+
+struct VerifyCommandOptions {
+    std::string recipe, frames;
+    bool quick = false;
+};
+/// `weft verify`
+int verify_command(const VerifyCommandOptions& options, const RunOptions& run);
 
 int matte_command(const Project& project, const std::string& output, const RunOptions& run);
 
@@ -77,6 +86,11 @@ struct DiffOptions {
     std::string a, b;
     std::string frames;
     double tolerance = 0;  ///< Largest difference that counts as the same.
+    /// Where `b` should look like `a`: features, interior, soft edge. Empty: no such comparison.
+    std::string matte;
+    std::optional<int> matte_value;
+    std::string matte_channel;
+    std::string worst;  ///< Picture of the ten worst crops to write, or empty.
     bool json = false;
 };
 int diff_command(const DiffOptions& options);

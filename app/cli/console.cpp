@@ -1,20 +1,48 @@
 #include "app/cli/console.h"
 
-#include <csignal>
+#include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
+
+#include "engine/media/atomic_file.h"
 
 namespace weft {
 namespace {
 
-// Signal handlers may touch nothing but this flag.
+// Signal handlers may touch nothing but this flag and this pipe.
 const CancelToken& signal_token() {
     static const CancelToken token;
     return token;
 }
+int signal_pipe[2] = {-1, -1};
 
 void on_signal(int signal) {
+    const int saved = errno;
     signal_token().cancel(signal == SIGINT ? 130 : 143);
+    const char byte = 0;
+    [[maybe_unused]] const ssize_t written = ::write(signal_pipe[1], &byte, 1);
+    errno = saved;
+}
+
+// Work looks at the token between its steps, and a step of a large plate may be long. Whatever is
+// in the middle of one when this time is over is left where it stands: no frame is visible before
+// it is whole, and what is half written is removed here.
+void end_in_time() {
+    constexpr auto kGrace = std::chrono::milliseconds(1500);
+    char byte = 0;
+    while (::read(signal_pipe[0], &byte, 1) != 1) {
+        if (errno != EINTR) return;
+    }
+    std::this_thread::sleep_for(kGrace);
+    abandon_temporaries();
+    static constexpr char kMessage[] = "weft: Stopped on request.\n";
+    [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+    ::_exit(signal_token().reason());
 }
 
 std::string plain_line(const ProgressEvent& e) {
@@ -64,6 +92,10 @@ ProgressFn progress_printer(ProgressStyle style, bool to_stderr) {
 
 CancelToken cancel_on_signals() {
     const CancelToken token = signal_token();
+    static std::once_flag once;
+    std::call_once(once, [] {
+        if (::pipe(signal_pipe) == 0) std::thread(end_in_time).detach();
+    });
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     return token;

@@ -23,7 +23,8 @@ void print_warning(std::string_view text);
 /// One line for each finished frame: "frame 1042 37/100 37.0% 1.84s"; other stages by name.
 [[nodiscard]] ProgressFn progress_printer(ProgressStyle style, bool to_stderr);
 
-/// A token that SIGINT and SIGTERM cancel, with the exit codes 130 and 143.
+/// A token that SIGINT and SIGTERM cancel, with the exit codes 130 and 143. What has not ended by
+/// itself 1.5 s later is ended: the process then leaves no temporary file behind.
 [[nodiscard]] CancelToken cancel_on_signals();
 
 }  // namespace weft

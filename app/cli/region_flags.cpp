@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "app/session/memory_plan.h"
+
 namespace weft {
 namespace {
 
@@ -188,6 +190,23 @@ void add_progress_flags(CLI::App& command, RunOptions& run) {
     command.add_flag("--json", run.json, "One JSON object on stdout; progress goes to stderr");
 }
 
+namespace {
+
+void add_memory_flag(CLI::App& command, RunOptions& run) {
+    command
+        .add_option_function<std::string>(
+            "--memory",
+            [&run](const std::string& text) {
+                const auto bytes = parse_bytes(text);
+                if (!bytes) throw CLI::ValidationError("--memory", bytes.error().message);
+                run.memory_bytes = *bytes;
+            },
+            "Memory to keep to (3G, 800M): fewer frames are worked on side by side")
+        ->type_name("BYTES");
+}
+
+}  // namespace
+
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     command.add_option("--threads", run.threads, "Threads to use; 0 is one a processor")
         ->check(CLI::Range(0, 1024));
@@ -201,6 +220,12 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     if (!renders) return;
     command.add_flag("--skip-existing", run.skip_existing,
                      "Keep frames that are there and can be read");
+    command.add_flag("--resume", run.resume,
+                     "Keep frames that are there and were rendered with these very settings");
+    command.add_flag("--restart", run.overwrite, "As --overwrite: render all frames again");
+    command.add_option("--recipe", run.recipe, "Write what 'weft verify' needs here")
+        ->type_name("PATH");
+    add_memory_flag(command, run);
     add_library_option(command, run.texture_library);
     command.add_option("--backend", run.backend, "auto, cpu or cuda [auto]")->type_name("");
     command.add_option("--report", run.report, "Write a JSON report here")->type_name("PATH");

@@ -1,4 +1,7 @@
+#include <nlohmann/json.hpp>
+
 #include "app/cli/commands.h"
+#include "app/session/recipe.h"
 #include "app/session/report.h"
 #include "engine/core/frame_range.h"
 #include "engine/media/atomic_file.h"
@@ -13,9 +16,11 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     spec.threads = run.threads;
     spec.existing = run.overwrite       ? ExistingFrames::kOverwrite
                     : run.skip_existing ? ExistingFrames::kSkip
+                    : run.resume        ? ExistingFrames::kResume
                                         : ExistingFrames::kRefuse;
     spec.cache = run.cache;
     spec.texture_library = run.texture_library;
+    spec.memory_bytes = run.memory_bytes;
     return spec;
 }
 
@@ -48,14 +53,19 @@ int dry_run(const Project& project, const std::string& texture_library) {
 }  // namespace
 
 int render_command(const Project& project, const RunOptions& run) {
-    if (run.overwrite && run.skip_existing) {
-        return report_error(
-            {ErrorCode::kUsage, "--overwrite and --skip-existing contradict each other.", {}});
+    if (run.overwrite + run.skip_existing + run.resume > 1) {
+        return report_error({ErrorCode::kUsage,
+                             std::string(run.resume ? "--resume" : "--skip-existing") + " and " +
+                                 (run.overwrite ? "--overwrite" : "--skip-existing") +
+                                 " contradict each other.",
+                             {}});
     }
     if (run.dry_run) return dry_run(project, run.texture_library);
-    if (!run.report.empty()) {
+    for (const std::string& path : {run.report, run.recipe}) {
+        if (path.empty()) continue;
+        remove_stale_temporaries(path);
         // Known before the work; the empty file is gone again at the end of this block.
-        if (const auto probe = TemporaryFile::create(run.report); !probe)
+        if (const auto probe = TemporaryFile::create(path); !probe)
             return report_error(probe.error());
     }
     const JobSpec spec = spec_of(project, run);
@@ -72,8 +82,40 @@ int render_command(const Project& project, const RunOptions& run) {
             return report_error(written.error());
         }
     }
+    if (!run.recipe.empty()) {
+        const auto recipe = recipe_json(*result->shot, *result);
+        if (!recipe) return report_error(recipe.error());
+        if (const Status written = write_file_atomically(run.recipe, *recipe); !written)
+            return report_error(written.error());
+    }
     if (run.json) print(stdout, report);
     return 0;
+}
+
+int verify_command(const VerifyCommandOptions& given, const RunOptions& run) {
+    VerifyOptions options{given.recipe, given.frames, !given.quick, spec_of({}, run)};
+    const auto result =
+        verify_recipe(options, cancel_on_signals(), progress_printer(run.progress, run.json));
+    if (!result) return report_error(result.error());
+    for (const std::string& warning : result->warnings)
+        print_warning(warning);
+    for (const std::string& difference : result->differences)
+        print(stderr, "weft: " + difference + ".\n");
+    const bool same = result->differences.empty();
+    if (run.json) {
+        const nlohmann::ordered_json json{{"proved", same},
+                                          {"frames", result->frames},
+                                          {"inputs", result->inputs},
+                                          {"rerendered", !given.quick},
+                                          {"differences", result->differences}};
+        print(stdout, json.dump(2) + "\n");
+    } else {
+        print(stdout, std::string(same ? "Proved: " : "Not proved: ") +
+                          std::to_string(result->frames) + " frames from " +
+                          std::to_string(result->inputs) + " input files" +
+                          (given.quick ? ", not rendered again.\n" : ", rendered again.\n"));
+    }
+    return same ? 0 : exit_code(ErrorCode::kDiffers);
 }
 
 int matte_command(const Project& project, const std::string& output, const RunOptions& run) {

@@ -3,15 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/cli/texture_commands.h"
+#include "app/cli/texture_console.h"
 
 namespace weft {
-namespace {
 
-using Common = std::shared_ptr<TextureCommandOptions>;
-
-CLI::App* add(CLI::App& group, const std::string& name, const std::string& help,
-              const Common& common) {
+CLI::App* add_texture_subcommand(CLI::App& group, const std::string& name, const std::string& help,
+                                 const std::shared_ptr<TextureCommandOptions>& common) {
     CLI::App* command = group.add_subcommand(name, help);
     command->add_option("--db", common->db, "Library file; default: the user's own")
         ->type_name("FILE");
@@ -21,11 +18,14 @@ CLI::App* add(CLI::App& group, const std::string& name, const std::string& help,
     return command;
 }
 
+namespace {
+
 void add_build(CLI::App& group, int& exit) {
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto options = std::make_shared<BuildOptions>();
     const auto estimate = std::make_shared<bool>(false), no_starter = std::make_shared<bool>(false);
-    CLI::App* command = add(group, "build", "Make the full library out of Debian packages", common);
+    CLI::App* command = add_texture_subcommand(
+        group, "build", "Make the full library out of Debian packages", common);
     command
         ->add_option("--packages", options->packages,
                      "Packages to take pictures from; 'none' for the starter textures alone")
@@ -54,7 +54,7 @@ void add_import(CLI::App& group, int& exit) {
     const auto options = std::make_shared<ImportOptions>();
     const auto paths = std::make_shared<std::vector<std::string>>();
     const auto watch = std::make_shared<bool>(false);
-    CLI::App* command = add(group, "import", "Add your own pictures", common);
+    CLI::App* command = add_texture_subcommand(group, "import", "Add your own pictures", common);
     command->add_option("paths", *paths, "Files and folders")->required()->type_name("PATH");
     command->add_option("--material", options->material,
                         "What they are; default: from their names");
@@ -112,8 +112,9 @@ void add_search(CLI::App& group, int& exit) {
         const auto options = std::make_shared<TextureSearchOptions>();
         const auto words = std::make_shared<std::vector<std::string>>();
         options->query.limit = 20;
-        CLI::App* command = add(group, list ? "list" : "search",
-                                list ? "List samples" : "Find samples by words", common);
+        CLI::App* command =
+            add_texture_subcommand(group, list ? "list" : "search",
+                                   list ? "List samples" : "Find samples by words", common);
         if (!list) {
             command->add_option("words", *words, "What to look for")->required();
             command->footer(
@@ -131,8 +132,8 @@ void add_search(CLI::App& group, int& exit) {
 void add_similar(CLI::App& group, int& exit) {
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto o = std::make_shared<TextureSimilarOptions>();
-    CLI::App* command =
-        add(group, "similar", "Find samples that look like one, or like a picture", common);
+    CLI::App* command = add_texture_subcommand(
+        group, "similar", "Find samples that look like one, or like a picture", common);
     command->add_option("what", o->what, "Id of a sample, or a picture")
         ->required()
         ->type_name("ID|PATH");
@@ -148,7 +149,8 @@ void add_similar(CLI::App& group, int& exit) {
 void add_recommend(CLI::App& group, int& exit) {
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto o = std::make_shared<TextureRecommendOptions>();
-    CLI::App* command = add(group, "recommend", "Suggest textures for regions of a frame", common);
+    CLI::App* command = add_texture_subcommand(group, "recommend",
+                                               "Suggest textures for regions of a frame", common);
     command->add_option("--plate", o->plate, "Frame, sequence or movie")->type_name("PATH");
     command->add_option("--project", o->project, "Instead of plate and mattes: a project")
         ->type_name("PATH");
@@ -188,8 +190,8 @@ void add_evaluate(CLI::App& group, int& exit) {
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto o = std::make_shared<EvaluationOptions>();
     const auto renamed = std::make_shared<std::vector<std::string>>();
-    CLI::App* command = add(group, "evaluate",
-                            "How often the material of an unseen photograph is recognised", common);
+    CLI::App* command = add_texture_subcommand(
+        group, "evaluate", "How often the material of an unseen photograph is recognised", common);
     command
         ->add_option("folder", o->folder,
                      "Folders of photographs, named after materials; default: the library's own, "
@@ -220,28 +222,28 @@ void add_evaluate(CLI::App& group, int& exit) {
 void add_rest(CLI::App& group, int& exit) {
     const auto info = std::make_shared<TextureCommandOptions>();
     const auto id = std::make_shared<std::string>();
-    CLI::App* command = add(group, "info", "Everything known about a sample", info);
+    CLI::App* command =
+        add_texture_subcommand(group, "info", "Everything known about a sample", info);
     command->add_option("id", *id, "Id, or its first 6 digits")->required()->type_name("ID");
     command->callback([=, &exit] { exit = texture_info_command(*info, *id); });
 
     const auto stats = std::make_shared<TextureCommandOptions>();
-    add(group, "stats", "How many samples of what", stats)->callback([=, &exit] {
+    add_texture_subcommand(group, "stats", "How many samples of what", stats)->callback([=, &exit] {
         exit = texture_stats_command(*stats);
     });
     const auto verify = std::make_shared<TextureCommandOptions>();
-    add(group, "verify", "Check every sample of the library", verify)->callback([=, &exit] {
-        exit = texture_verify_command(*verify);
-    });
+    add_texture_subcommand(group, "verify", "Check every sample of the library", verify)
+        ->callback([=, &exit] { exit = texture_verify_command(*verify); });
     const auto train = std::make_shared<TextureCommandOptions>();
-    add(group, "train", "Learn the descriptor anew from the library", train)->callback([=, &exit] {
-        exit = texture_train_command(*train);
-    });
+    add_texture_subcommand(group, "train", "Learn the descriptor anew from the library", train)
+        ->callback([=, &exit] { exit = texture_train_command(*train); });
 
     add_evaluate(group, exit);
 
     const auto common = std::make_shared<TextureCommandOptions>();
     const auto o = std::make_shared<TextureExportOptions>();
-    command = add(group, "export", "Write samples as pictures, with their credits", common);
+    command = add_texture_subcommand(group, "export",
+                                     "Write samples as pictures, with their credits", common);
     command->add_option("ids", o->ids, "Ids of samples")->type_name("ID");
     command->add_option("--search", o->text, "Instead of ids: what these words find");
     command
@@ -272,6 +274,7 @@ void add_texture_commands(CLI::App& app, int& exit) {
     add_similar(*group, exit);
     add_recommend(*group, exit);
     add_rest(*group, exit);
+    add_texture_keeping(*group, exit);
 }
 
 }  // namespace weft

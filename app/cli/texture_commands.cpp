@@ -216,6 +216,12 @@ Status run_similar(const TextureCommandOptions& common, const TextureSimilarOpti
         WEFT_TRY(found, library->similar(o.what, o.count));
         hits = std::move(found);
     }
+    if (hits.empty()) {
+        print(
+            stderr,
+            "weft: nothing is learned yet by which to compare. Where the library holds ten samples "
+            "of each of two materials or more, run weft texture train.\n");
+    }
     common.json ? print(stdout, to_json(hits)) : print_hits(hits);
     return {};
 }

@@ -9,6 +9,11 @@
 
 namespace weft {
 
+/// A subcommand of `weft texture` with --db, --json and --threads.
+CLI::App* add_texture_subcommand(CLI::App& group, const std::string& name, const std::string& help,
+                                 const std::shared_ptr<TextureCommandOptions>& common);
+/// Adds `mark` and `kept`.
+void add_texture_keeping(CLI::App& group, int& exit);
 /// --db, or the user's own.
 [[nodiscard]] std::string texture_library_path(const TextureCommandOptions& common);
 /// Opened as --db and --threads say. `create`: also where there is none yet.

@@ -61,11 +61,50 @@ void add_diff(CLI::App& app, int& exit) {
                      "Largest difference that counts as the same, white = 1 [0]")
         ->check(CLI::NonNegativeNumber)
         ->type_name("");
+    command
+        ->add_option("--matte", options->matte,
+                     "Matte of what should look alike: says how far its features are off, and what "
+                     "differs inside and in the soft edge")
+        ->type_name("PATTERN");
+    command->add_option("--matte-value", options->matte_value, "Id matte: where the pixel equals N")
+        ->type_name("N");
+    command->add_option("--matte-channel", options->matte_channel, "R, G, B, A, Y or a name")
+        ->type_name("");
+    command
+        ->add_option("--worst", options->worst,
+                     "Picture of the ten worst crops to write, with --matte: the first sequence "
+                     "above, the second below it, the difference at the bottom")
+        ->type_name("FILE");
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
         "Exit code 0 when they are the same, 8 when they differ.\n"
-        "Example:\n  weft diff 'out/####.png' 'retake/####.png'");
+        "Examples:\n  weft diff 'out/####.png' 'retake/####.png'\n"
+        "  weft diff 'second_rendering/####.png' 'out/####.png' --matte 'mattes/####.png' "
+        "--worst worst.png");
     command->callback([=, &exit] { exit = diff_command(*options); });
+}
+
+void add_verify(CLI::App& app, int& exit) {
+    CLI::App* command =
+        app.add_subcommand("verify", "Prove that frames are what their recipe gives");
+    const auto run = std::make_shared<RunOptions>();
+    const auto options = std::make_shared<VerifyCommandOptions>();
+    run->cache.keep = false;
+    command->add_option("recipe", options->recipe, "File that --recipe wrote")
+        ->required()
+        ->type_name("PATH");
+    command->add_option("--frames", options->frames, "Frames to verify [all of the recipe]");
+    command->add_flag("--quick", options->quick, "Compare hashes only, render nothing");
+    command->add_option("--threads", run->threads, "Threads to use; 0 is one a processor")
+        ->check(CLI::Range(0, 1024));
+    add_progress_flags(*command, *run);
+    command->footer(
+        "Compares every input and every frame with the hashes of the recipe, and renders the "
+        "frames again\ninto a private folder. Exit code 0 when all bytes are the same, 8 when "
+        "some differ.\n"
+        "Examples:\n  weft render shot.weft --recipe shot.recipe.json\n"
+        "  weft verify shot.recipe.json --frames 1001,1048");
+    command->callback([=, &exit] { exit = verify_command(*options, *run); });
 }
 
 void add_demo(CLI::App& app, int& exit) {
@@ -85,6 +124,7 @@ void add_demo(CLI::App& app, int& exit) {
 void add_tool_commands(CLI::App& app, int& exit) {
     add_measure(app, exit);
     add_diff(app, exit);
+    add_verify(app, exit);
     add_demo(app, exit);
 }
 

@@ -125,6 +125,8 @@ struct Placement {
     /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
     /// scale, rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
+    /// A given picture (a plane) is fitted into the corners; else `scale` holds there too.
+    bool fit = true;
     /// Instead of the above, over time: "1:1 24:1.5", "1:0 24:90", "1:0,0 24:10,5".
     std::string scale_keys, rotate_keys, offset_keys;
     Extras extra;

@@ -136,6 +136,12 @@ std::vector<Parameter<Region>> make_region_table() {
              .min = -kMaxPlatePx,
              .max = kMaxPlatePx,
              .optional = true}),
+        entry<R, &R::placement, &Placement::fit>(
+            {.group = "placement",
+             .key = "fit",
+             .flag = "--fit",
+             .help = "Fit a given picture (--plane) into the corners; --fit=false keeps its size, "
+                     "as that of a texture from a sample"}),
         entry<R, &R::placement, &Placement::scale_keys>(
             {.group = "placement",
              .key = "scale_keys",

@@ -4,13 +4,14 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "engine/core/hash.h"
+#include "engine/media/atomic_file.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -162,12 +163,8 @@ Hash128 checksum(const Bytes& bytes) {
 
 class DiskStore final : public AnalysisStore {
   public:
-    DiskStore(std::vector<fs::path> folders, fs::path remove_at_end)
-        : folders_(std::move(folders)), remove_at_end_(std::move(remove_at_end)) {}
-    ~DiskStore() override {
-        std::error_code ignored;
-        if (!remove_at_end_.empty()) fs::remove_all(remove_at_end_, ignored);
-    }
+    DiskStore(std::vector<fs::path> folders, std::optional<TemporaryFolder> private_root)
+        : folders_(std::move(folders)), private_root_(std::move(private_root)) {}
 
     // Whole and undamaged: a blob that is not counts as missing, so that it is made again.
     [[nodiscard]] bool has(const AnalysisKey& key) const override { return get(key).has_value(); }
@@ -183,18 +180,18 @@ class DiskStore final : public AnalysisStore {
         header.check_low = check.low;
 
         const fs::path path = path_of(key);
-        const fs::path temporary =
-            path.string() + "." + std::to_string(getpid()) + "-" + std::to_string(counter_++);
-        std::ofstream file(temporary, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(&header), sizeof header);
-        file.write(reinterpret_cast<const char*>(packed.data()),
-                   static_cast<std::streamsize>(size));
-        file.close();
-        std::error_code error;
-        if (file) fs::rename(temporary, path, error);
-        if (!file || error) {
-            std::error_code ignored;
-            fs::remove(temporary, ignored);
+        auto temporary = TemporaryFile::create(path.string());
+        Status written = temporary ? Status{} : tl::unexpected(temporary.error());
+        if (written) {
+            std::ofstream file(temporary->name(), std::ios::binary);
+            file.write(reinterpret_cast<const char*>(&header), sizeof header);
+            file.write(reinterpret_cast<const char*>(packed.data()),
+                       static_cast<std::streamsize>(size));
+            file.close();
+            written = file ? temporary->commit_unflushed()
+                           : Status(fail(ErrorCode::kNoSpace, "cannot be written"));
+        }
+        if (!written) {
             return fail(ErrorCode::kNoSpace, "The analysis cache " + path.parent_path().string() +
                                                  " cannot be written. Free disk space, or choose "
                                                  "another folder with --cache.");
@@ -237,8 +234,7 @@ class DiskStore final : public AnalysisStore {
     }
 
     std::vector<fs::path> folders_;
-    fs::path remove_at_end_;
-    std::atomic<unsigned> counter_{0};
+    std::optional<TemporaryFolder> private_root_;  // removed with the store
 };
 
 fs::path default_folder() {
@@ -299,14 +295,11 @@ Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
         warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
         keep = false;
     }
+    std::optional<TemporaryFolder> private_root;
     if (!keep) {
-        std::error_code error;
-        std::string name = (fs::temp_directory_path(error) / "weft-XXXXXX").string();
-        if (error || !mkdtemp(name.data())) {
-            return fail(ErrorCode::kNoSpace,
-                        "No temporary folder can be made. Set TMPDIR or give --cache FOLDER.");
-        }
-        root = name;
+        WEFT_TRY(folder, TemporaryFolder::create());
+        root = folder.path();
+        private_root.emplace(std::move(folder));
     }
     std::vector<fs::path> folders;
     for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
@@ -319,9 +312,10 @@ Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
                                                  " cannot be made: " + error.message() + ".");
         }
         fs::last_write_time(folders.back(), fs::file_time_type::clock::now(), error);
+        remove_stale_temporaries((folders.back() / "blob").string());
     }
     if (keep) prune(root, folders, options.limit_bytes);
-    return std::make_shared<DiskStore>(std::move(folders), keep ? fs::path{} : root);
+    return std::make_shared<DiskStore>(std::move(folders), std::move(private_root));
 }
 
 }  // namespace weft

@@ -102,7 +102,10 @@ class Measurer {
             return out;
         }
         WEFT_TRY(plane, ideal_plane(options_.project, region(), shot_->plate->size()));
-        WEFT_TRY(map, plane_from_plate(region().placement));
+        PlanePlacement placed = region().placement;
+        if (settings.placement.fit && !settings.texture.plane.empty())
+            placed.picture_texels = plane.size();
+        WEFT_TRY(map, plane_from_plate(placed));
         out.ideal = IdealInputs{std::move(plane), map, {}};
         return out;
     }

@@ -8,8 +8,11 @@
 #include <mutex>
 #include <opencv2/core/utility.hpp>
 
+#include "app/session/existing_frames.h"
 #include "app/session/job_warnings.h"
+#include "app/session/memory_plan.h"
 #include "app/session/output_check.h"
+#include "app/session/recipe.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -29,12 +32,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// A frame that an earlier run left and that need not be made again.
-bool usable(const std::string& path, Size size) {
-    const auto image = read_image(path);
-    return image && image->rgb.size() == size;
 }
 
 class RenderJob {
@@ -87,9 +84,15 @@ class RenderJob {
         pattern_ = pattern;
         OpenShotOptions open;
         open.texture_library = spec_.texture_library;
+        if (spec_.memory_bytes > 0) {
+            open.cache_bytes = std::min(open.cache_bytes,
+                                        static_cast<std::size_t>(spec_.memory_bytes) / kCacheShare);
+        }
         WEFT_TRY(shot, open_shot(spec_.project, open));
         WEFT_CHECK_OK(check_texture_licences(*shot));
-        shot_ = shot;
+        shot_ = result_.shot = shot;
+        WEFT_TRY(at_once, frames_at_once(shot->plate->size(), spec_.memory_bytes));
+        frames_at_once_ = at_once;
         plan_ = shot_->plan;
         result_.warnings = shot_->warnings;
         result_.spaces = shot_->spaces;
@@ -117,34 +120,22 @@ class RenderJob {
         write_.depth = output_depth(output, shot_->plate->depth());
         write_.jpeg_quality = output.jpeg_quality;
         write_.exr_compression = output.exr_compression;
+        write_.metadata = recipe_metadata(*shot_, result_.backend);
         return check_format(output.path, write_);
     }
 
     // Makes the folder, and decides about frames that are there already, before any work is done.
     Status check_existing() {
         WEFT_CHECK_OK(make_output_folder(pattern_->path_for(plan_.frames.front())));
-        std::error_code error;
         remove_stale_temporaries(pattern_->path_for(plan_.frames.front()));
         WEFT_TRY(probe, TemporaryFile::create(pattern_->path_for(plan_.frames.front())));
-        std::vector<int> present;
-        for (const int frame : plan_.frames) {
-            const std::string path = pattern_->path_for(frame);
-            WEFT_CHECK_OK(check_no_input(*shot_, frame, path));
-            if (fs::exists(path, error)) present.push_back(frame);
-        }
-        if (!present.empty() && spec_.existing == ExistingFrames::kRefuse) {
-            return fail(
-                ErrorCode::kUsage,
-                pattern_->path_for(present.front()) + " exists already" +
-                    (present.size() > 1 ? ", and " + std::to_string(present.size() - 1) + " more"
-                                        : "") +
-                    ". Use --overwrite, --skip-existing, or another folder.");
-        }
+        for (const int frame : plan_.frames)
+            WEFT_CHECK_OK(check_no_input(*shot_, frame, pattern_->path_for(frame)));
         WEFT_CHECK_OK(check_movie());
+        WEFT_TRY(kept, frames_to_keep(*pattern_, plan_.frames, shot_->plate->size(), spec_.existing,
+                                      write_.metadata));
         for (const int frame : plan_.frames) {
-            const bool skip = spec_.existing == ExistingFrames::kSkip &&
-                              std::binary_search(present.begin(), present.end(), frame) &&
-                              usable(pattern_->path_for(frame), shot_->plate->size());
+            const bool skip = std::binary_search(kept.begin(), kept.end(), frame);
             result_.frames.push_back({frame, pattern_->path_for(frame), 0, skip, 0, 0});
             if (!skip) to_render_.push_back(frame);
         }
@@ -156,7 +147,9 @@ class RenderJob {
     Status check_movie() const {
         const std::string& path = shot_->project.output.movie;
         std::error_code error;
-        if (path.empty() || !fs::exists(path, error)) return {};
+        if (path.empty()) return {};
+        remove_stale_temporaries(path);
+        if (!fs::exists(path, error)) return {};
         WEFT_CHECK_OK(check_no_input(*shot_, plan_.frames.front(), path));
         if (spec_.existing != ExistingFrames::kRefuse) return {};
         return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.");
@@ -207,7 +200,7 @@ class RenderJob {
         }
         // A batch of frames at a time, so that the movie gets them in order and memory stays
         // bounded.
-        const auto batch = static_cast<std::size_t>(2 * thread_count());
+        const auto batch = std::min(static_cast<std::size_t>(2 * thread_count()), frames_at_once_);
         for (std::size_t first = 0; first < result_.frames.size(); first += batch) {
             const std::size_t count = std::min(batch, result_.frames.size() - first);
             std::vector<Status> status(count);
@@ -241,13 +234,7 @@ class RenderJob {
     Status one_frame(FrameResult& result, ImageF3* display) {
         if (cancel_.cancelled()) return cancelled(cancel_);
         const auto start = Clock::now();
-        ImageF3 pixels;
-        if (result.skipped) {
-            if (display) {
-                WEFT_TRY(written, read_image(result.path));
-                pixels = std::move(written.rgb);
-            }
-        } else {
+        if (!result.skipped) {
             WEFT_TRY(rendered, render_frame(*shot_->source, plan_, scenes_, *store_, *backend_,
                                             result.frame));
             WEFT_TRY(decoded, shot_->plate->read_shared(result.frame));
@@ -256,11 +243,12 @@ class RenderJob {
             result.filled = rendered.filled;
             result.nonfinite = decoded->nonfinite;
             result.untouched = matte_bounds(rendered.touched).empty();
-            pixels = std::move(rendered.pixels);
         }
         if (display) {
-            display_from_out_->apply(pixels);
-            *display = std::move(pixels);
+            // As it is on the disk, so that the movie of a resumed run is the same.
+            WEFT_TRY(written, read_image(result.path));
+            display_from_out_->apply(written.rgb);
+            *display = std::move(written.rgb);
         }
         result.seconds = seconds_since(start);
         const std::lock_guard lock(progress_mutex_);
@@ -303,6 +291,7 @@ class RenderJob {
     std::vector<RegionScene> scenes_;
     std::vector<std::pair<std::size_t, int>> empty_references_;  // region, frame
     std::shared_ptr<const ColorTransform> display_from_out_;
+    std::size_t frames_at_once_ = 1;
     std::mutex progress_mutex_;
     std::int64_t done_ = 0;
 };

@@ -18,7 +18,8 @@ namespace weft {
 enum class ExistingFrames {
     kRefuse,  ///< Stop before the first frame.
     kOverwrite,
-    kSkip  ///< Keep those that can be read and have the plate's size; render the others.
+    kSkip,   ///< Keep those that can be read and have the plate's size; render the others.
+    kResume  ///< Keep those of them that were rendered with the same settings.
 };
 
 /// Sets how many threads this process uses, OpenCV's included; 0 is one a processor.
@@ -31,7 +32,8 @@ struct JobSpec {
     int threads = 0;  ///< 0: one a processor.
     ExistingFrames existing = ExistingFrames::kRefuse;
     AnalysisCacheOptions cache;
-    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
+    std::string texture_library;    ///< For textures "db:ID"; empty: the user's own.
+    std::int64_t memory_bytes = 0;  ///< What the process should keep to; 0: no limit.
 };
 
 struct FrameResult {
@@ -61,6 +63,7 @@ struct JobResult {
     std::vector<ShotTexture> textures;
     std::string movie;
     Size size;
+    std::shared_ptr<const Shot> shot;
 };
 
 /// "auto", "cpu" or one of CUDA's names. Errors: as BackendRegistry::choose().

@@ -310,6 +310,8 @@ class ShotOpener {
         texture->pixels = std::move(first.pixels);
         texture->is_plane = is_plane;
         texture->wrap = region.texture.wrap;
+        if (is_plane && region.placement.fit)
+            plan.placement.picture_texels = texture->pixels.size();
         for (const std::string& further : region.texture.also) {
             if (is_plane) break;
             WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));

@@ -168,6 +168,8 @@ class Study {
         job.project.regions.front() = job.project.regions.front().with([&](Region& r) {
             r.texture.sample.clear();
             r.texture.also.clear();
+            // Grown from a sample, it is no picture to be fitted into corners.
+            if (result_.project.regions.front()->texture.plane.empty()) r.placement.fit = false;
             r.texture.plane = plane_path_;
             r.texture.space.clear();
         });

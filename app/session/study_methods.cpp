@@ -34,6 +34,7 @@ class Planner {
                 r.temporal.mode = TemporalMode::kNone;
                 r.texture.sample.clear();
                 r.texture.also.clear();
+                if (r.texture.plane.empty()) r.placement.fit = false;
                 r.texture.plane = plane_;
             });
         }

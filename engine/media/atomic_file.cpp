@@ -11,9 +11,9 @@
 #include <charconv>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -28,25 +28,35 @@ constexpr std::time_t kAbandonedAfter_s = 24 * 3600;
 
 // Temporaries of this process that are being written, so that those of an earlier process with the
 // same number (containers reuse them) can be told apart.
-struct LiveNames {
-    std::mutex mutex;
-    std::set<std::string> names;
+// Never destroyed: abandon_temporaries() may run while the process ends.
+class LiveNames {
+  public:
     static LiveNames& instance() {
-        static LiveNames live;
-        return live;
+        static auto* const live = new LiveNames;
+        return *live;
     }
-    void add(const std::string& name) {
-        const std::lock_guard lock(mutex);
-        names.insert(fs::path(name).filename().string());
+    void add(const std::string& path) {
+        const std::lock_guard lock(mutex_);
+        paths_[fs::path(path).filename().string()] = path;
     }
-    void remove(const std::string& name) {
-        const std::lock_guard lock(mutex);
-        names.erase(fs::path(name).filename().string());
+    void remove(const std::string& path) {
+        const std::lock_guard lock(mutex_);
+        paths_.erase(fs::path(path).filename().string());
     }
     bool has(const std::string& file_name) {
-        const std::lock_guard lock(mutex);
-        return names.contains(file_name);
+        const std::lock_guard lock(mutex_);
+        return paths_.contains(file_name);
     }
+    void abandon() {
+        mutex_.lock();  // and never unlocked
+        std::error_code ignored;
+        for (const auto& [name, path] : paths_)
+            fs::remove_all(path, ignored);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<std::string, std::string> paths_;  // by file name, which is of this process alone
 };
 
 // Process numbers mean something on one host only, and a render farm shares folders.
@@ -89,12 +99,13 @@ std::optional<Origin> origin_of(const std::string& file_name) {
     return origin;
 }
 
-bool is_stale(const fs::directory_entry& entry) {
+bool is_stale(const fs::directory_entry& entry, mode_t kind) {
     const std::string name = entry.path().filename().string();
     const auto origin = origin_of(name);
     struct stat status {};
     if (!origin || LiveNames::instance().has(name)) return false;
-    if (lstat(entry.path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+    if (lstat(entry.path().c_str(), &status) != 0 || (status.st_mode & S_IFMT) != kind)
+        return false;
     if (std::time(nullptr) - status.st_mtime > kAbandonedAfter_s) return true;
     if (origin->host != host_tag()) return false;
     return origin->pid == getpid() || (kill(origin->pid, 0) != 0 && errno == ESRCH);
@@ -138,6 +149,15 @@ Status write_to_device(const std::string& path, std::span<const std::byte> bytes
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0) return tl::unexpected(system_error(path, "cannot be written", errno));
     return write_through(file, bytes, path);
+}
+
+void remove_stale(const fs::path& folder, mode_t kind) {
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
+        std::error_code ignored;
+        if (is_stale(*entry, kind)) fs::remove_all(entry->path(), ignored);
+    }
 }
 
 std::string resolved(const std::string& path) {
@@ -217,6 +237,10 @@ Status TemporaryFile::commit() {
     const int file = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0) return tl::unexpected(system_error(target_, "cannot be written", errno));
     WEFT_CHECK_OK(write_through(file, {}, target_));
+    return commit_unflushed();
+}
+
+Status TemporaryFile::commit_unflushed() {
     if (::rename(name_.c_str(), target_.c_str()) != 0) {
         return tl::unexpected(system_error(target_, "cannot be written", errno));
     }
@@ -247,12 +271,41 @@ Status write_file_atomically(const std::string& path, std::string_view text) {
 
 void remove_stale_temporaries(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
+    remove_stale(folder.empty() ? fs::path(".") : folder, S_IFREG);
+}
+
+void abandon_temporaries() {
+    LiveNames::instance().abandon();
+}
+
+TemporaryFolder::TemporaryFolder(std::string path) : path_(std::move(path)) {
+    LiveNames::instance().add(path_);
+}
+
+TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
+    : path_(std::exchange(other.path_, {})) {}
+
+TemporaryFolder::~TemporaryFolder() {
+    if (path_.empty()) return;
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    LiveNames::instance().remove(path_);
+}
+
+Expected<TemporaryFolder> TemporaryFolder::create() {
     std::error_code error;
-    fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
-    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
-        std::error_code ignored;
-        if (is_stale(*entry)) fs::remove(entry->path(), ignored);
+    const fs::path parent = fs::temp_directory_path(error);
+    if (!error) {
+        remove_stale(parent, S_IFDIR);
+        TemporaryFolder folder(temporary_name((parent / "folder").string()));
+        if (fs::create_directory(folder.path(), error)) {
+            fs::permissions(folder.path(), fs::perms::owner_all, error);
+            if (!error) return folder;
+        }
+        if (!error) error = std::make_error_code(std::errc::file_exists);
     }
+    return fail(ErrorCode::kNoSpace,
+                "No temporary folder can be made: " + error.message() + ". Set TMPDIR.");
 }
 
 }  // namespace weft

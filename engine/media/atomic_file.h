@@ -33,11 +33,33 @@ class TemporaryFile {
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Flushes the file to the disk and gives it its final name.
     [[nodiscard]] Status commit();
+    /// The same without the flush: for caches, which carry a checksum and may be lost.
+    [[nodiscard]] Status commit_unflushed();
 
   private:
     TemporaryFile(std::string name, std::string target);
     std::string name_, target_;  // name_ is empty once committed or moved from
 };
+
+/// A private folder below the system's temporary one (TMPDIR). Removed with all it holds on
+/// destruction; those of killed processes of this host go when the next one is made.
+class TemporaryFolder {
+  public:
+    /// Errors: NoSpace when no folder can be made.
+    [[nodiscard]] static Expected<TemporaryFolder> create();
+    TemporaryFolder(TemporaryFolder&& other) noexcept;
+    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+    ~TemporaryFolder();
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+  private:
+    explicit TemporaryFolder(std::string path);
+    std::string path_;  // empty once moved from
+};
+
+/// Removes every temporary file and folder of this process and lets no thread begin another: for a
+/// process that is about to _exit(). A thread that asks for one afterwards waits for ever.
+void abandon_temporaries();
 
 /// Removes what a killed run may have left: temporaries in the folder of `path` that nobody writes
 /// any more, that is those of a process of this host that has ended, and any older than a day.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/media/atomic_file.h"
+#include "engine/media/metadata.h"
 
 namespace weft {
 namespace {
@@ -40,6 +41,13 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
     spec.attribute("oiio:UnassociatedAlpha", 1);  // the samples go into the file as they are
     // OpenImageIO would write the time of day, and the same frame would differ from run to run.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (format == "openexr") {
+        for (const auto& [name, text] : options.metadata)
+            spec.attribute(name, text);
+    } else if (!options.metadata.empty()) {
+        spec.attribute("Software", software_text(options.metadata));
+        spec.attribute("Copyright", copyright_text(options.metadata));
+    }
     if (format == "png") {
         spec.attribute("png:compressionLevel", kPngLevel);
         spec.attribute("png:filter", kPngFilterAverage);
@@ -50,7 +58,8 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
         spec.attribute("Compression", "zip");
         spec.attribute("tiff:zipquality", 4);
     } else if (format == "openexr") {
-        spec.attribute("Compression", options.exr_compression);
+        spec.attribute("Compression",
+                       options.exr_compression == "auto" ? "zip" : options.exr_compression);
     } else if (format == "dpx" && samples.kind == SampleKind::kU16) {
         spec.attribute("oiio:BitsPerSample", options.dpx_bits);
     }

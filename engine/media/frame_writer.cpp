@@ -101,12 +101,13 @@ Status check_numbers(const std::string& path, const WriteOptions& options) {
         options.dpx_bits != 16) {
         return fail(ErrorCode::kUsage, path + ": a DPX has 10, 12 or 16 bits.");
     }
-    if (format == Format::kExr && std::find(kCompressions.begin(), kCompressions.end(),
-                                            options.exr_compression) == kCompressions.end()) {
-        return fail(ErrorCode::kUsage, path + ": there is no EXR compression '" +
-                                           options.exr_compression +
-                                           "'. Use none, rle, zip, zips, piz, pxr24, b44, b44a, "
-                                           "dwaa or dwab.");
+    if (format == Format::kExr && options.exr_compression != "auto" &&
+        std::find(kCompressions.begin(), kCompressions.end(), options.exr_compression) ==
+            kCompressions.end()) {
+        return fail(ErrorCode::kUsage,
+                    path + ": there is no EXR compression '" + options.exr_compression +
+                        "'. Use auto, none, rle, zip, zips, piz, pxr24, b44, b44a, "
+                        "dwaa or dwab.");
     }
     return {};
 }

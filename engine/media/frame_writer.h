@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
@@ -17,8 +19,10 @@ struct WriteOptions {
     PixelDepth depth = PixelDepth::kU8;
     int jpeg_quality = 95;  ///< 4:4:4
     std::string exr_compression =
-        "zip";          ///< none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
+        "zip";          ///< auto (zip), none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
     int dpx_bits = 10;  ///< A U16 DPX holds 10 bits (the film standard), 12 or 16.
+    /// Texts for the file's header (engine/media/metadata.h).
+    std::vector<std::pair<std::string, std::string>> metadata = {};
 };
 
 /// The depth to write when the user did not say: the plate's own where the format can hold it
@@ -40,11 +44,11 @@ struct WriteOptions {
 /// Coverage as 8-bit grey: PNG or TIFF (JPEG would blur it: Usage).
 [[nodiscard]] Status write_matte(const std::string& path, ViewU8x1 matte);
 
-/// A review movie: .mp4 (H.264 where the machine has x264, else MPEG-4; BT.709 matrix, limited range,
-/// 4:2:0, tagged, index in front) or .mkv (FFV1, lossless 8-bit RGB of any size). An .mp4 has even
-/// sizes: the last column or row is repeated where one is missing. Frames go to a temporary name;
-/// close() renames it. Destroyed without close(), or after an error: nothing remains. The same
-/// frames give the same bytes, whatever the number of threads. One thread calls.
+/// A review movie: .mp4 (H.264 where the machine has x264, else MPEG-4; BT.709 matrix, limited
+/// range, 4:2:0, tagged, index in front) or .mkv (FFV1, lossless 8-bit RGB of any size). An .mp4
+/// has even sizes: the last column or row is repeated where one is missing. Frames go to a
+/// temporary name; close() renames it. Destroyed without close(), or after an error: nothing
+/// remains. The same frames give the same bytes, whatever the number of threads. One thread calls.
 class MovieWriter {
   public:
     virtual ~MovieWriter() = default;

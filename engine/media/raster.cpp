@@ -373,6 +373,22 @@ bool goes_to_libpng(const std::string& path, const RasterRequest& request) {
 
 }  // namespace
 
+Expected<ColourPlace> locate_colour(const std::string& path, const std::string& layer) {
+    return guarded(path, [&]() -> Expected<ColourPlace> {
+        WEFT_TRY(input, open_input(path));
+        WEFT_TRY(pick, find_pick(*input, path, {layer, {}, false}));
+        if (!is_exr(*input) || pick.channels.size() < 3) {
+            return tl::unexpected(unreadable(path, "it is no EXR with R, G and B",
+                                             "Give one, or write another format."));
+        }
+        ColourPlace place;
+        place.part = pick.subimage;
+        for (std::size_t c = 0; c < 3; ++c)
+            place.rgb[c] = pick.begin + pick.channels[c];
+        return place;
+    });
+}
+
 Expected<RasterInfo> probe_raster(const std::string& path, const RasterRequest& request) {
     return guarded(path, [&] {
         return goes_to_libpng(path, request) ? probe_png(path) : probe_oiio(path, request);

@@ -2,6 +2,7 @@
 // Internal: the samples of an image file as they stand in it, before they become a plate, a matte
 // or a motion field. The only door to OpenImageIO and libpng for reading.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -41,6 +42,15 @@ struct RasterRequest {
     /// scaling them to 8.
     bool raw_codes = false;
 };
+
+/// Where an EXR file holds a layer's R, G and B: the part and the channels in it.
+struct ColourPlace {
+    int part = 0;
+    std::array<int, 3> rgb{};
+};
+/// Errors: Unreadable when the file is no EXR or the layer has no three colours.
+[[nodiscard]] Expected<ColourPlace> locate_colour(const std::string& path,
+                                                  const std::string& layer);
 
 /// Reads the header only. Errors: Unreadable with the path; `RasterRequest` names nothing there.
 [[nodiscard]] Expected<RasterInfo> probe_raster(const std::string& path,

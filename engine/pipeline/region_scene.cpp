@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-constexpr int kSmallestPlane = 512, kLargestPlane = 2048;
+constexpr int kSmallestPlane = 512, kLargestPlane = 4096;
 
 int plane_side(int plate_px, float scale) {
     const float texels = 1.25f * static_cast<float>(plate_px) / scale;

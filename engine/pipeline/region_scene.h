@@ -29,7 +29,7 @@ struct RegionScene {
 };
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
-/// placement's scale, between 512 and 2048 texels a side. It joins at its borders and repeats. It
+/// placement's scale, between 512 and 4096 texels a side. It joins at its borders and repeats. It
 /// depends on the plate and the placement only, so that every part of a shot gets the same plane.
 [[nodiscard]] Size plane_size(const PlanePlacement& placement, Size plate);
 

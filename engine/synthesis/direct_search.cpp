@@ -41,6 +41,36 @@ std::vector<Recti> rectangles_of(ViewU8x1 mask) {
     return done;
 }
 
+std::vector<TranslationGroup> group_translations(const std::vector<std::uint8_t>& allowed,
+                                                 int columns) {
+    const auto width = static_cast<std::size_t>(columns);
+    const int rows = static_cast<int>(allowed.size() / width);
+    const auto row = [&](int y) {
+        return allowed.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * width);
+    };
+    const auto used = [&](int y) { return std::find(row(y), row(y + 1), 1) != row(y + 1); };
+    std::vector<TranslationGroup> out;
+    for (int y = 0; y < rows; ++y) {
+        if (!used(y)) continue;
+        int end = y + 1;
+        while (end < rows && used(end))
+            ++end;
+        const int groups = (end - y + kCorrelationGroup - 1) / kCorrelationGroup;
+        for (int g = 0; g < groups; ++g) {
+            TranslationGroup group{y, (end - y + groups - g - 1) / (groups - g), {}};
+            for (int x = 0; x < columns; ++x) {
+                bool any = false;
+                for (int k = 0; k < group.rows; ++k)
+                    any |= row(y + k)[x] != 0;
+                if (any) group.columns.push_back(x);
+            }
+            y += group.rows;
+            out.push_back(std::move(group));
+        }
+    }
+    return out;
+}
+
 DirectSearch::DirectSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     : sample_size_(sample.size()), block_(block), lo_(lo), hi_(hi) {
     // The position p − t of the sample lies at p − t + hi of the padded one.
@@ -67,21 +97,23 @@ DirectSearch::DirectSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     }
 }
 
-std::vector<OverlapCost> DirectSearch::costs(const MatchTarget& target) const {
-    const auto count =
-        static_cast<std::size_t>(hi_.x - lo_.x + 1) * static_cast<std::size_t>(hi_.y - lo_.y + 1);
-    std::vector<OverlapCost> out(count);
-    add_layer(target.pixels, target.filled, target.fill_weight, out);
+std::vector<OverlapCost> DirectSearch::costs(const MatchTarget& target,
+                                             const std::vector<std::uint8_t>& allowed) const {
+    const std::vector<TranslationGroup> groups = group_translations(allowed, hi_.x - lo_.x + 1);
+    std::vector<OverlapCost> out(allowed.size());
+    add_layer(target.pixels, target.filled, target.fill_weight, allowed, groups, out);
     if (!target.guide.empty()) {
-        add_layer(target.guide, target.guide_known, target.guide_weight, out);
+        add_layer(target.guide, target.guide_known, target.guide_weight, allowed, groups, out);
     }
     return out;
 }
 
 void DirectSearch::add_layer(ViewU8x3 picture, ViewU8x1 mask, std::uint32_t weight,
+                             const std::vector<std::uint8_t>& allowed,
+                             const std::vector<TranslationGroup>& groups,
                              std::vector<OverlapCost>& costs) const {
     const int w = block_.width, h = block_.height;
-    const int count_x = hi_.x - lo_.x + 1, count_y = hi_.y - lo_.y + 1;
+    const int count_x = hi_.x - lo_.x + 1;
     // C − 128 where the mask is set, 0 elsewhere and in the rows above and below that a group of
     // translations may reach; which columns of a row are set; |C|² and counts.
     const auto chunk = static_cast<std::size_t>(kCorrelationChunk);
@@ -109,21 +141,19 @@ void DirectSearch::add_layer(ViewU8x3 picture, ViewU8x1 mask, std::uint32_t weig
 
     // Σ (C − 128)·S for groups of translations that differ in y alone.
     std::vector<std::int64_t> products(costs.size());
-    const int groups = (count_y + kCorrelationGroup - 1) / kCorrelationGroup;
     std::vector<CorrelationRow> rows;
-    for (int g = 0, done = 0; g < groups; ++g) {
-        const int size = (count_y - done + groups - g - 1) / (groups - g);
-        rows_of_group(hulls, stride, lo_.y + done, size, rows);
-        for (int tx = lo_.x; tx <= hi_.x; ++tx) {
+    for (const TranslationGroup& group : groups) {
+        rows_of_group(hulls, stride, lo_.y + group.row, group.rows, rows);
+        for (const int column : group.columns) {
             std::array<std::int64_t, kCorrelationGroup> sums;
-            plane.correlate(rows, padded_.data() + 3 * static_cast<std::ptrdiff_t>(hi_.x - tx),
-                            size, sums.data());
-            for (int k = 0; k < size; ++k) {
-                products[static_cast<std::size_t>((done + k) * count_x + tx - lo_.x)] =
+            plane.correlate(
+                rows, padded_.data() + 3 * static_cast<std::ptrdiff_t>(hi_.x - lo_.x - column),
+                group.rows, sums.data());
+            for (int k = 0; k < group.rows; ++k) {
+                products[static_cast<std::size_t>((group.row + k) * count_x + column)] =
                     sums[static_cast<std::size_t>(k)];
             }
         }
-        done += size;
     }
 
     const std::vector<Recti> filled = rectangles_of(mask);
@@ -132,7 +162,7 @@ void DirectSearch::add_layer(ViewU8x3 picture, ViewU8x1 mask, std::uint32_t weig
         for (int tx = lo_.x; tx <= hi_.x; ++tx, ++i) {
             const Recti reach = rect_of(block_).intersected(
                 {tx, ty, tx + sample_size_.width, ty + sample_size_.height});
-            if (reach.empty()) continue;
+            if (!allowed[i] || reach.empty()) continue;
             std::int64_t ssd = lengths.sum(reach) - 2 * products[i];
             for (const Recti& r : filled) {
                 const std::int64_t* top = lengths_.row(r.y0 - ty + hi_.y) - tx + hi_.x;

@@ -11,14 +11,27 @@
 
 namespace weft {
 
+/// Translations that one pass of the correlation takes together: some neighbouring rows, and the
+/// columns in which one of these rows has an allowed translation. Counted from 0.
+struct TranslationGroup {
+    int row = 0, rows = 0;
+    std::vector<int> columns;
+};
+/// `allowed` holds a byte for each translation, row by row. With a period most are forbidden, and
+/// most rows and columns need no pass.
+[[nodiscard]] std::vector<TranslationGroup> group_translations(
+    const std::vector<std::uint8_t>& allowed, int columns);
+
 /// A sample prepared for direct comparison with blocks of one size, over the translations
 /// t ∈ [lo, hi]. Thread-safe once made.
 class DirectSearch {
   public:
     DirectSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi);
 
-    /// OverlapScorer::cost() of every translation, row by row, by the instruction set in force.
-    [[nodiscard]] std::vector<OverlapCost> costs(const MatchTarget& target) const;
+    /// OverlapScorer::cost() of every allowed translation (1 in `allowed`), row by row, by the
+    /// instruction set in force; those of others are 0.
+    [[nodiscard]] std::vector<OverlapCost> costs(const MatchTarget& target,
+                                                 const std::vector<std::uint8_t>& allowed) const;
 
   private:
     struct Hull {
@@ -32,6 +45,8 @@ class DirectSearch {
     };
 
     void add_layer(ViewU8x3 picture, ViewU8x1 mask, std::uint32_t weight,
+                   const std::vector<std::uint8_t>& allowed,
+                   const std::vector<TranslationGroup>& groups,
                    std::vector<OverlapCost>& costs) const;
     void rows_of_group(const std::vector<Hull>& hulls, std::size_t stride, int first_ty, int size,
                        std::vector<CorrelationRow>& rows) const;

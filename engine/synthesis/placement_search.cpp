@@ -65,12 +65,16 @@ Shortlist PlacementSearch::find(const MatchTarget& target, const std::vector<Vec
                                 SearchMethod method) {
     const std::vector<std::uint8_t> ok = allowed_translations(lo_, hi_, forbidden);
     if (method == SearchMethod::kFastest) {
-        method = direct_is_faster(target) ? SearchMethod::kDirect : SearchMethod::kFft;
+        method = direct_is_faster(target, ok) ? SearchMethod::kDirect : SearchMethod::kFft;
     }
     return method == SearchMethod::kFft ? find_fft(target, ok) : find_direct(target, ok);
 }
 
-bool PlacementSearch::direct_is_faster(const MatchTarget& target) const {
+bool PlacementSearch::direct_is_faster(const MatchTarget& target,
+                                       const std::vector<std::uint8_t>& ok) const {
+    double compared = 0;
+    for (const TranslationGroup& group : group_translations(ok, hi_.x - lo_.x + 1))
+        compared += static_cast<double>(group.columns.size()) * group.rows;
     double pixels = 0;
     for (const ViewU8x1& mask : {target.filled, target.guide_known}) {
         for (int y = 0; y < mask.height(); ++y)
@@ -79,14 +83,14 @@ bool PlacementSearch::direct_is_faster(const MatchTarget& target) const {
     }
     const double n = static_cast<double>(sample_.width() + hi_.x) * (sample_.height() + hi_.y);
     const double fft_ns = kFftOperation_ns * kTransforms * 5 * n * std::log2(n);
-    return direct_byte_ns() * 3 * pixels * static_cast<double>(count()) < fft_ns;
+    return direct_byte_ns() * 3 * pixels * compared < fft_ns;
 }
 
 Shortlist PlacementSearch::find_direct(const MatchTarget& target,
                                        const std::vector<std::uint8_t>& ok) {
     std::call_once(once_->direct,
                    [&] { direct_ = std::make_unique<DirectSearch>(sample_, block_, lo_, hi_); });
-    const std::vector<OverlapCost> costs = direct_->costs(target);
+    const std::vector<OverlapCost> costs = direct_->costs(target, ok);
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < count(); ++i) {
         if (ok[i] && (!best || better(costs[i], costs[*best]))) best = i;

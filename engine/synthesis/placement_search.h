@@ -57,7 +57,8 @@ class PlacementSearch {
                                         const std::vector<std::uint8_t>& allowed);
     [[nodiscard]] Shortlist find_fft(const MatchTarget& target,
                                      const std::vector<std::uint8_t>& allowed);
-    [[nodiscard]] bool direct_is_faster(const MatchTarget& target) const;
+    [[nodiscard]] bool direct_is_faster(const MatchTarget& target,
+                                        const std::vector<std::uint8_t>& allowed) const;
 
     ViewU8x3 sample_;
     Size block_;

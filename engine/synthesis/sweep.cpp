@@ -271,22 +271,16 @@ std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
 // error of the period, found on a small sample, would add up.
 void Sweep::forbid_misaligned(const Recti& block, Vec2i to_canvas, const PlacementMemory& memory,
                               Image<std::uint8_t, 1>& bad) const {
-    std::vector<Vec2i> neighbours;
-    for (const Placed& p : memory.earlier()) {
-        if (!p.rect.intersected(block).empty()) neighbours.push_back(to_canvas - p.origin);
-    }
     Image<std::uint8_t, 1> out = bad;
-    bool any = false;
-    for (int y = 0; y < bad.height(); ++y) {
-        for (int x = 0; x < bad.width(); ++x) {
-            const Vec2i t{x + x_.lo, y + y_.lo};
-            const bool aligned = std::all_of(neighbours.begin(), neighbours.end(), [&](Vec2i d) {
-                return period_.holds(t + d, kAlignTolerance_px);
-            });
-            out.at(x, y) |= !aligned;
-            any |= out.at(x, y) == 0;
-        }
+    for (const Placed& p : memory.earlier()) {
+        if (p.rect.intersected(block).empty()) continue;
+        const Vec2i first = Vec2i{x_.lo, y_.lo} + to_canvas - p.origin;
+        const Image<std::uint8_t, 1> aligned = period_.held(first, bad.size(), kAlignTolerance_px);
+        for (std::size_t i = 0; i < out.size_bytes(); ++i)
+            out.data()[i] |= aligned.data()[i] ^ 1u;
     }
+    const bool any =
+        std::find(out.data(), out.data() + out.size_bytes(), 0) != out.data() + out.size_bytes();
     if (any) bad = std::move(out);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/synthesis/fft_correlation.h"
@@ -30,10 +31,23 @@ double length(Vec2i v) {
     return std::hypot(static_cast<double>(v.x), static_cast<double>(v.y));
 }
 
+double dot(Vec2i a, Vec2i b) {
+    return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y;
+}
+
+double cross(Vec2i a, Vec2i b) {
+    return static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x;
+}
+
+// d as a multiple of each of two steps.
+std::pair<double, double> in_steps(const std::array<Vec2i, 2>& steps, Vec2i d) {
+    const double det = cross(steps[0], steps[1]);
+    return {cross(d, steps[1]) / det, cross(steps[0], d) / det};
+}
+
 // |sin| of the angle between.
 double apart(Vec2i a, Vec2i b) {
-    return std::abs(static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x) /
-           (length(a) * length(b));
+    return std::abs(cross(a, b)) / (length(a) * length(b));
 }
 
 double variance(ViewU8x3 s) {
@@ -126,19 +140,11 @@ std::optional<Candidate> step_across(const Image<double, 1>& m, Vec2i reach, boo
 
 bool TexturePeriod::holds(Vec2i d, double tolerance_px) const {
     if (count == 0) return true;
-    const auto dot = [](Vec2i a, Vec2i b) {
-        return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y;
-    };
     if (count == 1) {
         const double turns = dot(d, steps[0]) / dot(steps[0], steps[0]);
         return std::abs(turns - std::round(turns)) * length(steps[0]) <= tolerance_px;
     }
-    const double det =
-        static_cast<double>(steps[0].x) * steps[1].y - static_cast<double>(steps[0].y) * steps[1].x;
-    const double a =
-        (static_cast<double>(d.x) * steps[1].y - static_cast<double>(d.y) * steps[1].x) / det;
-    const double b =
-        (static_cast<double>(steps[0].x) * d.y - static_cast<double>(steps[0].y) * d.x) / det;
+    const auto [a, b] = in_steps(steps, d);
     // The nearest lattice point is one of the cell's four corners, for the reduced steps found
     // here.
     for (const double i : {std::floor(a), std::ceil(a)}) {
@@ -149,6 +155,45 @@ bool TexturePeriod::holds(Vec2i d, double tolerance_px) const {
         }
     }
     return false;
+}
+
+// Two steps: the discs round the lattice's points, which are few; a test of every translation took
+// longer than the search among those that hold.
+Image<std::uint8_t, 1> TexturePeriod::held(Vec2i first, Size size, double tolerance_px) const {
+    Image<std::uint8_t, 1> out(size, count == 0 ? 1 : 0);
+    if (count == 1) {
+        const double px = length(steps[0]), square = dot(steps[0], steps[0]);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const double turns = dot(first + Vec2i{x, y}, steps[0]) / square;
+                out.at(x, y) = std::abs(turns - std::round(turns)) * px <= tolerance_px;
+            }
+        }
+    }
+    if (count < 2) return out;
+    const int reach = static_cast<int>(tolerance_px);
+    double least_a = HUGE_VAL, most_a = -HUGE_VAL, least_b = HUGE_VAL, most_b = -HUGE_VAL;
+    for (const int x : {first.x - reach, first.x + size.width + reach}) {
+        for (const int y : {first.y - reach, first.y + size.height + reach}) {
+            const auto [a, b] = in_steps(steps, {x, y});
+            least_a = std::min(least_a, a), most_a = std::max(most_a, a);
+            least_b = std::min(least_b, b), most_b = std::max(most_b, b);
+        }
+    }
+    const auto stamp = [&](Vec2i centre) {
+        for (int dy = -reach; dy <= reach; ++dy) {
+            for (int dx = -reach; dx <= reach; ++dx) {
+                const Vec2i p = centre + Vec2i{dx, dy};
+                if (!rect_of(size).contains(p.x, p.y)) continue;
+                if (length({dx, dy}) <= tolerance_px) out.at(p.x, p.y) = 1;
+            }
+        }
+    };
+    for (int i = static_cast<int>(std::floor(least_a)); i <= static_cast<int>(most_a) + 1; ++i) {
+        for (int j = static_cast<int>(std::floor(least_b)); j <= static_cast<int>(most_b) + 1; ++j)
+            stamp(Vec2i{i * steps[0].x + j * steps[1].x, i * steps[0].y + j * steps[1].y} - first);
+    }
+    return out;
 }
 
 Size TexturePeriod::axis_px() const {

@@ -19,6 +19,8 @@ struct TexturePeriod {
     /// Whether a translation is within `tolerance_px` of one of the lattice; with a single step
     /// only what lies along that step counts.
     [[nodiscard]] bool holds(Vec2i d, double tolerance_px) const;
+    /// One byte for each of the translations first + (x, y): 1 where it holds.
+    [[nodiscard]] Image<std::uint8_t, 1> held(Vec2i first, Size size, double tolerance_px) const;
     /// The shortest steps of the lattice along each axis, 0 where there is none.
     [[nodiscard]] Size axis_px() const;
 };

@@ -108,5 +108,50 @@ TEST_F(LibraryTexture, IsNotTakenIntoAProjectThatExcludesIt) {
     EXPECT_FALSE(fs::exists(folder_ / "shots/shot_textures"));
 }
 
+TEST_F(LibraryTexture, IsMarkedAndKept) {
+    const std::string start = id_.substr(0, 8);
+    expect_success(run({"texture", "mark", start, "--favourite", "--rating", "4", "--collect",
+                        "walls", "--tags", "castle,old", "--db", "lib.db"}));
+    expect_success(run(
+        {"texture", "kept", "--save-search", "grey", "--words", "grey stone", "--db", "lib.db"}));
+    const Outcome info = run({"texture", "info", id_, "--db", "lib.db", "--json"});
+    expect_success(info);
+    EXPECT_EQ(Json::parse(info.out)["rating"], 4);
+    EXPECT_EQ(Json::parse(info.out)["favourite"], true);
+    Outcome kept = run({"texture", "kept", "--db", "lib.db", "--json"});
+    expect_success(kept);
+    EXPECT_EQ(Json::parse(kept.out)["favourites"], 1);
+    EXPECT_EQ(Json::parse(kept.out)["collections"]["walls"], 1);
+    EXPECT_EQ(Json::parse(kept.out)["searches"]["grey"], "grey stone");
+    const Outcome found = run({"texture", "search", "castle", "--collection", "walls", "--rating",
+                               "4", "--db", "lib.db", "--json"});
+    EXPECT_EQ(Json::parse(found.out)["total"], 1);
+
+    // One id that is not there: the others stay as they were.
+    expect_failure(
+        run({"texture", "mark", id_, "ffffffffffff", "--no-favourite", "--db", "lib.db"}), 3,
+        {"ffffffffffff"});
+    expect_failure(run({"texture", "mark", id_, "--db", "lib.db"}), 2, {"--favourite"});
+    expect_success(run({"texture", "mark", id_, "--uncollect", "walls", "--db", "lib.db"}));
+    expect_success(run({"texture", "kept", "--delete-search", "grey", "--db", "lib.db"}));
+    kept = run({"texture", "kept", "--db", "lib.db", "--json"});
+    EXPECT_EQ(Json::parse(kept.out)["favourites"], 1);
+    EXPECT_FALSE(Json::parse(kept.out)["collections"].contains("walls"));
+    EXPECT_TRUE(Json::parse(kept.out)["searches"].empty());
+}
+
+TEST_F(LibraryTexture, IsFoundByARectangleOfAPlate) {
+    const Outcome found = run({"texture", "similar", "frames/0001.png", "--rectangle", "8,8,64,64",
+                               "--db", "lib.db", "--json"});
+    // Of one material nothing is learned by which to compare, and that is said.
+    EXPECT_EQ(found.exit, 0);
+    EXPECT_TRUE(Json::parse(found.out)["results"].empty());
+    EXPECT_THAT(found.err, HasSubstr("weft texture train"));
+    expect_failure(run({"texture", "similar", "frames/0001.png", "--rectangle", "8,8,6400,64",
+                        "--db", "lib.db"}),
+                   2, {"rectangle"});
+    expect_failure(run({"texture", "evaluate", "nowhere", "--db", "lib.db"}), 3, {"nowhere"});
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -59,11 +59,17 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 int wait_for(pid_t child, const ProcessOptions& options) {
     bool sent = options.signal == 0;
+    const auto start = std::chrono::steady_clock::now();
+    const auto is_time = [&] {
+        return options.signal_after.count() > 0
+                   ? std::chrono::steady_clock::now() - start >= options.signal_after
+                   : std::filesystem::exists(options.signal_when);
+    };
     for (;;) {
         int status = 0;
         const pid_t ended = waitpid(child, &status, sent ? 0 : WNOHANG);
         if (ended == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-        if (!sent && std::filesystem::exists(options.signal_when)) {
+        if (!sent && is_time()) {
             kill(child, options.signal);
             sent = true;
         }

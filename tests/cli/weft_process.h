@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -23,6 +24,8 @@ struct ProcessOptions {
     std::filesystem::path standard_output;           ///< Empty: kept for Outcome::out.
     /// When this file exists, `signal` is sent to the child.
     std::filesystem::path signal_when;
+    /// Or this long after the start, where it is above 0.
+    std::chrono::microseconds signal_after{0};
     int signal = 0;
 };
 

@@ -92,7 +92,7 @@ TEST(PlaneSize, GrowsAsTheScaleFallsWithinLimits) {
         return plane_size(placement, {1000, 500}).width;
     };
     EXPECT_EQ(width(1), 1280);
-    EXPECT_EQ(width(0.01f), 2048);
+    EXPECT_EQ(width(0.01f), 4096);
     EXPECT_EQ(width(100), 512);
 }
 

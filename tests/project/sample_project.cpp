@@ -26,6 +26,7 @@ Region full_region() {
     r.placement.rotate_deg = -12.5;
     r.placement.offset_px = {3, -4.25};
     r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
+    r.placement.fit = false;
     r.placement.scale_keys = "1:1 24:1.5";
     r.placement.rotate_keys = "1:0 24:90";
     r.placement.offset_keys = "1:0,0 24:10,5";

@@ -52,6 +52,24 @@ TEST(TexturePeriod, StripesHaveOneStep) {
     EXPECT_FALSE(period.holds({0, 30}, 4));
 }
 
+TEST(TexturePeriod, MarksTheTranslationsThatHold) {
+    TexturePeriod none, rows, lattice, slanted;
+    rows.count = 1, rows.steps[0] = {1, 17};
+    lattice.count = 2, lattice.steps = {Vec2i{16, 16}, Vec2i{-16, 16}};
+    slanted.count = 2, slanted.steps = {Vec2i{9, -2}, Vec2i{4, 21}};
+    for (const TexturePeriod& period : {none, rows, lattice, slanted}) {
+        for (const Vec2i first : {Vec2i{0, 0}, Vec2i{-70, 13}, Vec2i{200, -91}}) {
+            const auto held = period.held(first, {49, 61}, 2);
+            for (int y = 0; y < 61; ++y) {
+                for (int x = 0; x < 49; ++x) {
+                    ASSERT_EQ(held.at(x, y) != 0, period.holds(first + Vec2i{x, y}, 2))
+                        << period.count << ": " << first.x + x << ", " << first.y + y;
+                }
+            }
+        }
+    }
+}
+
 TEST(TexturePeriod, BlobsHaveNone) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
         EXPECT_EQ(find_period(blob_sample(96, 96, seed)).count, 0) << seed;

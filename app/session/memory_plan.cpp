@@ -1,0 +1,54 @@
+#include "app/session/memory_plan.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <limits>
+#include <string>
+
+namespace weft {
+namespace {
+
+// Measured: the program with its libraries and texture planes, and what rendering holds for each
+// pixel of a frame at the same time (working plate, canvas, texture, old surface, output, mattes).
+constexpr std::int64_t kProgramBytes = 220ll << 20;
+constexpr std::int64_t kBytesPerPixel = 130;
+
+}  // namespace
+
+Expected<std::size_t> frames_at_once(Size size, std::int64_t memory_bytes) {
+    if (memory_bytes <= 0) return std::numeric_limits<std::size_t>::max();
+    const std::int64_t frame = kBytesPerPixel * size.width * size.height;
+    const auto cache = memory_bytes / static_cast<std::int64_t>(kCacheShare);
+    const std::int64_t fits = (memory_bytes - cache - kProgramBytes) / frame;
+    if (fits >= 1) return static_cast<std::size_t>(fits);
+    const std::int64_t needed_mib = (((kProgramBytes + frame) * 8 / 7) >> 20) + 1;
+    return fail(ErrorCode::kNoSpace,
+                "A frame of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                    " does not fit into the memory that --memory allows. Give at least " +
+                    std::to_string(needed_mib) + "M, or render at a smaller size.");
+}
+
+Expected<std::int64_t> parse_bytes(std::string_view text) {
+    const auto wrong = [&] {
+        return fail(ErrorCode::kUsage, "'" + std::string(text) +
+                                           "' is no amount of memory. Write it like 3G or 800M.");
+    };
+    double number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || !(number >= 0)) return wrong();
+    std::string unit(stop, text.data() + text.size());
+    std::transform(unit.begin(), unit.end(), unit.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const std::size_t power = unit.empty() ? 0 : std::string_view("KMGT").find(unit[0]) + 1;
+    const bool known =
+        unit.empty() ||
+        (power > 0 && (unit.size() == 1 || unit.substr(1) == "B" || unit.substr(1) == "IB"));
+    for (std::size_t k = 0; known && k < power; ++k)
+        number *= 1024;
+    constexpr double kLargest = 1e15;
+    if (!known || number > kLargest) return wrong();
+    return static_cast<std::int64_t>(number);
+}
+
+}  // namespace weft

@@ -1,0 +1,21 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "engine/core/error.h"
+#include "engine/core/geometry.h"
+
+namespace weft {
+
+/// One part in so many of the memory that a job may use is for decoded plates.
+inline constexpr std::size_t kCacheShare = 8;
+
+/// How many frames of `size` may be rendered side by side within `memory_bytes` (0: no limit).
+/// Errors: NoSpace when not even one fits, saying how much it takes.
+[[nodiscard]] Expected<std::size_t> frames_at_once(Size size, std::int64_t memory_bytes);
+
+/// "3G", "800M", "1.5GiB", "2000000": bytes; K, M, G and T are powers of 1024. Errors: Usage.
+[[nodiscard]] Expected<std::int64_t> parse_bytes(std::string_view text);
+
+}  // namespace weft

@@ -1,0 +1,157 @@
+// --resume, --memory, and the recipe that frames carry and 'weft verify' proves.
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "engine/media/image_files.h"
+#include "engine/media/metadata.h"
+#include "tests/cli/cli_fixture.h"
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Resume : public CliTest {
+  protected:
+    // Writes a frame again with one text of its recipe changed.
+    void change_recipe(const std::string& name, const std::string& key, const std::string& text) {
+        auto texts = read_recipe_metadata(in(name));
+        ASSERT_FALSE(texts["weft:settings"].empty());
+        texts[key] = text;
+        WriteOptions options;
+        options.metadata.assign(texts.begin(), texts.end());
+        const PlateFrame frame = picture(name);
+        ASSERT_TRUE(write_image(in(name), frame.rgb, {}, options));
+    }
+};
+
+TEST_F(Resume, KeepsFramesOfTheSameSettingsAndRendersTheOthersAgain) {
+    make_shot(4);
+    expect_success(run_replace({"--rotate", "10"}));
+    const auto whole = contents("out");
+    const auto third = fs::last_write_time(folder_ / "out/0003.png");
+    fs::remove(folder_ / "out/0002.png");
+    change_recipe("out/0004.png", "weft:settings", std::string(32, '0'));
+    const Outcome resumed = run_replace({"--rotate", "10", "--resume", "--json"});
+    expect_success(resumed);
+    EXPECT_EQ(contents("out"), whole);
+    EXPECT_EQ(fs::last_write_time(folder_ / "out/0003.png"), third);
+    const Json frames = Json::parse(resumed.out)["frames"];
+    for (int k = 0; k < 4; ++k)
+        EXPECT_EQ(frames[k].value("skipped", false), k == 0 || k == 2) << k;
+
+    // A change of the settings is a change of every frame.
+    const Outcome changed = run_replace({"--rotate", "20", "--resume", "--json"});
+    expect_success(changed);
+    EXPECT_FALSE(Json::parse(changed.out)["frames"][0].value("skipped", false));
+    EXPECT_NE(contents("out"), whole);
+}
+
+TEST_F(Resume, AnotherBackendIsRefusedUnlessAllIsRenderedAgain) {
+    make_shot(2);
+    expect_success(run_replace());
+    const auto whole = contents("out");
+    change_recipe("out/0001.png", "weft:backend", "cuda");
+    expect_failure(run_replace({"--resume"}), 2, {"cuda", "--backend cuda", "--restart"});
+    expect_success(run_replace({"--restart"}));
+    EXPECT_EQ(contents("out"), whole);
+}
+
+TEST_F(Resume, TheMovieOfAResumedRunIsThatOfAnUninterruptedOne) {
+    make_shot(4);
+    expect_success(run_replace({"--movie", "whole.mp4", "-o", "whole/####.png"}));
+    expect_success(run_replace({"--frames", "1-2"}));
+    expect_success(run_replace({"--resume", "--movie", "resumed.mp4"}));
+    EXPECT_EQ(bytes("resumed.mp4"), bytes("whole.mp4"));
+}
+
+TEST_F(Resume, EveryFormatCarriesTheRecipe) {
+    make_shot(1);
+    for (const std::string extension : {"png", "tif", "jpg", "exr", "dpx"}) {
+        const std::string pattern = extension + "/####." + extension;
+        expect_success(run_replace({"-o", pattern, "--seed", "7"}));
+        auto texts = read_recipe_metadata(in(extension + "/0001." + extension));
+        EXPECT_EQ(texts["weft:settings"].size(), 32u) << extension;
+        EXPECT_EQ(texts["weft:seed"], "7") << extension;
+        EXPECT_EQ(texts["weft:backend"], "cpu") << extension;
+        expect_success(run_replace({"-o", pattern, "--seed", "7", "--resume"}));
+        const auto once = contents(extension);
+        expect_success(run_replace({"-o", pattern, "--seed", "7", "--overwrite"}));
+        EXPECT_EQ(contents(extension), once) << extension;
+    }
+}
+
+TEST_F(Resume, VerifyProvesARenderAndFindsWhatChanged) {
+    make_shot(3);
+    expect_success(run_replace({"--recipe", "shot.recipe.json"}));
+    expect_success(run({"verify", "shot.recipe.json"}));
+    const Outcome part = run({"verify", "shot.recipe.json", "--frames", "2", "--json"});
+    expect_success(part);
+    EXPECT_TRUE(Json::parse(part.out)["proved"]);
+    EXPECT_EQ(Json::parse(part.out)["frames"], 1);
+
+    const std::string frame = bytes("out/0002.png");
+    put("out/0002.png", frame + "x");
+    expect_failure(run({"verify", "shot.recipe.json"}), 8, {"out/0002.png", "not what it was"});
+    put("out/0002.png", frame);
+    expect_success(run({"verify", "shot.recipe.json", "--quick"}));
+
+    // A plane that changed gives other pixels too.
+    put_picture("tile.png", pattern_picture({128, 128}, 6));
+    const Outcome changed = run({"verify", "shot.recipe.json"});
+    EXPECT_EQ(changed.exit, 8);
+    EXPECT_THAT(changed.err, HasSubstr("tile.png is not what it was"));
+    EXPECT_THAT(changed.err, HasSubstr("frame 3 again gives other bytes"));
+    EXPECT_THAT(names("tmp"), IsEmpty());
+
+    put("rubbish.json", "{}");
+    expect_failure(run({"verify", "rubbish.json"}), 3, {"rubbish.json", "weft.recipe/1"});
+}
+
+TEST_F(Resume, MemoryLimitsHowManyFramesAreWorkedOnAndSaysWhenNoneFits) {
+    make_shot(4);
+    expect_success(run_replace({"-o", "free/####.png", "--threads", "4"}));
+    expect_success(run_replace({"-o", "bound/####.png", "--threads", "4", "--memory", "400M"}));
+    EXPECT_EQ(contents("bound"), contents("free"));
+    expect_failure(run_replace({"-o", "none/####.png", "--memory", "100M"}), 6,
+                   {"--memory", "160x120"});
+    expect_failure(run_replace({"--memory", "lots"}), 2, {"lots"});
+}
+
+TEST_F(Resume, FoldersOfKilledRunsAreRemoved) {
+    make_shot(6);
+    options_.signal_when = folder_ / "out/0001.png";
+    options_.signal = SIGKILL;
+    EXPECT_EQ(run_replace({"--no-cache", "--threads", "1"}).exit, 128 + SIGKILL);
+    options_.signal = 0;
+    expect_success(run_replace({"--no-cache", "--resume"}));
+    EXPECT_THAT(names("tmp"), IsEmpty());
+    EXPECT_EQ(names("out").size(), 6u);
+}
+
+// A step of this plate takes longer than the two seconds that there are.
+TEST_F(Resume, TerminatesInTimeInTheMiddleOfAStep) {
+    const Size size{3000, 2000};
+    const ImageF3 plate = pattern_picture(size, 9);
+    fs::create_directories(folder_ / "big");
+    put_picture("big/1.png", plate);
+    put_picture("big/2.png", plate);
+    put_matte("big_matte.png", Matte(size, 255));
+    options_.signal_after = std::chrono::milliseconds(1200);
+    options_.signal = SIGTERM;
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome =
+        run({"replace", "--plate", "big/#.png", "--matte", "big_matte.png", "--plane", "tile.png",
+             "-o", "out/#.png", "--threads", "1", "--no-cache", "--backend", "cpu"});
+    const auto after = std::chrono::steady_clock::now() - start - options_.signal_after;
+    EXPECT_EQ(outcome.exit, 143) << outcome.err;
+    EXPECT_LT(after, std::chrono::milliseconds(2000));
+    EXPECT_THAT(names("tmp"), IsEmpty());
+    EXPECT_THAT(names("out"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace weft::test
