@@ -84,8 +84,9 @@ TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
     ASSERT_TRUE(robot->click("Top/Texture"));
     clear();
     ASSERT_TRUE(robot->click("Key Scale"));
-    ASSERT_THAT(emitted<DoEdit>(), SizeIs(1));
-    const auto* set = std::get_if<SetRegionParameter>(&emitted<DoEdit>()[0].edit);
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto* set = std::get_if<SetRegionParameter>(&edits[0].edit);
     ASSERT_NE(set, nullptr);
     EXPECT_EQ(set->key, "placement.scale_keys");
     EXPECT_EQ(std::get<std::string>(set->value), "1003:1");
@@ -94,9 +95,9 @@ TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
     robot->frames(2);
     clear();
     ASSERT_TRUE(robot->click("Unkey Scale"));
-    ASSERT_THAT(emitted<DoEdit>(), SizeIs(1));
-    EXPECT_EQ(std::get<std::string>(std::get<SetRegionParameter>(emitted<DoEdit>()[0].edit).value),
-              "");
+    const auto after = emitted<DoEdit>();
+    ASSERT_THAT(after, SizeIs(1));
+    EXPECT_EQ(std::get<std::string>(std::get<SetRegionParameter>(after[0].edit).value), "");
 }
 
 TEST_F(PanelTest, AKeyedSliderChangesTheKeyOfThisFrame) {
@@ -106,8 +107,9 @@ TEST_F(PanelTest, AKeyedSliderChangesTheKeyOfThisFrame) {
     ASSERT_TRUE(robot->click("Top/Texture"));
     clear();
     ASSERT_TRUE(robot->drag("Placement/Scale", {30, 0}));
-    ASSERT_THAT(emitted<DoEdit>(), SizeIs(1));
-    const auto& set = std::get<SetRegionParameter>(emitted<DoEdit>()[0].edit);
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto& set = std::get<SetRegionParameter>(edits[0].edit);
     EXPECT_EQ(set.key, "placement.scale_keys");
     const KeyedValues keys = read_keyed(std::get<std::string>(set.value), 1);
     ASSERT_TRUE(keys.contains(1003));
@@ -125,8 +127,9 @@ TEST_F(PanelTest, CornersInPerspectiveAreDraggedOnTheCanvas) {
     robot->frames(2);
     clear();
     ASSERT_TRUE(robot->drag("Handle corner 2", {20, 0}));
-    ASSERT_FALSE(emitted<DoEdit>().empty());
-    const auto& set = std::get<SetRegionParameter>(emitted<DoEdit>().back().edit);
+    const auto edits = emitted<DoEdit>();
+    ASSERT_FALSE(edits.empty());
+    const auto& set = std::get<SetRegionParameter>(edits.back().edit);
     EXPECT_EQ(set.key, "placement.corners_px");
     const auto& numbers = std::get<std::vector<double>>(set.value);
     ASSERT_THAT(numbers, SizeIs(8));
@@ -146,7 +149,7 @@ TEST_F(PanelTest, ALineSaysHowLargeTheBricksAre) {
     clear();
     ASSERT_TRUE(robot->click("Scale to fit"));
     ASSERT_THAT(emitted<ScaleByLine>(), SizeIs(1));
-    const ScaleByLine& line = emitted<ScaleByLine>()[0];
+    const ScaleByLine line = emitted<ScaleByLine>()[0];
     EXPECT_GT(line.to.x, line.from.x + 10);
     EXPECT_DOUBLE_EQ(line.count, 4);
 }
