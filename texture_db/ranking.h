@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// By a sample's own distance and six tenths of that of its material's middle. The first five are
+/// By a sample's own distance and seven tenths of that of its material's middle. The first five are
 /// of five materials, the nearest of each, since what a picture shows is not sure; then all others.
 /// Distances as they were compared.
 [[nodiscard]] std::vector<Neighbour> rank_for_picture(const SampleIndex& index,

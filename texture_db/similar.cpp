@@ -10,9 +10,9 @@ namespace {
 
 // How much the distance to the middle of a sample's material counts beside that to the sample
 // itself. A material is known better by its middle than by whichever of its samples comes near.
-constexpr float kMiddle = 0.6f;
-// What is drawn by procedure is less like a photograph than its numbers say. Tried from 0 to 5.
-constexpr float kDrawn = 1;
+constexpr float kMiddle = 0.7f;
+// What is drawn by procedure is less like a photograph than its numbers say. Tried from 0 to 8.
+constexpr float kDrawn = 3;
 constexpr std::size_t kFirst = 5;
 
 SearchHit hit_of(const SampleIndex& index, std::size_t i, float distance) {
