@@ -67,8 +67,14 @@ TEST_F(StudyTest, RendersMeasuresAndReportsEveryMethod) {
         EXPECT_EQ(run.measured.frames.size(), 6u) << run.id;
         EXPECT_TRUE(above_floor(run.measured.all).has_value()) << run.id;
     }
-    EXPECT_THAT(ids, testing::ElementsAre("anew", "patchmatch", "poisson", "still", "paper-0.5",
-                                          "locked", "full", "no-graphcut", "no-time"));
+    EXPECT_THAT(
+        ids, testing::ElementsAre("anew", "patchmatch", "poisson", "still", "paper-0.5", "locked",
+                                  "light-statistics", "light-histogram", "light-literal",
+                                  "finished", "full", "no-graphcut", "no-time"));
+    // Light and reflectance of the plate and of the result, on every key frame.
+    ASSERT_EQ(result->light_strip.size(), 6u);
+    for (const StripRow& row : result->light_strip)
+        EXPECT_EQ(row.pictures.size(), result->strip_frames.size()) << row.title;
     // The card moves by whole pixels: a texture that goes with it hardly changes, one that stands
     // still or is made anew does.
     EXPECT_LT(result->find("locked")->measured.all.tde.mean, 2.0);
@@ -90,10 +96,10 @@ TEST_F(StudyTest, RendersMeasuresAndReportsEveryMethod) {
     for (const char* outside : {"http:", "https:", "<script", "<link", "@import"})
         EXPECT_THAT(html, Not(HasSubstr(outside)));
     const auto json = nlohmann::json::parse(text("report.json"));
-    EXPECT_EQ(json.at("runs").size(), 9u);
+    EXPECT_EQ(json.at("runs").size(), 13u);
     EXPECT_EQ(json.at("verdict").at("best_baseline"), result->verdict.baseline_id);
     const std::string csv = text("report.csv");
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 9 * 6);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 13 * 6);
     EXPECT_EQ(result->worst.size(), 6u);
 }
 
