@@ -30,6 +30,8 @@ const char* title_of(Purpose purpose) {
             return "Choose where to write";
         case Purpose::kTextureFolder:
             return "Add a folder of textures";
+        case Purpose::kPlate:
+            return "Find the plate's frames";
         case Purpose::kTrack:
             return "Choose a planar track";
         case Purpose::kExportMattes:
@@ -89,6 +91,9 @@ void accept(Ctx& c, const std::string& path) {
         }
         case Purpose::kMotion:
             c.edit(SetRegionParameter{ref, "motion.files", path});
+            break;
+        case Purpose::kPlate:
+            c.edit(SetProjectParameter{"plate.path", path});
             break;
         case Purpose::kTrack:
             c.edit(SetRegionParameter{ref, "motion.track", path});

@@ -193,6 +193,30 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
     }
 }
 
+// A rhombus: empty where a value does not change over time, filled on the frame of a key.
+bool key_button(Ctx& c, const char* name, bool here, bool anywhere) {
+    const Theme& t = c.theme;
+    const float side = t.px(20);
+    ImGui::PushID(name);
+    const bool pressed = ImGui::InvisibleButton("##key", {side, side});
+    ImGui::PopID();
+    c.note(name);
+    const ImVec2 min = ImGui::GetItemRectMin();
+    const ImVec2 mid(min.x + side / 2, min.y + side / 2);
+    const float r = t.px(5);
+    const ImU32 color = ImGui::IsItemHovered() ? t.text : anywhere ? t.accent_hover : t.off;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (here)
+        list.AddQuadFilled({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r},
+                           {mid.x - r, mid.y}, color);
+    else
+        list.AddQuad({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r}, {mid.x - r, mid.y},
+                     color, t.px(1.3f));
+    tooltip(c, here ? "A key is on this frame. Click to take it away"
+                    : "Key it on this frame: the value changes over time");
+    return pressed;
+}
+
 }  // namespace
 
 void region_parameter(Ctx& c, const Region& region, std::string_view key, const char* label) {
@@ -242,8 +266,7 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
     const float label_w = std::floor(ImGui::GetContentRegionAvail().x * 0.38f);
     ImGui::SetCursorScreenPos({at.x + label_w - t.px(24), at.y + t.px(3)});
     const std::string name = label_of(info, label);
-    if (icon_button(c, icons::kKeyframe, ((here ? "Unkey " : "Key ") + name).c_str(), here, nullptr,
-                    true, t.px(20))) {
+    if (key_button(c, ((here ? "Unkey " : "Key ") + name).c_str(), here, !keys.empty())) {
         if (here)
             keys.erase(c.view.frame);
         else

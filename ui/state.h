@@ -106,6 +106,7 @@ struct BrowserState {
         kOutput,
         kTextureFolder,
         kTrack,
+        kPlate,
         kExportMattes
     };
     Purpose purpose = Purpose::kNone;

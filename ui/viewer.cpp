@@ -184,6 +184,35 @@ bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
     return near || s.dragging_wipe;
 }
 
+// The way out of frames that are not where they were.
+void relink(Ctx& c) {
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const float w = c.theme.px(180);
+    ImGui::SetCursorScreenPos(
+        {std::floor(at.x + (size.x - w) / 2), std::floor(at.y + size.y / 2 + c.theme.px(64))});
+    if (!button(c, "Find the frames…",
+                {.icon = icons::kFolderOpen, .look = Look::kPrimary, .width = w}))
+        return;
+    c.state.browser.purpose = BrowserState::Purpose::kPlate;
+    c.state.browser.just_opened = true;
+}
+
+// What went wrong, whole, where one looks.
+void failure(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    if (c.view.preview.state != PreviewView::State::kFailed || !c.view.result_wanted) return;
+    const Theme& t = c.theme;
+    const float width = std::min(t.px(560), max.x - min.x - t.px(24));
+    const std::string text = "No result yet. " + c.view.preview.error;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - t.px(50));
+    const ImVec2 a(std::floor((min.x + max.x - width) / 2), min.y + t.px(12));
+    const ImVec2 b(a.x + width, a.y + size.y + t.px(20));
+    list.AddRectFilled(a, b, t.panel, t.px(4));
+    list.AddRectFilled(a, {a.x + t.px(4), b.y}, t.bad);
+    icon_in(c, list, {a.x + t.px(12), a.y}, {a.x + t.px(32), b.y}, t.bad, icons::kAlert);
+    list.AddText(t.regular, t.regular->FontSize, {a.x + t.px(40), a.y + t.px(10)}, t.text,
+                 text.c_str(), nullptr, width - t.px(50));
+}
+
 void no_picture(Ctx& c) {
     const PlateView& plate = c.view.plate;
     switch (plate.state) {
@@ -197,6 +226,7 @@ void no_picture(Ctx& c) {
             break;
         case PlateView::State::kFailed:
             empty_state(c, icons::kAlert, "The plate cannot be opened", plate.error.c_str());
+            relink(c);
             break;
         case PlateView::State::kOpen:
             if (!c.view.frame_error.empty())
@@ -285,6 +315,7 @@ void viewer(Ctx& c, ImVec2 size) {
     if (!wiping) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);
     draw_provenance(c, list, map, hovered);
+    failure(c, list, min, max);
     draw_state(c, list, {min.x, max.y}, foot);
     view_controls(c, {min.x, max.y}, foot);
     if (ImGui::BeginDragDropTargetCustom(ImRect(min, max), ImGui::GetID("##drop"))) {

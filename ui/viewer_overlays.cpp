@@ -146,7 +146,7 @@ State state_of_picture(const Ctx& c) {
         return {what, t.text};
     }
     if (v.preview.state == PreviewView::State::kFailed)
-        return {"No result: " + v.preview.error, t.bad, icons::kAlert};
+        return {"Plate  ·  No result", t.bad, icons::kAlert};
     if (v.result_current && !v.stages.approximate) {
         std::string what = v.preview_quality == Quality::kDraft ? "Result, draft" : "Result";
         if (v.stages.proxy > 1) what += ", 1/" + std::to_string(v.stages.proxy) + " size for now";
