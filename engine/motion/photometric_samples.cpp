@@ -14,7 +14,7 @@ cv::Mat as_mat(ViewU8x1 v) {
 }
 
 // Local means reach this far, px at a width of 854.
-constexpr float kLocal_px = 10;
+constexpr float kLocal_px = 4;
 // Pixels nearer to the outline than this are mixed with what lies behind.
 constexpr float kEdge_px = 3;
 
