@@ -188,6 +188,7 @@ struct CorrectionPin {
 struct FinishParams {
     double grain = 1;                   ///< Of the plate's grain; 0: none.
     double focus = 1;                   ///< Of the plate's blur; 0: none.
+    std::string depth;                  ///< Pattern of a depth pass, along which blur is followed.
     std::optional<double> shutter_deg;  ///< Of 360 a frame; unset: as the plate's.
     Extras extra;
     bool operator==(const FinishParams&) const = default;

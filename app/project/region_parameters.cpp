@@ -220,11 +220,10 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "rotations",
              .flag = "--rotations",
              .help = "Use the sample turned by quarters, too"}),
-        entry<R, &R::synthesis, &SynthesisParams::mirror>(
-            {.group = "synthesis",
-             .key = "mirror",
-             .flag = "--mirror",
-             .help = "Use the sample mirrored, too"}),
+        entry<R, &R::synthesis, &SynthesisParams::mirror>({.group = "synthesis",
+                                                           .key = "mirror",
+                                                           .flag = "--mirror",
+                                                           .help = "Use the sample mirrored, too"}),
         entry<R, &R::synthesis, &SynthesisParams::align>(
             {.group = "synthesis",
              .key = "align",
@@ -322,6 +321,12 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "How far the texture is blurred as the plate is (final quality)",
              .min = 0,
              .max = 2}),
+        entry<R, &R::finish, &FinishParams::depth>(
+            {.group = "finish",
+             .key = "depth",
+             .flag = "--depth-pass",
+             .help = "Pattern of a depth pass, along which the plate's blur is followed",
+             .is_path = true}),
         entry<R, &R::finish, &FinishParams::shutter_deg>(
             {.group = "finish",
              .key = "shutter_deg",

@@ -148,6 +148,8 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
         if (!pass.empty()) WEFT_CHECK_OK(check_pattern(pass, "The lighting pass", all));
     }
+    if (plan.has_depth)
+        WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames));
     if (plan.has_lines) {
         WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/session/frame_plan.h"
 #include "app/session/project_source.h"
@@ -189,10 +190,13 @@ class ShotOpener {
         plan.weight = static_cast<float>(region.temporal.weight);
         plan.light_source = region.light.source;
         plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        if (!shot_.plan.display_referred)
+            plan.light.least_gain = 0, plan.light.most_gain = std::numeric_limits<float>::max();
         WEFT_CHECK_OK(add_light(region.light, plan));
         const bool final = shot_.plan.quality == FlowQuality::kFinal;
         plan.grain = final ? static_cast<float>(region.finish.grain) : 0.0f;
         plan.focus = final ? static_cast<float>(region.finish.focus) : 0.0f;
+        plan.has_depth = plan.focus > 0 && !region.finish.depth.empty();
         WEFT_TRY(metered, grain_frames(region, plan, *shot_.plate));
         plan.grain_frames = std::move(metered);
         if (!final)

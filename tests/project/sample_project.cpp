@@ -46,7 +46,7 @@ Region full_region() {
     r.light.highlights = 0.5;
     r.light.albedo = "albedo/####.exr";
     r.light.lighting = "lighting/####.exr";
-    r.finish = {0.5, 0.25, 172.8, {}};
+    r.finish = {0.5, 0.25, "depth/####.exr", 172.8, {}};
     r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
 }
