@@ -90,10 +90,7 @@ void region_list(Ctx& c) {
             const bool ready = missing == v.unready.end();
             const std::string texture =
                 !region.texture.plane.empty() ? region.texture.plane : region.texture.sample;
-            const std::size_t slash = texture.find_last_of('/');
-            const std::string below =
-                ready ? texture.substr(slash == std::string::npos ? 0 : slash + 1)
-                      : missing->second;
+            const std::string below = ready ? c.textures.name_of_texture(texture) : missing->second;
             text_in(list, selected ? t.strong : t.regular, {name_x, at.y + t.px(2)},
                     {name_x + name_w, at.y + t.px(19)}, region.enabled ? t.text : t.off,
                     fitted(region.name, name_w).c_str(), 0);

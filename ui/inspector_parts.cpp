@@ -179,9 +179,8 @@ void provenance_section(Ctx& c, const Region& region) {
              path.c_str());
     // What came from the library is named by its id.
     TextureCard card;
-    card.path = "db:" + std::filesystem::path(path).stem().string();
-    constexpr std::size_t kIdDigits = 32;
-    if (card.path.size() == kIdDigits + 3) {
+    card.path = library_name_of(path);
+    if (!card.path.empty()) {
         const TextureCard known = c.textures.details(card);
         info_row(c, "Material", known.material.empty() ? "…" : known.material);
         info_row(c, "Author", known.author.empty() ? "not stated" : known.author);

@@ -85,13 +85,10 @@ void texture_inspector(Ctx& c) {
                 if (const ImTextureID id = c.pictures.texture(thumb))
                     list.AddImageRounded(id, at, {at.x + side, at.y + side}, {0, 0}, {1, 1},
                                          IM_COL32_WHITE, t.radius);
-            const std::size_t slash = path.find_last_of('/');
             const float x = at.x + side + t.px(10);
             const float right = at.x + ImGui::GetContentRegionAvail().x;
-            text_in(
-                list, t.strong, {x, at.y + t.px(4)}, {right, at.y + t.px(24)}, t.text,
-                fitted(path.substr(slash == std::string::npos ? 0 : slash + 1), right - x).c_str(),
-                0);
+            text_in(list, t.strong, {x, at.y + t.px(4)}, {right, at.y + t.px(24)}, t.text,
+                    fitted(c.textures.name_of_texture(path), right - x).c_str(), 0);
             text_in(list, t.small, {x, at.y + t.px(24)}, {right, at.y + t.px(42)}, t.quiet,
                     plane ? "Used as it is" : "Grown over the surface", 0);
             ImGui::Dummy({side, side});

@@ -78,7 +78,9 @@ void estimate(Ctx& c, std::size_t frames) {
     // there yet.
     const double frame_s = v.preview.frame_seconds > 0 ? v.preview.frame_seconds : pixels * 6e-7;
     const double analysis_s = pixels * 1.6e-6 * static_cast<double>(v.project.regions.size());
-    const double seconds = static_cast<double>(frames) * (frame_s + analysis_s) + 4;
+    // The analysis goes through the shot, however few frames of it are rendered.
+    const double seconds = static_cast<double>(frames) * frame_s +
+                           static_cast<double>(v.plate.frames.size()) * analysis_s + 4;
     const double bytes_per_pixel[] = {2.2, 7.5, 3.2, 0.6};
     const double disk = static_cast<double>(frames) * pixels *
                         bytes_per_pixel[static_cast<std::size_t>(c.state.output.format)];

@@ -24,6 +24,7 @@ bool Preview::try_request(const PreviewRequest& request) {
         impl_->failed_pixels.clear();
         impl_->grow_cancel.cancel();
     }
+    impl_->card_cancel.cancel();
     if (!impl_->analysing_key.empty() && impl_->analysing_key != analysis)
         impl_->analysis_cancel.cancel();
     impl_->wanted.swap(next);
@@ -44,6 +45,7 @@ void Preview::clear() {
     impl_->failed_pixels.clear();
     impl_->analysis_cancel.cancel();
     impl_->grow_cancel.cancel();
+    impl_->card_cancel.cancel();
     old.swap(impl_->frames);
     old_cards.swap(impl_->cards);
     impl_->frame_bytes = 0;

@@ -4,6 +4,7 @@
 
 #include "app/session/preview_impl.h"
 #include "engine/color/color_space.h"
+#include "engine/pipeline/analyse.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/render_frame.h"
@@ -70,7 +71,27 @@ Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const Str
     return make_picture(shrink(*picture_of(shot, pixels), kLongest_px));
 }
 
+// A surface that has no texture yet was not analysed with the others: its one frame is, here.
+Status Preview::Impl::analyse_card(OpenedShot& of, const StripWish& wish) {
+    of.analysis = analysis_key(wish.project);
+    if (card_analysis != of.analysis) {
+        std::vector<std::string> warnings;
+        WEFT_TRY(store, open_analysis_cache(*of.shot, cache, warnings));
+        card_store = std::move(store);
+        card_analysis = of.analysis;
+    }
+    of.store = card_store;
+    ShotPlan plan = of.shot->plan;
+    plan.frames = {wish.frame};
+    return analyse_shot(*of.shot->source, plan, *of.store, card_cancel, {});
+}
+
 bool Preview::Impl::step_card(const PreviewRequest& now) {
+    {
+        const std::lock_guard lock(mutex);
+        if (!wanted || wanted->frame != now.frame) return true;
+        card_cancel = CancelToken();
+    }
     const auto put = [&](const StripWish& wish, PicturePtr picture, std::string error) {
         const std::lock_guard lock(mutex);
         cards[wish.key] = {wish.label, wish.note, wish.frame, std::move(picture), std::move(error)};
@@ -89,12 +110,16 @@ bool Preview::Impl::step_card(const PreviewRequest& now) {
             const std::lock_guard lock(mutex);
             if (cards.contains(wish.key)) continue;
         }
-        if (!served_by(wish.project, opened->analysis))
-            return put(wish, nullptr, "This one needs an analysis of its own. Take it to see it.");
-        if (!ready(wish.frame)) continue;  // its frame is still being analysed
+        const bool served = served_by(wish.project, opened->analysis);
+        if (served && !ready(wish.frame)) continue;  // its frame is still being analysed
         auto shot = open(wish.project);
         if (!shot) return put(wish, nullptr, shot.error().text());
-        const OpenedShot of{*shot, opened->store, opened->pixels, opened->analysis};
+        OpenedShot of{*shot, opened->store, opened->pixels, opened->analysis};
+        if (!served) {
+            const Status analysed = analyse_card(of, wish);
+            if (card_cancel.cancelled()) return true;
+            if (!analysed) return put(wish, nullptr, analysed.error().text());
+        }
         (void)scenes.adopt(*of.shot, of.analysis);
         while (!scenes.exact()) {
             CancelToken token;

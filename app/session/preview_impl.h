@@ -47,6 +47,7 @@ struct Preview::Impl {
     bool step_frame(const PreviewRequest& now);
     bool step_fill(const PreviewRequest& now, const std::string& pixels);
     bool step_card(const PreviewRequest& now);
+    [[nodiscard]] Status analyse_card(OpenedShot& of, const StripWish& wish);
     [[nodiscard]] Expected<std::shared_ptr<const Shot>> open(const Project& project);
     bool open_shot_of(const PreviewRequest& wanted, const std::string& pixels);
     bool render(const PreviewRequest& wanted, int frame, int factor);
@@ -102,7 +103,7 @@ struct Preview::Impl {
     std::vector<int> analyse_frames, analyse_first;
     bool analysis_news = false;
     std::string analysing_key;
-    CancelToken analysis_cancel, grow_cancel;
+    CancelToken analysis_cancel, grow_cancel, card_cancel;
 
     // Of the rendering thread alone.
     PreviewScenes scenes;
@@ -113,6 +114,8 @@ struct Preview::Impl {
     std::shared_ptr<const CachedReader> reader;  // of the plate `reader_of`
     Plate reader_of;
     std::unique_ptr<ProxyPlates> proxies;
+    std::shared_ptr<AnalysisStore> card_store;  // of cards that the picture's does not serve
+    std::string card_analysis;
 
     std::thread renderer, analyser;
 };

@@ -74,6 +74,7 @@ Preview::Impl::~Impl() {
         stop = true;
         analysis_cancel.cancel();
         grow_cancel.cancel();
+        card_cancel.cancel();
     }
     wake.notify_all();
     renderer.join();

@@ -113,8 +113,9 @@ std::vector<StripWish> Session::strip_wishes(const Region* region) {
         }
         return wishes;
     }
-    const auto with = [&](const Edit& edit, std::string label, std::function<void()> choice) {
-        if (auto changed = apply_edit(base, edit)) {
+    const auto with = [&](const Project& from, const Edit& edit, std::string label,
+                          std::function<void()> choice) {
+        if (auto changed = apply_edit(from, edit)) {
             wishes.push_back({std::move(label), {}, std::move(*changed), frame_, 0, {}});
             strip_choices_.push_back(std::move(choice));
         }
@@ -130,7 +131,13 @@ std::vector<StripWish> Session::strip_wishes(const Region* region) {
             texture.sample =
                 names_library_texture(path) ? path : resolve_path(project_dir(path_), path);
             texture.plane.clear();
-            with(SetTexture{ref, texture}, std::filesystem::path(path).stem().string(),
+            // A region without a texture is not shown yet; here it is.
+            const bool hidden = !region->enabled || region->matte->empty();
+            const Expected<Project> shown =
+                hidden ? Expected<Project>(base)
+                       : apply_edit(base, SetRegionParameter{ref, "enabled", true});
+            if (!shown) continue;
+            with(*shown, SetTexture{ref, texture}, std::filesystem::path(path).stem().string(),
                  [this, path] {
                      act(ApplyTexture{path, 0});
                  });
@@ -140,7 +147,7 @@ std::vector<StripWish> Session::strip_wishes(const Region* region) {
         }
     }
     for (const Variant& variant : variants_of(strip_kind_, *region))
-        with(SetRegionParameter{ref, variant.key, variant.value}, variant.label,
+        with(base, SetRegionParameter{ref, variant.key, variant.value}, variant.label,
              [this, id = region->id, variant] {
                  edit(SetRegionParameter{{id, {}}, variant.key, variant.value}, true);
              });

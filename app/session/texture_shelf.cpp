@@ -63,6 +63,14 @@ std::vector<TextureCount> counts_of(const std::vector<FacetCount>& facets) {
 
 }  // namespace
 
+std::string library_name_of(const std::string& path) {
+    if (path.starts_with("db:")) return path;
+    const std::string stem = fs::path(path).stem().string();
+    constexpr std::size_t kIdDigits = 32;
+    return stem.starts_with("db_") && stem.size() == kIdDigits + 3 ? "db:" + stem.substr(3)
+                                                                   : std::string();
+}
+
 TextureShelf::TextureShelf(std::size_t budget_bytes)
     : budget_bytes_(budget_bytes), cards_(std::make_shared<const std::vector<TextureCard>>()) {
     threads_.emplace_back([this] { work(); });
@@ -249,6 +257,13 @@ TextureCard TextureShelf::details(const TextureCard& card) {
     details_due_ = card.path;
     wake_.notify_all();
     return card;
+}
+
+std::string TextureShelf::name_of_texture(const std::string& path) {
+    TextureCard card;
+    card.path = library_name_of(path);
+    if (!card.path.empty()) card = details(card);
+    return card.name.empty() ? fs::path(path).filename().string() : card.name;
 }
 
 void TextureShelf::look_up(const std::string& path) {

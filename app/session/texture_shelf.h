@@ -28,6 +28,9 @@ struct TextureCard {
     Size size;  ///< 0 while unknown.
 };
 
+/// "db:ID" of a texture that came from a library and was kept as a file (db_ID.png), else empty.
+[[nodiscard]] std::string library_name_of(const std::string& path);
+
 /// A texture that suits a region, and why.
 struct TextureSuggestion {
     std::string path;
@@ -69,6 +72,8 @@ class TextureShelf {
     [[nodiscard]] std::string activity() const;
     /// Everything known about a card; author, licence and tags of a library's texture come later.
     [[nodiscard]] TextureCard details(const TextureCard& card);
+    /// How a texture is called: a library's, also where it was kept as a file, by its name there.
+    [[nodiscard]] std::string name_of_texture(const std::string& path);
     /// The answer to a question; null while it is worked out, or without a library.
     [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuestion& question);
     /// The whole library's counts; null without one.
