@@ -31,6 +31,9 @@ class ShotSource {
     /// The file of true motion of this frame, to the next or the previous one as
     /// RegionPlan::motion_forward says.
     [[nodiscard]] virtual Expected<FlowField> motion(int region, int frame) const = 0;
+    /// The region's UV pass (RegionPlan::has_uv): H×W×2 of the plate's size, 0–1, origin bottom
+    /// left.
+    [[nodiscard]] virtual Expected<ImageF2> uv(int region, int frame) const;
     /// The artist's albedo or lighting pass (RegionPlan::light_pass) in linear light, of the
     /// plate's size. A source that has none need not override it.
     [[nodiscard]] virtual Expected<ImageF3> light_pass(int region, int frame) const;
