@@ -241,6 +241,7 @@ Status GpuFrame::add_layer(const LayerRequest& layer) {
         args.shading_h = layer.gain->shading.height();
         args.shading_scale = 1.0f / static_cast<float>(layer.gain->downscale);
         args.inverse_reference = 1.0f / layer.gain->reference;
+        args.least_gain = layer.gain->least_gain, args.most_gain = layer.gain->most_gain;
         args.strength = std::min(1.0f, layer.gain->strength);
     }
     args.frame = p.frame.as<float>();

@@ -9,9 +9,12 @@ uniform float wipe;
 uniform float gain;    // 2^exposure
 uniform float inverse_gamma;
 uniform int channel;   // 0 colour, 1-3 one channel, 4 luma
+uniform int curve;     // 0 sRGB, 1 BT.1886 (gamma 2.4), 2 as it is
 
 vec3 encode(vec3 v) {
     v = max(v, vec3(0.0));
+    if (curve == 1) return pow(v, vec3(1.0 / 2.4));
+    if (curve == 2) return v;
     return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), v));
 }
 

@@ -121,6 +121,7 @@ class Builder {
         const std::string extracted = (fs::path(work_) / (name + ".pictures")).string();
         WEFT_TRY(pictures, find_package_pictures(name, *unpacked, extracted, cancel_));
         report_.not_named += pictures.not_named;
+        report_.looked_wrong += pictures.looked_wrong;
         std::size_t at =
             std::min(static_cast<std::size_t>(std::max(0l, std::strtol(note.c_str(), nullptr, 10))),
                      pictures.photos.size());

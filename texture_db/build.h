@@ -39,9 +39,10 @@ struct BuildEstimate {
 
 struct BuildReport {
     int pictures = 0, samples = 0;
-    int not_named = 0;   ///< Pictures whose names speak of no material.
-    int duplicates = 0;  ///< Pictures and samples seen before.
-    int voted_out = 0;   ///< Samples that look like another material than their name says.
+    int not_named = 0;     ///< Pictures whose names speak of no material.
+    int looked_wrong = 0;  ///< Pictures that a person has seen to show none.
+    int duplicates = 0;    ///< Pictures and samples seen before.
+    int voted_out = 0;     ///< Samples that look like another material than their name says.
     std::vector<std::pair<std::string, int>> refused;  ///< Why, and how many pictures.
     std::vector<std::string> unreachable;              ///< Packages that could not be had.
     double seconds = 0;

@@ -204,6 +204,7 @@ Expected<Learned> learn_on(const std::vector<const Stored*>& samples) {
     Learned out;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         IndexedSample s;
+        s.origin = samples[i]->origin;
         s.material = out.index.materials.number_of(samples[i]->material);
         out.index.add(std::move(s), descriptors[i]);
     }

@@ -10,6 +10,7 @@
 #include "texture_db/copyright_file.h"
 #include "texture_db/import.h"
 #include "texture_db/material_words.h"
+#include "texture_db/picture_corrections.h"
 #include "texture_db/zip_reader.h"
 
 namespace weft {
@@ -64,7 +65,11 @@ class Collector {
             return {};
         std::string material = material_of_path(telling_part(source));
         if (material.empty()) ++out.not_named;
-        return material;
+        const auto seen = corrected_material(package_, source);
+        if (!seen || material.empty()) return material;
+        if (*seen != "-") return *seen;
+        ++out.looked_wrong;
+        return {};
     }
     void take(const std::string& file, const std::string& source, const std::string& material) {
         Photo photo;
@@ -79,8 +84,9 @@ class Collector {
         photo.author = licence.author;
         photo.licence = licence.licence;
         photo.keep_original = true;
-        // A material that only the folder names is a guess.
-        if (material_of_path(fs::path(source).filename().string()).empty())
+        // A material that only the folder names is a guess, where nobody has looked.
+        if (!was_looked_at(package_) &&
+            material_of_path(fs::path(source).filename().string()).empty())
             photo.tags.push_back("guessed");
         out.photos.push_back(std::move(photo));
     }

@@ -13,6 +13,7 @@ namespace weft {
 struct PackagePictures {
     std::vector<Photo> photos;  ///< Sorted by source.
     int not_named = 0;
+    int looked_wrong = 0;   ///< Left out because a person saw no material in them.
     int refused_paths = 0;  ///< Archive entries whose paths are unsafe.
 };
 

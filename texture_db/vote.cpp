@@ -1,10 +1,12 @@
-// Samples of packages are believed to be what their names say only as far as they look like it.
+// Samples of packages are believed to be what their names say only as far as they look like it,
+// where nobody has looked.
 
 #include <algorithm>
 #include <map>
 
 #include "engine/core/parallel.h"
 #include "texture_db/library_state.h"
+#include "texture_db/picture_corrections.h"
 
 namespace weft {
 namespace {
@@ -29,10 +31,14 @@ std::vector<std::size_t> strangers(const SampleIndex& index, const std::vector<b
     std::vector<std::string> groups;
     for (int m = 0; m < index.materials.size(); ++m)
         groups.push_back(group_of(index.materials.text(m)));
+    std::vector<bool> looked_at;
+    for (int p = 0; p < index.packages.size(); ++p)
+        looked_at.push_back(was_looked_at(index.packages.text(p)));
     std::vector<char> out(index.samples.size(), 0);
     parallel_for(index.samples.size(), [&](std::size_t i) {
         const IndexedSample& s = index.samples[i];
-        if (s.origin != TextureOrigin::kPackage) return;
+        if (s.origin != TextureOrigin::kPackage || looked_at[static_cast<std::size_t>(s.package)])
+            return;
         float same = 0;
         int voters = 0;
         std::map<std::string, int> from_one;  // no picture votes more than three times
@@ -46,8 +52,8 @@ std::vector<std::size_t> strangers(const SampleIndex& index, const std::vector<b
             if (++voters == kVoters) break;
         }
         if (voters < 8) return;
-        out[i] =
-            same / static_cast<float>(voters) < (guessed[i] ? kNeededGuessed : kNeeded) ? 1 : 0;
+        const float needed = guessed[i] ? kNeededGuessed : kNeeded;
+        out[i] = same / static_cast<float>(voters) < needed ? 1 : 0;
     });
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < out.size(); ++i) {

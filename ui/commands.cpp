@@ -132,6 +132,9 @@ void add_edit_commands(std::vector<Command>& out) {
                               c.state.palette_text.clear();
                               c.state.palette_at = 0;
                           }));
+    out.push_back(command(
+        "edit.shot", "Edit", "Shot settings…", icons::kFilm, "Ctrl+Shift+E",
+        [](Ctx& c) { c.state.shot_open = !c.state.shot_open; }, open));
     out.push_back(command("edit.settings", "Edit", "Settings…", icons::kSettings, "Ctrl+,",
                           [](Ctx& c) { c.state.settings_open = !c.state.settings_open; }));
 }
@@ -218,6 +221,8 @@ void add_view_commands(std::vector<Command>& out) {
         "view.panels", "View", "Hide all panels", "", "Tab",
         [](Ctx& c) { c.state.panels_hidden = !c.state.panels_hidden; }, {},
         [](const Ctx& c) { return c.state.panels_hidden; }));
+    out.push_back(command("view.second", "View", "Second window", icons::kOpenInNew, "Shift+F11",
+                          [](Ctx& c) { c.pictures.toggle_second_window(); }));
     out.push_back(command("view.fullscreen", "View", "Full screen", icons::kMonitor, "F11",
                           [](Ctx& c) { c.pictures.toggle_fullscreen(); }));
     out.push_back(
@@ -333,6 +338,7 @@ void add_tool_commands(std::vector<Command>& out) {
     add("tool.lamp", "Move the lamps", icons::kLightbulb, "Shift+L", Tool::kLamp);
     add("tool.flood", "Select by colour", icons::kFlood, "U", Tool::kFlood);
     add("tool.place", "Place the texture", icons::kMove, "R", Tool::kPlace);
+    add("tool.measure", "Size by a line", icons::kRuler, "Shift+M", Tool::kMeasure);
     const auto add_size = [&](const char* id, const char* name, const char* key, float factor) {
         out.push_back(command(id, "Tool", name, "", key, [factor](Ctx& c) {
             float& r = c.state.brush.brush.radius_px;

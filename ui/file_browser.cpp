@@ -30,6 +30,12 @@ const char* title_of(Purpose purpose) {
             return "Choose where to write";
         case Purpose::kTextureFolder:
             return "Add a folder of textures";
+        case Purpose::kPlate:
+            return "Find the plate's frames";
+        case Purpose::kTrack:
+            return "Choose a planar track";
+        case Purpose::kExportMattes:
+            return "Choose where the mattes go";
         case Purpose::kNone:
             break;
     }
@@ -38,7 +44,7 @@ const char* title_of(Purpose purpose) {
 
 bool wants_folder(Purpose purpose) {
     return purpose == Purpose::kSaveProject || purpose == Purpose::kOutput ||
-           purpose == Purpose::kTextureFolder;
+           purpose == Purpose::kTextureFolder || purpose == Purpose::kExportMattes;
 }
 
 std::string home() {
@@ -85,6 +91,16 @@ void accept(Ctx& c, const std::string& path) {
         }
         case Purpose::kMotion:
             c.edit(SetRegionParameter{ref, "motion.files", path});
+            break;
+        case Purpose::kPlate:
+            c.edit(SetProjectParameter{"plate.path", path});
+            break;
+        case Purpose::kTrack:
+            c.edit(SetRegionParameter{ref, "motion.track", path});
+            break;
+        case Purpose::kExportMattes:
+            if (const Region* region = c.view.selected_region())
+                c.emit(ExportMattes{joined(path, region->name + "_matte.####.png")});
             break;
         case Purpose::kOutput: {
             std::string name = c.state.output.output;

@@ -307,6 +307,41 @@ void settings_window(Ctx& c) {
     end_sheet(c);
 }
 
+// What the plate is and what the shot works in.
+void shot_window(Ctx& c) {
+    if (!c.state.shot_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "Shot settings", {t.px(540), t.px(560)}, c.state.shot_open);
+    heading(c, "Plate");
+    project_parameter(c, "plate.path", "Frames");
+    project_parameter(c, "plate.layer", "Layer");
+    project_parameter(c, "plate.space", "Colour space");
+    project_parameter(c, "plate.fps", "Frame rate");
+    double aspect = static_cast<double>(c.state.viewer.aspect);
+    if (slider(c,
+               {.label = "Pixel aspect",
+                .tip = "Width of a pixel over its height, for the view alone: 2 for anamorphic",
+                .min = 0.5,
+                .max = 2,
+                .standard = 1,
+                .typed_min = 0.1,
+                .typed_max = 10},
+               aspect) != Change::kNone)
+        c.state.viewer.aspect = static_cast<float>(aspect);
+    ImGui::Dummy({0, t.px(8)});
+    heading(c, "Colour");
+    project_parameter(c, "color.working_space", "Working space");
+    project_parameter(c, "color.texture_space", "Textures");
+    project_parameter(c, "color.out_space", "Result");
+    ImGui::Dummy({0, t.px(8)});
+    heading(c, "Render");
+    project_parameter(c, "settings.seed", "Variation");
+    project_parameter(c, "settings.excluded_licences", "No textures under");
+    project_parameter(c, "output.exr_compression", "EXR compression");
+    project_parameter(c, "output.jpeg_quality");
+    end_sheet(c);
+}
+
 void history_window(Ctx& c) {
     if (!c.state.history_open) return;
     const Theme& t = c.theme;

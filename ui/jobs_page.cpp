@@ -88,8 +88,10 @@ void estimate(Ctx& c, std::size_t frames) {
     const float w = ImGui::GetContentRegionAvail().x, h = t.px(58), third = w / 3;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + w, at.y + h}, t.field, t.radius);
-    const std::string values[] = {"about " + time_text(seconds), bytes_text(memory),
-                                  bytes_text(disk)};
+    std::string values[] = {"about " + time_text(seconds), bytes_text(memory), bytes_text(disk)};
+    if (frames == 0 || v.plate.size.empty())
+        for (std::string& value : values)
+            value = "–";
     constexpr const char* kNames[] = {"Time", "Memory", "Disk"};
     for (int k = 0; k < 3; ++k) {
         const float x = at.x + third * static_cast<float>(k);
@@ -99,6 +101,16 @@ void estimate(Ctx& c, std::size_t frames) {
                 values[k].c_str());
     }
     ImGui::Dummy({w, h});
+}
+
+// The command line's names of things say nothing here.
+std::string without_flags(std::string text) {
+    for (std::size_t at = text.find(" (--"); at != std::string::npos; at = text.find(" (--")) {
+        const std::size_t end = text.find(')', at);
+        if (end == std::string::npos) break;
+        text.erase(at, end + 1 - at);
+    }
+    return text;
 }
 
 void export_card(Ctx& c, ImVec2 size) {
@@ -160,7 +172,9 @@ void export_card(Ctx& c, ImVec2 size) {
         if (issue.severity == Severity::kError && !problem) problem = &issue;
     // The output is chosen here, so that its absence in the document is no obstacle.
     const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
-    if (!ready) banner(c, icons::kAlert, t.bad, problem->what + ". " + problem->what_to_do + ".");
+    if (!ready)
+        banner(c, icons::kAlert, t.bad,
+               without_flags(problem->what + ". " + problem->what_to_do + "."));
     const std::string label = "Render " + std::to_string(frames.size()) + " frames";
     if (button(c, (label + "##submit").c_str(),
                {.icon = icons::kRocket,

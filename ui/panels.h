@@ -29,12 +29,15 @@ void shape_controls(Ctx& c);
 void corrections_section(Ctx& c, const Region& region);
 void lamps_controls(Ctx& c, const Region& region);
 void provenance_section(Ctx& c, const Region& region);
+/// What stands where a region is wanted and none is selected.
+void no_region(Ctx& c);
 
 // What floats over the rest.
 void notices(Ctx& c);
 void command_palette(Ctx& c);
 void shortcut_sheet(Ctx& c);
 void settings_window(Ctx& c);
+void shot_window(Ctx& c);
 void history_window(Ctx& c);
 void about_window(Ctx& c);
 void file_browser(Ctx& c);
@@ -44,6 +47,9 @@ void tour(Ctx& c);
 /// Sliders, choices and texts of one parameter of a region, from its entry in the table.
 void region_parameter(Ctx& c, const Region& region, std::string_view key,
                       const char* label = nullptr);
+/// The same for one that may change over time: `keys` is the key of its text of keys.
+void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::string_view keys,
+                     const char* label = nullptr);
 void project_parameter(Ctx& c, std::string_view key, const char* label = nullptr);
 
 }  // namespace weft::ui

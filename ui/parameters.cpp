@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/keyed_text.h"
+#include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -26,6 +28,12 @@ constexpr Shape kShapes[] = {
     {"temporal.blend", "Freshness (α)", 0, 1, 2, false, ""},
     {"temporal.weight", "Stability (λt)", 0, 10, 2, false, ""},
     {"light.strength", "Strength", 0, 1, 2, false, ""},
+    {"light.cast", "Colour of light", 0, 1, 2, false, ""},
+    {"light.highlights", "Gloss kept", 0, 2, 2, false, ""},
+    {"finish.grain", "Grain", 0, 2, 2, false, ""},
+    {"finish.focus", "Focus", 0, 2, 2, false, ""},
+    {"finish.shutter_deg", "Shutter", 0, 360, 0, false, "°"},
+    {"matte.steadiness", "Steadiness", 0, 1, 2, false, ""},
     {"output.jpeg_quality", "JPEG quality", 1, 100, 0, false, ""},
     {"plate.fps", "Frame rate", 0, 120, 3, false, "fps"},
 };
@@ -185,6 +193,30 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
     }
 }
 
+// A rhombus: empty where a value does not change over time, filled on the frame of a key.
+bool key_button(Ctx& c, const char* name, bool here, bool anywhere) {
+    const Theme& t = c.theme;
+    const float side = t.px(20);
+    ImGui::PushID(name);
+    const bool pressed = ImGui::InvisibleButton("##key", {side, side});
+    ImGui::PopID();
+    c.note(name);
+    const ImVec2 min = ImGui::GetItemRectMin();
+    const ImVec2 mid(min.x + side / 2, min.y + side / 2);
+    const float r = t.px(5);
+    const ImU32 color = ImGui::IsItemHovered() ? t.text : anywhere ? t.accent_hover : t.off;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (here)
+        list.AddQuadFilled({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r},
+                           {mid.x - r, mid.y}, color);
+    else
+        list.AddQuad({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r}, {mid.x - r, mid.y},
+                     color, t.px(1.3f));
+    tooltip(c, here ? "A key is on this frame. Click to take it away"
+                    : "Key it on this frame: the value changes over time");
+    return pressed;
+}
+
 }  // namespace
 
 void region_parameter(Ctx& c, const Region& region, std::string_view key, const char* label) {
@@ -196,6 +228,62 @@ void region_parameter(Ctx& c, const Region& region, std::string_view key, const 
             c.emit(DoEdit{set});
         else
             c.emit(TryEdit{set});
+    });
+}
+
+void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::string_view keys_key,
+                     const char* label) {
+    const auto value_entry = find_parameter(region_parameters(), key);
+    const auto keys_entry = find_parameter(region_parameters(), keys_key);
+    if (!value_entry || !keys_entry) return;
+    const Theme& t = c.theme;
+    const ParameterInfo& info = **value_entry;
+    const ParameterValue text = (*keys_entry)->read(region);
+    const std::size_t count = info.kind == ParameterKind::kPoint ? 2 : 1;
+    KeyedValues keys = read_keyed(
+        std::holds_alternative<std::string>(text) ? std::get<std::string>(text) : "", count);
+    ParameterValue now = (*value_entry)->read(region);
+    if (!keys.empty()) {
+        const std::vector<double> here = keyed_at(keys, c.view.frame);
+        now = count == 1 ? ParameterValue(here[0]) : ParameterValue(here);
+    }
+    const RegionRef ref{region.id, {}};
+    const auto set = [&](const KeyedValues& changed, bool done) {
+        const SetRegionParameter edit{ref, std::string(keys_key), keyed_text(changed)};
+        if (done)
+            c.emit(DoEdit{edit});
+        else
+            c.emit(TryEdit{edit});
+    };
+    const auto numbers = [](const ParameterValue& value) {
+        if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
+        const auto* one = std::get_if<double>(&value);
+        return std::vector<double>{one ? *one : 0.0};
+    };
+    // Before the row: what is drawn first is what the mouse is over.
+    const bool here = keys.contains(c.view.frame);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float label_w = std::floor(ImGui::GetContentRegionAvail().x * 0.38f);
+    ImGui::SetCursorScreenPos({at.x + label_w - t.px(24), at.y + t.px(3)});
+    const std::string name = label_of(info, label);
+    if (key_button(c, ((here ? "Unkey " : "Key ") + name).c_str(), here, !keys.empty())) {
+        if (here)
+            keys.erase(c.view.frame);
+        else
+            keys[c.view.frame] = numbers(now);
+        set(keys, true);
+    }
+    ImGui::SetCursorScreenPos(at);
+    control(c, info, now, label, [&](const ParameterValue& value, bool done) {
+        if (!keys.empty()) {
+            keys[c.view.frame] = numbers(value);
+            return set(keys, done);
+        }
+        const SetRegionParameter edit{ref, std::string(key), value};
+        if (done)
+            c.emit(DoEdit{edit});
+        else
+            c.emit(TryEdit{edit});
     });
 }
 

@@ -13,6 +13,8 @@ struct DisplaySettings {
     float gamma = 1;
     enum class Channel : int { kColor, kRed, kGreen, kBlue, kLuma };
     Channel channel = Channel::kColor;
+    enum class Curve : int { kSrgb, kVideo, kRaw };
+    Curve curve = Curve::kSrgb;  ///< From linear light to the screen; kVideo: BT.1886.
     bool operator==(const DisplaySettings&) const = default;
 };
 
@@ -54,6 +56,8 @@ class PictureHost {
     /// Shows a folder in the desktop's file manager.
     virtual void reveal(const std::string& path) = 0;
     virtual void toggle_fullscreen() = 0;
+    /// A window of its own for the picture alone, on another screen where there is one.
+    virtual void toggle_second_window() {}
 };
 
 }  // namespace weft

@@ -31,7 +31,8 @@ enum class Tool : std::uint8_t {
     kPlace,
     kSimilar,
     kPin,
-    kLamp
+    kLamp,
+    kMeasure
 };
 
 enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBySide, kFourUp };
@@ -39,6 +40,7 @@ enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBy
 struct ViewerState {
     bool fit = true;
     float zoom = 1;     ///< Screen pixels of a plate pixel.
+    float aspect = 1;   ///< Width of a plate pixel over its height.
     Vec2 center{0, 0};  ///< Plate pixel in the middle of the view.
     Compare compare = Compare::kResult;
     float wipe = 0.5f;
@@ -83,9 +85,9 @@ struct DrawerState {
     std::string search;
     std::string material;  ///< Empty: all.
     bool favourites_only = false, recent_only = false;
-    std::string origin, licence, look;  ///< Further conditions; empty: any.
+    std::string origin, licence, look;            ///< Further conditions; empty: any.
     std::shared_ptr<const TextureAnswer> answer;  ///< To words and conditions.
-    std::string collection;  ///< Name of the one that is shown; empty: none.
+    std::string collection;                       ///< Name of the one that is shown; empty: none.
     std::string new_collection;
     std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
     int similar_frame = 0;
@@ -102,7 +104,10 @@ struct BrowserState {
         kHoldout,
         kMotion,
         kOutput,
-        kTextureFolder
+        kTextureFolder,
+        kTrack,
+        kPlate,
+        kExportMattes
     };
     Purpose purpose = Purpose::kNone;
     std::string folder, name, filter;
@@ -132,6 +137,7 @@ struct UiState {
     float strip_h = 176;
     bool panels_hidden = false;
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
+    bool shot_open = false;
     bool about_open = false;
     std::string palette_text;
     int palette_at = 0;
@@ -152,6 +158,8 @@ struct UiState {
     bool shape_drawing = false;
     ScribbleState scribbles;
     std::optional<Vec2> rectangle_from;
+    std::optional<std::pair<Vec2, Vec2>> measured;  ///< Line of the ruler, plate pixels.
+    int measured_count = 4;                         ///< … and how many bricks it is long.
     StripKind strip = StripKind::kKeyframes;
     std::vector<std::string> strip_textures;
     RegionId renaming = 0;

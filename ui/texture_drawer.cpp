@@ -256,9 +256,13 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
         const float corner = t.px(30);
         thumbnail(c, card.path, {max.x - corner, max.y - corner}, max);
     } else {
-        const float side = size.y;
-        thumbnail(c, card.path, {at.x + (size.x - side) / 2, at.y},
-                  {at.x + (size.x + side) / 2, max.y});
+        // Until it is made the texture itself, repeated.
+        list.PushClipRect(at, max, true);
+        for (float x = at.x; x < max.x; x += size.y)
+            thumbnail(c, card.path, {x, at.y}, {x + size.y, max.y});
+        list.AddRectFilled({at.x, max.y - t.px(18)}, max, t.scrim);
+        list.PopClipRect();
+        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "on its way…");
     }
     const bool picked = c.state.drawer.picked == card.path;
     if (picked || hovered)

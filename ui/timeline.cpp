@@ -63,6 +63,7 @@ void transport(Ctx& c, ImVec2 size) {
             list.AddRectFilled({at.x - r, at.y - t.px(2)}, {at.x + r, at.y + t.px(2)}, color);
         right -= t.px(30);
     };
+    if (v.report.state == QualityReport::State::kDone) legend("Flicker", heat_color(0.7f), 2);
     legend("Result", t.good, 2);
     legend("Plate in memory", faded(t.accent, 0.8f), 2);
     legend("Reference frame", t.warn, 1);
@@ -113,7 +114,9 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
     const Theme& t = c.theme;
     const SessionView& v = c.view;
     const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
-    const float cache_y = top, cache_h = t.px(4), keys_y = top + t.px(18);
+    const float cache_y = top, cache_h = t.px(4);
+    // Keys under the bars, and under them, where there is room, what is to be looked at.
+    const float keys_y = std::min(top + t.px(18), bottom - t.px(6));
     list.AddRectFilled({scale.x0 - half, cache_y}, {scale.x1 + half, cache_y + cache_h},
                        faded(t.field, 1.0f));
     bool confident = false;
@@ -149,14 +152,15 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
             list.AddQuadFilled({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y},
                                t.text);
     }
+    // Flicker of the measured render, beyond the plate's own: a strip of its own above.
     const auto& report = v.report;
-    if (!confident && report.state == QualityReport::State::kDone) {
-        for (const auto& row : report.rows) {
-            const float x = scale.x_of(row.frame);
-            const float excess = row.flicker - row.flicker_plate;
-            list.AddRectFilled({x - half, heat_y}, {x + half, heat_y + t.px(6)},
-                               heat_color(0.15f + excess / 8.0f));
-        }
+    if (report.state != QualityReport::State::kDone) return;
+    const float flicker_y = confident ? heat_y - t.px(7) : heat_y;
+    for (const auto& row : report.rows) {
+        const float x = scale.x_of(row.frame);
+        const float excess = row.flicker - row.flicker_plate;
+        list.AddRectFilled({x - half, flicker_y}, {x + half, flicker_y + t.px(6)},
+                           heat_color(0.15f + excess / 8.0f));
     }
 }
 
@@ -189,8 +193,10 @@ void timeline(Ctx& c, ImVec2 size) {
         for (const float x : {a, b})
             list.AddRectFilled({x - t.px(1), top}, {x + t.px(1), bottom}, t.accent);
     }
-    ruler(c, list, scale, top + t.px(3), top + t.px(26));
-    tracks(c, list, scale, top + t.px(28), bottom);
+    const bool compact = bottom - top < t.px(50);
+    const float below = top + t.px(compact ? 21 : 26);
+    ruler(c, list, scale, top + t.px(compact ? 1 : 3), below);
+    tracks(c, list, scale, below + t.px(compact ? 1 : 2), bottom);
     ImGui::SetCursorScreenPos(field_min);
     ImGui::InvisibleButton("##scrub", {field_max.x - field_min.x, field_max.y - field_min.y});
     c.note("Scrub");

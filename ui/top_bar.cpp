@@ -53,29 +53,16 @@ void menus(Ctx& c) {
          {"file.new", "file.open", "file.demo", "-", "file.save", "file.save_as", "file.close", "-",
           "file.quit"});
     menu(c, "Edit",
-         {"edit.undo", "edit.redo", "edit.history", "-", "edit.palette", "edit.settings"});
-    menu(c, "View", {"view.fit",
-                     "view.actual",
-                     "-",
-                     "view.plate",
-                     "view.wipe",
-                     "view.difference",
-                     "view.side",
-                     "view.four",
-                     "-",
-                     "view.mattes",
-                     "view.seams",
-                     "view.light",
-                     "view.grid",
-                     "view.stretch",
-                     "view.arrows",
-                     "view.trust",
-                     "view.pieces",
-                     "-",
-                     "view.reset",
-                     "view.panels",
-                     "view.fullscreen",
-                     "view.layout"});
+         {"edit.undo", "edit.redo", "edit.history", "-", "edit.palette", "edit.shot",
+          "edit.settings"});
+    menu(c, "View", {"view.fit",        "view.actual",  "-",
+                     "view.plate",      "view.wipe",    "view.difference",
+                     "view.side",       "view.four",    "-",
+                     "view.mattes",     "view.seams",   "view.light",
+                     "view.grid",       "view.stretch", "view.arrows",
+                     "view.trust",      "view.pieces",  "-",
+                     "view.reset",      "view.panels",  "view.second",
+                     "view.fullscreen", "view.layout"});
     menu(c, "Region",
          {"region.add", "region.duplicate", "region.remove", "-", "region.solo", "region.key",
           "region.clear", "region.reference", "-", "analysis.pause"});
@@ -240,7 +227,7 @@ void tool_strip(Ctx& c, ImVec2 size) {
     static const std::vector<const char*> kTools[] = {
         {"tool.pan", "tool.brush", "tool.eraser", "tool.lasso", "tool.polygon", "tool.shape",
          "tool.flood", "tool.scribble"},
-        {"tool.pan", "tool.place", "tool.similar"},
+        {"tool.pan", "tool.place", "tool.measure", "tool.similar"},
         {"tool.pan", "tool.pin", "tool.place"},
         {"tool.pan", "tool.lamp", "tool.place"},
         {"tool.pan"},

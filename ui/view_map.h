@@ -15,13 +15,14 @@ struct ViewMap {
     ImVec2 min, max;  ///< The part of the screen that the view fills.
     Vec2 center;      ///< Plate pixel in its middle.
     float zoom = 1;
+    float aspect = 1;
 
     [[nodiscard]] ImVec2 to_screen(Vec2 p) const {
-        return {(min.x + max.x) * 0.5f + (p.x - center.x) * zoom,
+        return {(min.x + max.x) * 0.5f + (p.x - center.x) * zoom * aspect,
                 (min.y + max.y) * 0.5f + (p.y - center.y) * zoom};
     }
     [[nodiscard]] Vec2 to_plate(ImVec2 s) const {
-        return {center.x + (s.x - (min.x + max.x) * 0.5f) / zoom,
+        return {center.x + (s.x - (min.x + max.x) * 0.5f) / (zoom * aspect),
                 center.y + (s.y - (min.y + max.y) * 0.5f) / zoom};
     }
     [[nodiscard]] bool contains(ImVec2 s) const {

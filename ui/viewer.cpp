@@ -29,7 +29,7 @@ PicturePtr shown_result(const Ctx& c) {
 std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
     const SessionView& v = c.view;
     const ViewerState& s = c.state.viewer;
-    ViewMap whole{min, max, s.center, s.zoom};
+    ViewMap whole{min, max, s.center, s.zoom, s.aspect};
     const auto part = [&](float x0, float y0, float x1, float y1) {
         ViewMap map = whole;
         const float w = max.x - min.x, h = max.y - min.y;
@@ -68,11 +68,10 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     ViewerState& s = c.state.viewer;
-    const float h = t.px(30), bar_w = t.px(474);
+    const float bar_w = t.px(534);
     if (max.x - min.x < bar_w + t.px(20)) return;
-    const ImVec2 at(std::floor(max.x - bar_w - t.px(10)), max.y - h - t.px(10));
+    const ImVec2 at(std::floor(max.x - bar_w - t.px(4)), min.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + bar_w, at.y + h}, t.scrim, t.radius);
     ImGui::SetCursorScreenPos({at.x + t.px(4), at.y + t.px(2)});
     const PanelName name(c, "View");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(2), 0});
@@ -106,6 +105,13 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     if (ImGui::IsItemClicked())
         s.display.channel =
             static_cast<DisplaySettings::Channel>((static_cast<int>(s.display.channel) + 1) % 5);
+    ImGui::SameLine();
+    constexpr const char* kCurves[] = {"sRGB", "Video", "Raw"};
+    value("##Curve", kCurves[static_cast<int>(s.display.curve)], t.px(46),
+          "What the screen is taken for: sRGB, video (BT.1886), or linear light as it is", nullptr);
+    if (ImGui::IsItemClicked())
+        s.display.curve =
+            static_cast<DisplaySettings::Curve>((static_cast<int>(s.display.curve) + 1) % 3);
     ImGui::SameLine(0, t.px(10));
     const auto tool = [&](const char* id) {
         const Command* command = c.commands.find(id);
@@ -150,7 +156,7 @@ void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const bool pan = ImGui::IsMouseDragging(2, 0) ||
                      (c.state.tool == Tool::kPan && active && ImGui::IsMouseDragging(0, 1));
     if (pan && (hovered || active)) {
-        s.center.x -= io.MouseDelta.x / s.zoom;
+        s.center.x -= io.MouseDelta.x / (s.zoom * s.aspect);
         s.center.y -= io.MouseDelta.y / s.zoom;
         s.fit = false;
     }
@@ -178,6 +184,35 @@ bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
     return near || s.dragging_wipe;
 }
 
+// The way out of frames that are not where they were.
+void relink(Ctx& c) {
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const float w = c.theme.px(180);
+    ImGui::SetCursorScreenPos(
+        {std::floor(at.x + (size.x - w) / 2), std::floor(at.y + size.y / 2 + c.theme.px(64))});
+    if (!button(c, "Find the frames…",
+                {.icon = icons::kFolderOpen, .look = Look::kPrimary, .width = w}))
+        return;
+    c.state.browser.purpose = BrowserState::Purpose::kPlate;
+    c.state.browser.just_opened = true;
+}
+
+// What went wrong, whole, where one looks.
+void failure(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    if (c.view.preview.state != PreviewView::State::kFailed || !c.view.result_wanted) return;
+    const Theme& t = c.theme;
+    const float width = std::min(t.px(560), max.x - min.x - t.px(24));
+    const std::string text = "No result yet. " + c.view.preview.error;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - t.px(50));
+    const ImVec2 a(std::floor((min.x + max.x - width) / 2), min.y + t.px(12));
+    const ImVec2 b(a.x + width, a.y + size.y + t.px(20));
+    list.AddRectFilled(a, b, t.panel, t.px(4));
+    list.AddRectFilled(a, {a.x + t.px(4), b.y}, t.bad);
+    icon_in(c, list, {a.x + t.px(12), a.y}, {a.x + t.px(32), b.y}, t.bad, icons::kAlert);
+    list.AddText(t.regular, t.regular->FontSize, {a.x + t.px(40), a.y + t.px(10)}, t.text,
+                 text.c_str(), nullptr, width - t.px(50));
+}
+
 void no_picture(Ctx& c) {
     const PlateView& plate = c.view.plate;
     switch (plate.state) {
@@ -191,6 +226,7 @@ void no_picture(Ctx& c) {
             break;
         case PlateView::State::kFailed:
             empty_state(c, icons::kAlert, "The plate cannot be opened", plate.error.c_str());
+            relink(c);
             break;
         case PlateView::State::kOpen:
             if (!c.view.frame_error.empty())
@@ -205,13 +241,19 @@ void no_picture(Ctx& c) {
 void viewer(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Viewer", size, t.surround, false, 0);
-    const ImVec2 min = ImGui::GetCursorScreenPos(), max(min.x + size.x, min.y + size.y);
+    // A bar at the foot says what is seen and how, so that nothing covers the picture.
+    const float bar_h = t.px(30);
+    const ImVec2 min = ImGui::GetCursorScreenPos(), foot(min.x + size.x, min.y + size.y);
+    size.y = std::max(t.px(40), size.y - bar_h);
+    const ImVec2 max(min.x + size.x, min.y + size.y);
     ViewerState& s = c.state.viewer;
     const bool two_wide = s.compare == Compare::kSideBySide, four = s.compare == Compare::kFourUp;
     const Size plate = c.view.plate.size;
     if (s.fit && !plate.empty()) {
         const ImVec2 one(size.x * (two_wide || four ? 0.5f : 1.0f), size.y * (four ? 0.5f : 1.0f));
-        s.zoom = fit_zoom(one, plate, t.px(four || two_wide ? 4 : 12));
+        const Size shown{static_cast<int>(static_cast<float>(plate.width) * s.aspect),
+                         plate.height};
+        s.zoom = fit_zoom(one, shown, t.px(four || two_wide ? 4 : 12));
         s.center = Vec2(static_cast<float>(plate.width), static_cast<float>(plate.height)) * 0.5f;
     }
     s.hold_original =
@@ -273,11 +315,9 @@ void viewer(Ctx& c, ImVec2 size) {
     if (!wiping) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);
     draw_provenance(c, list, map, hovered);
-    // Beside the first pane's label, and only while there is something to say.
-    const bool several = panes.size() > 1;
-    if (!several || !c.view.result_current)
-        draw_state(c, list, {min.x + (several ? t.px(70) : 0), min.y}, max);
-    view_controls(c, min, max);
+    failure(c, list, min, max);
+    draw_state(c, list, {min.x, max.y}, foot);
+    view_controls(c, {min.x, max.y}, foot);
     if (ImGui::BeginDragDropTargetCustom(ImRect(min, max), ImGui::GetID("##drop"))) {
         if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("TEXTURE"))
             drop_texture(c, map, std::string(static_cast<const char*>(payload->Data)));

@@ -122,69 +122,84 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
             number_text(static_cast<double>(over->high), 0).c_str(), 1);
 }
 
-// What the picture is, and what is being worked out, in words.
-void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+namespace {
+
+struct State {
+    std::string text;
+    ImU32 color;
+    const char* icon = nullptr;
+    float part = -1;  // of the work that it waits for
+};
+
+State state_of_picture(const Ctx& c) {
     const SessionView& v = c.view;
     const Theme& t = c.theme;
-    ImVec2 at(min.x + t.px(10), min.y + t.px(10));
-    if (!v.frame_error.empty()) {
-        picture_pill(c, list, at, fitted(v.frame_error, max.x - min.x - t.px(60)), t.bad,
-                     icons::kAlert);
-        return;
-    }
-    if (c.state.viewer.hold_original || c.state.viewer.compare == Compare::kPlate) {
-        picture_pill(c, list, at, "Plate", t.text);
-        return;
-    }
+    if (!v.frame_error.empty()) return {v.frame_error, t.bad, icons::kAlert};
+    if (c.state.viewer.hold_original || c.state.viewer.compare == Compare::kPlate)
+        return {"Plate", t.text};
     if (!v.result_wanted) {
         std::string what = "Plate";
         if (const Region* region = v.selected_region())
             if (const auto found = v.unready.find(region->id); found != v.unready.end())
                 what += "  ·  " + found->second;
         if (v.project.regions.empty()) what += "  ·  Add a region to begin";
-        picture_pill(c, list, at, what, t.text);
-        return;
+        return {what, t.text};
     }
-    if (v.preview.state == PreviewView::State::kFailed) {
-        picture_pill(c, list, at, fitted("No result: " + v.preview.error, max.x - min.x - t.px(60)),
-                     t.bad, icons::kAlert);
-        return;
-    }
+    if (v.preview.state == PreviewView::State::kFailed)
+        return {"Plate  ·  No result", t.bad, icons::kAlert};
     if (v.result_current && !v.stages.approximate) {
         std::string what = v.preview_quality == Quality::kDraft ? "Result, draft" : "Result";
         if (v.stages.proxy > 1) what += ", 1/" + std::to_string(v.stages.proxy) + " size for now";
-        picture_pill(c, list, at, what, t.good, icons::kCheck);
-        return;
+        if (v.preview.analysing && v.preview.total > 0)
+            what += "  ·  analysing " + std::to_string(v.preview.done) + "/" +
+                    std::to_string(v.preview.total);
+        return {what, t.good, icons::kCheck};
     }
-    std::string what;
     switch (v.preview.state) {
         case PreviewView::State::kOpening:
-            what = "Reading the shot…";
-            break;
-        case PreviewView::State::kAnalysing:
-            what =
-                v.analysis_paused ? "Plate  ·  Analysis is paused" : "Plate  ·  Analysing the shot";
-            if (!v.analysis_paused && v.preview.total > 0) {
-                what +=
+            return {"Reading the shot…", t.warn, icons::kTimer};
+        case PreviewView::State::kAnalysing: {
+            if (v.analysis_paused) return {"Plate  ·  Analysis is paused", t.warn, icons::kPause};
+            State out{"Plate  ·  Analysing", t.warn, icons::kTimer};
+            if (v.preview.total > 0) {
+                out.part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
+                out.text +=
                     " " + std::to_string(v.preview.done) + "/" + std::to_string(v.preview.total);
                 if (v.preview.seconds_left > 0)
-                    what += ", " + time_text(v.preview.seconds_left) + " left";
+                    out.text += ", " + time_text(v.preview.seconds_left) + " left";
             }
-            break;
+            return out;
+        }
         case PreviewView::State::kGrowing:
-            what = "Growing the texture…";
-            break;
+            return {"Growing the texture…", t.warn, icons::kTimer};
         default:
-            what = "Updating…";
+            return {"Updating…", t.warn, icons::kTimer};
     }
-    picture_pill(c, list, at, what, t.warn, icons::kTimer);
-    if (v.preview.state == PreviewView::State::kAnalysing && v.preview.total > 0 &&
-        !v.analysis_paused) {
-        const float w = t.px(220), y = at.y + t.px(25);
-        const float part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
-        list.AddRectFilled({at.x, y}, {at.x + w, y + t.px(3)}, t.scrim, t.px(2));
-        list.AddRectFilled({at.x, y}, {at.x + w * part, y + t.px(3)}, t.warn, t.px(2));
+}
+
+}  // namespace
+
+// What the picture is, and what is being worked out, in words.
+void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    const State state = state_of_picture(c);
+    float x = min.x + t.px(10);
+    if (state.icon) {
+        icon_in(c, list, {x, min.y}, {x + t.px(18), max.y}, state.color, state.icon);
+        x += t.px(24);
     }
+    // Errors may take all of the bar but for its controls.
+    const float room = std::max(t.px(60), max.x - x - t.px(550));
+    ImGui::PushFont(t.small);
+    const std::string shown = fitted(state.text, room);
+    ImGui::PopFont();
+    text_in(list, t.small, {x, min.y}, {x + room, max.y}, state.color, shown.c_str(), 0);
+    if (shown != state.text && ImGui::IsMouseHoveringRect(min, {x + room, max.y}))
+        ImGui::SetTooltip("%s", state.text.c_str());
+    if (state.part < 0) return;
+    const float y = max.y - t.px(5), w = std::min(room, t.px(220));
+    list.AddRectFilled({x, y}, {x + w, y + t.px(3)}, t.field, t.px(2));
+    list.AddRectFilled({x, y}, {x + w * state.part, y + t.px(3)}, t.warn, t.px(2));
 }
 
 // Where the pixel under the mouse comes from.

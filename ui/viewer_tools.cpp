@@ -1,5 +1,6 @@
 // Painting, shapes and placing with the mouse.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ui/panels.h"
@@ -126,10 +127,75 @@ void polygon(Ctx& c, const ViewMap& map, bool hovered, bool active) {
                        c.theme.px(2));
 }
 
+// A line whose length is known in bricks.
+void measure(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+    UiState& s = c.state;
+    if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    bool over = false;
+    if (s.measured) {
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const ImVec2 a = map.to_screen(s.measured->first), b = map.to_screen(s.measured->second);
+        list.AddLine(a, b, IM_COL32(0, 0, 0, 170), c.theme.px(4));
+        list.AddLine(a, b, c.theme.accent_hover, c.theme.px(2));
+        // A tick at every brick's end.
+        const float dx = b.x - a.x, dy = b.y - a.y, length = std::max(1.0f, std::hypot(dx, dy));
+        const ImVec2 across(-dy / length * c.theme.px(5), dx / length * c.theme.px(5));
+        for (int k = 1; k < s.measured_count && s.measured_count <= 60; ++k) {
+            const float u = static_cast<float>(k) / static_cast<float>(s.measured_count);
+            const ImVec2 p(a.x + u * dx, a.y + u * dy);
+            list.AddLine({p.x - across.x, p.y - across.y}, {p.x + across.x, p.y + across.y},
+                         c.theme.accent_hover, c.theme.px(1.5f));
+        }
+        over |= handle(c, map, "line start", s.measured->first, hovered, c.theme.accent_hover) !=
+                Grip::kNone;
+        over |= handle(c, map, "line end", s.measured->second, hovered, c.theme.accent_hover) !=
+                Grip::kNone;
+    }
+    if (over || any_handle_held(c) || !active || !ImGui::IsMouseClicked(0)) return;
+    const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
+    s.measured = {at, at};
+    s.handle_held = "line end";
+    s.handle_offset = {0, 0};
+}
+
+// The corners of a placement in perspective, each to be dragged where it belongs.
+bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovered) {
+    if (!region.placement.corners_px) return false;
+    static constexpr const char* kNames[] = {"corner 1", "corner 2", "corner 3", "corner 4"};
+    std::vector<double> numbers;
+    std::array<Vec2, 4> at;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const PlatePoint& p = (*region.placement.corners_px)[k];
+        at[k] = {static_cast<float>(p.x), static_cast<float>(p.y)};
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (std::size_t k = 0; k < 4; ++k) {
+        const ImVec2 a = map.to_screen(at[k]), b = map.to_screen(at[(k + 1) % 4]);
+        list.AddLine(a, b, IM_COL32(0, 0, 0, 160), c.theme.px(3));
+        list.AddLine(a, b, c.theme.accent_hover, c.theme.px(1.5f));
+    }
+    bool taken = false, held = false, done = false;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Grip grip = handle(c, map, kNames[k], at[k], hovered, c.theme.accent_hover);
+        taken |= grip != Grip::kNone;
+        held |= grip == Grip::kHeld;
+        done |= grip == Grip::kLetGo;
+        numbers.push_back(static_cast<double>(at[k].x));
+        numbers.push_back(static_cast<double>(at[k].y));
+    }
+    const SetRegionParameter set{{region.id, {}}, "placement.corners_px", numbers};
+    if (done)
+        c.edit(set);
+    else if (held)
+        c.emit(TryEdit{set});
+    return taken;
+}
+
 // The texture's placement by hand: drag to move, with Shift to turn, with Ctrl to scale.
 void place(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
+    if (!c.state.placing && place_corners(c, map, *region, hovered)) return;
     const RegionRef ref{region->id, {}};
     const ImGuiIO& io = ImGui::GetIO();
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -206,6 +272,8 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return;
         case Tool::kPlace:
             return place(c, map, hovered, active);
+        case Tool::kMeasure:
+            return measure(c, map, hovered, active);
         case Tool::kShape:
             return shape_tool(c, map, hovered, active);
         case Tool::kScribble:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/cli/bench_lighting.h"
 #include "app/cli/commands.h"
 #include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"
@@ -222,6 +223,14 @@ int bench_command(const BenchOptions& options) {
     const auto sample = middle_of(options.sample);
     if (!sample) return report_error(sample.error());
     if (!options.repetition_of.empty()) return report_repetition(options, *sample);
+    if (options.lighting) {
+        auto lighting = bench_lighting(*sample, options.sizes, options.runs);
+        if (!lighting) return report_error(lighting.error());
+        for (const LightingCost& cost : *lighting)
+            print(stdout, options.json ? std::string() : lighting_line(cost));
+        if (options.json) print(stdout, lighting_json(*lighting));
+        return 0;
+    }
     if (!options.seams.empty()) {
         std::error_code ignored;  // Writing the pictures says what is wrong.
         std::filesystem::create_directories(options.seams, ignored);

@@ -88,6 +88,7 @@ struct BenchOptions {
     int runs = 10;
     int threads = 1;
     std::string seams;  ///< Folder for pictures of the seams; empty: none.
+    bool lighting = false;  ///< Only what light costs beside the paper's synthesis.
     /// Planes of other programs: only their repetition is measured.
     std::vector<std::string> repetition_of;
     std::string isa, backend = "cpu";
@@ -100,6 +101,10 @@ struct MeasureCommandOptions {
     std::string result;
     std::string texture;  ///< Plane to compare with; empty: none.
     std::string motion_estimator = "deepflow";
+    std::string truth;  ///< The scene rendered with the new material; empty: none.
+    double truth_blur_px = 0;
+    std::string pictures;  ///< Folder for pictures of the light; empty: none.
+    std::string cache;
     int threads = 0;
     bool json = false;
 };
@@ -112,6 +117,11 @@ struct DiffOptions {
     std::string a, b;
     std::string frames;
     double tolerance = 0;  ///< Largest difference that counts as the same.
+    /// Where `b` should look like `a`: features, interior, soft edge. Empty: no such comparison.
+    std::string matte;
+    std::optional<int> matte_value;
+    std::string matte_channel;
+    std::string worst;  ///< Picture of the ten worst crops to write, or empty.
     bool json = false;
 };
 int diff_command(const DiffOptions& options);

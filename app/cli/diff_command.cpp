@@ -5,6 +5,10 @@
 #include "app/cli/commands.h"
 #include "engine/core/frame_range.h"
 #include "engine/media/frame_reader.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/metrics/likeness.h"
 #include "engine/metrics/sequence_diff.h"
 
 namespace weft {
@@ -14,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 struct Outcome {
     SequenceDiff all;
+    SequenceLikeness likeness;
     Json frames = Json::array();
     std::string text;
 };
@@ -37,6 +42,11 @@ Expected<Outcome> compare(const DiffOptions& options) {
     WEFT_TRY(a, open_plate(options.a, {}));
     WEFT_TRY(b, open_plate(options.b, {}));
     WEFT_TRY(frames, common_frames(options, *a, *b));
+    std::optional<SequencePattern> mattes;
+    if (!options.matte.empty()) {
+        WEFT_TRY(pattern, SequencePattern::parse(options.matte));
+        mattes = std::move(pattern);
+    }
     const bool single =
         a->frames().size() == 1 && b->frames().size() == 1 && options.frames.empty();
     Outcome out;
@@ -45,6 +55,12 @@ Expected<Outcome> compare(const DiffOptions& options) {
         WEFT_TRY(right, b->read(single ? b->frames().front() : frame));
         auto diff = diff_frames(left.rgb, right.rgb);
         if (!diff) return fail_in(std::move(diff).error(), "Frame " + std::to_string(frame));
+        if (mattes) {
+            WEFT_TRY(matte, read_matte(mattes->path_for(frame),
+                                       {options.matte_value, options.matte_channel, false},
+                                       left.rgb.size()));
+            out.likeness.add(frame, left.rgb, right.rgb, matte);
+        }
         const double largest = *std::max_element(diff->max_abs.begin(), diff->max_abs.end());
         if (largest <= options.tolerance) {
             out.all.add(frame, FrameDiff{});
@@ -69,21 +85,79 @@ Expected<Outcome> compare(const DiffOptions& options) {
     return out;
 }
 
+Json number(double value) {
+    return value >= 0 ? Json(value) : Json();
+}
+
+Json likeness_json(const SequenceLikeness& likeness) {
+    const auto all = likeness.summary();
+    Json frames = Json::array();
+    for (const FrameLikeness& f : likeness.frames()) {
+        frames.push_back(
+            {{"frame", f.frame},
+             {"offset_px", f.features.patches > 0 ? Json(f.features.mean_px) : Json()},
+             {"offset_x_px", f.features.patches > 0 ? Json(f.features.mean_x_px) : Json()},
+             {"offset_y_px", f.features.patches > 0 ? Json(f.features.mean_y_px) : Json()},
+             {"patches", f.features.patches},
+             {"lost_patches", f.features.lost},
+             {"interior", number(f.interior)},
+             {"soft_edge", number(f.soft_edge)},
+             {"soft_edge_change", number(f.soft_edge_change)},
+             {"outside", number(f.outside)}});
+    }
+    return {{"offset_px", all.offset_px},
+            {"largest_offset_px", all.largest_offset_px},
+            {"interior", all.interior},
+            {"soft_edge", all.soft_edge},
+            {"soft_edge_change", all.soft_edge_change},
+            {"outside", all.outside},
+            {"per_frame", frames}};
+}
+
+std::string likeness_text(const SequenceLikeness& likeness) {
+    const auto all = likeness.summary();
+    char line[300];
+    std::snprintf(
+        line, sizeof line,
+        "features off by %.3f px (%.3f in the worst frame); difference inside %.2f, in the "
+        "soft edge %.2f (its change in time %.2f), outside %.3f levels\n",
+        all.offset_px, all.largest_offset_px, all.interior, all.soft_edge, all.soft_edge_change,
+        all.outside);
+    return line;
+}
+
+// Codes of 8 bits as an image to write.
+Status write_strip(const std::string& path, const SequenceLikeness& likeness) {
+    const ImageU8x3 strip = strip_of(likeness.worst());
+    if (strip.empty()) return {};
+    ImageF3 rgb(strip.size());
+    std::transform(strip.data(), strip.data() + strip.size_bytes(), rgb.data(),
+                   [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
+    return write_image(path, rgb, {}, {});
+}
+
 }  // namespace
 
 int diff_command(const DiffOptions& options) {
     const auto outcome = compare(options);
     if (!outcome) return report_error(outcome.error());
     const SequenceDiff& all = outcome->all;
+    const bool alike = !options.matte.empty();
+    if (alike && !options.worst.empty()) {
+        if (const auto written = write_strip(options.worst, outcome->likeness); !written)
+            return report_error(written.error());
+    }
     if (options.json) {
-        const Json json{{"equal", all.equal()},
-                        {"frames", all.frames},
-                        {"differing_frames", all.differing_frames},
-                        {"max_abs", all.max_abs},
-                        {"differences", outcome->frames}};
+        Json json{{"equal", all.equal()},
+                  {"frames", all.frames},
+                  {"differing_frames", all.differing_frames},
+                  {"max_abs", all.max_abs},
+                  {"differences", outcome->frames}};
+        if (alike) json["likeness"] = likeness_json(outcome->likeness);
         print(stdout, json.dump(2) + "\n");
     } else {
-        print(stdout, outcome->text + (all.equal() ? "The same: " : "Different: ") +
+        print(stdout, outcome->text + (alike ? likeness_text(outcome->likeness) : "") +
+                          (all.equal() ? "The same: " : "Different: ") +
                           std::to_string(all.frames - all.differing_frames) + " of " +
                           std::to_string(all.frames) + " frames are equal.\n");
     }

@@ -36,7 +36,47 @@ std::string to_text(const MeasuredResult& o) {
                   "TIV                  %.3f (source %.3f), relative %.6f\noutside the matte    "
                   "%lld pixels differ\n",
                   a.tiv, a.source_tiv, a.tiv_relative, static_cast<long long>(a.outside_differing));
-    return text + more;
+    text += more;
+    const GrainSpectrum &g = a.grain, &plate = a.source_grain;
+    if (g.blocks > 0 && plate.blocks > 0) {
+        std::snprintf(more, sizeof more,
+                      "grain R G B          %.2f %.2f %.2f levels (source %.2f %.2f %.2f)\n",
+                      g.deviation[0], g.deviation[1], g.deviation[2], plate.deviation[0],
+                      plate.deviation[1], plate.deviation[2]);
+        text += more;
+    }
+    if (o.focus_px.frames > 0 && o.source_focus_px.frames > 0) {
+        std::snprintf(more, sizeof more, "edge blur            %.2f px (source %.2f px)\n",
+                      o.focus_px.mean, o.source_focus_px.mean);
+        text += more;
+    }
+    return text;
+}
+
+std::string edges_text(const ShadowEdges::Summary& e) {
+    if (e.edges == 0) return "shadow edges         none\n";
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "shadow edges         %lld, width %.2f times the true one, off by %.2f px, 90 %% "
+                  "below %.2f px\n",
+                  static_cast<long long>(e.edges), e.width_ratio, e.lag_px, e.lag_p90_px);
+    return text;
+}
+
+std::string to_text(const TruthMeasures& t) {
+    char text[120];
+    std::snprintf(text, sizeof text, "brightness           followed within %.1f %%\n",
+                  100 * t.brightness_error);
+    return "Against the truth, 8-bit levels:\n" + line("inside             ", t.inside) +
+           line("soft edge          ", t.soft_edge) + line("cast shadow        ", t.shadow) + text +
+           edges_text(t.edges.summary());
+}
+
+std::string to_text(const LightMeasures& light) {
+    return "The light estimated from the plate against the true one:\n" +
+           line("correlation        ", light.correlation) +
+           line("error, levels      ", light.error_levels) +
+           line("true deviation     ", light.true_deviation_levels) + edges_text(light.edges);
 }
 
 }  // namespace
@@ -48,6 +88,10 @@ int measure_command(const MeasureCommandOptions& options) {
     job.results = {options.result};
     job.estimator = options.motion_estimator == "farneback" ? MeasuringEstimator::kFarneback
                                                             : MeasuringEstimator::kDeepFlow;
+    job.truth = options.truth;
+    job.truth_blur_px = static_cast<float>(options.truth_blur_px);
+    job.pictures = options.pictures;
+    job.cache.folder = options.cache;
     const auto outcome = run_measure_job(job, cancel_on_signals());
     if (!outcome) return report_error(outcome.error());
     for (const std::string& warning : outcome->warnings)
@@ -55,9 +99,13 @@ int measure_command(const MeasureCommandOptions& options) {
     const MeasuredResult& result = outcome->results.front();
     if (!options.json) {
         print(stdout, to_text(result));
+        if (outcome->truth) print(stdout, to_text(*outcome->truth));
+        if (outcome->light) print(stdout, to_text(*outcome->light));
         return 0;
     }
     nlohmann::ordered_json json = measure_json(result);
+    if (outcome->truth) json["truth"] = truth_json(*outcome->truth);
+    if (outcome->light) json["light"] = light_json(*outcome->light);
     json["warnings"] = outcome->warnings;
     print(stdout, json.dump(2) + "\n");
     return 0;

@@ -16,7 +16,7 @@ void add_study_command(CLI::App& app, int& exit) {
         ->type_name("PATH");
     command
         ->add_option("--methods", options->methods,
-                     "anew, patchmatch, poisson, still, paper, locked, ablation [all]")
+                     "anew, patchmatch, poisson, still, paper, locked, light, ablation [all]")
         ->delimiter(',')
         ->type_name("");
     command->add_option("--alphas", options->alphas, "Blends of the paper mode [0.2,0.5,1]")

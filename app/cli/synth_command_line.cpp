@@ -132,6 +132,8 @@ void add_bench(CLI::App& app, int& exit) {
         ->type_name("");
     command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor [1]")
         ->check(CLI::Range(0, 1024));
+    command->add_flag("--lighting", options->lighting,
+                      "Only what light costs, beside the paper's own synthesis of the same size");
     command->add_option("--seams", options->seams, "Folder for pictures of the seams")
         ->type_name("PATH");
     command

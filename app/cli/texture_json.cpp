@@ -176,6 +176,7 @@ std::string to_json(const BuildReport& r, const LibraryStats& s) {
                  {"added", r.samples},
                  {"pictures", r.pictures},
                  {"not_named", r.not_named},
+                 {"looked_wrong", r.looked_wrong},
                  {"duplicates", r.duplicates},
                  {"voted_out", r.voted_out},
                  {"refused", refused},

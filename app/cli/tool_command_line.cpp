@@ -22,10 +22,25 @@ void add_measure(CLI::App& app, int& exit) {
                      "Motion to measure with where none is given: deepflow or farneback [deepflow]")
         ->check(CLI::IsMember({"deepflow", "farneback"}))
         ->type_name("");
+    command
+        ->add_option("--truth", options->truth,
+                     "The same scene rendered with the new material ('true/####.png')")
+        ->type_name("PATH");
+    command
+        ->add_option("--truth-blur", options->truth_blur_px,
+                     "Compare with the truth after a Gaussian of this many px [0]")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PX");
+    command
+        ->add_option("--light-pictures", options->pictures,
+                     "Folder for pictures of the light and the reflectance, before and after")
+        ->type_name("PATH");
+    command->add_option("--cache", options->cache, "Where analyses are kept")->type_name("PATH");
     command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")
         ->check(CLI::Range(0, 1024));
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
+        "With --albedo or --lighting the light that Weft estimates is compared with the true one.\n"
         "With --motion (true motion) and the texture and placement of the render, the floor of the "
         "TDE and the\n"
         "sharpness kept are measured too. Light is part of the picture: render with --light none "
@@ -61,10 +76,26 @@ void add_diff(CLI::App& app, int& exit) {
                      "Largest difference that counts as the same, white = 1 [0]")
         ->check(CLI::NonNegativeNumber)
         ->type_name("");
+    command
+        ->add_option("--matte", options->matte,
+                     "Matte of what should look alike: says how far its features are off, and what "
+                     "differs inside and in the soft edge")
+        ->type_name("PATTERN");
+    command->add_option("--matte-value", options->matte_value, "Id matte: where the pixel equals N")
+        ->type_name("N");
+    command->add_option("--matte-channel", options->matte_channel, "R, G, B, A, Y or a name")
+        ->type_name("");
+    command
+        ->add_option("--worst", options->worst,
+                     "Picture of the ten worst crops to write, with --matte: the first sequence "
+                     "above, the second below it, the difference at the bottom")
+        ->type_name("FILE");
     command->add_flag("--json", options->json, "One JSON object on stdout");
     command->footer(
         "Exit code 0 when they are the same, 8 when they differ.\n"
-        "Example:\n  weft diff 'out/####.png' 'retake/####.png'");
+        "Examples:\n  weft diff 'out/####.png' 'retake/####.png'\n"
+        "  weft diff 'second_rendering/####.png' 'out/####.png' --matte 'mattes/####.png' "
+        "--worst worst.png");
     command->callback([=, &exit] { exit = diff_command(*options); });
 }
 

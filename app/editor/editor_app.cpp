@@ -1,5 +1,7 @@
 #include "app/editor/editor_app.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -17,6 +19,12 @@ SessionOptions session_options(const EditorOptions& options) {
     out.state_folder = editor_state_folder();
     out.offer_recovery = options.script.empty();
     return out;
+}
+
+double thread_cpu_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 bool watchdog_wanted() {
@@ -69,6 +77,7 @@ bool EditorApp::update_look(double monitor_scale) {
 
 void EditorApp::frame(double now_s) {
     const auto start = std::chrono::steady_clock::now();
+    const double cpu_start_ms = thread_cpu_ms();
     clock_.enter("pictures");
     pictures_.begin_frame();
     clock_.enter("folders");
@@ -101,6 +110,9 @@ void EditorApp::frame(double now_s) {
         1000.0 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     times_.worst_ms = std::max(times_.worst_ms, times_.last_ms);
     times_.sum_ms += times_.last_ms;
+    const double cpu_ms = thread_cpu_ms() - cpu_start_ms;
+    times_.cpu_worst_ms = std::max(times_.cpu_worst_ms, cpu_ms);
+    times_.cpu_sum_ms += cpu_ms;
     ++times_.frames;
 }
 

@@ -13,7 +13,8 @@ namespace weft {
 
 /// What the interface itself takes of a frame, on the processor; drawing by OpenGL excluded.
 struct FrameTimes {
-    double last_ms = 0, worst_ms = 0, sum_ms = 0;
+    double last_ms = 0, worst_ms = 0, sum_ms = 0;  ///< By the clock.
+    double cpu_worst_ms = 0, cpu_sum_ms = 0;       ///< This thread's own work.
     int frames = 0;
 };
 

@@ -17,7 +17,7 @@ extern char** environ;
 namespace weft {
 namespace {
 
-constexpr std::size_t kBudgetBytes = std::size_t{1} << 30;
+constexpr std::size_t kBudgetBytes = std::size_t{512} << 20;
 
 GLuint compile(GLenum kind, const char* source, std::string& log) {
     const GLuint shader = glCreateShader(kind);
@@ -270,13 +270,54 @@ void GlPictures::execute(const Order& order) const {
         bind(0, order.a, picture_program_, "picture_a");
         glUniform1i(at(picture_program_, "mode"), static_cast<GLint>(p.mode));
         glUniform1f(at(picture_program_, "wipe"), p.wipe);
-        glUniform1f(at(picture_program_, "gain"), std::exp2(p.display.exposure));
-        glUniform1f(at(picture_program_, "inverse_gamma"), 1.0f / std::max(0.01f, p.display.gamma));
-        glUniform1i(at(picture_program_, "channel"), static_cast<GLint>(p.display.channel));
+        set_display(p.display);
         glDisable(GL_BLEND);
     }
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glActiveTexture(GL_TEXTURE0);
+}
+
+void GlPictures::set_display(const DisplaySettings& display) const {
+    glUniform1f(at(picture_program_, "gain"), std::exp2(display.exposure));
+    glUniform1f(at(picture_program_, "inverse_gamma"), 1.0f / std::max(0.01f, display.gamma));
+    glUniform1i(at(picture_program_, "channel"), static_cast<GLint>(display.channel));
+    glUniform1i(at(picture_program_, "curve"), static_cast<GLint>(display.curve));
+}
+
+void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& display, int width,
+                            int height, bool fresh) {
+    glViewport(0, 0, width, height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const unsigned id = texture_of(picture, true, false);
+    if (!id) return;
+    if (fresh) {
+        // Vertex arrays are not shared between contexts.
+        glGenVertexArrays(1, &alone_);
+        glBindVertexArray(alone_);
+        glBindBuffer(GL_ARRAY_BUFFER, quad_buffer_);
+        glEnableVertexAttribArray(0);
+        glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+    }
+    glBindVertexArray(alone_);
+    const auto w = static_cast<float>(width), h = static_cast<float>(height);
+    const auto pw = static_cast<float>(picture->size.width);
+    const auto ph = static_cast<float>(picture->size.height);
+    const float zoom = std::min(w / pw, h / ph);
+    const float x = (w - zoom * pw) / 2, y = (h - zoom * ph) / 2;
+    glUseProgram(picture_program_);
+    glUniform4f(at(picture_program_, "place"), x, y, x + zoom * pw, y + zoom * ph);
+    glUniform2f(at(picture_program_, "screen"), w, h);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, id);
+    glUniform1i(at(picture_program_, "picture_a"), 0);
+    glUniform1i(at(picture_program_, "picture_b"), 0);
+    glUniform1i(at(picture_program_, "mode"), 0);
+    set_display(display);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glBindVertexArray(0);
 }
 
 void GlPictures::reveal(const std::string& path) {

@@ -28,9 +28,16 @@ class GlPictures final : public PictureHost {
     void toggle_fullscreen() override {
         if (on_fullscreen) on_fullscreen();
     }
+    void toggle_second_window() override {
+        if (on_second_window) on_second_window();
+    }
+    /// Draws a picture alone, as large as fits, into the current context, which shares this one's
+    /// textures; `fresh`: for the first time there.
+    void show_alone(const PicturePtr& picture, const DisplaySettings& display, int width,
+                    int height, bool fresh);
     /// Forgets the orders of the last frame and textures that were not used for a while.
     void begin_frame();
-    std::function<void()> on_fullscreen;
+    std::function<void()> on_fullscreen, on_second_window;
 
   private:
     struct Order;
@@ -47,12 +54,14 @@ class GlPictures final : public PictureHost {
     void trim();
     static void run(const ImDrawList* list, const ImDrawCmd* command);
     void execute(const Order& order) const;
+    void set_display(const DisplaySettings& display) const;
 
     std::map<std::uint64_t, Texture> pictures_, mattes_;
     std::list<Order> orders_;  // stable addresses: draw lists point to them until the frame is over
     std::size_t bytes_ = 0;
     std::uint64_t frame_ = 0;
     unsigned picture_program_ = 0, matte_program_ = 0, quad_ = 0, quad_buffer_ = 0;
+    unsigned alone_ = 0;  // the vertex array of the second context
 };
 
 }  // namespace weft

@@ -148,13 +148,17 @@ Expected<int> run_offscreen(const EditorOptions& options) {
             ImGui_ImplOpenGL3_NewFrame();
             app.frame(
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-            app.clock().enter("OpenGL");
-            canvas.begin();
-            ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
             app.clock().end();
             app.watch();
         };
-        const auto write = [&](const std::string& path) { return canvas.write(path); };
+        // Only what is written is drawn: nothing would hold a software renderer back from piling up
+        // frames that nobody sees.
+        const auto write = [&](const std::string& path) {
+            canvas.begin();
+            ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+            glFinish();
+            return canvas.write(path);
+        };
         Status done = app.start();
         if (done) done = run_script(options.script, app, frame, write);
         if (done && !options.screenshot.empty()) done = write(options.screenshot);

@@ -54,6 +54,13 @@ bool ScriptRunner::reached(const std::string& what) const {
     }
     if (what == "result") return v.result_current && !v.stages.approximate;
     if (what == "stages") return v.stages.stages[0] != nullptr;
+    if (what == "full_result")
+        return v.result_current && !v.stages.approximate && v.stages.proxy == 1;
+    if (what == "strip") {
+        for (const StripCard& card : v.strip.cards)
+            if (!card.picture && card.error.empty()) return false;
+        return !v.strip.cards.empty();
+    }
     if (what == "overlay") return v.overlay_picture != nullptr;
     if (what == "analysis") return !v.preview.analysing && v.result_current;
     if (what == "failure") return v.preview.state == PreviewView::State::kFailed;
@@ -196,8 +203,14 @@ Status ScriptRunner::step(const Json& step) {
     } else if (step.contains("times")) {
         const FrameTimes& t = app_.times();
         std::ofstream out(text("times"), std::ios::app);
-        out << step.value("label", "") << ": mean " << t.sum_ms / std::max(1, t.frames)
-            << " ms, worst " << t.worst_ms << " ms, " << t.frames << " frames\n";
+        const double frames = std::max(1, t.frames);
+        out << step.value("label", "") << ": work " << t.cpu_sum_ms / frames
+            << " ms a frame, worst " << t.cpu_worst_ms << " ms; by the clock " << t.sum_ms / frames
+            << " ms, worst " << t.worst_ms << " ms; " << t.frames << " frames\n";
+    } else if (step.contains("repeat")) {
+        for (int k = step.at("repeat").get<int>(); k > 0; --k)
+            for (const Json& inner : step.at("steps"))
+                WEFT_CHECK_OK(this->step(inner));
     } else if (step.contains("reset_times")) {
         app_.reset_times();
     } else if (step.contains("screenshot")) {

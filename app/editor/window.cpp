@@ -8,6 +8,7 @@
 
 #include "app/editor/editor_app.h"
 #include "app/editor/run_modes.h"
+#include "app/editor/second_window.h"
 #include "ui/input_queue.h"
 
 namespace weft {
@@ -154,7 +155,7 @@ bool any_key_down() {
 }
 
 // Draws when something has happened, plays at full rate, else sleeps.
-void loop(GLFWwindow* window, EditorApp& app, WindowState& state) {
+void loop(GLFWwindow* window, EditorApp& app, WindowState& state, SecondWindow& second) {
     std::uint64_t seen = 0;
     int settle = 3;  // ImGui needs a few frames to come to rest after an event
     while (!app.wants_to_leave()) {
@@ -171,6 +172,7 @@ void loop(GLFWwindow* window, EditorApp& app, WindowState& state) {
         if (settle == 0) continue;
         --settle;
         draw(window, app, state.input);
+        second.draw(app);
     }
 }
 
@@ -212,13 +214,15 @@ Expected<int> run_window(const EditorOptions& options) {
         glfwSetWindowUserPointer(window, &state);
         listen(window);
         app.pictures().on_fullscreen = [window] { toggle_fullscreen(window); };
+        SecondWindow second(window);
+        app.pictures().on_second_window = [&second] { second.toggle(); };
         ImGui_ImplGlfw_InitForOpenGL(window, false);  // input comes through the queue
         ImGui_ImplOpenGL3_Init("#version 330 core");
         float scale = 1, other = 1;
         glfwGetWindowContentScale(window, &scale, &other);
         app.update_look(static_cast<double>(scale));
         started = app.start();
-        if (started) loop(window, app, state);
+        if (started) loop(window, app, state, second);
         app.close();
         ImGui_ImplOpenGL3_Shutdown();
         ImGui_ImplGlfw_Shutdown();

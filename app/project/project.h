@@ -139,6 +139,8 @@ struct Placement {
     /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
     /// scale, rotation and offset act.
     std::optional<std::array<PlatePoint, 4>> corners_px;
+    /// A given picture (a plane) is fitted into the corners; else `scale` holds there too.
+    bool fit = true;
     /// Instead of the above, over time: "1:1 24:1.5", "1:0 24:90", "1:0,0 24:10,5".
     std::string scale_keys, rotate_keys, offset_keys;
     std::string uv;        ///< Pattern of a UV pass or ST-map: where the texture lies, exactly.
@@ -206,6 +208,7 @@ struct CorrectionPin {
 struct FinishParams {
     double grain = 1;                   ///< Of the plate's grain; 0: none.
     double focus = 1;                   ///< Of the plate's blur; 0: none.
+    std::string depth;                  ///< Pattern of a depth pass, along which blur is followed.
     std::optional<double> shutter_deg;  ///< Of 360 a frame; unset: as the plate's.
     Extras extra;
     bool operator==(const FinishParams&) const = default;

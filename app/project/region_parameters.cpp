@@ -138,6 +138,12 @@ std::vector<Parameter<Region>> make_region_table() {
              .min = -kMaxPlatePx,
              .max = kMaxPlatePx,
              .optional = true}),
+        entry<R, &R::placement, &Placement::fit>(
+            {.group = "placement",
+             .key = "fit",
+             .flag = "--fit",
+             .help = "Fit a given picture (--plane) into the corners; --fit=false keeps its size, "
+                     "as that of a texture from a sample"}),
         entry<R, &R::placement, &Placement::scale_keys>(
             {.group = "placement",
              .key = "scale_keys",
@@ -349,6 +355,12 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "How far the texture is blurred as the plate is (final quality)",
              .min = 0,
              .max = 2}),
+        entry<R, &R::finish, &FinishParams::depth>(
+            {.group = "finish",
+             .key = "depth",
+             .flag = "--depth-pass",
+             .help = "Pattern of a depth pass, along which the plate's blur is followed",
+             .is_path = true}),
         entry<R, &R::finish, &FinishParams::shutter_deg>(
             {.group = "finish",
              .key = "shutter_deg",

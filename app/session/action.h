@@ -174,7 +174,24 @@ struct PauseAnalysis {
     bool operator==(const PauseAnalysis&) const = default;
 };
 
+/// Writes the selected region's mattes of the marked range (else of the whole shot).
+struct ExportMattes {
+    std::string pattern;
+    bool operator==(const ExportMattes&) const = default;
+};
+/// Keeps the mattes of that range as they are now, or lets them follow again.
+struct FreezeMattes {
+    bool frozen = true;
+    bool operator==(const FreezeMattes&) const = default;
+};
+
 // ---- textures, preview ----
+/// Scales the texture so that so many of its bricks fit on a line over the plate.
+struct ScaleByLine {
+    Vec2 from{0, 0}, to{0, 0};
+    double count = 1;
+    bool operator==(const ScaleByLine&) const = default;
+};
 /// To a region (0: the selected one).
 struct ApplyTexture {
     std::string path;
@@ -240,7 +257,8 @@ using Action =
                  GoToFrame, StepFrames, StepKeyframe, Play, MarkRange, BeginStroke, ContinueStroke,
                  EndStroke, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes,
                  ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
-                 CopyKeyframe, PaintInstead, PauseAnalysis, ApplyTexture, ShowOverlay, ShowStages,
-                 SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+                 CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis,
+                 ApplyTexture, ShowOverlay, ShowStages, SetPreviewQuality, SubmitJob, CommandJob,
+                 MeasureResult>;
 
 }  // namespace weft

@@ -3,7 +3,11 @@
 #include <algorithm>
 
 #include "app/session/frame_plan.h"
+#include "app/session/output_check.h"
+#include "app/session/truth_measure.h"
+#include "engine/composite/focus.h"
 #include "engine/core/frame_range.h"
+#include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_scene.h"
@@ -37,6 +41,13 @@ class Measurer {
         }
         for (std::size_t k = 0; k < measures.size(); ++k)
             out_.results[k].all = measures[k].summary();
+        if (!options_.truth.empty()) {
+            WEFT_TRY(truth, ResultReader::open(options_.truth, options_.project));
+            WEFT_TRY(compared, measure_truth(*shot_, readers_.front(), truth, frames_,
+                                             options_.truth_blur_px, cancel_));
+            out_.truth = std::move(compared);
+        }
+        WEFT_CHECK_OK(measure_light());
         return std::move(out_);
     }
 
@@ -82,6 +93,7 @@ class Measurer {
     Expected<MeasureOptions> make_options() {
         MeasureOptions out;
         out.estimator = options_.estimator;
+        out.measure_grain = true;
         out.quantise_ideal = readers_.front().files().depth() == PixelDepth::kU8;
         const Region& settings = *options_.project.regions.front();
         const bool textured = !settings.texture.sample.empty() || !settings.texture.plane.empty();
@@ -102,9 +114,40 @@ class Measurer {
             return out;
         }
         WEFT_TRY(plane, ideal_plane(options_.project, region(), shot_->plate->size()));
-        WEFT_TRY(map, plane_from_plate(region().placement));
+        PlanePlacement placed = region().placement;
+        if (settings.placement.fit && !settings.texture.plane.empty())
+            placed.picture_texels = plane.size();
+        WEFT_TRY(map, plane_from_plate(placed));
         out.ideal = IdealInputs{std::move(plane), map, {}};
         return out;
+    }
+
+    // Φ against the artist's pass, and its pictures.
+    Status measure_light() {
+        const LightParams& light = options_.project.regions.front()->light;
+        if (light.albedo.empty() && light.lighting.empty() && options_.pictures.empty()) return {};
+        WEFT_TRY(meter, LightMeter::open(options_.project, frames_, options_.cache, cancel_,
+                                         out_.warnings));
+        for (const int frame : frames_) {
+            if (cancel_.cancelled()) return cancelled(cancel_);
+            WEFT_CHECK_OK(meter->add(frame));
+            if (options_.pictures.empty()) continue;
+            WEFT_TRY(result, readers_.front().read(frame));
+            WEFT_TRY(pictures, meter->pictures(frame, result));
+            WEFT_CHECK_OK(write_light_pictures(options_.pictures, frame, pictures));
+        }
+        if (meter->has_truth()) out_.light = meter->summary();
+        return {};
+    }
+
+    Status measure_focus(const ImageF3& display, ViewU8x1 matte, Spread& into) {
+        if (!linear_from_display_) {
+            WEFT_TRY(to_linear, make_color_transform({"srgb"}, {"linear"}));
+            linear_from_display_ = to_linear;
+        }
+        const float blur = edge_blur_px(transformed(display, *linear_from_display_), matte);
+        if (blur > 0) into.add(static_cast<double>(blur));
+        return {};
     }
 
     Status add(std::vector<SequenceMeasure>& measures, std::size_t at) {
@@ -125,6 +168,8 @@ class Measurer {
                                                               : MotionDirection::kBackward,
                                       nullptr, k > 0 ? &measures.front() : nullptr}));
             out_.results[k].frames.push_back(measured);
+            WEFT_CHECK_OK(measure_focus(result, matte, out_.results[k].focus_px));
+            WEFT_CHECK_OK(measure_focus(source, matte, out_.results[k].source_focus_px));
             if (options_.measured) options_.measured(k, measured);
         }
         return {};
@@ -134,6 +179,7 @@ class Measurer {
     CancelToken cancel_;
     std::vector<ResultReader> readers_;
     std::shared_ptr<const Shot> shot_;
+    std::shared_ptr<const ColorTransform> linear_from_display_;
     std::vector<int> frames_;
     MeasureJobResult out_;
 };

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/session/light_measure.h"
 #include "app/session/shot.h"
 #include "engine/core/cancel.h"
+#include "engine/metrics/light_truth.h"
 #include "engine/metrics/sequence_measure.h"
 
 namespace weft {
@@ -21,18 +23,38 @@ struct MeasureJobOptions {
     /// Where there is no true motion, move the ideal texture by the estimate that measures, rather
     /// than going without floor and sharpness.
     bool ideal_by_estimate = false;
+    /// The same scene rendered with the new material, to compare the first result with; empty:
+    /// none.
+    std::string truth;
+    float truth_blur_px = 0;  ///< Compare after a Gaussian: the truth's texture lies elsewhere.
+    /// Folder for pictures of the light of the plate and of the first result; empty: none.
+    std::string pictures;
+    AnalysisCacheOptions cache;  ///< Of the estimate of light, where one is wanted.
     /// Called with (result, frame) after each.
     std::function<void(std::size_t, const FrameMeasures&)> measured;
+};
+
+/// A result beside the true picture: 8-bit levels, up to one overall gain.
+struct TruthMeasures {
+    Spread inside, soft_edge, shadow;
+    /// The most by which the region's median brightness, as a share of the first frame's, departs
+    /// from the true one's.
+    double brightness_error = 0;
+    ShadowEdges edges;  ///< Of the picture itself: only where texture and truth are plain.
 };
 
 /// The figures of one result.
 struct MeasuredResult {
     std::vector<FrameMeasures> frames;
     SequenceMeasures all;
+    /// Deviation of the Gaussian that would blur steps to the sharper edges inside of the matte.
+    Spread focus_px, source_focus_px;
 };
 
 struct MeasureJobResult {
     std::vector<MeasuredResult> results;  ///< In the order asked for.
+    std::optional<TruthMeasures> truth;   ///< Of the first result.
+    std::optional<LightMeasures> light;   ///< Where a pass gives the true light.
     std::vector<std::string> warnings;
 };
 

@@ -56,6 +56,22 @@ class ProjectSource final : public ShotSource {
         return read_matte(path_on(pattern, frame), select, size());
     }
 
+    [[nodiscard]] Expected<ImageF1> depth(int region, int frame) const override {
+        const std::string& files = at(region).finish.depth;
+        if (files.empty()) return ImageF1();
+        WEFT_TRY(picture, read_pass(files, frame));
+        // A float file holds distances, a coded one what an artist made visible.
+        const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
+        ImageF1 out(picture.rgb.size());
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const float v = picture.rgb.pixel(x, y)[0];
+                out.row(y)[x] = coded ? v : v > 0 ? 1.0f / v : 0.0f;
+            }
+        }
+        return out;
+    }
+
     [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
         const MotionSource& motion = at(region).motion;
         WEFT_TRY(pattern, SequencePattern::parse(motion.files));
@@ -72,15 +88,7 @@ class ProjectSource final : public ShotSource {
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         const LightParams& light = at(region).light;
         const std::string& given = light.lighting.empty() ? light.albedo : light.lighting;
-        WEFT_TRY(pattern, SequencePattern::parse(given));
-        const std::string path = pattern.is_single() ? given : path_on(pattern, frame);
-        WEFT_TRY(picture, read_image(path, light.pass_layer));
-        if (picture.rgb.size() != size()) {
-            return fail(ErrorCode::kUnreadable,
-                        path + " is " + std::to_string(picture.rgb.width()) + " x " +
-                            std::to_string(picture.rgb.height()) +
-                            ", but the plate is not. Give a pass of the plate's size.");
-        }
+        WEFT_TRY(picture, read_pass(given, frame, light.pass_layer));
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
         WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
         to_linear->apply(picture.rgb);
@@ -90,6 +98,20 @@ class ProjectSource final : public ShotSource {
   private:
     [[nodiscard]] const Region& at(int region) const {
         return *regions_[static_cast<std::size_t>(region)];
+    }
+    // A picture of the plate's size, one a frame or the same for all.
+    [[nodiscard]] Expected<PlateFrame> read_pass(const std::string& files, int frame,
+                                                 const std::string& layer = {}) const {
+        WEFT_TRY(pattern, SequencePattern::parse(files));
+        const std::string path = pattern.is_single() ? files : path_on(pattern, frame);
+        WEFT_TRY(picture, read_image(path, layer));
+        if (picture.rgb.size() != size()) {
+            return fail(ErrorCode::kUnreadable,
+                        path + " is " + std::to_string(picture.rgb.width()) + " x " +
+                            std::to_string(picture.rgb.height()) +
+                            ", but the plate is not. Give a pass of the plate's size.");
+        }
+        return picture;
     }
     [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
         WEFT_TRY(pattern, SequencePattern::parse(source.files));

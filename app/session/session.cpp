@@ -173,6 +173,9 @@ void Session::act(const Action& action) {
             },
             [&](const CopyKeyframe& a) { copy_keyframe(a.from, a.to); },
             [&](const PaintInstead&) { paint_instead(); },
+            [&](const ExportMattes& a) { export_mattes(a.pattern); },
+            [&](const FreezeMattes& a) { freeze_mattes(a.frozen); },
+            [&](const ScaleByLine& a) { scale_by_line(a); },
             [&](const PauseAnalysis& a) { a.paused ? preview_.pause() : preview_.resume(); },
             [&](const ApplyTexture& a) { apply_texture(a.path, a.region ? a.region : selected_); },
             [&](const ShowOverlay& a) {

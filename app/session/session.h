@@ -109,6 +109,13 @@ class Session {
     void fill_between_shapes();
     void show_shape();
 
+    // ---- mattes to files (session_matte_files.cpp), size from a line (session_placing.cpp) ----
+    void write_mattes(const std::string& pattern,
+                      std::function<void(const std::vector<int>&)> then);
+    void export_mattes(const std::string& pattern);
+    void freeze_mattes(bool frozen);
+    void scale_by_line(const ScaleByLine& action);
+
     // ---- the strip (session_strip.cpp) ----
     void show_strip();
     [[nodiscard]] std::vector<int> strip_frames() const;

@@ -94,6 +94,8 @@ void Session::show_strip() {
             made != preview_reading_.cards.end()) {
             card.picture = made->second.picture;
             card.error = made->second.error;
+        } else if (view_.preview.state == PreviewView::State::kFailed) {
+            card.error = view_.preview.error;
         }
         shown.cards.push_back(std::move(card));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/session/crypto_files.h"
 #include "app/session/frame_plan.h"
@@ -208,10 +209,13 @@ class ShotOpener {
         plan.weight = static_cast<float>(region.temporal.weight);
         plan.light_source = region.light.source;
         plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        if (!shot_.plan.display_referred)
+            plan.light.least_gain = 0, plan.light.most_gain = std::numeric_limits<float>::max();
         WEFT_CHECK_OK(add_light(region.light, plan));
         const bool final = shot_.plan.quality == FlowQuality::kFinal;
         plan.grain = final ? static_cast<float>(region.finish.grain) : 0.0f;
         plan.focus = final ? static_cast<float>(region.finish.focus) : 0.0f;
+        plan.has_depth = plan.focus > 0 && !region.finish.depth.empty();
         WEFT_TRY(metered, grain_frames(region, plan, *shot_.plate));
         plan.grain_frames = std::move(metered);
         if (!final)
@@ -329,6 +333,8 @@ class ShotOpener {
         texture->pixels = std::move(first.pixels);
         texture->is_plane = is_plane;
         texture->wrap = region.texture.wrap;
+        if (is_plane && region.placement.fit)
+            plan.placement.picture_texels = texture->pixels.size();
         for (const std::string& further : region.texture.also) {
             if (is_plane) break;
             WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));

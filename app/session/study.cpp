@@ -168,11 +168,14 @@ class Study {
         job.project.regions.front() = job.project.regions.front().with([&](Region& r) {
             r.texture.sample.clear();
             r.texture.also.clear();
+            // Grown from a sample, it is no picture to be fitted into corners.
+            if (result_.project.regions.front()->texture.plane.empty()) r.placement.fit = false;
             r.texture.plane = plane_path_;
             r.texture.space.clear();
         });
         job.project.color.texture_space = "srgb";
         job.ideal_by_estimate = true;
+        job.cache.keep = false;
         for (const StudyRun& run : result_.runs)
             job.results.push_back(run.pattern);
         std::int64_t done = 0;
@@ -186,6 +189,7 @@ class Study {
                 result_.warnings.end())
                 result_.warnings.push_back(warning);
         }
+        result_.light = measured.light;
         for (std::size_t k = 0; k < result_.runs.size(); ++k)
             result_.runs[k].measured = std::move(measured.results[k]);
         return {};

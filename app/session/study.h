@@ -31,6 +31,7 @@ enum class StudyRole {
     kBaseline,  ///< What others do: anew, PatchMatch, Poisson, still.
     kPaper,     ///< The paper's eq. 4–6 at one α.
     kLocked,
+    kLight,    ///< With light by another form, or with all that the plate's camera does.
     kAblation  ///< With light: the full method, and without one of its parts.
 };
 
@@ -89,6 +90,8 @@ struct StudyResult {
     std::vector<StudyRun> runs;
     std::vector<StripRow> strip;
     std::vector<int> strip_frames;
+    std::vector<StripRow> light_strip;   ///< Light and reflectance, before and after.
+    std::optional<LightMeasures> light;  ///< Against the artist's pass, where there is one.
     std::vector<WorstStep> worst;
     std::vector<std::string> warnings;
     StudyVerdict verdict;
@@ -97,7 +100,7 @@ struct StudyResult {
     [[nodiscard]] const StudyRun* find(const std::string& id) const;
 };
 
-/// anew, patchmatch, poisson, still, paper, locked, ablation.
+/// anew, patchmatch, poisson, still, paper, locked, light, ablation.
 [[nodiscard]] const std::vector<std::string>& study_method_names();
 
 /// Renders every method into `folder`/frames/ID, measures all, and writes report.html (one

@@ -23,6 +23,8 @@ const char* name_of(StudyRole role) {
             return "paper";
         case StudyRole::kLocked:
             return "locked";
+        case StudyRole::kLight:
+            return "light";
         case StudyRole::kAblation:
             break;
     }
@@ -63,25 +65,26 @@ std::string study_json(const StudyResult& study) {
     Json runs = Json::array();
     for (const StudyRun& run : study.runs)
         runs.push_back(run_json(run));
-    const Json out{{"version", kVersion},
-                   {"plate", study.project.plate.path},
-                   {"frames", format_frame_list(study.frames)},
-                   {"size", {study.size.width, study.size.height}},
-                   {"backend", study.backend},
-                   {"threads", thread_count()},
-                   {"ideal_by_estimate", study.estimated_ideal},
-                   {"verdict",
-                    {{"tde_floor", number(v.floor)},
-                     {"locked_above_floor", number(v.locked)},
-                     {"best_baseline", v.baseline_id},
-                     {"best_baseline_above_floor", number(v.baseline)},
-                     {"reduction_percent", number(v.reduction_percent)},
-                     {"sharp_paper", v.paper_id},
-                     {"sharp_paper_above_floor", number(v.paper)},
-                     {"paper_reduction_percent", number(v.paper_reduction_percent)}}},
-                   {"runs", std::move(runs)},
-                   {"settings", settings_json(study.project)},
-                   {"warnings", study.warnings}};
+    Json out{{"version", kVersion},
+             {"plate", study.project.plate.path},
+             {"frames", format_frame_list(study.frames)},
+             {"size", {study.size.width, study.size.height}},
+             {"backend", study.backend},
+             {"threads", thread_count()},
+             {"ideal_by_estimate", study.estimated_ideal},
+             {"verdict",
+              {{"tde_floor", number(v.floor)},
+               {"locked_above_floor", number(v.locked)},
+               {"best_baseline", v.baseline_id},
+               {"best_baseline_above_floor", number(v.baseline)},
+               {"reduction_percent", number(v.reduction_percent)},
+               {"sharp_paper", v.paper_id},
+               {"sharp_paper_above_floor", number(v.paper)},
+               {"paper_reduction_percent", number(v.paper_reduction_percent)}}},
+             {"runs", std::move(runs)},
+             {"settings", settings_json(study.project)},
+             {"warnings", study.warnings}};
+    if (study.light) out["light"] = light_json(*study.light);
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -64,7 +64,9 @@ class HtmlReport {
     explicit HtmlReport(const StudyResult& study) : study_(study) {
         int papers = 0;
         for (const StudyRun& run : study.runs) {
-            auto& group = run.role == StudyRole::kAblation ? ablation_ : compared_;
+            auto& group = run.role == StudyRole::kAblation ? ablation_
+                          : run.role == StudyRole::kLight  ? lights_
+                                                           : compared_;
             group.push_back({&run, colour_of(run, papers)});
             papers += run.role == StudyRole::kPaper ? 1 : 0;
         }
@@ -255,7 +257,7 @@ class HtmlReport {
     }
 
     void light() {
-        if (ablation_.empty()) return;
+        if (ablation_.empty() && lights_.empty()) return;
         out_ +=
             "<h2>Light through time (the paper's Fig. 6)</h2>\n<p>TIV is the variance over "
             "time of the region's mean V. Where the light of the scene changes, the smallest "
@@ -280,11 +282,14 @@ class HtmlReport {
             add(c, c.run->title + (c.run->id == "full" ? "" : ", with light"));
             if (c.run->id == "full") add_line(mean, c, &FrameMeasures::mean_v);
         }
+        for (const Coloured& c : lights_)
+            add(c, c.run->title);
         add_reference(mean, "Source clip", "#b8860b", &FrameMeasures::source_mean_v);
         const double source = study_.find("locked")->measured.all.source_tiv;
         tiv.push_back({"Source clip", {{"", "#b8860b", source}}, fmt::format("{:.2f}", source)});
         out_ += svg_of(mean) + svg_of_bars("TIV", "squared 8-bit units", tiv) +
                 svg_of_bars("TIV relative", "", relative);
+        out_ += study_light_html(study_);
     }
 
     void ablation() {
@@ -377,6 +382,7 @@ class HtmlReport {
             row(fmt::format("all {} frames, surface-locked: one plane", study_.frames.size()),
                 locked->plane->total_s, lighting * frames);
         }
+        row("all of a frame by the full method", full->cpu_s / frames - lighting, lighting);
         row("the paper, 512×512", 8.42, 0.91);
         row("the paper, 1024×1024", 28.35, 3.47);
         out_ += "</table>\n";
@@ -407,7 +413,7 @@ class HtmlReport {
     }
 
     const StudyResult& study_;
-    std::vector<Coloured> compared_, ablation_;
+    std::vector<Coloured> compared_, lights_, ablation_;
     std::string out_;
 };
 

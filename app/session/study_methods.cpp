@@ -34,6 +34,7 @@ class Planner {
                 r.temporal.mode = TemporalMode::kNone;
                 r.texture.sample.clear();
                 r.texture.also.clear();
+                if (r.texture.plane.empty()) r.placement.fit = false;
                 r.texture.plane = plane_;
             });
         }
@@ -43,6 +44,7 @@ class Planner {
         }
         add("locked", "Surface-locked", StudyRole::kLocked,
             [](Region& r) { r.temporal.mode = TemporalMode::kLocked; });
+        if (wanted("light")) add_light();
         if (wanted("ablation")) add_ablation();
         return std::move(methods_);
     }
@@ -78,7 +80,7 @@ class Planner {
         method.run.id = id;
         method.run.title = title;
         method.run.role = role;
-        method.run.lit = role == StudyRole::kAblation;
+        method.run.lit = role == StudyRole::kAblation || role == StudyRole::kLight;
         method.run.pattern = options_.folder + "/frames/" + id + "/#####.png";
         method.project = project_;
         method.project.output = Output{};
@@ -107,6 +109,20 @@ class Planner {
                 r.temporal.blend = alpha;
             })
             .run.alpha = alpha;
+    }
+
+    // What light is compared with: transfers of statistics, and the paper's own eq. 8. Last the
+    // result as it is delivered, with the plate's grain and blur.
+    void add_light() {
+        const auto with_form = [&](const char* id, const char* title, LightForm form) {
+            add(id, title, StudyRole::kLight, [form](Region& r) { r.light.form = form; });
+        };
+        with_form("light-statistics", "Light by mean and deviation", LightForm::kStatistics);
+        with_form("light-histogram", "Light by the histogram", LightForm::kHistogram);
+        with_form("light-literal", "Light by the paper's eq. 8", LightForm::kLiteral);
+        const FinishParams finish = project_.regions.front()->finish;
+        add("finished", "Finished, with grain and focus", StudyRole::kLight,
+            [&finish](Region& r) { r.finish = finish; });
     }
 
     // The paper's Fig. 7. Without light is the surface-locked run itself.
@@ -138,7 +154,7 @@ class Planner {
 
 const std::vector<std::string>& study_method_names() {
     static const std::vector<std::string> names{"anew",  "patchmatch", "poisson", "still",
-                                                "paper", "locked",     "ablation"};
+                                                "paper", "locked",     "light",   "ablation"};
     return names;
 }
 

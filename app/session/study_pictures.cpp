@@ -48,6 +48,15 @@ cv::Mat cut(const cv::Mat& picture, const Recti& r) {
     return picture(cv::Rect(r.x0, r.y0, r.width(), r.height()));
 }
 
+// To the width of the strip.
+cv::Mat shrunk(const cv::Mat& part) {
+    if (part.cols <= kStripWidth) return part;
+    cv::Mat smaller;
+    const int height = std::max(1, part.rows * kStripWidth / part.cols);
+    cv::resize(part, smaller, cv::Size(kStripWidth, height), 0, 0, cv::INTER_AREA);
+    return smaller;
+}
+
 StudyPicture encoded(const cv::Mat& picture, std::string caption, int quality) {
     StudyPicture out;
     out.caption = std::move(caption);
@@ -94,9 +103,11 @@ class Illustrator {
             readers_.emplace(run.id, std::move(reader));
         }
         WEFT_CHECK_OK(add_strip());
+        if (!strip_box_.empty()) WEFT_CHECK_OK(add_light());
         for (const StudyRun& run : study_.runs) {
             if (cancel_.cancelled()) return cancelled(cancel_);
-            if (run.role != StudyRole::kAblation) WEFT_CHECK_OK(add_worst(run));
+            if (run.role != StudyRole::kAblation && run.role != StudyRole::kLight)
+                WEFT_CHECK_OK(add_worst(run));
         }
         return {};
     }
@@ -126,6 +137,7 @@ class Illustrator {
             box = box.united(matte_bounds(matte));
         }
         box = box.grown(kRim).intersected(rect_of(study_.size));
+        strip_box_ = box;
         if (box.empty()) return {};
         WEFT_CHECK_OK(add_row("Source", box, [&](int frame) { return plate(frame); }));
         for (const StudyRun& run : study_.runs) {
@@ -139,16 +151,47 @@ class Illustrator {
         StripRow row{title, {}};
         for (const int frame : study_.strip_frames) {
             WEFT_TRY(picture, read(frame));
-            cv::Mat part = cut(picture, box);
-            if (part.cols > kStripWidth) {
-                cv::Mat smaller;
-                const int height = std::max(1, part.rows * kStripWidth / part.cols);
-                cv::resize(part, smaller, cv::Size(kStripWidth, height), 0, 0, cv::INTER_AREA);
-                part = smaller;
-            }
-            row.pictures.push_back(encoded(part, "frame " + std::to_string(frame), 82));
+            row.pictures.push_back(
+                encoded(shrunk(cut(picture, box)), "frame " + std::to_string(frame), 82));
         }
         study_.strip.push_back(std::move(row));
+        return {};
+    }
+
+    // Φ and what it leaves, of the plate and of the lit result.
+    Status add_light() {
+        const StudyRun* full = study_.find("full");
+        if (full == nullptr) return {};
+        std::vector<std::string> warnings;
+        AnalysisCacheOptions cache;
+        cache.keep = false;
+        WEFT_TRY(meter,
+                 LightMeter::open(study_.project, study_.strip_frames, cache, cancel_, warnings));
+        const std::map<std::string, std::string> titles{
+            {"before", "Plate"},
+            {"before_shading", "Its shading Φ"},
+            {"before_reflectance", "Its reflectance"},
+            {"after", "Result"},
+            {"after_shading", "Shading seen in it"},
+            {"after_reflectance", "Reflectance seen in it"},
+            {"true_shading", "True shading"},
+            {"true_reflectance", "True reflectance"},
+            {"shading_difference", "Φ less the true shading, × 4"}};
+        for (const int frame : study_.strip_frames) {
+            WEFT_TRY(result, readers_.at(full->id).read(frame));
+            WEFT_TRY(pictures, meter->pictures(frame, result));
+            for (const auto& [name, picture] : pictures) {
+                const std::string& title = titles.at(name);
+                auto row = std::find_if(study_.light_strip.begin(), study_.light_strip.end(),
+                                        [&](const StripRow& r) { return r.title == title; });
+                if (row == study_.light_strip.end()) {
+                    study_.light_strip.push_back({title, {}});
+                    row = study_.light_strip.end() - 1;
+                }
+                row->pictures.push_back(encoded(shrunk(cut(display_codes(picture), strip_box_)),
+                                                "frame " + std::to_string(frame), 82));
+            }
+        }
         return {};
     }
 
@@ -217,6 +260,7 @@ class Illustrator {
     std::shared_ptr<const Shot> shot_;
     std::map<std::string, ResultReader> readers_;
     std::map<int, FlowField> motion_;
+    Recti strip_box_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ constexpr float kStrongShare = 0.85f;    // quantile of gradients from which edg
 constexpr float kSharper = 0.33f;        // quantile of the edges' blur
 constexpr float kOfMeasuring = 0.66f;    // px²: central differences, and edges between pixels
 constexpr std::size_t kFewestEdges = 60;
+constexpr std::size_t kFewestOfPlace = 12;
 constexpr float kSharpest = 0.3f, kMostBlurred = 6.0f;
 constexpr float kLeastBlur = 0.2f;
 constexpr float kAlike = 1.1f;
@@ -92,12 +93,8 @@ bool deep_inside(ViewU8x1 matte, int x, int y) {
            matte.row(y)[x + kRim] == 255;
 }
 
-}  // namespace
-
-float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
-    const ImageF1 sharp = lightness(linear);
-    if (sharp.width() < 9 || sharp.height() < 9) return 0;
-    const ImageF1 soft = blurred(sharp, kKnownBlur);
+// Gradients deep inside the matte; 0 elsewhere.
+ImageF1 gradient_lengths(const ImageF1& sharp, ViewU8x1 matte) {
     const int w = sharp.width(), h = sharp.height();
     ImageF1 length(sharp.size());
     parallel_rows(h, 16, [&](int y0, int y1) {
@@ -106,20 +103,13 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
                 length.row(y)[x] = deep_inside(matte, x, y) ? gradient(sharp, x, y).length() : 0.0f;
         }
     });
-    std::vector<float> lengths;
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) {
-            if (length.row(y)[x] > 0) lengths.push_back(length.row(y)[x]);
-        }
-    }
-    if (lengths.size() < kFewestEdges) return 0;
-    const auto strong =
-        lengths.begin() +
-        static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
-    std::nth_element(lengths.begin(), strong, lengths.end());
-    const float least = std::max(kLeastGradient, *strong);
+    return length;
+}
 
-    std::vector<float> blurs;
+std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, float least) {
+    const ImageF1 soft = blurred(sharp, kKnownBlur);
+    const int w = sharp.width(), h = sharp.height();
+    std::vector<EdgeBlur> edges;
     for (int y = 4; y < h - 4; ++y) {
         for (int x = 4; x < w - 4; ++x) {
             const float here = length.row(y)[x];
@@ -132,19 +122,63 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
                 gradient(sharp, x - u, y - v).length() > here)
                 continue;
             const float ratio = here / std::max(1e-6f, gradient(soft, x, y).length());
-            if (!(ratio > 1.0138f)) {
-                blurs.push_back(kMostBlurred);
-                continue;
-            }
             const float variance = kKnownBlur * kKnownBlur / (ratio * ratio - 1.0f);
-            blurs.push_back(std::sqrt(std::max(0.0f, variance - kOfMeasuring)));
+            const float blur =
+                ratio > 1.0138f ? std::sqrt(std::max(0.0f, variance - kOfMeasuring)) : kMostBlurred;
+            edges.push_back({x, y, here, blur});
         }
     }
-    if (blurs.size() < kFewestEdges) return 0;
+    return edges;
+}
+
+// The lower third of the blurs.
+float sharper_of(const std::vector<EdgeBlur>& edges) {
+    std::vector<float> blurs;
+    blurs.reserve(edges.size());
+    for (const EdgeBlur& e : edges)
+        blurs.push_back(e.blur_px);
     const auto at = blurs.begin() +
                     static_cast<std::ptrdiff_t>(kSharper * static_cast<float>(blurs.size() - 1));
     std::nth_element(blurs.begin(), at, blurs.end());
     return std::clamp(*at, kSharpest, kMostBlurred);
+}
+
+}  // namespace
+
+std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte, float least_gradient) {
+    const ImageF1 sharp = lightness(linear);
+    if (sharp.width() < 9 || sharp.height() < 9) return {};
+    return edges_of(sharp, gradient_lengths(sharp, matte), least_gradient);
+}
+
+float sharper_blur_px(std::vector<EdgeBlur> edges) {
+    if (edges.size() < kFewestOfPlace) return 0;
+    const auto third = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 3);
+    std::nth_element(edges.begin(), third, edges.end(), [](const EdgeBlur& a, const EdgeBlur& b) {
+        if (a.strength != b.strength) return a.strength > b.strength;
+        return a.y != b.y ? a.y < b.y : a.x < b.x;
+    });
+    edges.erase(third, edges.end());
+    return sharper_of(edges);
+}
+
+float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
+    const ImageF1 sharp = lightness(linear);
+    if (sharp.width() < 9 || sharp.height() < 9) return 0;
+    const ImageF1 length = gradient_lengths(sharp, matte);
+    std::vector<float> lengths;
+    for (int y = 0; y < length.height(); ++y) {
+        for (int x = 0; x < length.width(); ++x) {
+            if (length.row(y)[x] > 0) lengths.push_back(length.row(y)[x]);
+        }
+    }
+    if (lengths.size() < kFewestEdges) return 0;
+    const auto strong =
+        lengths.begin() +
+        static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
+    std::nth_element(lengths.begin(), strong, lengths.end());
+    const std::vector<EdgeBlur> edges = edges_of(sharp, length, std::max(kLeastGradient, *strong));
+    return edges.size() < kFewestEdges ? 0.0f : sharper_of(edges);
 }
 
 float blur_between(float from_px, float to_px) {

@@ -2,14 +2,31 @@
 // The plate's focus: how blurred its sharpest edges are, and the same blur on a texture that is
 // sharper (method: "Composite").
 
+#include <vector>
+
 #include "engine/core/image.h"
 
 namespace weft {
 
+/// One place on an edge of a picture.
+struct EdgeBlur {
+    int x = 0, y = 0;
+    float strength = 0;  ///< Gradient, of the display range a pixel.
+    float blur_px = 0;   ///< Deviation of the Gaussian that would blur an ideal step to it.
+};
+
+/// The edges inside the matte whose gradient is at least `least_gradient`, at their middles, by the
+/// ratio of gradients before and after a known blur (Zhuo & Sim 2011, eq. 5); row by row. Linear
+/// light; values above 1 count as 1.
+[[nodiscard]] std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte,
+                                               float least_gradient = 0.03f);
+
+/// Of a place's edges the third that is strongest, and of their blurs the lower third: what the
+/// sharpest detail there shows. 0 for fewer than a dozen edges.
+[[nodiscard]] float sharper_blur_px(std::vector<EdgeBlur> edges);
+
 /// Deviation in pixels of the Gaussian that would blur ideal steps to the picture's sharper edges
-/// inside the matte (lower third of its strong edges), by the ratio of gradients before and after a
-/// known blur (Zhuo & Sim 2011, eq. 5). 0 where there are too few edges to tell. Linear light;
-/// values above 1 count as 1.
+/// inside the matte (lower third of its strong edges). 0 where there are too few edges to tell.
 [[nodiscard]] float edge_blur_px(ViewF3 linear, ViewU8x1 matte);
 
 /// Blurs by a Gaussian of deviation `sigma_px`, from pixels where the matte is above 0 only; the

@@ -28,6 +28,7 @@ struct GainRequest {
     int downscale = 2;
     float reference = 1;
     float strength = 1;  ///< λ, 0–1; 0 changes nothing.
+    float least_gain = 0.125f, most_gain = 8.0f;
 };
 
 /// One region of a frame: texture, light, composite O = F + M (T − B).

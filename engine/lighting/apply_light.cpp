@@ -12,7 +12,6 @@
 namespace weft {
 namespace {
 
-constexpr float kMinGain = 0.125f, kMaxGain = 8.0f;
 constexpr float kBaseSigma_px = 12.0f;  // of B, the base of the texture's V
 constexpr float kMinBase = 0.02f;       // display V
 constexpr int kBand = 8;
@@ -23,12 +22,12 @@ bool usable(float light) {
 
 // g = 1 + λ (S / S₀ − 1), in linear light.
 void gain_row(float* rgb, const std::uint8_t* matte, const std::vector<float>& shading,
-              float reference, float strength) {
+              float reference, float strength, const LightOptions& limits) {
     const float inverse = 1.0f / reference;
     for (std::size_t x = 0; x < shading.size(); ++x, rgb += 3) {
         if (matte[x] == 0 || !usable(shading[x])) continue;
-        const float gain =
-            std::clamp(1.0f + strength * (shading[x] * inverse - 1.0f), kMinGain, kMaxGain);
+        const float gain = std::clamp(1.0f + strength * (shading[x] * inverse - 1.0f),
+                                      limits.least_gain, limits.most_gain);
         rgb[0] *= gain, rgb[1] *= gain, rgb[2] *= gain;
     }
 }
@@ -120,7 +119,7 @@ void apply_light(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, cons
         for (int y = y0; y < y1; ++y) {
             shading_row(shading, origin.x, origin.y + y, blended, light);
             if (options.form == LightForm::kGain)
-                gain_row(texture.row(y), matte.row(y), light, reference, strength);
+                gain_row(texture.row(y), matte.row(y), light, reference, strength, options);
             else
                 display_row(texture.row(y), matte.row(y), light,
                             base.empty() ? nullptr : base.row(y), strength);

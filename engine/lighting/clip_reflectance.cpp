@@ -13,10 +13,10 @@ namespace weft {
 namespace {
 
 constexpr int kFewestFrames = 3;
-constexpr float kSplatKnown = 0.2f;  // of a pixel's weight
-constexpr int kLongestPeriod = 64;   // small pixels
-constexpr float kPeriods = 1.0f;     // pieces up to so many periods are paint
-constexpr int kLevelRounds = 3;
+constexpr float kSplatKnown = 0.2f;              // of a pixel's weight
+constexpr int kLongestPeriod = 64;               // small pixels
+constexpr float kPeriods = 1.0f;                 // pieces up to so many periods are paint
+constexpr int kLevelRounds = 3, kLevelStep = 3;  // one number a frame needs few places
 
 // Quantiles, as a share of the values below.
 using Share = std::array<std::ptrdiff_t, 2>;
@@ -118,13 +118,13 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
 // where fewer than kFewestFrames do.
 template <typename Value>
 ImageF1 ReflectanceGatherer::over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
-                                       ImageF1& known, const Value& value) const {
+                                       ImageF1& known, const Value& value, int step) const {
     ImageF1 out(box.size());
     known = ImageF1(box.size());
     parallel_rows(box.height(), 8, [&](int y0, int y1) {
         std::vector<float> values;
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < box.width(); ++x) {
+        for (int y = (y0 + step - 1) / step * step; y < y1; y += step) {
+            for (int x = 0; x < box.width(); x += step) {
                 values.clear();
                 for (const Part& part : parts_) {
                     const int u = x + box.x0 - part.box.x0, v = y + box.y0 - part.box.y0;
@@ -146,9 +146,10 @@ void ReflectanceGatherer::find_levels(const Recti& box) {
     ImageF1 known;
     std::vector<float> differences;
     for (int round = 0; round < kLevelRounds; ++round) {
-        const ImageF1 usual = over_time(box, kMiddle, known, [](const Part& part, int u, int v) {
-            return part.luma.row(v)[u] - part.level;
-        });
+        const ImageF1 usual = over_time(
+            box, kMiddle, known,
+            [](const Part& part, int u, int v) { return part.luma.row(v)[u] - part.level; },
+            kLevelStep);
         for (Part& part : parts_) {
             differences.clear();
             for (int v = 0; v < part.box.height(); ++v) {

@@ -42,7 +42,7 @@ class ReflectanceGatherer {
     };
     template <typename Value>
     [[nodiscard]] ImageF1 over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
-                                    ImageF1& known, const Value& value) const;
+                                    ImageF1& known, const Value& value, int step = 1) const;
     void find_levels(const Recti& box);
 
     int downscale_ = 1;

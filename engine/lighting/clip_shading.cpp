@@ -1,6 +1,7 @@
 // The light of a frame, the surface's reflectance known from the clip.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
@@ -18,6 +19,8 @@ constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noi
 constexpr float kOutlier = 3.0f;  // deviations of the detail: what stands out more is light
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
+constexpr float kShown = 0.5f;
+constexpr std::int64_t kFewDoubts = 100;  // of so many places one may be in doubt
 
 ImageF1 box_mean(const ImageF1& plane, const ImageF1& weight, const ImageF1& total, int radius) {
     ImageF1 mean = weighted(plane, weight);
@@ -123,22 +126,46 @@ ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
     return guide;
 }
 
+// Whether hardly any place has to be estimated from the frame alone, which costs more than all the
+// rest.
+bool shows_all(const ImageF1& weight, const ImageF1& share) {
+    std::int64_t all = 0, doubtful = 0;
+    for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i) {
+        if (!(weight.data()[i] > 0)) continue;
+        ++all;
+        doubtful += share.data()[i] < kShown ? 1 : 0;
+    }
+    return doubtful * kFewDoubts <= all;
+}
+
+// Without the places that are in doubt: light is continued over them from around.
+SurfaceSample known_part(const SurfaceSample& sample, const ImageF1& share) {
+    SurfaceSample out;
+    out.box = sample.box, out.downscale = sample.downscale, out.full = sample.full;
+    out.floor = sample.floor;
+    out.weight = sample.weight;
+    for (std::size_t i = 0; i < share.size_bytes() / sizeof(float); ++i) {
+        if (share.data()[i] < kShown) out.weight.data()[i] = 0;
+    }
+    return out;
+}
+
 }  // namespace
 
 Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflectance,
                      const ImageF2& ref_from_cur, const ShadingOptions& options) {
     if (sample.box.empty()) return shading_from_log(ImageF1(), sample);
-    ImageF1 light = log_shading(sample, options);
-    if (!reflectance.box.empty()) {
-        const Seen seen = moved_here(sample, reflectance, ref_from_cur);
-        const ImageF1 share = agreement(sample, seen);
-        ImageF1 lit = sample.luma;
-        for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
-            lit.data()[i] -= seen.value.data()[i];
-        const ImageF1 fine = without_noise(lit, seen.known);
-        for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
-            light.data()[i] += share.data()[i] * (fine.data()[i] - light.data()[i]);
-    }
+    if (reflectance.box.empty()) return shading_from_log(log_shading(sample, options), sample);
+    const Seen seen = moved_here(sample, reflectance, ref_from_cur);
+    const ImageF1 share = agreement(sample, seen);
+    ImageF1 lit = sample.luma;
+    for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
+        lit.data()[i] -= seen.value.data()[i];
+    ImageF1 light = without_noise(lit, seen.known);
+    if (shows_all(sample.weight, share)) return shading_from_log(light, known_part(sample, share));
+    const ImageF1 alone = log_shading(sample, options);
+    for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
+        light.data()[i] = alone.data()[i] + share.data()[i] * (light.data()[i] - alone.data()[i]);
     return shading_from_log(light, sample);
 }
 

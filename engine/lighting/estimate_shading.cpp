@@ -31,6 +31,10 @@ constexpr float kStepSigma = 0.6f;  // times the blur's
 constexpr float kRemains = 3.0f;            // deviations
 constexpr float kRemainsOfPattern = 0.12f;  // the most that is left of a pattern's deviation
 
+// Of the deviation from a quadratic, what a quartic explains: below the first the surface is taken
+// for flat, from the second on for bent.
+constexpr float kFlatForm = 0.035f, kBentForm = 0.07f;
+
 constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // where a clip is the evidence
 
 // A surface whose lightness varies by less than the first (a deviation, ln units) has no pattern,
@@ -82,12 +86,10 @@ float pattern_presence(float deviation) {
 // surface's smooth light (a quadratic) that are no larger than such remains are taken for them; the
 // non-negative garrote (Gao 1998) takes the faint ones out and leaves shadows as they are.
 void remove_remains(ImageF1& light, const ImageF1& weight, float pattern, float most) {
-    const QuadraticFit smooth(light, weight);
+    const ImageF1 smooth = QuadraticFit(light, weight).surface();
     ImageF1 rest(light.size());
-    for (int y = 0; y < light.height(); ++y) {
-        for (int x = 0; x < light.width(); ++x)
-            rest.row(y)[x] = light.row(y)[x] - smooth.at(x, y);
-    }
+    for (std::size_t i = 0; i < rest.size_bytes() / sizeof(float); ++i)
+        rest.data()[i] = light.data()[i] - smooth.data()[i];
     const ImageF1 none(light.size());
     const float deviation = deviation_between(rest, none, weight);
     // Where the surface's light is no quadratic, nothing says what is faint.
@@ -129,6 +131,20 @@ ImageF1 without_pattern(const ImageF1& luma, const ImageF1& weight, float patter
     return light;
 }
 
+// The part of a surface's light that is its own form: what is smooth over all of it is no piece of
+// a pattern. A plane needs no more than a quadratic, and more would take a wide pattern for form; a
+// ball, whose light falls off towards its outline, takes a quartic.
+ImageF1 form_of(const ImageF1& still, const ImageF1& weight) {
+    ImageF1 form = PolynomialFit(still, weight, 2).surface();
+    const ImageF1 bent = PolynomialFit(still, weight, 4).surface();
+    const float left = deviation_between(still, form, weight);
+    const float gain = 1.0f - deviation_between(still, bent, weight) / std::max(1e-6f, left);
+    const float share = smooth_step(gain, kFlatForm, kBentForm);
+    for (std::size_t i = 0; i < form.size_bytes() / sizeof(float); ++i)
+        form.data()[i] += share * (bent.data()[i] - form.data()[i]);
+    return form;
+}
+
 // pattern_px in pixels of the small picture.
 float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) {
     return std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale));
@@ -157,15 +173,10 @@ ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) 
 ImageF1 light_beyond_period(const ImageF1& still, const ImageF1& weight, const ImageF1& pattern,
                             float period_px) {
     const float sigma = kPatternSigma * period_px;
-    // Form is light: what is smooth over the whole surface is no piece of a pattern.
-    const QuadraticFit smooth(still, weight);
-    ImageF1 form(still.size()), rest(still.size());
-    for (int y = 0; y < still.height(); ++y) {
-        for (int x = 0; x < still.width(); ++x) {
-            form.row(y)[x] = smooth.at(x, y);
-            rest.row(y)[x] = weight.row(y)[x] * (still.row(y)[x] - form.row(y)[x]);
-        }
-    }
+    const ImageF1 form = form_of(still, weight);
+    ImageF1 rest(still.size());
+    for (std::size_t i = 0; i < rest.size_bytes() / sizeof(float); ++i)
+        rest.data()[i] = weight.data()[i] * (still.data()[i] - form.data()[i]);
     ImageF1 light = blurred(rest, weight, sigma).value;
     for (int i = 0; i < kRollings; ++i)
         light = joint_bilateral(rest, weight, light, {kRollingSigma * sigma, kStillRange});

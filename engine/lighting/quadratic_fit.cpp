@@ -1,64 +1,89 @@
 #include "engine/lighting/quadratic_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+
+#include "engine/core/parallel.h"
 
 namespace weft {
 namespace {
 
-constexpr std::size_t kTerms = 6;
-constexpr int kStep = 2;  // pixels: the fit is smooth
+constexpr int kMostDegree = 6;
+constexpr std::size_t kMostTerms = (kMostDegree + 1) * (kMostDegree + 2) / 2;
+constexpr int kSamples = 40;  // along the longer side: the fit is smooth
 constexpr int kRounds = 8;
 constexpr double kCauchy = 0.1;  // ln units
-constexpr double kRidge = 1e-4;
+constexpr double kRidge = 1e-5;
 
-using Terms = std::array<double, kTerms>;
+using Terms = std::array<double, kMostTerms>;
 
-Terms terms(double u, double v) {
-    return {1.0, u, v, u * u, u * v, v * v};
+std::size_t terms_of_degree(int degree) {
+    return static_cast<std::size_t>((degree + 1) * (degree + 2) / 2);
 }
 
-double value_of(const Terms& c, const Terms& t) {
-    double sum = 0;
-    for (std::size_t k = 0; k < kTerms; ++k)
-        sum += c[k] * t[k];
-    return sum;
+// u^(d − k) v^k by degree.
+void fill_terms(int degree, double u, double v, Terms& out) {
+    out[0] = 1;
+    std::size_t at = 1, before = 0;
+    for (int d = 1; d <= degree; ++d) {
+        const auto count = static_cast<std::size_t>(d);
+        for (std::size_t k = 0; k < count; ++k)
+            out[at + k] = out[before + k] * u;
+        out[at + count] = out[before + count - 1] * v;
+        before = at, at += count + 1;
+    }
 }
 
 // Gaussian elimination without a pivot: the ridge keeps the matrix positive definite.
-Terms solve(std::array<std::array<double, kTerms + 1>, kTerms> m) {
-    for (std::size_t k = 0; k < kTerms; ++k) {
-        for (std::size_t i = k + 1; i < kTerms; ++i) {
-            const double f = m[i][k] / m[k][k];
-            for (std::size_t j = k; j <= kTerms; ++j)
-                m[i][j] -= f * m[k][j];
+std::vector<double> solve(std::vector<double> m, std::size_t n) {
+    const std::size_t row = n + 1;
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const double f = m[i * row + k] / m[k * row + k];
+            for (std::size_t j = k; j <= n; ++j)
+                m[i * row + j] -= f * m[k * row + j];
         }
     }
-    Terms x{};
-    for (std::size_t k = kTerms; k-- > 0;) {
-        double rest = m[k][kTerms];
-        for (std::size_t j = k + 1; j < kTerms; ++j)
-            rest -= m[k][j] * x[j];
-        x[k] = rest / m[k][k];
+    std::vector<double> x(n, 0.0);
+    for (std::size_t k = n; k-- > 0;) {
+        double rest = m[k * row + n];
+        for (std::size_t j = k + 1; j < n; ++j)
+            rest -= m[k * row + j] * x[j];
+        x[k] = rest / m[k * row + k];
     }
     return x;
 }
 
+double value_of(const std::vector<double>& c, const Terms& t) {
+    double sum = 0;
+    for (std::size_t k = 0; k < c.size(); ++k)
+        sum += c[k] * t[k];
+    return sum;
+}
+
 }  // namespace
 
-QuadraticFit::QuadraticFit(const ImageF1& plane, const ImageF1& weight) {
+PolynomialFit::PolynomialFit(const ImageF1& plane, const ImageF1& weight, int degree)
+    : degree_(std::clamp(degree, 1, kMostDegree)),
+      size_(plane.size()),
+      coefficients_(terms_of_degree(degree_), 0.0) {
+    const std::size_t n = coefficients_.size();
     centre_x_ = 0.5 * plane.width(), centre_y_ = 0.5 * plane.height();
-    scale_ = 2.0 / std::max(1, std::max(plane.width(), plane.height()));
+    const int longer = std::max(1, std::max(plane.width(), plane.height()));
+    scale_ = 2.0 / longer;
+    const int step = std::max(1, longer / kSamples);
+    Terms t{};
     for (int round = 0; round < kRounds; ++round) {
-        std::array<std::array<double, kTerms + 1>, kTerms> normal{};
+        std::vector<double> normal(n * (n + 1), 0.0);
         double total = 0;
-        for (int y = 0; y < plane.height(); y += kStep) {
-            for (int x = 0; x < plane.width(); x += kStep) {
+        for (int y = 0; y < plane.height(); y += step) {
+            for (int x = 0; x < plane.width(); x += step) {
                 double w = weight.row(y)[x];
                 if (w == 0) continue;
                 const double value = plane.row(y)[x];
-                const Terms t = terms((x - centre_x_) * scale_, (y - centre_y_) * scale_);
+                fill_terms(degree_, (x - centre_x_) * scale_, (y - centre_y_) * scale_, t);
                 if (round > 0) {
                     // From wide to narrow, so that an edge does not hold the fit where it began.
                     const double scale = kCauchy * std::max(1, 1 << std::max(0, 4 - round));
@@ -66,23 +91,35 @@ QuadraticFit::QuadraticFit(const ImageF1& plane, const ImageF1& weight) {
                     w /= 1.0 + away * away;
                 }
                 total += w;
-                for (std::size_t i = 0; i < kTerms; ++i) {
-                    for (std::size_t j = 0; j < kTerms; ++j)
-                        normal[i][j] += w * t[i] * t[j];
-                    normal[i][kTerms] += w * t[i] * value;
+                for (std::size_t i = 0; i < n; ++i) {
+                    for (std::size_t j = i; j < n; ++j)
+                        normal[i * (n + 1) + j] += w * t[i] * t[j];
+                    normal[i * (n + 1) + n] += w * t[i] * value;
                 }
             }
         }
         if (!(total > 0)) return;
-        for (std::size_t i = 1; i < kTerms; ++i)
-            normal[i][i] += kRidge * total;
-        coefficients_ = solve(normal);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < i; ++j)
+                normal[i * (n + 1) + j] = normal[j * (n + 1) + i];
+            if (i > 0) normal[i * (n + 1) + i] += kRidge * total;
+        }
+        coefficients_ = solve(std::move(normal), n);
     }
 }
 
-float QuadraticFit::at(int x, int y) const {
-    return static_cast<float>(
-        value_of(coefficients_, terms((x - centre_x_) * scale_, (y - centre_y_) * scale_)));
+ImageF1 PolynomialFit::surface() const {
+    ImageF1 out(size_);
+    parallel_rows(size_.height, 16, [&](int y0, int y1) {
+        Terms t{};
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < size_.width; ++x) {
+                fill_terms(degree_, (x - centre_x_) * scale_, (y - centre_y_) * scale_, t);
+                out.row(y)[x] = static_cast<float>(value_of(coefficients_, t));
+            }
+        }
+    });
+    return out;
 }
 
 }  // namespace weft

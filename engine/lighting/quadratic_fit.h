@@ -1,21 +1,30 @@
 #pragma once
-#include <array>
+#include <vector>
 
 #include "engine/core/image.h"
 
 namespace weft {
 
-/// The quadratic surface nearest to a plane where it is known, not bent by edges (
-/// iteratively reweighted least squares, Holland & Welsch 1977, with Cauchy weights).
-class QuadraticFit {
+/// The polynomial surface nearest to a plane where it is known, not bent by edges (iteratively
+/// reweighted least squares, Holland & Welsch 1977, with Cauchy weights).
+class PolynomialFit {
   public:
-    QuadraticFit(const ImageF1& plane, const ImageF1& weight);
-    [[nodiscard]] float at(int x, int y) const;
+    /// All terms up to `degree`, 1 to 6.
+    PolynomialFit(const ImageF1& plane, const ImageF1& weight, int degree);
+    /// The surface at every pixel of the plane.
+    [[nodiscard]] ImageF1 surface() const;
 
   private:
-    static constexpr int kTerms = 6;
-    std::array<double, kTerms> coefficients_{};
+    int degree_;
+    Size size_;
+    std::vector<double> coefficients_;
     double centre_x_ = 0, centre_y_ = 0, scale_ = 1;
+};
+
+/// With all terms up to the second.
+class QuadraticFit : public PolynomialFit {
+  public:
+    QuadraticFit(const ImageF1& plane, const ImageF1& weight) : PolynomialFit(plane, weight, 2) {}
 };
 
 }  // namespace weft

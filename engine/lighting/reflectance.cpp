@@ -176,12 +176,7 @@ std::array<double, kTerms> trusted_coefficients(const Terms& differences, const 
 // Light that other objects throw back tints a surface, wide and faint. What of the explained part
 // is so beside the rest is left to the light.
 void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
-    const QuadraticFit fit(explained, weight);
-    ImageF1 wide(explained.size());
-    for (int y = 0; y < wide.height(); ++y) {
-        for (int x = 0; x < wide.width(); ++x)
-            wide.row(y)[x] = fit.at(x, y);
-    }
+    const ImageF1 wide = QuadraticFit(explained, weight).surface();
     const auto variance = [&](const ImageF1& plane) {
         const float inverse = standard_of(plane, weight, 1e-6f).inverse_deviation;
         return 1.0 / (static_cast<double>(inverse) * inverse);

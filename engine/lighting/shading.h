@@ -89,6 +89,9 @@ struct Shading {
 struct LightOptions {
     LightForm form = LightForm::kGain;
     float strength = 1;  ///< λ, 0–1.
+    /// The gain is held within these. Scene-linear output has no limits: a patch of sun may be a
+    /// hundred times as bright as the rest.
+    float least_gain = 0.125f, most_gain = 8.0f;
 };
 
 /// Lights `texture` (linear light, H×W×3, in place), whose pixel (0, 0) lies at `origin` on the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +17,8 @@ constexpr int kCovered = 128;        // visible from here on
 constexpr int kSure = 250;           // less is already a mixture
 constexpr float kRimWeight = 0.02f;  // enough to fill regions that are all rim
 constexpr int kMargin = 2;           // small pixels around the matte's box
-constexpr float kFloorOfMedian = 0.02f;
+constexpr float kFloorOfMedian = 0.02f, kLeastFloorOfMedian = 0.002f;
+constexpr float kFloorOfDark = 0.5f;  // of the darkest tenth's upper end
 
 // The box of covered pixels, in plate pixels.
 Recti covered_box(ViewU8x1 visible) {
@@ -97,7 +99,7 @@ float luminance(float r, float g, float b) {
     return 0.2126f * r + 0.7152f * g + 0.0722f * b;
 }
 
-// A small part of the surface's median luminance, so that it goes with the exposure.
+// A small part of the surface's luminance, so that it goes with the exposure.
 float floor_of(const SurfaceSample& s) {
     std::vector<float> values;
     for (int y = 0; y < s.box.height(); ++y) {
@@ -107,7 +109,16 @@ float floor_of(const SurfaceSample& s) {
                 luminance(s.red_green.row(y)[x], s.luma.row(y)[x], s.blue_green.row(y)[x]));
         }
     }
-    return std::max(1e-6f, kFloorOfMedian * median_of(values, 0.0f));
+    const float median = median_of(values, 0.0f);
+    // In scene-linear light shade may be a hundredth of what the sun falls on.
+    const auto dark = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 10);
+    float limit = median;
+    if (dark != values.end()) {
+        std::nth_element(values.begin(), dark, values.end());
+        limit = *dark;
+    }
+    const float floor = std::min(kFloorOfMedian * median, kFloorOfDark * limit);
+    return std::max(1e-6f, std::max(floor, kLeastFloorOfMedian * median));
 }
 
 }  // namespace

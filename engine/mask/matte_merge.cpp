@@ -6,6 +6,7 @@
 #include "engine/mask/boundary_refiner.h"
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/signed_distance.h"
+#include "engine/mask/soft_matting.h"
 
 namespace weft {
 namespace {
@@ -25,8 +26,12 @@ Recti joint_bounds(ViewF1 before, ViewF1 after) {
 
 // Two shapes brought together over an area. `share` is the later one's weight.
 struct JointShape {
-    JointShape(ViewF1 before, ViewF1 after, float share, float band_px)
-        : expected(before.size()), agreed(before.size()), votes(before.size()) {
+    JointShape(ViewF1 before_phi, ViewF1 after_phi, float share, float band_px)
+        : before(before_phi),
+          after(after_phi),
+          expected(before.size()),
+          agreed(before.size()),
+          votes(before.size()) {
         for (int y = 0; y < before.height(); ++y) {
             for (int x = 0; x < before.width(); ++x) {
                 const float a = before.row(y)[x], b = after.row(y)[x];
@@ -43,11 +48,32 @@ struct JointShape {
         }
     }
 
-    ImageF1 expected;  ///< Signed distances blended, pixels.
-    ImageF1 agreed;    ///< Distance to the nearer boundary where both take the same side, else 0.
-    ImageF1 votes;     ///< Log odds for inside by the estimates' weights.
+    ViewF1 before, after;  ///< Signed distances, pixels.
+    ImageF1 expected;      ///< The same distances blended, pixels.
+    ImageF1 agreed;  ///< Distance to the nearer boundary where both take the same side, else 0.
+    ImageF1 votes;   ///< Log odds for inside by the estimates' weights.
     double agreeing = 0, either = 0;
 };
+
+// Soft edges are where either estimate has them.
+Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, ViewU8x1 after,
+             const JointShape& joint, float share, const MatteOptions& options) {
+    constexpr float kWidestPx = 20;
+    const auto softness_of = [](ViewU8x1 matte, ViewF1 phi) {
+        return edge_softness(matte, shape_without_strands(phi, 2 * kWidestPx), kWidestPx);
+    };
+    ImageF1 softness = softness_of(before, joint.before);
+    const ImageF1 other = softness_of(after, joint.after);
+    Matte expected(frame.size());
+    for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+            softness.at(x, y) = std::max(softness.at(x, y), other.at(x, y));
+            const float a = before.row(y)[x], b = after.row(y)[x];
+            expected.at(x, y) = static_cast<std::uint8_t>(a + share * (b - a) + 0.5f);
+        }
+    }
+    return with_soft_edges(frame, found.phi, softness, found.matte, expected, options.steadiness);
+}
 
 }  // namespace
 
@@ -81,8 +107,10 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
                                  scale.window_half_px, scale.sample_stride, part.size());
     const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.votes,
                                                   ViewF1(), scale, options.steadiness);
+    const Matte matte = soften(part, found, from_before.matte.view().crop(area),
+                               from_after.matte.view().crop(area), joint, share, options);
     for (int y = 0; y < area.height(); ++y) {
-        std::copy(found.matte.row(y), found.matte.row(y) + area.width(),
+        std::copy(matte.row(y), matte.row(y) + area.width(),
                   merged.matte.pixel(area.x0, area.y0 + y));
     }
     // Two walks that never met before and end at the same shape confirm each other.

@@ -12,6 +12,7 @@
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
+#include "engine/mask/soft_matting.h"
 
 namespace weft {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 constexpr float kClearancePx = 1.5f;  // nearer to a boundary colours are mixed
 // On the frame itself only what lies well outside the expected boundary counts: new background.
 constexpr float kUnsureClearancePx = 6;
+constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
 template <class T, int C>
 Image<T, C> copy_of(ImageView<const T, C> v) {
@@ -75,6 +77,21 @@ Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     return bounds.grown(margin).intersected(rect_of(frame));
 }
 
+// Nearer to the boundary than half of its usual softness colours are mixed.
+float clearance_of(const ImageF1& phi, const ImageF1& softness) {
+    double sum = 0, n = 0;
+    for (int y = 0; y < phi.height(); ++y) {
+        for (int x = 0; x < phi.width(); ++x) {
+            if (std::abs(phi.at(x, y)) >= 1) continue;
+            sum += static_cast<double>(softness.at(x, y));
+            n += 1;
+        }
+    }
+    constexpr float kMostPx = 6;
+    const float usual = n > 0 ? static_cast<float>(sum / n) : 0.0f;
+    return std::clamp(0.7f * usual, kClearancePx, kMostPx);
+}
+
 }  // namespace
 
 struct MatteWalker::State {
@@ -87,7 +104,12 @@ struct MatteWalker::State {
     BackgroundPlate plate;
     MatteOptions options;
     float confidence = 1;
+    ImageF1 key_softness;               ///< Of the keyframe's edge, half its width in pixels …
+    float clearance_px = kClearancePx;  ///< … and what colours are learned beyond.
+    Matte last;                         ///< The matte of the frame that was reached last.
 
+    [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
+                               ViewF2 prev_from_cur, const Recti& area) const;
     LocalColorField learn_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                  const Recti& area) const;
 };
@@ -95,9 +117,21 @@ struct MatteWalker::State {
 MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options) {
     const RefineScale scale(frame.size());
     ImageF1 phi = smooth_distance(signed_distance(inside_of(key), scale.limit_px), 1);
-    state_ = std::make_unique<State>(State{copy_of(frame), phi, copy_of(frame), phi,
-                                           own_places(frame.size()), scale,
-                                           BackgroundPlate(frame, phi), options, 1.0f});
+    state_ = std::make_unique<State>(State{copy_of(frame),
+                                           phi,
+                                           copy_of(frame),
+                                           phi,
+                                           own_places(frame.size()),
+                                           scale,
+                                           BackgroundPlate(frame, phi),
+                                           options,
+                                           1.0f,
+                                           {},
+                                           kClearancePx,
+                                           copy_of(key)});
+    const float widest_px = kWidestEdgeBands * scale.band_px;
+    state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
+    state_->clearance_px = clearance_of(phi, state_->key_softness);
 }
 
 MatteWalker::~MatteWalker() = default;
@@ -116,10 +150,31 @@ LocalColorField MatteWalker::State::learn_colors(ViewU8x3 part, const Transporte
                                     static_cast<float>(area.y0 + w.center.y) + d[1]),
                             rounded(k[0], k[1]), w.center};
     }
-    const std::vector<ColorSource> sources = {{frame, phi, kClearancePx, 0.3f, 1.0f},
-                                              {key_frame, key_phi, kClearancePx, 1.0f, 0.3f},
+    const std::vector<ColorSource> sources = {{frame, phi, clearance_px, 0.3f, 1.0f},
+                                              {key_frame, key_phi, clearance_px, 1.0f, 0.3f},
                                               {part, shape.phi, kUnsureClearancePx, 0.0f, 0.2f}};
     return {std::move(windows), sources, scale.window_half_px, scale.sample_stride, part.size()};
+}
+
+// Hair, fur and motion blur are where they were on the keyframe, carried along.
+Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
+                                 ViewF2 prev_from_cur, const Recti& area) const {
+    ImageF1 softness(part.size());
+    Matte expected(part.size());
+    parallel_rows(part.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < part.width(); ++x) {
+                const float* k = key_from_cur.pixel(x, y);
+                softness.at(x, y) = sample_bilinear(key_softness, k[0], k[1]);
+                const float* d = prev_from_cur.pixel(x, y);
+                const Vec2i p = rounded(static_cast<float>(area.x0 + x) + d[0],
+                                        static_cast<float>(area.y0 + y) + d[1]);
+                expected.at(x, y) = last.at(std::clamp(p.x, 0, last.width() - 1),
+                                            std::clamp(p.y, 0, last.height() - 1));
+            }
+        }
+    });
+    return with_soft_edges(part, found.phi, softness, found.matte, expected, options.steadiness);
 }
 
 MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cur) {
@@ -149,7 +204,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         const float risk = (1 - e.separability) + (1 - e.certainty) + 0.5f * (1 - e.steadiness) +
                            0.5f * (1 - shape.consistency);
         s.confidence *= std::exp(-0.1f * risk);
-        paste(estimate.matte, found.matte, area);
+        paste(estimate.matte, s.soften(part, found, key_from_cur, shape.prev_from_cur, area), area);
         paste(phi, found.phi, area);
         paste(s.key_from_prev, key_from_cur, area);
     }
@@ -157,6 +212,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     s.plate.learn(frame, phi);
     s.phi = std::move(phi);
     s.frame = copy_of(frame);
+    s.last = estimate.matte;
     return estimate;
 }
 

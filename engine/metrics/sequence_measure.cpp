@@ -31,6 +31,13 @@ Matte owned(ViewU8x1 m) {
     return out;
 }
 
+ImageF3 owned(ViewF3 picture) {
+    ImageF3 out(picture.size());
+    for (int y = 0; y < picture.height(); ++y)
+        std::copy_n(picture.row(y), 3 * picture.width(), out.row(y));
+    return out;
+}
+
 void round_to_8bit(ImageF3& encoded) {
     parallel_rows(encoded.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -60,6 +67,7 @@ void Spread::add(const std::optional<double>& v) {
 // What is kept of one frame until the next.
 struct Kept {
     ImageF1 result, source, ideal;
+    ImageF3 result_rgb, source_rgb;  // For the grain.
     Matte matte;
     Matte ideal_region;  // Where the ideal is known; empty without one.
 };
@@ -73,6 +81,7 @@ struct SequenceMeasure::State {
     FlowField estimated;  // The last motion that was not given.
     SequenceMeasures total;
     IlluminationVariance light;
+    GrainSpectrumMeter grain, source_grain;
     std::int64_t outside_pixels = 0;
     double outside_sum = 0;
 
@@ -83,7 +92,7 @@ struct SequenceMeasure::State {
     void measure_ideal(const MeasureFrame& f, Kept& now, FrameMeasures& out) const;
     void render_ideal(const MeasureFrame& f, Kept& now) const;
     void measure_step(const FlowField& motion, MotionDirection direction, const Kept& now,
-                      FrameMeasures& out) const;
+                      FrameMeasures& out);
     [[nodiscard]] bool chained() const { return options.measure_drift || texture != nullptr; }
 };
 
@@ -153,7 +162,7 @@ void SequenceMeasure::State::render_ideal(const MeasureFrame& f, Kept& now) cons
 }
 
 void SequenceMeasure::State::measure_step(const FlowField& motion, MotionDirection direction,
-                                          const Kept& now, FrameMeasures& out) const {
+                                          const Kept& now, FrameMeasures& out) {
     // A forward field is judged in the earlier frame's pixels, a backward one in the later's.
     const bool forward = direction == MotionDirection::kForward;
     const Kept& from = forward ? before : now;
@@ -163,6 +172,10 @@ void SequenceMeasure::State::measure_step(const FlowField& motion, MotionDirecti
     out.tde = value_of(e);
     out.tde_pixels = e.pixels;
     out.source_tde = value_of(measure_tde(from.source, to.source, motion, visible));
+    if (options.measure_grain) {
+        grain.add(from.result_rgb, to.result_rgb, motion, visible, forward);
+        source_grain.add(from.source_rgb, to.source_rgb, motion, visible, forward);
+    }
     if (texture == nullptr) return;
     const Matte known = both_inside(
         visible, visible_in_both(motion, from.ideal_region, to.ideal_region, options.erode_px));
@@ -183,6 +196,7 @@ Expected<FrameMeasures> SequenceMeasure::State::add(const MeasureFrame& f) {
     now.result = luma_8bit(f.result);
     now.source = luma_8bit(f.source);
     now.matte = owned(f.matte);
+    if (options.measure_grain) now.result_rgb = owned(f.result), now.source_rgb = owned(f.source);
     const bool first = total.frames == 0;
     const FlowField* motion = f.motion;
     MotionDirection direction = f.direction;
@@ -242,6 +256,8 @@ SequenceMeasures SequenceMeasure::summary() const {
     out.tiv = state_->light.tiv();
     out.source_tiv = state_->light.source_tiv();
     out.tiv_relative = state_->light.tiv_relative();
+    out.grain = state_->grain.spectrum();
+    out.source_grain = state_->source_grain.spectrum();
     if (out.tde_floor.frames > 0 && out.tde_floor.mean > 0)
         out.tde_over_floor = out.tde_at_floor.mean / out.tde_floor.mean;
     if (state_->options.measure_drift && out.frames >= 2) {

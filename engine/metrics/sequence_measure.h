@@ -11,6 +11,7 @@
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/metrics/drift.h"
+#include "engine/metrics/grain_spectrum.h"
 #include "engine/metrics/ideal.h"
 #include "engine/metrics/illumination.h"
 #include "engine/metrics/measuring_motion.h"
@@ -32,6 +33,7 @@ struct MeasureOptions {
     /// Round the ideal to 8 bits, as a result in 8-bit files was. False for 16-bit and float files.
     bool quantise_ideal = true;
     bool measure_drift = true;
+    bool measure_grain = false;
 };
 
 class SequenceMeasure;
@@ -89,6 +91,8 @@ struct SequenceMeasures {
     std::optional<double> tde_over_floor;
     std::optional<ResidualMotion> drift;  ///< First result moved by the motion, against the last.
     double tiv = 0, source_tiv = 0, tiv_relative = 0;
+    /// What changes from frame to frame beyond the motion. No blocks: not measured.
+    GrainSpectrum grain, source_grain;
     double outside_mean = 0, outside_max = 0;
     std::int64_t outside_differing = 0;
 };

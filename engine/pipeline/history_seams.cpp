@@ -7,6 +7,7 @@
 #include "engine/core/parallel.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/temporal/stretch_limit.h"
 
 namespace weft {
 namespace {
@@ -54,7 +55,7 @@ class SeamMaker {
         HistorySeam seam;
         seam.first = first;
         seam.last = last;
-        const Size cells = choose_cells(frames, seam);
+        const Size cells = choose_cells(frames, frames.size(), seam);
         if (cells.empty()) return std::optional<HistorySeam>();
         std::vector<HistoryEvidence> evidence;
         std::vector<std::size_t> drawing;  // of every frame: frames that are held change together
@@ -71,6 +72,43 @@ class SeamMaker {
         for (const std::size_t k : drawing)
             seam.after.push_back(labels[k]);
         return std::optional<HistorySeam>(std::move(seam));
+    }
+
+    // Over the frames first to last, which follow (or, walked backwards, precede) a frame on which
+    // a stretched texture was let go. Both textures lie still on the surface, so what that one
+    // frame shows of them stands for all: the seam does not depend on how many frames there are.
+    Expected<HistorySeam> make_release(int first, int last, bool backwards) {
+        HistorySeam seam;
+        seam.first = first - 1;
+        seam.last = last + 1;
+        const int event = backwards ? last : first;
+        std::vector<Layers> seen(1);
+        WEFT_TRY(layers, layers_at(event));
+        seen[0] = std::move(layers);
+        const Size cells = choose_cells(seen, kReanchorFrames, seam);
+        if (cells.empty()) return seam;
+        WEFT_TRY(evidence, evidence_of(seen[0], event, seam, cells));
+        const std::uint64_t seed = plan_.seed ^ region_.random_key;
+        const auto labels = cut_histories(std::vector(std::size_t{kReanchorFrames}, evidence),
+                                          {.lambda = region_.weight, .seed = seed});
+        std::size_t drawing = 0;
+        for (int f = event;; f += backwards ? -1 : 1) {
+            const bool held =
+                store_.has({index_, backwards ? f + 1 : f, AnalysisKind::kHeldBetween});
+            if (f != event && !held) ++drawing;
+            seam.after.push_back(labels[std::min(drawing, labels.size() - 1)]);
+            if (f == (backwards ? first : last)) break;
+        }
+        if (!backwards) return seam;
+        std::reverse(seam.after.begin(), seam.after.end());
+        for (auto& label : seam.after) {
+            for (int y = 0; y < label.height(); ++y) {
+                std::uint8_t* row = label.row(y);
+                std::transform(row, row + label.width(), row,
+                               [](std::uint8_t l) { return static_cast<std::uint8_t>(1 - l); });
+            }
+        }
+        return seam;
     }
 
   private:
@@ -94,7 +132,8 @@ class SeamMaker {
     }
 
     // Cells over all of the surface that is seen, as small as the graph's size allows.
-    static Size choose_cells(const std::vector<Layers>& frames, HistorySeam& seam) {
+    static Size choose_cells(const std::vector<Layers>& frames, std::size_t times,
+                             HistorySeam& seam) {
         Vec2 low(1e9f), high(-1e9f);
         for (const Layers& frame : frames) {
             if (frame.visible.empty()) continue;
@@ -120,7 +159,7 @@ class SeamMaker {
             const Size cells{(width + seam.cell_px - 1) / seam.cell_px,
                              (height + seam.cell_px - 1) / seam.cell_px};
             const std::int64_t nodes =
-                std::int64_t{cells.width} * cells.height * static_cast<std::int64_t>(frames.size());
+                std::int64_t{cells.width} * cells.height * static_cast<std::int64_t>(times);
             if (nodes <= kMostNodes) return cells;
         }
     }
@@ -211,6 +250,20 @@ Expected<std::vector<HistorySeam>> make_history_seams(const ShotSource& source,
     for (std::size_t k = 1; k < references.size(); ++k) {
         WEFT_TRY(seam, maker.make(references[k - 1], references[k]));
         if (seam) out.push_back(std::move(*seam));
+    }
+    const auto released = [&](int frame) {
+        return store.has({region, frame, AnalysisKind::kHistoryAfter});
+    };
+    const FrameSpan span = analysed_span(plan, settings);
+    for (int first = span.first; first <= span.last; ++first) {
+        const bool between = first > references.front() && first < references.back();
+        if (between || !released(first)) continue;
+        int last = first;
+        while (last < span.last && released(last + 1))
+            ++last;
+        WEFT_TRY(seam, maker.make_release(first, last, first < references.front()));
+        if (!seam.after.empty()) out.push_back(std::move(seam));
+        first = last;
     }
     return out;
 }

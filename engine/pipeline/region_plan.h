@@ -106,6 +106,7 @@ struct RegionPlan {
     std::vector<int> light_evidence;
     // Finish: what the plate's camera does to a picture.
     float grain = 0, focus = 0;     ///< Strengths; 0: none.
+    bool has_depth = false;         ///< Focus follows a depth pass.
     std::vector<int> grain_frames;  ///< Grain is measured on these, from the reference on.
     /// How long the shutter is open, in degrees of 360 a frame: the texture is blurred along its
     /// motion. Without a number it is the plate's own, measured on the frames `shutter_evidence`.

@@ -6,6 +6,7 @@
 
 #include "engine/composite/composite.h"
 #include "engine/composite/focus.h"
+#include "engine/composite/focus_map.h"
 #include "engine/composite/line_layer.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
@@ -58,7 +59,10 @@ class FrameRenderer {
                  const std::optional<Shading>& shading, ImageF3& texture);
     // What the plate's camera does to a picture: its blur before light, which has it already, and
     // its grain after.
-    void match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
+    Status match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
+    // The plate's blur over the box where it differs from place to place.
+    [[nodiscard]] Expected<std::optional<ImageF1>> local_blur(int index, const Recti& box,
+                                                              ViewU8x1 matte) const;
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
     // The texture in the working space, finished and laid into the canvas. `matte` covers the
@@ -165,13 +169,46 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
     return {};
 }
 
-void FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
-                                ImageF3& texture) const {
+Expected<std::optional<ImageF1>> FrameRenderer::local_blur(int index, const Recti& box,
+                                                           ViewU8x1 matte) const {
+    using Found = Expected<std::optional<ImageF1>>;
+    constexpr float kSoftEdge = 0.015f;  // gradient of an edge that is out of focus
+    if (!region_of(plan_, index).has_depth)
+        return Found(
+            sloping_blur(edge_blurs(working_.view().crop(box), matte, kSoftEdge), box.size()));
+    WEFT_TRY(nearness, source_.depth(index, frame_));
+    // One lens: the whole plate tells, and hidden detail of the region too little.
+    const Matte everywhere(working_.size(), 255);
+    const auto lens = fit_focus(edge_blurs(working_, everywhere, kSoftEdge), nearness);
+    if (!lens) return Found(std::nullopt);
+    ImageF1 blur(box.size());
+    for (int y = 0; y < box.height(); ++y) {
+        for (int x = 0; x < box.width(); ++x)
+            blur.row(y)[x] = lens->blur_px(nearness.row(box.y0 + y)[box.x0 + x]);
+    }
+    return Found(std::move(blur));
+}
+
+Status FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
+                                  ImageF3& texture) const {
     const float strength = region_of(plan_, index).focus;
-    if (!(strength > 0)) return;
+    if (!(strength > 0)) return {};
+    const float own_px = edge_blur_px(texture, matte);
+    if (!(own_px > 0)) return {};
+    WEFT_TRY(local, local_blur(index, box, matte));
+    if (local) {
+        for (int y = 0; y < local->height(); ++y) {
+            for (int x = 0; x < local->width(); ++x) {
+                float& blur = local->row(y)[x];
+                blur = strength * blur_between(own_px, blur);
+            }
+        }
+        blur_by_map(texture, matte, *local);
+        return {};
+    }
     const float plate_px = edge_blur_px(working_.view().crop(box), matte);
-    if (!(plate_px > 0)) return;
-    blur_inside(texture, matte, strength * blur_between(edge_blur_px(texture, matte), plate_px));
+    if (plate_px > 0) blur_inside(texture, matte, strength * blur_between(own_px, plate_px));
+    return {};
 }
 
 void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
@@ -206,7 +243,7 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
                                  const RegionScene& scene, const Matte& matte, const Matte& inside,
                                  const std::optional<Shading>& shading) {
     WEFT_TRY(texture, surface.texture(box, inside));
-    match_focus(index, box, inside, texture);
+    WEFT_CHECK_OK(match_focus(index, box, inside, texture));
     const ImageF3 unlit = layers_ ? texture : ImageF3();
     WEFT_CHECK_OK(light(index, scene, box, inside, shading, texture));
     if (layers_) WEFT_CHECK_OK(note_share(index, surface, box, scene, inside, unlit, texture));
@@ -260,8 +297,12 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
     layer.origin = {box.x0, box.y0};
     layer.old_surface = old_surface;
     if (shading) {
-        layer.gain = GainRequest{shading->value, shading->downscale, scene.reference_shading,
-                                 region_of(plan_, index).strength_at(frame_)};
+        layer.gain = GainRequest{shading->value,
+                                 shading->downscale,
+                                 scene.reference_shading,
+                                 region_of(plan_, index).strength_at(frame_),
+                                 region_of(plan_, index).light.least_gain,
+                                 region_of(plan_, index).light.most_gain};
     }
     device_box_ = device_box_.united(box);
     return of_device(device_->add(layer));

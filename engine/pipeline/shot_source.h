@@ -34,6 +34,11 @@ class ShotSource {
     /// The region's UV pass (RegionPlan::has_uv): H×W×2 of the plate's size, 0–1, origin bottom
     /// left.
     [[nodiscard]] virtual Expected<ImageF2> uv(int region, int frame) const;
+    /// The region's depth pass (RegionPlan::has_depth) as nearness, of the plate's size: the
+    /// reciprocal of a distance, or a coded picture's value as it is. Empty without one.
+    [[nodiscard]] virtual Expected<ImageF1> depth(int /*region*/, int /*frame*/) const {
+        return ImageF1();
+    }
     /// The artist's albedo or lighting pass (RegionPlan::light_pass) in linear light, of the
     /// plate's size. A source that has none need not override it.
     [[nodiscard]] virtual Expected<ImageF3> light_pass(int region, int frame) const;

@@ -158,7 +158,8 @@ class Follower {
             return {};
         }
         WEFT_CHECK_OK(advance(job, at, visible));
-        return at.frame > job.primary ? blend(job, at.frame, visible) : keep_all(job, at, visible);
+        return at.frame > job.primary ? blend(job, at.frame, visible, job.walker->ref_from_cur())
+                                      : keep_all(job, at, visible);
     }
 
     // Leg 3: up from the references before the primary one.
@@ -167,7 +168,7 @@ class Follower {
         WEFT_TRY(visible, visible_at(job, at));
         if (job.is_reference(at.frame)) return restart(job, at, visible);
         WEFT_CHECK_OK(advance(job, at, visible));
-        return blend(job, at.frame, visible);
+        return blend(job, at.frame, visible, job.walker->ref_from_cur());
     }
 
   private:
@@ -231,9 +232,13 @@ class Follower {
         } else if (job.held_now) {
             job.walker->hold();
         } else {
+            const bool between =
+                at.frame > job.references.front() && at.frame < job.references.back();
+            job.walker->hide_reanchoring(job.coords && !between);
             job.walker->advance(at.views->luma, visible, *at.prev_from_cur, job.extent_now);
         }
         job.last_visible = visible;
+        WEFT_CHECK_OK(keep_found_late(job, at.frame));
         if (const auto* pins = pins_at(job, at.frame)) {
             const LatticeField placed = corrected(job.walker->ref_from_cur(), *pins);
             job.walker->anchor_here(at.views->luma, visible, &placed);
@@ -247,6 +252,26 @@ class Follower {
             WEFT_TRY(picture,
                      job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
+        }
+        return {};
+    }
+
+    // Frames that have been passed and are known better now.
+    Status keep_found_late(Job& job, int frame) {
+        const auto found = job.walker->take_found_late();
+        if (!job.coords && !job.gathers_light()) return {};
+        for (const LatticeField& ref_from_frame : found) {
+            frame += walking_back_ ? 1 : -1;
+            // The second and the third leg blend what they find with what the first has found.
+            const bool between = walking_back_ ? frame > job.primary : frame < job.primary;
+            if (!between) {
+                WEFT_CHECK_OK(keep(job, frame, job.coords_kind(frame), encode(ref_from_frame)));
+                continue;
+            }
+            WEFT_TRY(extent,
+                     extent_matte(context_.source, context_.plan, store_, job.region, frame));
+            WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, frame));
+            WEFT_CHECK_OK(blend(job, frame, without_holdout(extent, holdout), ref_from_frame));
         }
         return {};
     }
@@ -272,7 +297,22 @@ class Follower {
         return invert_flow(cur_from_prev);
     }
 
+    // While a seam hides that a stretched texture was let go, both are kept for it to choose.
+    Status keep_stretched(const Job& job, int frame) {
+        const LatticeField* stretched = job.walker->stretched();
+        if (!stretched || !job.coords) return {};
+        const LatticeField& relaxed = job.walker->ref_from_cur();
+        const bool back = walking_back_;
+        if (job.held_now)
+            WEFT_CHECK_OK(
+                keep(job, back ? frame + 1 : frame, AnalysisKind::kHeldBetween, encode(1.0f)));
+        WEFT_CHECK_OK(
+            keep(job, frame, AnalysisKind::kHistoryBefore, encode(back ? relaxed : *stretched)));
+        return keep(job, frame, AnalysisKind::kHistoryAfter, encode(back ? *stretched : relaxed));
+    }
+
     Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
+        WEFT_CHECK_OK(keep_stretched(job, at.frame));
         if (job.coords || job.gathers_light()) {
             WEFT_CHECK_OK(
                 keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
@@ -335,14 +375,13 @@ class Follower {
 
     // Between two references the histories from both are carried. Their difference is spread over
     // the interval; where it is too large for that, both are kept for a seam to choose.
-    Status blend(Job& job, int frame, const Matte& visible) {
+    Status blend(Job& job, int frame, const Matte& visible, const LatticeField& mine) {
         if (!job.coords) return {};
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
         const float s = position_between(job, frame, *(after - 1), *after);
         const float smooth = s * s * (3 - 2 * s);
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
-        const LatticeField& mine = job.walker->ref_from_cur();
         // Walking back, the walker comes from the reference after.
         const LatticeField& from_before = walking_back_ ? other : mine;
         const LatticeField& from_after = walking_back_ ? mine : other;

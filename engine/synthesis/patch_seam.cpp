@@ -59,14 +59,14 @@ Recti within(const Block& block, const Recti& rect) {
             rect.y1 - block.rect.y0};
 }
 
-SeamResult solve_by(SeamMethod method, const SeamProblem& problem) {
-    switch (method) {
+SeamResult solve_by(const PlaneOptions& options, const SeamProblem& problem) {
+    switch (options.seam) {
         case SeamMethod::kDynamicProgramming:
             return solve_min_error_boundary(problem);
         case SeamMethod::kNone:
             return solve_direct(problem);
         default:
-            return solve_seam(problem);
+            return options.plain_solvers ? solve_grid_maxflow(problem) : solve_seam(problem);
     }
 }
 
@@ -106,7 +106,7 @@ std::size_t lay_patch(Canvas& canvas, const Block& block, ViewU8x3 atlas, const 
                       const PlaneOptions& options, float gradient_floor) {
     const SeamProblem problem =
         overlap_problem(canvas, block, atlas, patch, options, gradient_floor);
-    const SeamResult seam = solve_by(options.seam, problem);
+    const SeamResult seam = solve_by(options, problem);
     const Recti& r = patch.rect;
     const auto shows_new = [&](int x, int y) {
         return problem.cells.row(y)[x] == SeamCell::kOutside || seam.labels.row(y)[x] != 0;

@@ -312,7 +312,8 @@ Shortlist Sweep::find(const Place& place, const Block& block, const PlacementMem
         target.fill_weight = PlaneGuide::kFillWeight;
         target.guide_weight = options_.guide->guide_weight();
     }
-    return place.search->find(target, bad);
+    return place.search->find(
+        target, bad, options_.plain_solvers ? SearchMethod::kDirect : SearchMethod::kFastest);
 }
 
 Sweep::Choice Sweep::choose(std::size_t index, int x, Rng& rng) {

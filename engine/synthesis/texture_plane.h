@@ -53,6 +53,9 @@ struct PlaneOptions {
     bool align = true;          ///< Keep a texture that repeats by itself (bricks, tiles) in step.
     /// Searches for placements if it can do so faster than the CPU; the plane is the same.
     const Backend* backend = nullptr;
+    /// Searches by direct sums and cuts by max-flow alone, as the paper does, to compare times. The
+    /// plane is the same.
+    bool plain_solvers = false;
 };
 
 /// Times in seconds of wall clock; total includes planning and cold caches. Where several threads

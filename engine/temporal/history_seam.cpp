@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include <opencv2/imgproc/detail/gcgraph.hpp>
 
@@ -126,10 +127,33 @@ class HistoryGraph {
         }
     }
 
+    // Smoothly random places in line, 0 to 1, equally many of them everywhere: of any surface,
+    // small or large, the same share changes in each frame.
+    [[nodiscard]] ImageF1 in_turn() const {
+        ImageF1 order = smooth_noise(size_, options_.seed);
+        std::vector<std::pair<float, int>> line;
+        for (int k = 0; k < size_.width * size_.height; ++k) {
+            const int x = k % size_.width, y = k / size_.width;
+            const bool changes =
+                std::any_of(frames_.begin(), frames_.end(),
+                            [&](const HistoryEvidence& f) { return f.mismatch.at(x, y) > 0; });
+            if (changes) line.emplace_back(order.at(x, y), k);
+        }
+        std::sort(line.begin(), line.end());
+        for (std::size_t n = 0; n < line.size(); ++n) {
+            const int k = line[n].second;
+            order.at(k % size_.width, k / size_.width) =
+                (static_cast<float>(n) + 0.5f) / static_cast<float>(line.size());
+        }
+        return order;
+    }
+
     void hold_to_their_times() {
-        constexpr float kHold = 3.0f;  // levels a frame of deviation
+        // Levels a pixel and frame of deviation. A share of the mismatch, as what a seam costs is:
+        // the stronger the textures differ, the more a flash would be seen too.
+        constexpr float kLeastHold = 3.0f, kHold = 0.5f;
         constexpr float kEarliest = 0.15f, kLatest = 0.85f;
-        const ImageF1 order = smooth_noise(size_, options_.seed);
+        const ImageF1 order = in_turn();
         const auto length = static_cast<float>(frames_.size());
         for (std::size_t t = 0; t < frames_.size(); ++t) {
             for (int y = 0; y < size_.height; ++y) {
@@ -138,7 +162,8 @@ class HistoryGraph {
                     if (!(mismatch.at(x, y) > 0)) continue;
                     const float at = (static_cast<float>(t) + 0.5f) / length;
                     const float due = kEarliest + (kLatest - kEarliest) * order.at(x, y);
-                    const Weight w = units(kHold * pixels.at(x, y));
+                    const Weight w =
+                        units(std::max(kLeastHold, kHold * mismatch.at(x, y)) * pixels.at(x, y));
                     if (at < due)
                         graph_.addTermWeights(node(t, x, y), w, 0);
                     else

@@ -40,7 +40,11 @@ Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
     constexpr float kStep = 1e-3f;
     const float along_u = glm::length(project(plate_from_square, {kStep, 0}) - origin) / kStep;
     const float along_v = glm::length(project(plate_from_square, {0, kStep}) - origin) / kStep;
-    const Mat3 texels_from_square = affine(along_u / p.scale, 0, 0, along_v / p.scale, {0, 0});
+    const Vec2 square_texels = p.picture_texels
+                                   ? Vec2(p.picture_texels->width, p.picture_texels->height)
+                                   : Vec2(along_u, along_v);
+    const Mat3 texels_from_square =
+        affine(square_texels.x / p.scale, 0, 0, square_texels.y / p.scale, {0, 0});
     // Rotation and offset act inside the plane, so that the perspective stays the artist's.
     const Mat3 turned = glm::inverse(affine(c, -s, s, c, p.offset_px / p.scale));
     return turned * texels_from_square * glm::inverse(plate_from_square);

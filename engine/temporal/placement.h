@@ -21,6 +21,8 @@ struct PlanePlacement {
     /// comes to lie in perspective. Its size in texels is such that `scale` holds along both edges
     /// at the top left corner, which is the origin; rotation and offset then act in the plane.
     std::optional<std::array<Vec2, 4>> corners;
+    /// Of a given picture: its own corners go to `corners` at a scale of 1, whatever its size.
+    std::optional<Size> picture_texels;
     bool operator==(const PlanePlacement&) const = default;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 
+#include "engine/core/smooth_step.h"
+
 namespace weft {
 namespace {
 
@@ -69,7 +71,84 @@ Similarity fit(const LatticeField& field, const ImageF1& weight) {
     return out;
 }
 
+// 1 within `reach` nodes of where `marks` is, falling smoothly to 0 at twice that.
+ImageF1 spread(const ImageF1& marks, int reach) {
+    ImageF1 out(marks.size());
+    for (int j = 0; j < marks.height(); ++j) {
+        for (int i = 0; i < marks.width(); ++i) {
+            float nearest = 1e9f;
+            for (int v = std::max(0, j - 2 * reach);
+                 v <= std::min(marks.height() - 1, j + 2 * reach); ++v) {
+                for (int u = std::max(0, i - 2 * reach);
+                     u <= std::min(marks.width() - 1, i + 2 * reach); ++u) {
+                    if (marks.at(u, v) > 0)
+                        nearest = std::min(nearest, std::hypot(static_cast<float>(u - i),
+                                                               static_cast<float>(v - j)));
+                }
+            }
+            out.at(i, j) = 1 - smooth_step(nearest / static_cast<float>(reach), 1.0f, 2.0f);
+        }
+    }
+    return out;
+}
+
 }  // namespace
+
+std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 visible) {
+    constexpr float kMuch = 0.2f;    // of the surface
+    constexpr float kEnough = 0.7f;  // of the limit: it shall not come back at once
+    const Size size = field.nodes().size();
+    ImageF1 excess(size), weight(size);
+    int seen = 0, past = 0;
+    for (int j = 1; j + 1 < size.height; ++j) {
+        for (int i = 1; i + 1 < size.width; ++i) {
+            if (!inside(field, visible, i, j)) continue;
+            const bool over = stretch_at(field, i, j) > kLimit;
+            excess.at(i, j) = over ? 1.0f : 0.0f;
+            weight.at(i, j) = over ? 0.02f : 1.0f;
+            ++seen;
+            past += over ? 1 : 0;
+        }
+    }
+    if (seen == 0 || static_cast<float>(past) < kMuch * static_cast<float>(seen)) return {};
+    const Similarity target = fit(field, weight);
+    for (int reach = 4; reach <= 64; reach *= 2) {
+        const ImageF1 pull = reach < 64 ? spread(excess, reach) : ImageF1(size, 1.0f);
+        LatticeField out = field;
+        for (int j = 0; j < size.height; ++j) {
+            for (int i = 0; i < size.width; ++i) {
+                const Vec2 p = field.node_position(i, j);
+                out.set_node(i, j,
+                             field.node(i, j) + pull.at(i, j) * (target(p) - landing(field, i, j)));
+            }
+        }
+        float most = 0;
+        for (int j = 1; j + 1 < size.height; ++j) {
+            for (int i = 1; i + 1 < size.width; ++i) {
+                if (inside(out, visible, i, j)) most = std::max(most, stretch_at(out, i, j));
+            }
+        }
+        if (most <= kEnough * kLimit || reach == 64) return out;
+    }
+    return {};
+}
+
+LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
+    ImageF1 weight(field.nodes().size());
+    for (int j = 0; j < weight.height(); ++j) {
+        for (int i = 0; i < weight.width(); ++i)
+            weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
+    }
+    const Similarity target = fit(field, weight);
+    LatticeField out(field.full_size(), field.spacing());
+    for (int j = 0; j < weight.height(); ++j) {
+        for (int i = 0; i < weight.width(); ++i) {
+            const Vec2 p = out.node_position(i, j);
+            out.set_node(i, j, target(p) - p);
+        }
+    }
+    return out;
+}
 
 bool limit_stretch(LatticeField& field, ViewU8x1 visible) {
     const Size size = field.nodes().size();

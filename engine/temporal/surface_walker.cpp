@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/outline_register.h"
@@ -41,9 +43,26 @@ struct SurfaceWalker::State {
     int since_older_tried = 0;     // frames
 
     // While nothing of the surface is to be seen, and then until it is found again.
+    // After the texture was let go back to its own shape: how it lay before, carried on for the
+    // frames over which a seam hides the change.
+    LatticeField relaxed_at_event, stretched_at_event, stretched;
+    int hiding_left = 0;  // frames
+    bool hide_reanchoring = false;
+
     bool lost = false;
     int hidden_for = 0, searched_for = 0;  // frames
     std::int64_t largest_px = 0;           // the most that was visible of it in one frame
+    // The last frame on which enough of it was seen to tell how it moves as a whole.
+    LatticeField steady_ref_from_cur, steady_step;
+    int since_steady = 0;  // frames
+    // What was seen of it while it was searched for, and each one's step from the frame before.
+    struct Searched {
+        RegistrationPicture picture;
+        LatticeField prev_from_cur;
+        bool a_sliver = false;
+    };
+    std::vector<Searched> searched;
+    std::vector<LatticeField> found_late;
 
     void become_anchor(RegistrationPicture picture) {
         const int generation = anchors.empty() ? 0 : anchors.present().generation + 1;
@@ -68,8 +87,16 @@ struct SurfaceWalker::State {
     }
 
     [[nodiscard]] bool is_hidden(std::int64_t visible_px);
+    // Whether too little of it is seen to tell how it moves.
+    [[nodiscard]] bool is_sliver(std::int64_t visible_px) const {
+        return 6 * visible_px < largest_px;
+    }
+    bool reanchor(ViewU8x1 visible);
+    void carry_stretched();
+    void note_steady(ViewU8x1 visible, std::int64_t visible_px);
+    void find_late(const RegistrationPicture& cur, ViewU8x1 visible);
     void wait_out_of_view();
-    void search(const RegistrationPicture& cur, std::int64_t visible_px);
+    void search(const RegistrationPicture& cur, ViewU8x1 visible, std::int64_t visible_px);
     void register_frame(const RegistrationPicture& cur, ViewU8x1 visible);
     bool try_others(const RegistrationPicture& cur, int generation_below, double share_above);
 
@@ -114,22 +141,65 @@ bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
     return visible_px < std::max<std::int64_t>(64, largest_px / 100);
 }
 
+// A sliver's own motion, continued over the whole surface and over many frames, is fantasy: what
+// goes on behind what hides it is a similarity of what was last seen well.
+void SurfaceWalker::State::note_steady(ViewU8x1 visible, std::int64_t visible_px) {
+    ++since_steady;
+    if (lost || 3 * visible_px < largest_px) return;
+    steady_ref_from_cur = ref_from_cur;
+    steady_step = similar_motion(prev_from_cur, visible);
+    since_steady = 0;
+}
+
 // The surface goes on as it last moved; for a while, since nothing moves so for ever.
 void SurfaceWalker::State::wait_out_of_view() {
     constexpr int kLongest = 24;
-    lost = true;
     searched_for = 0;
+    searched.clear();
     const bool still = ++hidden_for > kLongest;
-    follow(still ? LatticeField(frame_size(), options.spacing_px) : prev_from_cur);
+    if (still || steady_step.nodes().empty()) {
+        follow(still ? LatticeField(frame_size(), options.spacing_px) : prev_from_cur);
+    } else {
+        if (!lost) {
+            ref_from_cur = steady_ref_from_cur;
+            for (int k = 0; k < since_steady; ++k)
+                ref_from_cur = compose(steady_step, ref_from_cur);
+            anchor_from_cur = predicted(anchors.present());
+        }
+        follow(steady_step);
+    }
+    lost = true;
+}
+
+// The frames between the surface's return and its being found: back from here along the steps that
+// were seen, each registered against this frame. A sliver is held to have moved as the whole does.
+void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 visible) {
+    const Anchor here{cur, ref_from_cur, 0};
+    const bool here_too = is_sliver(count_of(visible)) && !steady_step.nodes().empty();
+    const LatticeField usual =
+        inverse(here_too ? steady_step : similar_motion(prev_from_cur, visible));
+    LatticeField here_from_frame(frame_size(), options.spacing_px);
+    LatticeField step = prev_from_cur;
+    for (std::size_t k = searched.size(); k-- > 0;) {
+        here_from_frame = compose(searched[k].a_sliver ? usual : inverse(step), here_from_frame);
+        Registered found =
+            register_against(here, searched[k].picture, here_from_frame, options.quality);
+        if (found.holds()) here_from_frame = std::move(found.anchor_from_cur);
+        found_late.push_back(compose(here_from_frame, ref_from_cur));
+        step = std::move(searched[k].prev_from_cur);
+    }
+    searched.clear();
 }
 
 // The surface is in view again, roughly where it was heading or anywhere else.
-void SurfaceWalker::State::search(const RegistrationPicture& cur, std::int64_t visible_px) {
+void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visible,
+                                  std::int64_t visible_px) {
     const auto accept = [&](std::size_t k, const Registered& found) {
         if (!found.holds()) return false;
         correct(k, found.anchor_from_cur);
         lost = false;
         hidden_for = 0;
+        find_late(cur, visible);
         return true;
     };
     const auto& all = anchors.all();
@@ -142,11 +212,16 @@ void SurfaceWalker::State::search(const RegistrationPicture& cur, std::int64_t v
     }
     // Enough of it has been in view for long enough: it does not look as it did.
     constexpr int kLongest = 10;
+    constexpr std::size_t kMostKept = 32;
     if (++searched_for > kLongest && 2 * visible_px > largest_px) {
         lost = false;
         hidden_for = 0;
+        searched.clear();
         become_anchor(cur);
+        return;
     }
+    if (searched.size() == kMostKept) searched.erase(searched.begin());
+    searched.push_back({cur, prev_from_cur, is_sliver(visible_px)});
 }
 
 // Takes another anchor of an earlier generation where one explains the frame. Generations below
@@ -164,6 +239,28 @@ bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int genera
     return false;
 }
 
+// Where much of the surface is past the limit the texture goes back to its own shape at once, and
+// what it was is carried on beside it for a while.
+bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
+    if (!hide_reanchoring || hiding_left > 0) return false;
+    std::optional<LatticeField> relaxed = relaxed_stretch(ref_from_cur, visible);
+    if (!relaxed) return false;
+    stretched_at_event = std::exchange(ref_from_cur, std::move(*relaxed));
+    relaxed_at_event = ref_from_cur;
+    stretched = stretched_at_event;
+    hiding_left = kReanchorFrames;
+    return true;
+}
+
+// Both lie on the surface alike, so whatever the registration finds holds for both.
+void SurfaceWalker::State::carry_stretched() {
+    if (hiding_left == 0 || --hiding_left == 0) {
+        stretched = {};
+        return;
+    }
+    stretched = compose(compose(ref_from_cur, inverse(relaxed_at_event)), stretched_at_event);
+}
+
 void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8x1 visible) {
     const Registered found =
         register_against(anchors.present(), cur, anchor_from_cur, options.quality);
@@ -172,7 +269,7 @@ void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
     correct(anchors.present_index(),
             mix(anchor_from_cur, found.anchor_from_cur, found.planar ? kPlanarGain : kSmoothGain));
-    if (limit_stretch(ref_from_cur, visible)) {
+    if (reanchor(visible) || limit_stretch(ref_from_cur, visible)) {
         // The texture slid: older anchors would pull it back.
         anchors.clear();
         become_anchor(cur);
@@ -222,12 +319,19 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         s.follow(s.fit_motion(luma, visible, prev_from_cur));
         return keep();
     }
+    const bool hiding = s.hiding_left > 0;
     const std::int64_t visible_px = count_of(visible);
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
     if (s.is_hidden(visible_px)) {
         s.wait_out_of_view();
+        if (hiding) s.carry_stretched();
         return keep();
     }
+    const auto noted = [&]() -> const LatticeField& {
+        s.note_steady(visible, visible_px);
+        if (hiding) s.carry_stretched();
+        return keep();
+    };
     const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);
     // What has just come into view has no motion yet.
     s.follow(was_hidden   ? s.prev_from_cur
@@ -237,12 +341,23 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     if (!by_outline) {
         const RegistrationPicture cur = registration_picture(luma, visible);
         if (s.lost) {
-            s.search(cur, visible_px);
+            s.search(cur, visible, visible_px);
         } else {
             s.register_frame(cur, visible);
         }
     }
-    return keep();
+    return noted();
+}
+
+const LatticeField* SurfaceWalker::stretched() const {
+    return state_->stretched.nodes().empty() ? nullptr : &state_->stretched;
+}
+void SurfaceWalker::hide_reanchoring(bool hide) {
+    state_->hide_reanchoring = hide;
+}
+
+std::vector<LatticeField> SurfaceWalker::take_found_late() {
+    return std::exchange(state_->found_late, {});
 }
 
 void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
@@ -261,6 +376,9 @@ void SurfaceWalker::hold() {
 
 void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
                                 const LatticeField* ref_from_here) {
+    state_->lost = false;
+    state_->hidden_for = 0;
+    state_->searched.clear();
     if (ref_from_here) {
         state_->ref_from_cur = *ref_from_here;
         // Older anchors would pull it back.

@@ -2,6 +2,7 @@
 // Following a surface from its reference frame through the shot, without drift.
 
 #include <memory>
+#include <vector>
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -43,6 +44,17 @@ class SurfaceWalker {
     /// surface's motion is continued.
     const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
                                 ViewU8x1 extent = {});
+    /// Where the pixels of frames that have been passed were on the reference frame, better than
+    /// advance() could tell then: a surface that comes back into view shows too little of itself
+    /// at first, and is found some frames later. The latest first: of the frame before the present
+    /// one, the one before that, and so on. Empties it.
+    [[nodiscard]] std::vector<LatticeField> take_found_late();
+    /// Whether, from here on, a texture that has become stretched or sheared past the limit over
+    /// much of the surface goes back to its own shape at once (relaxed_stretch()), which a seam is
+    /// to hide over the next frames. Otherwise it slides back slowly. Off at first.
+    void hide_reanchoring(bool hide);
+    /// For kReanchorFrames frames after that: ref_from_cur as it would be without. Else null.
+    [[nodiscard]] const LatticeField* stretched() const;
     /// Goes on to a frame whose motion is known as a whole: of the step, and to the frame at which
     /// the walk is anchored. Nothing is estimated and nothing registered.
     void advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,

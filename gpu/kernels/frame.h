@@ -20,7 +20,7 @@ struct LayerArgs {
     int frame_w, origin_x, origin_y;
     const float* shading;  ///< Null: no light.
     int shading_w, shading_h;
-    float shading_scale, inverse_reference, strength;
+    float shading_scale, inverse_reference, strength, least_gain, most_gain;
     const SoftPixel* soft;
     int soft_count;
 };
@@ -51,7 +51,7 @@ WEFT_HD void lit_texture(const LayerArgs& a, int x, int y, float* rgb) {
     if (!a.shading) return;
     const float light = shading_at(a, a.origin_x + x, a.origin_y + y);
     if (!(finite(light) && light > 0)) return;
-    const float gain = held(1.0f + a.strength * (light * a.inverse_reference - 1.0f), 0.125f, 8.0f);
+    const float gain = held(1.0f + a.strength * (light * a.inverse_reference - 1.0f), a.least_gain, a.most_gain);
     for (int c = 0; c < 3; ++c)
         rgb[c] *= gain;
 }

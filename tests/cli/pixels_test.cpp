@@ -156,5 +156,57 @@ TEST_F(CliTest, SceneLinearValuesAboveOneSurvive) {
     EXPECT_GT(inside, 3.0f);
 }
 
+// A patch of sun on the card, a hundred times as bright as the rest of it.
+TEST_F(CliTest, SceneLinearLightUpTo100IsNeitherClippedNorTinted) {
+    constexpr int kSunFrom = 44;  // px from the card's left side
+    make_shot(3, 1, ".exr", PixelDepth::kHalf, [](int frame, ImageF3& plate) {
+        const int left = Card::corner(frame - 1).x + kSunFrom;
+        for (int y = 0; y < plate.height(); ++y) {
+            for (int x = 0; x < plate.width(); ++x) {
+                for (int c = 0; c < 3; ++c)
+                    plate.at(x, y, c) = plate.at(x, y, c) * (x >= left ? 100.0f : 0.5f);
+            }
+        }
+    });
+    put_picture(
+        "ochre.exr",
+        [] {
+            ImageF3 plane(64, 64);
+            for (std::size_t i = 0; i < 64 * 64; ++i)
+                plane.data()[3 * i] = 0.5f, plane.data()[3 * i + 1] = 0.25f,
+                                 plane.data()[3 * i + 2] = 0.125f;
+            return plane;
+        }(),
+        PixelDepth::kFloat);
+    for (const char* quality : {"draft", "final"}) {
+        expect_success(run_replace({"--plate", "frames/####.exr", "-o", "out/####.exr", "--plane",
+                                    "ochre.exr", "--quality", quality, "--overwrite"}));
+        for (int frame = 1; frame <= 3; ++frame) {
+            const std::string name = "000" + std::to_string(frame) + ".exr";
+            const PlateFrame plate = picture("frames/" + name), result = picture("out/" + name);
+            EXPECT_EQ(differing(plate.rgb, result.rgb, card_matte(frame - 1), false), 0) << name;
+            const Vec2i corner = Card::corner(frame - 1);
+            const auto mean = [&](int from, int to) {
+                double sum = 0;
+                for (int y = corner.y + 6; y < corner.y + Card::kHeight - 6; ++y) {
+                    for (int x = corner.x + from; x < corner.x + to; ++x)
+                        sum += result.rgb.at(x, y, 0);
+                }
+                return sum / (to - from);
+            };
+            // The plate's step is 200.
+            const double step = mean(kSunFrom + 8, Card::kWidth - 6) / mean(6, kSunFrom - 8);
+            EXPECT_GT(step, 100) << quality << name;
+            EXPECT_LT(step, 400) << quality << name;
+            const float* shade = result.rgb.pixel(corner.x + kSunFrom - 20, corner.y + 30);
+            const float* sun = result.rgb.pixel(corner.x + kSunFrom + 18, corner.y + 30);
+            for (const float* p : {shade, sun}) {
+                EXPECT_NEAR(p[1] / p[0], 0.5, 0.002) << quality << name;
+                EXPECT_NEAR(p[2] / p[0], 0.25, 0.002) << quality << name;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -113,6 +113,68 @@ TEST_F(Tools, MeasureJsonHasItsKeys) {
                    4, {"none/####.png"});
 }
 
+// A card whose paint is known, under light that falls off from left to right.
+TEST_F(Tools, MeasureComparesLightWithAPassAndTheResultWithATruth) {
+    const auto light = [](int x) { return 1.0f - 0.004f * static_cast<float>(x); };
+    const auto lit = [&](int, ImageF3& plate) {
+        for (int y = 0; y < plate.height(); ++y) {
+            for (int x = 0; x < plate.width(); ++x) {
+                for (int c = 0; c < 3; ++c)
+                    plate.at(x, y, c) *= light(x);
+            }
+        }
+    };
+    make_shot(3, 1, ".exr", PixelDepth::kHalf, lit);
+    fs::create_directory(folder_ / "light");
+    fs::create_directory(folder_ / "true");
+    ImageF3 pass(Card::kPlate), grey(64, 64);
+    for (int y = 0; y < pass.height(); ++y) {
+        for (int x = 0; x < pass.width(); ++x) {
+            for (int c = 0; c < 3; ++c)
+                pass.at(x, y, c) = light(x);
+        }
+    }
+    std::fill_n(grey.data(), 64 * 64 * 3, 0.3f);
+    put_picture("grey.exr", grey, PixelDepth::kFloat);
+    for (int frame = 1; frame <= 3; ++frame) {
+        const std::string name = "000" + std::to_string(frame) + ".exr";
+        put_picture("light/" + name, pass, PixelDepth::kFloat);
+        ImageF3 truth = picture("frames/" + name).rgb;
+        for (int y = 0; y < truth.height(); ++y) {
+            for (int x = 0; x < truth.width(); ++x) {
+                if (!Card::covers(frame - 1, x, y)) continue;
+                for (int c = 0; c < 3; ++c)
+                    truth.at(x, y, c) = 0.3f * light(x);
+            }
+        }
+        put_picture("true/" + name, truth, PixelDepth::kFloat);
+    }
+    expect_success(run_replace({"--plate", "frames/####.exr", "-o", "out/####.exr", "--plane",
+                                "grey.exr", "--quality", "final", "--lighting", "light/####.exr"}));
+    const Outcome outcome =
+        run({"measure", "--result", "out/####.exr", "--plate", "frames/####.exr", "--matte",
+             "masks/####.png", "--lighting", "light/####.exr", "--truth", "true/####.exr",
+             "--light-pictures", "pictures", "--cache", "cache", "--json"});
+    expect_success(outcome);
+    const Json json = Json::parse(outcome.out);
+    // Lit by the pass itself: nothing but rounding.
+    EXPECT_LT(json["truth"]["inside"]["largest"].get<double>(), 1.0);
+    EXPECT_LT(json["truth"]["brightness_error"].get<double>(), 0.01);
+    // The estimate sees through the pattern, roughly.
+    EXPECT_GT(json["light"]["correlation"]["least"].get<double>(), 0.8);
+    EXPECT_EQ(json["light"]["per_frame"].size(), 3u);
+    EXPECT_GT(json["light"]["true_deviation_levels"]["mean"].get<double>(), 5);
+    for (const char* name :
+         {"before", "before_shading", "before_reflectance", "after", "after_shading",
+          "after_reflectance", "true_shading", "true_reflectance", "shading_difference", "sheet"})
+        EXPECT_TRUE(fs::exists(folder_ / "pictures" / (std::string(name) + ".00002.png"))) << name;
+
+    const Outcome missing =
+        run({"measure", "--result", "out/####.exr", "--plate", "frames/####.exr", "--matte",
+             "masks/####.png", "--truth", "none/####.exr"});
+    EXPECT_EQ(missing.exit, 4);
+}
+
 TEST_F(Tools, DiffSaysWhereSequencesDiffer) {
     make_shot(3);
     fs::copy(folder_ / "frames", folder_ / "copy");

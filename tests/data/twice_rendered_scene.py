@@ -1,13 +1,18 @@
-# Renders one moving scene several times: with its old materials, with flat grey ones, with other
-# textures, and its mattes. Lights cast no bounced light, so that all
-# differences between two renderings come from the material.
-#   blender -b -P scene.py -- OUT_DIR TEXTURES_DIR FRAMES WIDTH HEIGHT SAMPLES
+# Renders one moving scene several times: with its old materials, with one surface in flat grey or in
+# another texture (all others keep theirs, so that soft edges can be compared too), and its mattes.
+# Lights cast no bounced light, so that all differences between two renderings come from the material.
+#   blender -b -P twice_rendered_scene.py -- OUT_DIR TEXTURES_DIR FRAMES WIDTH HEIGHT SAMPLES [WHAT] [AT]
+# WHAT: some of old, grey_wall, grey_ball, new_wall, new_ball, matte_wall, matte_ball, by commas [all].
+# AT: frames of the truths (grey_…, new_…), by commas [all]. OUT_DIR/WHAT/####.png is written.
 import math
 import sys
 import bpy
 from mathutils import Vector
 
-out, textures, frames, width, height, samples = sys.argv[sys.argv.index("--") + 1:]
+arguments = sys.argv[sys.argv.index("--") + 1:]
+out, textures, frames, width, height, samples = arguments[:6]
+names = ("old", "grey_wall", "grey_ball", "new_wall", "new_ball", "matte_wall", "matte_ball")
+wanted = arguments[6].split(",") if len(arguments) > 6 else names
 frames, width, height, samples = int(frames), int(width), int(height), int(samples)
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -26,6 +31,7 @@ scene.render.resolution_percentage = 100
 scene.render.image_settings.file_format = "PNG"
 scene.render.image_settings.color_mode = "RGB"
 scene.render.use_persistent_data = True
+scene.render.dither_intensity = 0  # a matte must be 0 outside
 scene.view_settings.view_transform = "Standard"
 scene.frame_start, scene.frame_end = 1, frames
 world = bpy.data.worlds.new("world")
@@ -115,29 +121,44 @@ for f in range(1, frames + 1):
         light.keyframe_insert("energy", frame=f)
 
 
-def render(name, wall_material, ball_material, floor_material, first=1, last=frames):
-    for o, m in ((wall, wall_material), (ball, ball_material), (floor, floor_material), (back, floor_material if name.startswith("matte") else backdrop)):
+truth_frames = [int(f) for f in arguments[7].split(",")] if len(arguments) > 7 else range(1, frames + 1)
+
+
+def render(name, at, **materials):
+    if name not in wanted:
+        return
+    for o in (wall, ball, floor, back):
         o.data.materials.clear()
-        o.data.materials.append(m)
-    scene.render.filepath = out + "/" + name + "/####"
-    scene.frame_start, scene.frame_end = first, last
-    bpy.ops.render.render(animation=True)
+        o.data.materials.append(materials[o.name])
+    for f in at:
+        scene.frame_set(f)
+        scene.render.filepath = out + "/%s/%04d.png" % (name, f)
+        bpy.ops.render.render(write_still=True)
 
 
-backdrop = material("backdrop", colour=(0.35, 0.42, 0.5))
-ground = material("ground", "dirt_soil/nexuiz_bdirt.jpg", scale=12.0)
-old = (material("brick", "brick/ufoai_wall_bricks005.jpg", scale=2.0), material("planks", "wood/ufoai_wood012.jpg", scale=3.0))
-grey = (material("grey", colour=(0.35, 0.35, 0.35)),) * 2
-new = (material("gravel", "gravel/ufoai_pebbles_m_1.jpg", scale=2.0), material("straw", "straw/ufoai_straw.jpg", scale=3.0))
-black, white = material("black", emission=0.0), material("white", emission=1.0)
-render("old", *old, ground)
-render("grey", *grey, ground)
-render("new", *new, ground)
+every = range(1, frames + 1)
+ball.name = "ball"
+old = {"wall": material("brick", "brick/ufoai_wall_bricks005.jpg", scale=2.0),
+       "ball": material("planks", "wood/ufoai_wood012.jpg", scale=3.0),
+       "floor": material("ground", "dirt_soil/nexuiz_bdirt.jpg", scale=12.0),
+       "back": material("backdrop", colour=(0.35, 0.42, 0.5))}
+grey = material("grey", colour=(0.35, 0.35, 0.35))
+gravel = material("gravel", "gravel/ufoai_pebbles_m_1.jpg", scale=2.0)
+straw = material("straw", "straw/ufoai_straw.jpg", scale=3.0)
+render("old", every, **old)
+render("grey_wall", truth_frames, **{**old, "wall": grey})
+render("grey_ball", truth_frames, **{**old, "ball": grey})
+render("new_wall", truth_frames, **{**old, "wall": gravel})
+render("new_ball", truth_frames, **{**old, "ball": straw})
+
+# Mattes: the surface emits light, all else is black. The sun's blockers are in no picture.
 post.hide_render = disc.hide_render = True
 for light in bpy.data.lights:
+    light.animation_data_clear()
     light.energy = 0
 world.node_tree.nodes["Background"].inputs[0].default_value = (0, 0, 0, 1)
 scene.view_settings.view_transform = "Raw"
-backdrop = black
-render("matte_wall", white, black, black)
-render("matte_ball", black, white, black)
+black, white = material("black", emission=0.0), material("white", emission=1.0)
+hidden = {name: black for name in old}
+render("matte_wall", every, **{**hidden, "wall": white})
+render("matte_ball", every, **{**hidden, "ball": white})

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 
+#include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "tests/editor/program.h"
 
@@ -77,6 +79,82 @@ TEST(Screenshots, TheSameScriptGivesTheSamePicture) {
             EXPECT_LT(difference(first, picture->rgb), 0.002);
         }
         first = picture->rgb;
+    }
+}
+
+// Means over blocks of 4×4: what a golden picture holds.
+ImageF3 quartered(const ImageF3& picture) {
+    ImageF3 out(picture.width() / 4, picture.height() / 4);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            for (int c = 0; c < 3; ++c) {
+                float sum = 0;
+                for (int k = 0; k < 16; ++k)
+                    sum += picture.pixel(4 * x + k % 4, 4 * y + k / 4)[c];
+                out.pixel(x, y)[c] = sum / 16;
+            }
+    return out;
+}
+
+// The share of tiles of 16×16 that differ by more than drivers and fonts do.
+double tiles_that_differ(const ImageF3& a, const ImageF3& b) {
+    constexpr int kTile = 16;
+    int tiles = 0, different = 0;
+    for (int top = 0; top + kTile <= a.height(); top += kTile) {
+        for (int left = 0; left + kTile <= a.width(); left += kTile) {
+            double sum = 0;
+            for (int y = top; y < top + kTile; ++y)
+                for (int k = 3 * left; k < 3 * (left + kTile); ++k)
+                    sum += std::abs(static_cast<double>(a.row(y)[k] - b.row(y)[k]));
+            ++tiles;
+            if (sum / (3 * kTile * kTile) > 0.03) ++different;
+        }
+    }
+    return static_cast<double>(different) / tiles;
+}
+
+// The layout of every workspace, compared with pictures that somebody has looked at. With
+// WEFT_UPDATE_GOLDEN in the environment they are written anew. The analysis is paused, so that
+// what is seen does not depend on the machine.
+TEST(Screenshots, EveryWorkspaceLooksAsItDid) {
+    const Sandbox sandbox;
+    const std::pair<const char*, const char*> pages[] = {{"mask", "Mask"},
+                                                         {"motion", "Motion"},
+                                                         {"light", "Seams & Light"},
+                                                         {"review", "Review"},
+                                                         {"jobs", "Jobs"}};
+    {
+        std::ofstream script(sandbox.in("script.json"));
+        script << R"([{"click": "Top/Region"}, {"click": "Menu/Pause the analysis"},)"
+               << R"({"wait_for": "plate"}, {"wait_for": "mattes"}, {"wait": 1.5})";
+        for (const auto& [file, page] : pages)
+            script << R"(, {"workspace": ")" << page
+                   << R"("}, {"hover": "Top/File"}, {"wait": 0.3},)"
+                   << R"({"screenshot": ")" << sandbox.in(std::string(file) + ".png") << R"("})";
+        script << "]";
+    }
+    const Finished done = run(
+        sandbox, {"edit", "--demo", "--script", sandbox.in("script.json"), "--size", "1280x720"});
+    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    ASSERT_EQ(done.code, 0) << done.errors;
+    for (const auto& [file, page] : pages) {
+        const auto picture = read_image(sandbox.in(std::string(file) + ".png"));
+        ASSERT_TRUE(picture) << picture.error().text();
+        const ImageF3 now = quartered(picture->rgb);
+        const std::string golden =
+            std::string(WEFT_SOURCE_DIR) + "/tests/editor/golden/" + file + ".jpg";
+        if (std::getenv("WEFT_UPDATE_GOLDEN")) {
+            WriteOptions options;
+            options.jpeg_quality = 90;
+            ASSERT_TRUE(write_image(golden, now, {}, options));
+            continue;
+        }
+        const auto before = read_image(golden);
+        ASSERT_TRUE(before) << before.error().text();
+        ASSERT_EQ(before->rgb.size(), now.size());
+        EXPECT_LT(tiles_that_differ(before->rgb, now), 0.06)
+            << page << " looks different. Look at it; if that is meant, write the golden pictures "
+            << "anew with WEFT_UPDATE_GOLDEN=1.";
     }
 }
 

@@ -100,6 +100,7 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--rotate",
                              "--offset",
                              "--corners",
+                             "--fit",
                              "--plane",
                              "--reference-frame",
                              "--motion",

@@ -26,6 +26,7 @@ Region full_region() {
     r.placement.rotate_deg = -12.5;
     r.placement.offset_px = {3, -4.25};
     r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
+    r.placement.fit = false;
     r.placement.scale_keys = "1:1 24:1.5";
     r.placement.rotate_keys = "1:0 24:90";
     r.placement.offset_keys = "1:0,0 24:10,5";
@@ -54,7 +55,7 @@ Region full_region() {
     r.light.lighting = "lighting/####.exr";
     r.light.pass_layer = "shot.DiffCol";
     r.light.exact = true;
-    r.finish = {0.5, 0.25, 172.8, {}};
+    r.finish = {0.5, 0.25, "depth/####.exr", 172.8, {}};
     r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
 }

@@ -53,6 +53,22 @@ TEST(HistorySeam, APlaceChangesWhileItIsHidden) {
     }
 }
 
+// Textures that differ strongly, few frames to change in, and a small surface: still no flash.
+TEST(HistorySeam, AShortIntervalDoesNotFlash) {
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+        const auto labels = cut_histories(frames_of(7, 60), {.lambda = 1, .seed = seed});
+        const int all = kCells.width * kCells.height;
+        int before = 0, most = 0;
+        for (const auto& frame : labels) {
+            const int now = static_cast<int>(std::count(frame.data(), frame.data() + all, 1));
+            most = std::max(most, now - before);
+            before = now;
+        }
+        most = std::max(most, all - before);
+        EXPECT_LT(most, all / 2) << "seed " << seed;
+    }
+}
+
 TEST(HistorySeam, TheSeamRunsWhereBothLookAlike) {
     auto frames = frames_of(9, 60);
     for (auto& frame : frames) {

@@ -65,6 +65,18 @@ TEST(Placement, CornersBoundARectangleOfThePlane) {
     EXPECT_LT(distance(c, {b.x, d.y}), 0.05f);
 }
 
+TEST(Placement, APictureIsFittedIntoTheCorners) {
+    PlanePlacement p;
+    p.corners = kFloor;
+    p.picture_texels = Size{300, 120};
+    const Mat3 map = *plane_from_plate(p);
+    const std::array<Vec2, 4> own{Vec2(0, 0), Vec2(300, 0), Vec2(300, 120), Vec2(0, 120)};
+    for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_LT(distance(project(map, kFloor[k]), own[k]), 0.01f);
+    p.scale = 2;  // twice as large: a quarter of it shows
+    EXPECT_LT(distance(project(*plane_from_plate(p), kFloor[2]), Vec2(150, 60)), 0.01f);
+}
+
 TEST(Placement, ScaleHoldsAtTheTopLeftCorner) {
     for (const float scale : {0.5f, 1.0f, 3.0f}) {
         PlanePlacement p;

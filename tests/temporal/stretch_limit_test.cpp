@@ -49,5 +49,25 @@ TEST(StretchLimit, WhatIsNotSeenDoesNotCount) {
     EXPECT_FALSE(limit_stretch(field, visible));
 }
 
+TEST(RelaxedStretch, LeavesALittleStretchToTheSlowWay) {
+    const LatticeField field = squeezed(0.1f);
+    Matte mostly_left(256, 128);
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 145; ++x)
+            mostly_left.at(x, y) = 255;
+    }
+    EXPECT_FALSE(relaxed_stretch(field, mostly_left));
+    EXPECT_FALSE(relaxed_stretch(squeezed(0.5f), Matte(256, 128, 255)));
+}
+
+TEST(RelaxedStretch, NothingIsPastTheLimitAfterwards) {
+    const Matte visible(256, 128, 255);
+    const auto relaxed = relaxed_stretch(squeezed(0.2f), visible);
+    ASSERT_TRUE(relaxed);
+    EXPECT_GT(slope_on_the_right(*relaxed), 0.5f);
+    LatticeField again = *relaxed;
+    EXPECT_FALSE(limit_stretch(again, visible));
+}
+
 }  // namespace
 }  // namespace weft

@@ -267,5 +267,40 @@ TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
     EXPECT_LT(mean_error(walker.ref_from_cur(), shot, 1, 0), 0.2f);
 }
 
+// A plane that turns away until it is a third as wide: the texture is let go once, and what it was
+// is carried beside it, on the surface, for the seam to choose from.
+TEST(SurfaceWalker, LetsAStretchedTextureGoAndCarriesWhatItWas) {
+    const WaveTexture plane(7);
+    const auto width_at = [](int t) { return std::pow(0.92f, static_cast<float>(t)); };
+    const auto luma_at = [&](int t) {
+        return draw(kFrame, [&](Vec2 p) { return plane({128 + (p.x - 128) / width_at(t), p.y}); });
+    };
+    const auto visible_at = [&](int t) {
+        return draw(kFrame,
+                    [&](Vec2 p) { return std::abs(p.x - 128) < 120 * width_at(t) ? 1.0f : 0.0f; });
+    };
+    SurfaceWalker walker(luma_at(0), visible_at(0), {});
+    walker.hide_reanchoring(true);
+    int let_go = 0, carried = 0;
+    for (int t = 1; t <= 20; ++t) {
+        const LatticeField& ref_from_cur =
+            walker.advance(luma_at(t), visible_at(t), flow_between(luma_at(t), luma_at(t - 1)));
+        const auto slope = [](const LatticeField& f) {
+            return 1 + (f.at({136, 88}).x - f.at({120, 88}).x) / 16;
+        };
+        if (!walker.stretched()) continue;
+        if (let_go == 0) {
+            let_go = t;
+            EXPECT_NEAR(slope(*walker.stretched()), 3, 0.5f);
+            EXPECT_LT(slope(ref_from_cur), 2);
+        }
+        ++carried;
+        EXPECT_NEAR(slope(*walker.stretched()), 1 / width_at(t), 0.4f) << t;
+    }
+    EXPECT_GE(let_go, 13);
+    EXPECT_LE(let_go, 16);
+    EXPECT_EQ(carried, 21 - let_go);
+}
+
 }  // namespace
 }  // namespace weft

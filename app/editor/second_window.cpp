@@ -1,0 +1,74 @@
+#include "app/editor/second_window.h"
+
+#include <GLFW/glfw3.h>
+
+#include "app/editor/editor_app.h"
+
+namespace weft {
+namespace {
+
+void on_key(GLFWwindow* window, int key, int, int action, int mods) {
+    const bool leave = key == GLFW_KEY_ESCAPE || (key == GLFW_KEY_F11 && (mods & GLFW_MOD_SHIFT));
+    if (leave && action == GLFW_PRESS) glfwSetWindowShouldClose(window, GLFW_TRUE);
+}
+
+// A screen that the main window is not on, or nothing.
+GLFWmonitor* other_screen(GLFWwindow* main) {
+    int count = 0, x = 0, y = 0;
+    GLFWmonitor** all = glfwGetMonitors(&count);
+    glfwGetWindowPos(main, &x, &y);
+    for (int k = 0; k < count; ++k) {
+        int left = 0, top = 0;
+        glfwGetMonitorPos(all[k], &left, &top);
+        const GLFWvidmode* mode = glfwGetVideoMode(all[k]);
+        const bool here =
+            mode && x >= left && x < left + mode->width && y >= top && y < top + mode->height;
+        if (!here) return all[k];
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+SecondWindow::~SecondWindow() {
+    close();
+}
+
+void SecondWindow::close() {
+    if (window_) glfwDestroyWindow(window_);
+    window_ = nullptr;
+    glfwMakeContextCurrent(main_);
+}
+
+void SecondWindow::toggle() {
+    if (window_) return close();
+    GLFWmonitor* screen = other_screen(main_);
+    const GLFWvidmode* mode = screen ? glfwGetVideoMode(screen) : nullptr;
+    window_ = glfwCreateWindow(mode ? mode->width : 960, mode ? mode->height : 540, "Weft: picture",
+                               mode ? screen : nullptr, main_);
+    if (!window_) return;
+    glfwSetKeyCallback(window_, on_key);
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(0);  // the main window keeps the time
+    glfwMakeContextCurrent(main_);
+    fresh_ = true;
+}
+
+void SecondWindow::draw(EditorApp& app) {
+    if (!window_) return;
+    if (glfwWindowShouldClose(window_)) return close();
+    const SessionView& view = app.session().view();
+    const ViewerState& viewer = app.shell().state().viewer;
+    const bool plate = viewer.hold_original || viewer.compare == Compare::kPlate;
+    const PicturePtr& shown =
+        !plate && view.result_picture ? view.result_picture : view.plate_picture;
+    int width = 0, height = 0;
+    glfwMakeContextCurrent(window_);
+    glfwGetFramebufferSize(window_, &width, &height);
+    app.pictures().show_alone(shown, viewer.display, width, height, fresh_);
+    fresh_ = false;
+    glfwSwapBuffers(window_);
+    glfwMakeContextCurrent(main_);
+}
+
+}  // namespace weft

@@ -1,0 +1,103 @@
+// Mattes out to files: exported for others, or frozen.
+#include <filesystem>
+
+#include "app/project/project_file.h"
+#include "app/session/background.h"
+#include "app/session/output_check.h"
+#include "app/session/session.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+
+namespace weft {
+
+namespace fs = std::filesystem;
+
+// Writes the region's matte of every frame of the played range; `then` is done with the frames.
+void Session::write_mattes(const std::string& pattern_text,
+                           std::function<void(const std::vector<int>&)> then) {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region || !reader_) {
+        notify(NoticeKind::kWarning, "Select the region whose mattes are to be written.");
+        return;
+    }
+    end_stroke();
+    const auto [first, last] = played_range();
+    const std::vector<int> frames(reader_->frames().begin() + first,
+                                  reader_->frames().begin() + last + 1);
+    const MatteSource source =
+        *resolve_paths(document(), project_dir(path_))
+             .regions[find_region(document(), std::to_string(selected_)).value_or(0)]
+             ->matte;
+    chores_.push_back(in_background([this, pattern_text, frames, source, size = reader_->size(),
+                                     id = region->id, then = std::move(then)]() -> Finish {
+        shelf_.flush();
+        const auto write = [&]() -> Status {
+            WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
+            WEFT_CHECK_OK(make_output_folder(pattern.path_for(frames.front())));
+            for (const int frame : frames) {
+                Expected<Matte> matte = Matte();
+                if (!source.files.empty()) {
+                    WEFT_TRY(files, SequencePattern::parse(source.files));
+                    matte = read_matte(files.path_for(frame), source.select, size);
+                } else if (const auto key = source.keyframes.find(frame);
+                           key != source.keyframes.end()) {
+                    matte = read_matte(key->second.path, source.select, size);
+                } else {
+                    matte = preview_.propagated_matte(id, frame);
+                }
+                if (!matte) return tl::unexpected<Error>(matte.error());
+                WEFT_CHECK_OK(write_matte(pattern.path_for(frame), *matte));
+            }
+            return {};
+        };
+        const Status done = write();
+        return [this, done, frames, pattern_text, then] {
+            if (done)
+                then(frames);
+            else
+                notify(NoticeKind::kError, "The mattes are not written. " + done.error().text());
+        };
+    }));
+}
+
+void Session::export_mattes(const std::string& pattern) {
+    write_mattes(pattern, [this, pattern](const std::vector<int>& frames) {
+        notify(NoticeKind::kGood,
+               "Wrote " + std::to_string(frames.size()) + " mattes to " + pattern + ".");
+    });
+}
+
+// Frozen frames are read from now on: whatever is changed elsewhere, they stay.
+void Session::freeze_mattes(bool frozen) {
+    const Region* region = region_by_id(document(), selected_);
+    if (!region) return;
+    const RegionRef ref{region->id, {}};
+    if (!frozen) {
+        MatteSource matte = *region->matte;
+        matte.frozen.clear();
+        matte.frozen_files.clear();
+        edit(SetMatte{ref, matte}, true);
+        return;
+    }
+    if (region->matte->keyframes.empty()) {
+        notify(NoticeKind::kWarning,
+               "Only painted mattes can be frozen: those of files stay anyway.");
+        return;
+    }
+    const fs::path any = new_matte_path(region->id, 0);
+    const std::string pattern =
+        (any.parent_path() / (any.stem().string() + "_frozen.####.png")).string();
+    write_mattes(pattern, [this, ref, pattern](const std::vector<int>& frames) {
+        const Region* now = region_by_id(document(), ref.id);
+        if (!now) return;
+        MatteSource matte = *now->matte;
+        matte.frozen = frames;
+        matte.frozen_files = beside_project(pattern);
+        edit(SetMatte{ref, matte}, true);
+        notify(NoticeKind::kInfo,
+               std::to_string(frames.size()) + " frames are frozen: they stay as they are now.");
+    });
+}
+
+}  // namespace weft

@@ -1,0 +1,181 @@
+#include "engine/metrics/truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/color/color_space.h"
+#include "engine/core/parallel.h"
+#include "engine/metrics/region.h"
+
+namespace weft {
+namespace {
+
+constexpr double kShade = 0.6;    // of the median luminance: less is a cast shadow
+constexpr int kShadeOpening = 2;  // px: specks are no shadow
+
+ImageF3 to_linear(ViewF3 encoded) {
+    ImageF3 out(encoded.size());
+    parallel_rows(encoded.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int i = 0; i < 3 * encoded.width(); ++i)
+                out.row(y)[i] = srgb_to_linear(std::max(0.0f, encoded.row(y)[i]));
+        }
+    });
+    return out;
+}
+
+float luminance(const float* p) {
+    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+}
+
+// A Gaussian as normalised convolution over the matte, along rows and then columns.
+void blur(ImageF3& linear, ViewU8x1 matte, float sigma) {
+    const int radius = static_cast<int>(std::ceil(3 * sigma));
+    std::vector<float> kernel(static_cast<std::size_t>(2 * radius + 1));
+    for (int k = -radius; k <= radius; ++k) {
+        const float r = static_cast<float>(k) / sigma;
+        kernel[static_cast<std::size_t>(k + radius)] = std::exp(-0.5f * r * r);
+    }
+    const int w = linear.width(), h = linear.height();
+    Image<float, 4> rows(w, h);
+    parallel_rows(h, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                float* to = rows.pixel(x, y);
+                for (int u = std::max(0, x - radius); u <= std::min(w - 1, x + radius); ++u) {
+                    if (matte.row(y)[u] == 0) continue;
+                    const float k = kernel[static_cast<std::size_t>(u - x + radius)];
+                    const float* p = linear.pixel(u, y);
+                    to[0] += k * p[0], to[1] += k * p[1], to[2] += k * p[2], to[3] += k;
+                }
+            }
+        }
+    });
+    parallel_rows(h, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < w; ++x) {
+                if (matte.row(y)[x] == 0) continue;
+                float sum[4] = {0, 0, 0, 0};
+                for (int v = std::max(0, y - radius); v <= std::min(h - 1, y + radius); ++v) {
+                    const float k = kernel[static_cast<std::size_t>(v - y + radius)];
+                    for (int c = 0; c < 4; ++c)
+                        sum[c] += k * rows.pixel(x, v)[c];
+                }
+                for (int c = 0; c < 3; ++c)
+                    linear.pixel(x, y)[c] = sum[c] / sum[3];
+            }
+        }
+    });
+}
+
+double median_inside(const ImageF3& linear, ViewU8x1 matte) {
+    std::vector<float> values;
+    for (int y = 0; y < matte.height(); ++y) {
+        for (int x = 0; x < matte.width(); ++x) {
+            if (matte.row(y)[x] >= kInsideCoverage) values.push_back(luminance(linear.pixel(x, y)));
+        }
+    }
+    if (values.empty()) return 0;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+}
+
+// 255 where the whole square around is (erosion), or any of it (dilation).
+Matte spread(const Matte& m, bool all) {
+    Matte out(m.size());
+    for (int y = 0; y < m.height(); ++y) {
+        for (int x = 0; x < m.width(); ++x) {
+            bool any = false, every = true;
+            for (int v = -kShadeOpening; v <= kShadeOpening; ++v) {
+                for (int u = -kShadeOpening; u <= kShadeOpening; ++u) {
+                    const bool set =
+                        m.row(std::clamp(y + v, 0,
+                                         m.height() - 1))[std::clamp(x + u, 0, m.width() - 1)] != 0;
+                    any |= set, every &= set;
+                }
+            }
+            out.row(y)[x] = (all ? every : any) ? 255 : 0;
+        }
+    }
+    return out;
+}
+
+Matte shade_of(const ImageF3& truth, ViewU8x1 matte) {
+    const double lit = median_inside(truth, matte);
+    Matte dark(truth.size());
+    for (int y = 0; y < dark.height(); ++y) {
+        for (int x = 0; x < dark.width(); ++x) {
+            if (matte.row(y)[x] >= kInsideCoverage &&
+                static_cast<double>(luminance(truth.pixel(x, y))) < kShade * lit)
+                dark.row(y)[x] = 255;
+        }
+    }
+    return spread(spread(dark, true), false);
+}
+
+struct Mean {
+    double sum = 0;
+    std::int64_t count = 0;
+    void add(double v) { sum += v, ++count; }
+    [[nodiscard]] std::optional<double> value() const {
+        if (count == 0) return std::nullopt;
+        return sum / static_cast<double>(count);
+    }
+};
+
+}  // namespace
+
+void TruthComparison::gather(ViewF3 result, ViewF3 truth, ViewU8x1 matte) {
+    const ImageF3 r = to_linear(result), t = to_linear(truth);
+    for (int y = 0; y < matte.height(); ++y) {
+        for (int x = 0; x < matte.width(); ++x) {
+            if (matte.row(y)[x] < kInsideCoverage) continue;
+            const float *p = r.pixel(x, y), *q = t.pixel(x, y);
+            if (!std::isfinite(p[0] + p[1] + p[2] + q[0] + q[1] + q[2])) continue;
+            for (int c = 0; c < 3; ++c)
+                result_sum_[c] += static_cast<double>(p[c]),
+                    truth_sum_[c] += static_cast<double>(q[c]);
+        }
+    }
+    for (int c = 0; c < 3; ++c)
+        gain_[c] = result_sum_[c] > 0 ? truth_sum_[c] / result_sum_[c] : 1.0;
+}
+
+TruthComparison::Frame TruthComparison::compare(ViewF3 result, ViewF3 truth, ViewU8x1 matte) {
+    ImageF3 r = to_linear(result), t = to_linear(truth);
+    Frame out;
+    const double bright = median_inside(r, matte), true_bright = median_inside(t, matte);
+    if (!(first_ > 0)) first_ = bright, first_true_ = true_bright;
+    if (first_ > 0 && first_true_ > 0)
+        out.brightness = bright / first_, out.true_brightness = true_bright / first_true_;
+    if (blur_px_ > 0) blur(r, matte, blur_px_), blur(t, matte, blur_px_);
+    const Matte shade = shade_of(t, matte);
+    Mean inside, soft, shadow;
+    for (int y = 0; y < matte.height(); ++y) {
+        for (int x = 0; x < matte.width(); ++x) {
+            const int m = matte.row(y)[x];
+            if (m == 0) continue;
+            double error = 0;
+            for (int c = 0; c < 3; ++c) {
+                // What shows through a soft pixel has no gain.
+                const double share = m / 255.0, gain = 1.0 + share * (gain_[c] - 1.0);
+                const auto mine = static_cast<float>(gain * static_cast<double>(r.pixel(x, y)[c]));
+                error += 255.0 / 3 *
+                         std::abs(static_cast<double>(linear_to_srgb(mine)) -
+                                  static_cast<double>(linear_to_srgb(t.pixel(x, y)[c])));
+            }
+            if (!std::isfinite(error)) continue;
+            if (m >= kInsideCoverage)
+                inside.add(error);
+            else if (m > 255 - kInsideCoverage)
+                soft.add(error);
+            if (shade.row(y)[x]) shadow.add(error);
+        }
+    }
+    out.inside = inside.value(), out.soft_edge = soft.value(), out.shadow = shadow.value();
+    return out;
+}
+
+}  // namespace weft

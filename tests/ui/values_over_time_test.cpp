@@ -1,0 +1,158 @@
+// Values over time, smaller pictures of a shot, and where a pixel comes from.
+#include "app/session/keyed_text.h"
+#include "app/session/provenance.h"
+#include "app/session/proxy_shot.h"
+#include "tests/ui/ui_harness.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+TEST(KeyedText, GoesInAStraightLineBetweenKeysAndStaysOutside) {
+    const KeyedValues keys = read_keyed("1001:1 1011:2", 1);
+    ASSERT_THAT(keys, SizeIs(2));
+    EXPECT_THAT(keyed_at(keys, 990), ElementsAre(1));
+    EXPECT_THAT(keyed_at(keys, 1006), ElementsAre(1.5));
+    EXPECT_THAT(keyed_at(keys, 2000), ElementsAre(2));
+}
+
+TEST(KeyedText, IsReadBackAsItWasWritten) {
+    const KeyedValues keys{{-3, {1.25, -7}}, {12, {0, 0.5}}};
+    EXPECT_EQ(read_keyed(keyed_text(keys), 2), keys);
+    EXPECT_TRUE(read_keyed("nonsense", 1).empty());
+}
+
+TEST(Proxy, AFieldOfMotionIsTheSameButSmaller) {
+    LatticeField field({101, 75}, 8);
+    for (int j = 0; j < field.nodes().height(); ++j)
+        for (int i = 0; i < field.nodes().width(); ++i)
+            field.set_node(i, j, {static_cast<float>(i * i) * 0.3f, static_cast<float>(j) * -1.5f});
+    for (const int factor : {2, 4, 8}) {
+        const LatticeField small = shrunk(field, factor);
+        const auto by = static_cast<float>(factor);
+        for (const Vec2 p : {Vec2(3, 5), Vec2(50.5f, 30), Vec2(99, 70)}) {
+            const Vec2 full = field.at(p), here = small.at(p / by);
+            EXPECT_NEAR(here.x * by, full.x, 1e-3f);
+            EXPECT_NEAR(here.y * by, full.y, 1e-3f);
+        }
+    }
+}
+
+TEST(Proxy, BlocksAreMeansAndTheLastOnesMayBeSmaller) {
+    ImageF3 picture(5, 3, 0.0f);
+    picture.pixel(4, 2)[0] = 1;
+    picture.pixel(0, 0)[1] = 1;
+    const ImageF3 small = shrunk(picture, 2);
+    ASSERT_EQ(small.size(), (Size{3, 2}));
+    EXPECT_FLOAT_EQ(small.pixel(2, 1)[0], 1);
+    EXPECT_FLOAT_EQ(small.pixel(0, 0)[1], 0.25f);
+}
+
+TEST(Proxy, OnlyLargePlatesAreShrunk) {
+    EXPECT_EQ(proxy_factor({960, 540}, 640'000), 1);
+    EXPECT_EQ(proxy_factor({1920, 1080}, 640'000), 2);
+    EXPECT_EQ(proxy_factor({3840, 2160}, 640'000), 4);
+}
+
+TEST(Provenance, NamesThePlaceInTheSampleTheSeamAndTheLight) {
+    auto plane = std::make_shared<PlaneMap>();
+    plane->source = Image<std::int32_t, 2>(8, 8);
+    plane->energy = Matte(8, 8);
+    plane->source.pixel(2, 3)[0] = 41;
+    plane->source.pixel(2, 3)[1] = 77;
+    plane->energy.at(2, 3) = 60;
+    Provenance from;
+    from.ref_from_cur = LatticeField({32, 32}, 8);
+    from.plane = plane;
+    from.texture = "brick.png";
+    from.shading = Shading{ImageF1(16, 16, 0.5f), 2, {32, 32}, {}};
+    from.reference_shading = 0.25f;
+    // The plane repeats every 8 texels.
+    const Provenance::Answer found = from.at({10.5f, 19.5f});
+    ASSERT_TRUE(found.in_sample);
+    EXPECT_EQ(found.in_sample->x, 41);
+    EXPECT_EQ(found.in_sample->y, 77);
+    EXPECT_EQ(found.seam, 12);
+    EXPECT_FLOAT_EQ(found.light.value_or(0), 2);
+    EXPECT_FALSE(from.at({12.5f, 19.5f}).seam);
+}
+
+TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    clear();
+    ASSERT_TRUE(robot->click("Key Scale"));
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto* set = std::get_if<SetRegionParameter>(&edits[0].edit);
+    ASSERT_NE(set, nullptr);
+    EXPECT_EQ(set->key, "placement.scale_keys");
+    EXPECT_EQ(std::get<std::string>(set->value), "1003:1");
+    view.project.regions[0] =
+        view.project.regions[0].with([](Region& r) { r.placement.scale_keys = "1003:1"; });
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->click("Unkey Scale"));
+    const auto after = emitted<DoEdit>();
+    ASSERT_THAT(after, SizeIs(1));
+    EXPECT_EQ(std::get<std::string>(std::get<SetRegionParameter>(after[0].edit).value), "");
+}
+
+TEST_F(PanelTest, AKeyedSliderChangesTheKeyOfThisFrame) {
+    view.project.regions[0] =
+        view.project.regions[0].with([](Region& r) { r.placement.scale_keys = "1001:1 1005:3"; });
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    clear();
+    ASSERT_TRUE(robot->drag("Placement/Scale", {30, 0}));
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto& set = std::get<SetRegionParameter>(edits[0].edit);
+    EXPECT_EQ(set.key, "placement.scale_keys");
+    const KeyedValues keys = read_keyed(std::get<std::string>(set.value), 1);
+    ASSERT_TRUE(keys.contains(1003));
+    EXPECT_GT(keys.at(1003)[0], 2);
+    EXPECT_THAT(keys.at(1001), ElementsAre(1));
+}
+
+TEST_F(PanelTest, CornersInPerspectiveAreDraggedOnTheCanvas) {
+    view.project.regions[0] = view.project.regions[0].with([](Region& r) {
+        r.placement.corners_px = {{{80, 40}, {240, 40}, {240, 140}, {80, 140}}};
+    });
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    robot->key("R");
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->drag("Handle corner 2", {20, 0}));
+    const auto edits = emitted<DoEdit>();
+    ASSERT_FALSE(edits.empty());
+    const auto& set = std::get<SetRegionParameter>(edits.back().edit);
+    EXPECT_EQ(set.key, "placement.corners_px");
+    const auto& numbers = std::get<std::vector<double>>(set.value);
+    ASSERT_THAT(numbers, SizeIs(8));
+    EXPECT_GT(numbers[2], 241);
+    EXPECT_NEAR(numbers[0], 80, 0.01);
+}
+
+TEST_F(PanelTest, ALineSaysHowLargeTheBricksAre) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Texture"));
+    ASSERT_TRUE(robot->click("Size by a line"));
+    robot->frames(2);
+    const DrawnItem* canvas = robot->find("Viewer/Canvas");
+    const ImVec2 middle((canvas->min.x + canvas->max.x) / 2, (canvas->min.y + canvas->max.y) / 2);
+    robot->stroke({middle, {middle.x + 40, middle.y}, {middle.x + 80, middle.y}});
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->click("Scale to fit"));
+    ASSERT_THAT(emitted<ScaleByLine>(), SizeIs(1));
+    const ScaleByLine line = emitted<ScaleByLine>()[0];
+    EXPECT_GT(line.to.x, line.from.x + 10);
+    EXPECT_DOUBLE_EQ(line.count, 4);
+}
+
+}  // namespace
+}  // namespace weft::test

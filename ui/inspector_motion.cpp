@@ -1,0 +1,105 @@
+// The inspector of the Motion workspace: what the texture follows.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+
+void motion_inspector(Ctx& c) {
+    const Region* region = c.view.selected_region();
+    if (!region) return no_region(c);
+    const Theme& t = c.theme;
+    const SessionView& v = c.view;
+    if (section(c, "Reference frames")) {
+        const PanelName panel(c, "Reference frames");
+        if (region->reference_frames.empty())
+            wrapped(c, "The texture lies where you place it on the first frame with a matte.",
+                    t.quiet);
+        for (const int frame : region->reference_frames) {
+            ImGui::PushID(frame);
+            if (button(c, ("Frame " + std::to_string(frame)).c_str(),
+                       {.icon = icons::kReference,
+                        .look = frame == v.frame ? Look::kNormal : Look::kQuiet}))
+                c.emit(GoToFrame{frame});
+            ImGui::SameLine();
+            if (icon_button(c, icons::kClose, ("Remove " + std::to_string(frame)).c_str(), false,
+                            nullptr, true, t.row)) {
+                std::vector<double> left;
+                for (const int f : region->reference_frames)
+                    if (f != frame) left.push_back(f);
+                c.edit(SetRegionParameter{{region->id, {}}, "reference_frames", left});
+            }
+            ImGui::PopID();
+        }
+        const bool here =
+            std::find(region->reference_frames.begin(), region->reference_frames.end(), v.frame) !=
+            region->reference_frames.end();
+        if (button(c, "Add this frame",
+                   {.icon = icons::kPlus,
+                    .enabled = !here,
+                    .tip = "The surface is followed from here in both directions; between two "
+                           "references the histories blend",
+                    .width = -1})) {
+            std::vector<double> frames(region->reference_frames.begin(),
+                                       region->reference_frames.end());
+            frames.push_back(v.frame);
+            c.edit(SetRegionParameter{{region->id, {}}, "reference_frames", frames});
+        }
+        section_gap(c);
+    }
+    corrections_section(c, *region);
+    if (section(c, "Motion")) {
+        const PanelName panel(c, "Motion");
+        if (!region->motion.track.empty()) {
+            info_row(c, "Follows", region->motion.track,
+                     "A planar track: the surface is as flat as it");
+            if (button(c, "Estimate it instead", {.icon = icons::kRefresh, .width = -1}))
+                c.edit(SetRegionParameter{{region->id, {}}, "motion.track", std::string()});
+        } else if (region->motion.files.empty()) {
+            info_row(c, "From", "Estimated from the plate");
+            if (button(c, "Follow a planar track…",
+                       {.icon = icons::kCrosshairs,
+                        .tip = "Corner pins of Nuke, After Effects or Mocha: .nk, .txt, .json",
+                        .width = -1})) {
+                c.state.browser.purpose = BrowserState::Purpose::kTrack;
+                c.state.browser.just_opened = true;
+            }
+            if (button(c, "Use motion files…",
+                       {.icon = icons::kFolderImage,
+                        .tip = "True motion from a render: .flo or KITTI 16-bit PNG",
+                        .width = -1})) {
+                c.state.browser.purpose = BrowserState::Purpose::kMotion;
+                c.state.browser.just_opened = true;
+            }
+        } else {
+            info_row(c, "Files", region->motion.files);
+            region_parameter(c, *region, "motion.direction", "They point");
+            if (button(c, "Estimate it instead", {.icon = icons::kRefresh, .width = -1}))
+                c.edit(SetRegionParameter{{region->id, {}}, "motion.files", std::string()});
+        }
+        section_gap(c);
+    }
+    if (section(c, "Look at")) {
+        const PanelName panel(c, "Look at");
+        for (const char* id : {"view.grid", "view.stretch", "view.arrows", "view.trust"}) {
+            const Command* command = c.commands.find(id);
+            bool on = command->checked(c);
+            if (checkbox(c, command->name.c_str(), on)) command->run(c);
+        }
+        section_gap(c);
+    }
+    if (section(c, "Through time")) {
+        const PanelName panel(c, "Time");
+        region_parameter(c, *region, "temporal.mode", "The texture is");
+        if (region->temporal.mode == TemporalMode::kPaper) {
+            region_parameter(c, *region, "temporal.blend");
+            region_parameter(c, *region, "temporal.weight");
+        }
+        section_gap(c);
+    }
+}
+
+}  // namespace weft::ui

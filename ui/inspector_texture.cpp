@@ -1,0 +1,153 @@
+// The inspector of the Texture workspace: the texture and where it lies.
+#include <algorithm>
+#include <cmath>
+
+#include "app/session/keyed_text.h"
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+// Beyond this a texel is seen as such.
+constexpr double kMostMagnified = 1.5;
+
+void magnified_warning(Ctx& c, const Region& region) {
+    double scale = region.placement.scale;
+    const KeyedValues keys = read_keyed(region.placement.scale_keys, 1);
+    if (!keys.empty()) scale = keyed_at(keys, c.view.frame)[0];
+    if (scale <= kMostMagnified) return;
+    banner(c, icons::kMagnify, c.theme.warn,
+           "Magnified " + number_text(scale, 1) +
+               " times: it will look soft. Take a larger picture of it.");
+}
+
+void bricks_controls(Ctx& c) {
+    if (c.state.tool != Tool::kMeasure) {
+        if (button(c, "Size by a line",
+                   {.icon = icons::kRuler,
+                    .tip = "Draw a line along a row of bricks or tiles on the plate and say how "
+                           "many it is to cover",
+                    .command = "tool.measure",
+                    .width = -1}))
+            c.state.tool = Tool::kMeasure;
+        return;
+    }
+    if (!c.state.measured) {
+        wrapped(c, "Draw a line on the picture along a row of bricks, tiles or stitches.",
+                c.theme.quiet);
+        return;
+    }
+    double count = c.state.measured_count;
+    if (slider(c,
+               {.label = "Bricks on it",
+                .tip = "How many of them the line is long",
+                .min = 1,
+                .max = 40,
+                .standard = 4,
+                .decimals = 0,
+                .integer = true,
+                .typed_min = 1,
+                .typed_max = 1000},
+               count) != Change::kNone)
+        c.state.measured_count = static_cast<int>(count);
+    if (button(c, "Scale to fit##bricks",
+               {.icon = icons::kRuler, .look = Look::kPrimary, .width = -1}))
+        c.emit(ScaleByLine{c.state.measured->first, c.state.measured->second,
+                           static_cast<double>(c.state.measured_count)});
+}
+
+}  // namespace
+
+void texture_inspector(Ctx& c) {
+    const Region* region = c.view.selected_region();
+    if (!region) return no_region(c);
+    const Theme& t = c.theme;
+    if (section(c, "Texture")) {
+        const PanelName panel(c, "Texture");
+        const bool plane = !region->texture.plane.empty();
+        const std::string& path = plane ? region->texture.plane : region->texture.sample;
+        if (path.empty()) {
+            banner(c, icons::kTexture, t.accent,
+                   "Double-click a texture in the drawer below, or drag one onto the surface.");
+        } else {
+            const PicturePtr thumb = c.textures.thumbnail(
+                path.starts_with('/')
+                    ? path
+                    : c.view.path.substr(0, c.view.path.find_last_of('/') + 1) + path,
+                static_cast<int>(t.px(96)));
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            const float side = t.px(64);
+            ImDrawList& list = *ImGui::GetWindowDrawList();
+            list.AddRectFilled(at, {at.x + side, at.y + side}, t.field, t.radius);
+            if (thumb)
+                if (const ImTextureID id = c.pictures.texture(thumb))
+                    list.AddImageRounded(id, at, {at.x + side, at.y + side}, {0, 0}, {1, 1},
+                                         IM_COL32_WHITE, t.radius);
+            const std::size_t slash = path.find_last_of('/');
+            const float x = at.x + side + t.px(10);
+            const float right = at.x + ImGui::GetContentRegionAvail().x;
+            text_in(
+                list, t.strong, {x, at.y + t.px(4)}, {right, at.y + t.px(24)}, t.text,
+                fitted(path.substr(slash == std::string::npos ? 0 : slash + 1), right - x).c_str(),
+                0);
+            text_in(list, t.small, {x, at.y + t.px(24)}, {right, at.y + t.px(42)}, t.quiet,
+                    plane ? "Used as it is" : "Grown over the surface", 0);
+            ImGui::Dummy({side, side});
+            const bool as_plane = plane;
+            int how = as_plane ? 1 : 0;
+            if (segments(c, "How", {"Grow it", "Use as it is"}, how)) {
+                TextureSource source = region->texture;
+                source.sample = how == 0 ? path : "";
+                source.plane = how == 1 ? path : "";
+                const std::string keep = path;
+                if (how == 0) source.sample = keep;
+                c.edit(SetTexture{{region->id, {}}, source});
+            }
+            if (plane) region_parameter(c, *region, "texture.wrap", "Beyond its edge");
+        }
+        section_gap(c);
+    }
+    if (section(c, "Placement")) {
+        const PanelName panel(c, "Placement");
+        keyed_parameter(c, *region, "placement.scale", "placement.scale_keys");
+        magnified_warning(c, *region);
+        keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
+        keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
+        if (button(c, "Place by hand",
+                   {.icon = icons::kMove,
+                    .tip = "Drag on the picture to move the texture, with Shift to turn it, with "
+                           "Ctrl to scale it",
+                    .command = "tool.place",
+                    .width = -1}))
+            c.state.tool = Tool::kPlace;
+        bricks_controls(c);
+        section_gap(c);
+    }
+    provenance_section(c, *region);
+    if (section(c, "Perspective", false)) {
+        const PanelName panel(c, "Perspective");
+        region_parameter(c, *region, "placement.corners_px", "Corners");
+        const bool set = region->placement.corners_px.has_value();
+        const Size plate = c.view.plate.size;
+        if (!set && button(c, "Set four corners",
+                           {.icon = icons::kCrosshairs,
+                            .enabled = !plate.empty(),
+                            .tip = "Puts four corners on the picture to be dragged to a flat "
+                                   "surface in perspective",
+                            .width = -1})) {
+            const double w = plate.width, h = plate.height;
+            c.edit(SetRegionParameter{{region->id, {}},
+                                      "placement.corners_px",
+                                      std::vector<double>{0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h,
+                                                          0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h}});
+            c.state.tool = Tool::kPlace;
+        }
+        if (set && button(c, "Remove the corners", {.icon = icons::kClose, .width = -1}))
+            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", {}});
+        section_gap(c);
+    }
+}
+
+}  // namespace weft::ui
