@@ -2,6 +2,7 @@
 option(WEFT_WERROR "Treat warnings as errors (CI)" OFF)
 option(WEFT_TESTS "Build the tests" ON)
 option(WEFT_BENCH "Build the benchmarks in bench/" OFF)
+option(WEFT_FUZZ "Build the libFuzzer targets in fuzz/ (clang)" OFF)
 set(WEFT_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address or thread")
 set(WEFT_CUDA AUTO CACHE STRING "CUDA backend: AUTO (when nvcc is found), ON or OFF")
 
@@ -43,6 +44,11 @@ if(WEFT_SANITIZE STREQUAL "address")
 elseif(WEFT_SANITIZE STREQUAL "thread")
     add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
     add_link_options(-fsanitize=thread)
+elseif(WEFT_SANITIZE STREQUAL "fuzzer")
+    # Coverage for libFuzzer, with the sanitizers that find what it provokes.
+    add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer
+                        -fno-sanitize-recover=undefined)
+    add_link_options(-fsanitize=address,undefined)
 elseif(NOT WEFT_SANITIZE STREQUAL "")
-    message(FATAL_ERROR "WEFT_SANITIZE is '${WEFT_SANITIZE}': use address or thread, or leave it empty")
+    message(FATAL_ERROR "WEFT_SANITIZE is '${WEFT_SANITIZE}': use address, thread or fuzzer, or leave it empty")
 endif()

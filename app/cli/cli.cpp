@@ -61,7 +61,7 @@ int run_cli(int argc, char** argv, const EditCommand& edit) {
     // A write beyond the limit on a file's size then fails as on a full disk, with our message.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Weft replaces textures in animation.", "weft");
-    app.set_version_flag("--version", std::string("weft ") + kVersion);
+    app.set_version_flag("--version", [] { return version_text(); });
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.footer(
@@ -78,6 +78,7 @@ int run_cli(int argc, char** argv, const EditCommand& edit) {
     add_edit_command(app, exit, edit);
     add_texture_commands(app, exit);
     add_study_command(app, exit);
+    add_studio_commands(app, exit);
     try {
         const int code = parse(app, argc, argv, exit);
         if (code == 0 && std::ferror(stdout)) {

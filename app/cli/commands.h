@@ -7,6 +7,7 @@
 
 #include "app/cli/console.h"
 #include "app/project/edit.h"
+#include "app/session/path_map.h"
 #include "app/session/render_job.h"
 #include "app/session/study.h"
 #include "engine/metrics/measuring_motion.h"
@@ -19,6 +20,9 @@ struct RunOptions {
     std::string backend = "auto";
     int threads = 0;
     bool overwrite = false, skip_existing = false, resume = false;
+    bool version_up = false;
+    std::vector<RootMap> maps;
+    JobStage stage = JobStage::kAll;
     std::int64_t memory_bytes = 0;  ///< 0: no limit.
     std::string recipe;             ///< Path of the recipe file.
     bool dry_run = false;
@@ -31,6 +35,28 @@ struct RunOptions {
 
 /// `weft replace` and `weft render`: the project has its paths resolved.
 int render_command(const Project& project, const RunOptions& run);
+
+int look_save_command(const std::string& project, const std::string& look,
+                      const std::string& region);
+int look_apply_command(const std::string& look, const std::string& project,
+                       const std::string& region, const std::string& library);
+int collect_command(const std::string& project, const std::string& folder,
+                    const std::string& library, const RunOptions& run);
+struct SubmitOptions {
+    std::string project, engine, folder, cache, library;
+    std::vector<std::string> maps;
+    int chunk = 10, threads = 0;
+    bool run = false, json = false;
+};
+/// `weft submit`, and `weft task`, which the farm's machines run.
+int submit_command(const SubmitOptions& options);
+int task_command(const std::string& job, const std::string& stage, int index, ProgressStyle style);
+int doctor_command(const std::string& assets, bool json);
+/// "weft 0.1.0 (commit abc1234), backends: cpu"
+std::string version_text();
+
+/// `weft cryptomatte`: what a frame's Cryptomatte holds, or what covers pixel `at` ("X,Y").
+int cryptomatte_command(const std::string& path, const std::string& at, bool json);
 
 struct VerifyCommandOptions {
     std::string recipe, frames;

@@ -14,6 +14,8 @@
 namespace weft {
 namespace {
 
+bool speaks_openjd = false;
+
 // Signal handlers may touch nothing but this flag and this pipe.
 const CancelToken& signal_token() {
     static const CancelToken token;
@@ -57,6 +59,16 @@ std::string plain_line(const ProgressEvent& e) {
     return line;
 }
 
+// Progress is a percentage that never falls within a task; one task is one stage or few.
+std::string openjd_lines(const ProgressEvent& e) {
+    char line[160];
+    const double percent =
+        e.total > 0 ? 100.0 * static_cast<double>(e.done) / static_cast<double>(e.total) : 100.0;
+    std::snprintf(line, sizeof line, "openjd_status: %s frame %d\nopenjd_progress: %.1f\n",
+                  e.stage.c_str(), e.frame, percent);
+    return line;
+}
+
 std::string json_line(const ProgressEvent& e) {
     return nlohmann::ordered_json{{"stage", e.stage},
                                   {"frame", e.frame},
@@ -80,11 +92,16 @@ void print_warning(std::string_view text) {
 
 int report_error(const Error& error) {
     print(stderr, "weft: " + error.text() + "\n");
+    if (speaks_openjd) print(stdout, "openjd_fail: " + error.text() + "\n");
     return exit_code(error.code);
 }
 
 ProgressFn progress_printer(ProgressStyle style, bool to_stderr) {
     if (style == ProgressStyle::kNone) return {};
+    if (style == ProgressStyle::kOpenJd) {
+        speaks_openjd = true;
+        return [](const ProgressEvent& event) { print(stdout, openjd_lines(event)); };
+    }
     return [style, stream = to_stderr ? stderr : stdout](const ProgressEvent& event) {
         print(stream, style == ProgressStyle::kPlain ? plain_line(event) : json_line(event));
     };

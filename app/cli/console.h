@@ -12,7 +12,8 @@
 
 namespace weft {
 
-enum class ProgressStyle { kPlain, kJson, kNone };
+/// kOpenJd: the lines that Open Job Description reads on stdout.
+enum class ProgressStyle { kPlain, kJson, kNone, kOpenJd };
 
 /// Prints to a stream and flushes it, so that a farm's log is never behind.
 void print(std::FILE* stream, std::string_view text);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 #include "app/session/memory_plan.h"
@@ -23,13 +24,14 @@ bool begins_with_any(std::string_view flag, std::initializer_list<std::string_vi
 }
 
 bool is_plate_flag(std::string_view flag) {
-    return begins_with_any(flag,
-                           {"--plate", "--plate-layer", "--movie-start", "--plate-space", "--fps"});
+    return begins_with_any(
+        flag, {"--plate", "--plate-layer", "--movie-start", "--plate-space", "--fps", "--missing"});
 }
 
 bool is_output_flag(std::string_view flag) {
-    return begins_with_any(flag, {"--output", "--depth", "--jpeg-quality", "--exr-compression",
-                                  "--movie", "--out-space"});
+    return begins_with_any(flag,
+                           {"--output", "--depth", "--jpeg-quality", "--exr-compression", "--movie",
+                            "--out-space", "--burn-in", "--layers", "--layers-output"});
 }
 
 bool is_matte_flag(std::string_view flag) {
@@ -76,17 +78,21 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
     if (which.matte) {
         command
             .add_option("--matte", mattes_,
-                        "Matte for every frame ('masks/####.png'), or a painted keyframe "
-                        "(12=a.png); repeatable")
+                        "Matte for every frame ('masks/####.png'), a painted keyframe "
+                        "(12=a.png, repeatable), or objects of a Cryptomatte (crypto:NAME)")
             ->type_name("PATH")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command
             .add_option("--holdout", holdouts_,
-                        "Matte of what passes in front of the surface; repeatable")
+                        "Matte of what passes in front of the surface, or crypto:NAME; repeatable")
             ->type_name("PATH")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        command
+            .add_option("--crypto-files", crypto_files_,
+                        "EXR files with the Cryptomatte; default the plate")
+            ->type_name("PATH");
     }
     for (const auto& parameter : region_parameters()) {
         if (parameter.flag.empty()) continue;
@@ -136,8 +142,10 @@ Status ProjectFlags::apply(Region& region) const {
         MatteSource matte = *region.matte;  // how it is read stays
         matte.files.clear();
         matte.keyframes.clear();
+        matte.select.crypto.clear();
         for (const std::string& text : mattes_)
             WEFT_CHECK_OK(add_matte_text(matte, text));
+        if (!matte.select.crypto.empty()) matte.files = crypto_files_;
         region.matte = matte;
     }
     if (!holdouts_.empty()) {
@@ -145,6 +153,7 @@ Status ProjectFlags::apply(Region& region) const {
         for (const std::string& text : holdouts_) {
             MatteSource holdout;
             WEFT_CHECK_OK(add_matte_text(holdout, text));
+            if (!holdout.select.crypto.empty()) holdout.files = crypto_files_;
             holdouts.push_back(std::move(holdout));
         }
         region.holdouts = std::move(holdouts);
@@ -183,8 +192,9 @@ std::shared_ptr<std::string> add_library_flag(CLI::App& command) {
 void add_progress_flags(CLI::App& command, RunOptions& run) {
     const std::map<std::string, ProgressStyle> styles{{"plain", ProgressStyle::kPlain},
                                                       {"json", ProgressStyle::kJson},
-                                                      {"none", ProgressStyle::kNone}};
-    command.add_option("--progress", run.progress, "plain, json or none [plain]")
+                                                      {"none", ProgressStyle::kNone},
+                                                      {"openjd", ProgressStyle::kOpenJd}};
+    command.add_option("--progress", run.progress, "plain, json, openjd or none [plain]")
         ->transform(CLI::CheckedTransformer(styles))
         ->type_name("");
     command.add_flag("--json", run.json, "One JSON object on stdout; progress goes to stderr");
@@ -207,6 +217,31 @@ void add_memory_flag(CLI::App& command, RunOptions& run) {
 
 }  // namespace
 
+void add_map_flag(CLI::App& command, RunOptions& run) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--map",
+            [&run](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    const auto map = parse_root_map(text);
+                    if (!map) throw CLI::ValidationError("--map", map.error().message);
+                    run.maps.push_back(*map);
+                }
+            },
+            "FROM=TO: paths below FROM are below TO on this machine; repeatable")
+        ->type_name("")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+std::string assets_folder() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto installed = program.parent_path().parent_path() / "share" / "weft" / "assets";
+    if (!error && std::filesystem::exists(installed, error)) return installed.string();
+    return WEFT_ASSETS_DIR;
+}
+
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     command.add_option("--threads", run.threads, "Threads to use; 0 is one a processor")
         ->check(CLI::Range(0, 1024));
@@ -222,6 +257,19 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
                      "Keep frames that are there and can be read");
     command.add_flag("--resume", run.resume,
                      "Keep frames that are there and were rendered with these very settings");
+    add_map_flag(command, run);
+    command
+        .add_option_function<std::string>(
+            "--stage",
+            [&run](const std::string& text) {
+                const auto stage = parse_job_stage(text);
+                if (!stage) throw CLI::ValidationError("--stage", stage.error().message);
+                run.stage = *stage;
+            },
+            "A part of the render, for a farm: motion, analyse, planes, frames, encode [all]")
+        ->type_name("");
+    command.add_flag("--version-up", run.version_up,
+                     "Write to the next free version: v003 in the output's path becomes v004");
     command.add_flag("--restart", run.overwrite, "As --overwrite: render all frames again");
     command.add_option("--recipe", run.recipe, "Write what 'weft verify' needs here")
         ->type_name("PATH");

@@ -42,10 +42,15 @@ class ProjectFlags {
     std::list<Given<Project>> project_;  // a list: CLI11 keeps pointers to the entries
     std::list<Given<Region>> region_;
     std::vector<std::string> mattes_, holdouts_;
+    std::string crypto_files_;
 };
 
 /// --db: where textures "db:ID" are; empty: the user's own library.
 [[nodiscard]] std::shared_ptr<std::string> add_library_flag(CLI::App& command);
+/// --map.
+void add_map_flag(CLI::App& command, RunOptions& run);
+/// Where the demo and the other assets are: beside an installed program, else in the sources.
+[[nodiscard]] std::string assets_folder();
 /// --progress and --json.
 void add_progress_flags(CLI::App& command, RunOptions& run);
 /// --threads, --backend, --progress and the like.
@@ -57,6 +62,7 @@ void add_project_commands(CLI::App& app, int& exit);
 void add_synth_commands(CLI::App& app, int& exit);
 void add_tool_commands(CLI::App& app, int& exit);
 void add_edit_command(CLI::App& app, int& exit, const EditCommand& edit);
+void add_studio_commands(CLI::App& app, int& exit);
 void add_study_command(CLI::App& app, int& exit);
 
 }  // namespace weft

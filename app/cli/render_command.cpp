@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/session/recipe.h"
 #include "app/session/report.h"
+#include "app/session/version_up.h"
 #include "engine/core/frame_range.h"
 #include "engine/media/atomic_file.h"
 
@@ -21,6 +22,7 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     spec.cache = run.cache;
     spec.texture_library = run.texture_library;
     spec.memory_bytes = run.memory_bytes;
+    spec.stage = run.stage;
     return spec;
 }
 
@@ -52,7 +54,11 @@ int dry_run(const Project& project, const std::string& texture_library) {
 
 }  // namespace
 
-int render_command(const Project& project, const RunOptions& run) {
+int render_command(const Project& given, const RunOptions& run) {
+    const Project mapped = with_mapped_roots(given, run.maps);
+    const auto versioned = run.version_up ? version_up(mapped) : Expected<Project>(mapped);
+    if (!versioned) return report_error(versioned.error());
+    const Project& project = *versioned;
     if (run.overwrite + run.skip_existing + run.resume > 1) {
         return report_error({ErrorCode::kUsage,
                              std::string(run.resume ? "--resume" : "--skip-existing") + " and " +
@@ -82,7 +88,7 @@ int render_command(const Project& project, const RunOptions& run) {
             return report_error(written.error());
         }
     }
-    if (!run.recipe.empty()) {
+    if (!run.recipe.empty() && run.stage == JobStage::kAll) {
         const auto recipe = recipe_json(*result->shot, *result);
         if (!recipe) return report_error(recipe.error());
         if (const Status written = write_file_atomically(run.recipe, *recipe); !written)

@@ -99,6 +99,20 @@ void add_diff(CLI::App& app, int& exit) {
     command->callback([=, &exit] { exit = diff_command(*options); });
 }
 
+void add_cryptomatte(CLI::App& app, int& exit) {
+    CLI::App* command =
+        app.add_subcommand("cryptomatte", "List a frame's Cryptomatte objects, or pick one");
+    const auto path = std::make_shared<std::string>(), at = std::make_shared<std::string>();
+    const auto json = std::make_shared<bool>(false);
+    command->add_option("file", *path, "EXR with a Cryptomatte")->required()->type_name("PATH");
+    command->add_option("--at", *at, "X,Y: the object that covers most of this pixel")
+        ->type_name("");
+    command->add_flag("--json", *json, "As JSON");
+    command->footer(
+        "Examples:\n  weft cryptomatte cg/0001.exr\n  weft cryptomatte cg/0001.exr --at 320,180");
+    command->callback([=, &exit] { exit = cryptomatte_command(*path, *at, *json); });
+}
+
 void add_verify(CLI::App& app, int& exit) {
     CLI::App* command =
         app.add_subcommand("verify", "Prove that frames are what their recipe gives");
@@ -125,7 +139,7 @@ void add_verify(CLI::App& app, int& exit) {
 void add_demo(CLI::App& app, int& exit) {
     CLI::App* command = app.add_subcommand("demo", "Render the demo shot");
     const auto run = std::make_shared<RunOptions>();
-    const auto assets = std::make_shared<std::string>(WEFT_ASSETS_DIR);
+    const auto assets = std::make_shared<std::string>(assets_folder());
     const auto output = std::make_shared<std::string>();
     command->add_option("-o,--output", *output, "Folder to write [weft-demo]")->type_name("PATH");
     command->add_option("--assets", *assets, "Folder of the demo's assets")->type_name("PATH");
@@ -139,6 +153,7 @@ void add_demo(CLI::App& app, int& exit) {
 void add_tool_commands(CLI::App& app, int& exit) {
     add_measure(app, exit);
     add_diff(app, exit);
+    add_cryptomatte(app, exit);
     add_verify(app, exit);
     add_demo(app, exit);
 }

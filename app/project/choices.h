@@ -39,6 +39,24 @@ struct Choices<MotionDirection> {
         {{MotionDirection::kForward, "forward"}, {MotionDirection::kBackward, "backward"}}};
 };
 template <>
+struct Choices<MissingFrames> {
+    static constexpr std::array<std::pair<MissingFrames, std::string_view>, 4> kNames{
+        {{MissingFrames::kError, "error"},
+         {MissingFrames::kHold, "hold"},
+         {MissingFrames::kBlack, "black"},
+         {MissingFrames::kSkip, "skip"}}};
+};
+template <>
+struct Choices<MotionConvention> {
+    static constexpr std::array<std::pair<MotionConvention, std::string_view>, 6> kNames{
+        {{MotionConvention::kFiles, "files"},
+         {MotionConvention::kBlender, "blender"},
+         {MotionConvention::kNuke, "nuke"},
+         {MotionConvention::kMoonray, "moonray"},
+         {MotionConvention::kFlame, "flame"},
+         {MotionConvention::kArnold, "arnold"}}};
+};
+template <>
 struct Choices<SeamMethod> {
     static constexpr std::array<std::pair<SeamMethod, std::string_view>, 3> kNames{
         {{SeamMethod::kGraphCut, "graphcut"},

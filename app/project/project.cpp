@@ -91,6 +91,14 @@ Status add_matte_text(MatteSource& matte, std::string_view text) {
             return fail(
                 ErrorCode::kUsage,
                 "'" + shown + "' is a second matte; give one pattern, or keyframes as FRAME=FILE");
+        constexpr std::string_view kCrypto = "crypto:";
+        if (text.starts_with(kCrypto)) {
+            matte.select.crypto = text.substr(kCrypto.size());
+            if (matte.select.crypto.empty())
+                return fail(ErrorCode::kUsage,
+                            "'" + shown + "' names no object; write crypto:NAME");
+            return {};
+        }
         matte.files = shown;
         return {};
     }
@@ -115,6 +123,7 @@ Project map_paths(const Project& project,
     map(out.plate.path);
     map(out.output.path);
     map(out.output.movie);
+    map(out.output.layers_path);
     for (Leaf<Region>& leaf : out.regions) {
         leaf = leaf.with([&](Region& region) {
             region.matte = map_matte(region.matte, map);
@@ -127,6 +136,7 @@ Project map_paths(const Project& project,
             for (std::string& path : region.texture.also)
                 map(path);
             map(region.texture.plane);
+            map(region.placement.uv);
             map(region.motion.files);
             map(region.motion.track);
             map(region.light.image);
@@ -139,10 +149,10 @@ Project map_paths(const Project& project,
 }
 
 std::size_t own_bytes(const MatteSource& matte) {
-    std::size_t bytes =
-        sizeof matte +
-        heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel, matte.extra) +
-        matte.frozen.capacity() * sizeof(int);
+    std::size_t bytes = sizeof matte +
+                        heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel,
+                                      matte.select.crypto, matte.extra) +
+                        matte.frozen.capacity() * sizeof(int);
     for (const auto& [frame, key] : matte.keyframes)
         bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra);
     return bytes;
@@ -158,10 +168,12 @@ std::size_t own_bytes(const Region& r) {
     return sizeof r + pins + samples + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.scale_keys, r.placement.rotate_keys,
-                         r.placement.offset_keys, r.placement.extra, r.motion.files, r.motion.track,
+                         r.placement.offset_keys, r.placement.uv, r.placement.uv_layer,
+                         r.placement.extra, r.motion.files, r.motion.track, r.motion.layer,
                          r.motion.extra, r.synthesis.extra, r.temporal.extra, r.light.image,
                          r.light.extra, r.light.strength_keys, r.light.lamps, r.light.albedo,
-                         r.light.lighting, r.finish.extra, r.lines.files, r.lines.extra, r.extra);
+                         r.light.lighting, r.light.pass_layer, r.finish.extra, r.lines.files,
+                         r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {
@@ -169,7 +181,8 @@ std::size_t own_bytes(const Project& p) {
            heap_bytes_of(p.name, p.plate.path, p.plate.layer, p.plate.space, p.plate.extra,
                          p.color.working_space, p.color.texture_space, p.color.out_space,
                          p.color.extra, p.settings.frames, p.settings.extra, p.output.path,
-                         p.output.movie, p.output.exr_compression, p.output.extra, p.extra);
+                         p.output.movie, p.output.layers, p.output.layers_path,
+                         p.output.exr_compression, p.output.extra, p.extra);
 }
 
 }  // namespace weft

@@ -36,6 +36,14 @@ struct PlatePoint {
 /// random numbers and cached analysis, so it must survive renaming and reordering.
 using RegionId = std::uint32_t;
 
+/// What stands for a frame that the plate has not.
+enum class MissingFrames {
+    kError,
+    kHold,   ///< The frame before it.
+    kBlack,  ///< A black frame.
+    kSkip    ///< Nothing is rendered.
+};
+
 /// The sequence whose surfaces are replaced.
 struct Plate {
     std::string path;        ///< Pattern ("frames/####.png"), folder or movie.
@@ -43,6 +51,7 @@ struct Plate {
     int movie_start = 1001;  ///< Number of a movie's first frame.
     std::string space;       ///< Colour space; empty: by the file type.
     double fps = 0;          ///< 0: as the files say, else 24.
+    MissingFrames missing = MissingFrames::kError;
     Extras extra;
     bool operator==(const Plate&) const = default;
 };
@@ -74,8 +83,11 @@ struct Output {
     OutputDepth depth =
         OutputDepth::kAuto;  ///< kAuto: the plate's, or the nearest the format holds.
     int jpeg_quality = 95;
-    std::string exr_compression = "zip";
-    std::string movie;  ///< Review movie (.mp4, .mkv); empty: none.
+    std::string exr_compression = "auto";
+    std::string movie;        ///< Review movie (.mp4, .mkv); empty: none.
+    bool burn_in = false;     ///< The movie names frame, version and colour space.
+    std::string layers;       ///< Layers for compositing, by commas: patch, light, st …, or all.
+    std::string layers_path;  ///< EXR files of their own for them; empty: into the output.
     Extras extra;
     bool operator==(const Output&) const = default;
 };
@@ -96,7 +108,9 @@ struct MatteSource {
     std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated …
     std::string frozen_files;  ///< … from files of this pattern.
     Extras extra;
-    [[nodiscard]] bool empty() const { return files.empty() && keyframes.empty(); }
+    [[nodiscard]] bool empty() const {
+        return files.empty() && keyframes.empty() && select.crypto.empty();
+    }
     bool operator==(const MatteSource&) const = default;
 };
 
@@ -129,6 +143,8 @@ struct Placement {
     bool fit = true;
     /// Instead of the above, over time: "1:1 24:1.5", "1:0 24:90", "1:0,0 24:10,5".
     std::string scale_keys, rotate_keys, offset_keys;
+    std::string uv;        ///< Pattern of a UV pass or ST-map: where the texture lies, exactly.
+    std::string uv_layer;  ///< Empty: found.
     Extras extra;
     bool operator==(const Placement&) const = default;
 };
@@ -137,6 +153,8 @@ struct Placement {
 struct MotionSource {
     std::string files;  ///< Pattern of true motion; empty: estimated from the plate.
     MotionDirection direction = MotionDirection::kForward;
+    MotionConvention convention = MotionConvention::kFiles;
+    std::string layer;  ///< EXR layer of the motion pass; empty: found.
     std::string track;  ///< File of a planar track that the surface follows instead.
     Extras extra;
     bool operator==(const MotionSource&) const = default;
@@ -173,6 +191,8 @@ struct LightParams {
     double highlights = 0;      ///< How much of the old surface's gloss is kept.
     std::string albedo;         ///< Pattern of the artist's unlit colour.
     std::string lighting;       ///< Pattern of the artist's lighting pass.
+    std::string pass_layer;     ///< EXR layer of these two; empty: R, G, B.
+    bool exact = false;         ///< Their light as it is, not relative to the reference frame's.
     Extras extra;
     bool operator==(const LightParams&) const = default;
 };

@@ -37,6 +37,11 @@ std::vector<Parameter<Project>> make_project_table() {
                                           .help = "Frame rate; 0: as the plate says",
                                           .min = 0,
                                           .max = 1000}),
+        entry<P, &P::plate, &Plate::missing>({.group = "plate",
+                                              .key = "missing",
+                                              .flag = "--missing",
+                                              .help = "What stands for frames that the plate has "
+                                                      "not"}),
         entry<P, &P::color, &ColorSettings::working_space>(
             {.group = "color",
              .key = "working_space",
@@ -95,12 +100,29 @@ std::vector<Parameter<Project>> make_project_table() {
             {.group = "output",
              .key = "exr_compression",
              .flag = "--exr-compression",
-             .help = "Compression of EXR images: none, rle, zip, zips, piz, dwaa, …"}),
+             .help = "Compression of EXR images: auto, none, rle, zip, zips, piz, dwaa, …"}),
         entry<P, &P::output, &Output::movie>(
             {.group = "output",
              .key = "movie",
              .flag = "--movie",
              .help = "Review movie to write: .mp4, or .mkv for lossless",
+             .is_path = true}),
+        entry<P, &P::output, &Output::burn_in>(
+            {.group = "output",
+             .key = "burn_in",
+             .flag = "--burn-in",
+             .help = "Write frame, version and colour space into the movie's picture"}),
+        entry<P, &P::output, &Output::layers>(
+            {.group = "output",
+             .key = "layers",
+             .flag = "--layers",
+             .help = "EXR layers for compositing: all, or of patch, edge, light, st, matte, seam, "
+                     "id, with commas"}),
+        entry<P, &P::output, &Output::layers_path>(
+            {.group = "output",
+             .key = "layers_path",
+             .flag = "--layers-output",
+             .help = "Pattern of EXR files of their own for the layers",
              .is_path = true}),
     };
 }

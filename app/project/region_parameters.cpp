@@ -35,6 +35,8 @@ std::vector<Parameter<Owner>> matte_entries() {
              .key = "invert",
              .flag = "--matte-invert",
              .help = "The surface is where the matte is black"}),
+        entry<Owner, Path..., &MatteSource::select, &MatteSelect::crypto>(
+            {.group = "matte", .key = "crypto", .help = "Objects of a Cryptomatte, with commas"}),
         entry<Owner, Path..., &MatteSource::steadiness>(
             {.group = "matte",
              .key = "steadiness",
@@ -157,6 +159,17 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "offset_keys",
              .flag = "--offset-keys",
              .help = "Shift over time, FRAME:X,Y between spaces, instead of one"}),
+        entry<R, &R::placement, &Placement::uv>(
+            {.group = "placement",
+             .key = "uv",
+             .flag = "--uv",
+             .help = "UV pass or ST-map, EXR: which place of the texture each pixel shows, exactly",
+             .is_path = true}),
+        entry<R, &R::placement, &Placement::uv_layer>(
+            {.group = "placement",
+             .key = "uv_layer",
+             .flag = "--uv-layer",
+             .help = "EXR layer of the UV pass; default the one that ends in UV"}),
         entry<R, &R::reference_frames>({.key = "reference_frames",
                                         .flag = "--reference-frame",
                                         .help = "Frame on which the texture is placed; further "
@@ -175,6 +188,16 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "direction",
              .flag = "--motion-direction",
              .help = "Whether a motion file points to the next frame or to the previous one"}),
+        entry<R, &R::motion, &MotionSource::convention>(
+            {.group = "motion",
+             .key = "convention",
+             .flag = "--motion-convention",
+             .help = "How a renderer's motion pass is meant; files: .flo and KITTI"}),
+        entry<R, &R::motion, &MotionSource::layer>(
+            {.group = "motion",
+             .key = "layer",
+             .flag = "--motion-layer",
+             .help = "EXR layer of the motion pass; default by the convention"}),
         entry<R, &R::motion, &MotionSource::track>(
             {.group = "motion",
              .key = "track",
@@ -307,6 +330,17 @@ std::vector<Parameter<Region>> make_region_table() {
              .flag = "--lighting",
              .help = "Pattern of a pass of the plate's light alone: gives the exact light",
              .is_path = true}),
+        entry<R, &R::light, &LightParams::pass_layer>(
+            {.group = "light",
+             .key = "pass_layer",
+             .flag = "--light-layer",
+             .help = "EXR layer of the albedo or lighting pass"}),
+        entry<R, &R::light, &LightParams::exact>(
+            {.group = "light",
+             .key = "exact",
+             .flag = "--light-exact",
+             .help = "Take the pass's light as it is, colour included, not relative to the "
+                     "reference frame's"}),
         entry<R, &R::finish, &FinishParams::grain>(
             {.group = "finish",
              .key = "grain",

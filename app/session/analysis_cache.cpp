@@ -1,15 +1,14 @@
 #include "app/session/analysis_cache.h"
 
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
+#include "app/session/blob_file.h"
+#include "app/session/stage_cache.h"
 #include "engine/core/hash.h"
 #include "engine/media/atomic_file.h"
 #include "engine/media/sequence_pattern.h"
@@ -55,7 +54,8 @@ Status add_matte(Hasher& hasher, const MatteSource& matte) {
     hasher.value(matte.steadiness);
     hasher.value(matte.select.value.value_or(-1))
         .text(matte.select.channel)
-        .value(matte.select.invert);
+        .value(matte.select.invert)
+        .text(matte.select.crypto);
     return {};
 }
 
@@ -77,7 +77,10 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index) {
     for (const MatteSource& holdout : *region.holdouts)
         WEFT_CHECK_OK(add_matte(hasher, holdout));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
-    hasher.value(plan.motion_forward);
+    hasher.value(plan.motion_forward)
+        .value(static_cast<int>(region.motion.convention))
+        .text(region.motion.layer)
+        .value(static_cast<int>(shot.project.plate.missing));
     for (const auto& [frame, quad] : plan.track) {
         hasher.value(frame);
         for (const glm::dvec2 corner : quad)
@@ -148,19 +151,6 @@ const char* kind_name(AnalysisKind kind) {
     return "";
 }
 
-// Before the compressed bytes.
-struct Header {
-    char magic[8] = {'w', 'e', 'f', 't', 'b', 'l', 'b', '1'};
-    std::uint64_t raw_bytes = 0;
-    std::uint64_t check_high = 0, check_low = 0;
-};
-
-Hash128 checksum(const Bytes& bytes) {
-    Hasher hasher;
-    hasher.bytes(bytes.data(), bytes.size());
-    return hasher.finish();
-}
-
 class DiskStore final : public AnalysisStore {
   public:
     DiskStore(std::vector<fs::path> folders, std::optional<TemporaryFolder> private_root)
@@ -170,28 +160,8 @@ class DiskStore final : public AnalysisStore {
     [[nodiscard]] bool has(const AnalysisKey& key) const override { return get(key).has_value(); }
 
     [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
-        uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-        Bytes packed(size);
-        compress2(packed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), 1);
-        const Hash128 check = checksum(bytes);
-        Header header;
-        header.raw_bytes = bytes.size();
-        header.check_high = check.high;
-        header.check_low = check.low;
-
         const fs::path path = path_of(key);
-        auto temporary = TemporaryFile::create(path.string());
-        Status written = temporary ? Status{} : tl::unexpected(temporary.error());
-        if (written) {
-            std::ofstream file(temporary->name(), std::ios::binary);
-            file.write(reinterpret_cast<const char*>(&header), sizeof header);
-            file.write(reinterpret_cast<const char*>(packed.data()),
-                       static_cast<std::streamsize>(size));
-            file.close();
-            written = file ? temporary->commit_unflushed()
-                           : Status(fail(ErrorCode::kNoSpace, "cannot be written"));
-        }
-        if (!written) {
+        if (!write_blob(path.string(), bytes)) {
             return fail(ErrorCode::kNoSpace, "The analysis cache " + path.parent_path().string() +
                                                  " cannot be written. Free disk space, or choose "
                                                  "another folder with --cache.");
@@ -200,26 +170,9 @@ class DiskStore final : public AnalysisStore {
     }
 
     [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
-        std::ifstream file(path_of(key), std::ios::binary);
-        Header header;
-        const Header expected;
-        file.read(reinterpret_cast<char*>(&header), sizeof header);
-        constexpr std::uint64_t kLargest = 1ull << 32;
-        if (!file || std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0 ||
-            header.raw_bytes > kLargest) {
-            return missing(key);
-        }
-        const Bytes packed{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-        Bytes bytes(header.raw_bytes);
-        auto size = static_cast<uLongf>(bytes.size());
-        const bool unpacked = uncompress(bytes.data(), &size, packed.data(),
-                                         static_cast<uLong>(packed.size())) == Z_OK;
-        const Hash128 check = checksum(bytes);
-        if (!unpacked || size != bytes.size() || check.high != header.check_high ||
-            check.low != header.check_low) {
-            return missing(key);
-        }
-        return bytes;
+        auto bytes = read_blob(path_of(key).string());
+        if (!bytes) return missing(key);
+        return std::move(*bytes);
     }
 
   private:
@@ -262,6 +215,7 @@ void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint6
     std::error_code error;
     for (const auto& folder : fs::directory_iterator(root, error)) {
         Entry entry{fs::last_write_time(folder.path(), error), 0, folder.path()};
+        if (folder.is_regular_file(error)) entry.bytes = folder.file_size(error);
         for (const auto& file : fs::directory_iterator(folder.path(), error)) {
             entry.bytes += file.is_regular_file(error) ? file.file_size(error) : 0;
         }
@@ -280,10 +234,14 @@ void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint6
 
 }  // namespace
 
+std::string cache_root(const AnalysisCacheOptions& options) {
+    return options.folder.empty() ? default_folder().string() : options.folder;
+}
+
 Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
                                                              const AnalysisCacheOptions& options,
                                                              std::vector<std::string>& warnings) {
-    fs::path root = options.folder.empty() ? default_folder() : fs::path(options.folder);
+    fs::path root = cache_root(options);
     bool keep = options.keep;
     if (keep && !root.empty()) root /= "analysis";
     if (keep && (root.empty() || !writable(root))) {
@@ -314,7 +272,12 @@ Expected<std::shared_ptr<AnalysisStore>> open_analysis_cache(const Shot& shot,
         fs::last_write_time(folders.back(), fs::file_time_type::clock::now(), error);
         remove_stale_temporaries((folders.back() / "blob").string());
     }
-    if (keep) prune(root, folders, options.limit_bytes);
+    if (keep) {
+        prune(root, folders, options.limit_bytes);
+        // Motion is large and planes are made again in seconds.
+        prune(root.parent_path() / "motion", {}, options.limit_bytes / 2);
+        prune(root.parent_path() / "planes", {}, options.limit_bytes / 16);
+    }
     return std::make_shared<DiskStore>(std::move(folders), std::move(private_root));
 }
 

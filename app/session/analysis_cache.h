@@ -16,6 +16,9 @@ struct AnalysisCacheOptions {
     std::uint64_t limit_bytes = 16ull << 30;  ///< The longest unused analyses go first.
 };
 
+/// Where the cache is: `folder` itself, or what stands for an empty one; empty when there is none.
+[[nodiscard]] std::string cache_root(const AnalysisCacheOptions& options);
+
 /// Opens the cache for a shot. Each region has a folder named by the hash of all that its analysis
 /// depends on (the plate's, mattes', holdouts' and motion's files by name, size and time; spaces,
 /// quality, references, and in the paper mode the texture): a change of the placement or the

@@ -22,11 +22,17 @@ std::vector<int> frames_between(int first, int last) {
     return out;
 }
 
-Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted) {
+// Where the plate holds a frame in place of a missing one, so does whatever belongs to it.
+Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
+                     const FrameReader& plate) {
     WEFT_TRY(pattern, SequencePattern::parse(text));
     if (pattern.is_single()) return {};
     WEFT_TRY(present, pattern.list_frames());
-    const std::vector<int> missing = missing_in(wanted, present);
+    std::vector<int> missing = missing_in(wanted, present);
+    std::erase_if(missing, [&](int frame) {
+        return plate.shown_frame(frame) != frame &&
+               std::binary_search(present.begin(), present.end(), plate.shown_frame(frame));
+    });
     if (missing.empty()) return {};
     return fail(ErrorCode::kMissingFrames,
                 std::string(what) + " " + text + " has no file for " + frames_text(missing) +
@@ -119,8 +125,13 @@ std::string frames_text(const std::vector<int>& frames) {
 }
 
 Expected<std::vector<int>> frames_to_render(const Project& project, const FrameReader& plate) {
-    if (project.settings.frames.empty()) return plate.frames();
-    WEFT_TRY(frames, parse_frame_list(project.settings.frames));
+    std::vector<int> frames = plate.frames();
+    if (!project.settings.frames.empty()) {
+        WEFT_TRY(list, parse_frame_list(project.settings.frames));
+        frames = std::move(list);
+    }
+    if (project.plate.missing == MissingFrames::kSkip)
+        std::erase_if(frames, [&](int frame) { return plate.shown_frame(frame) != frame; });
     const std::vector<int> missing = missing_in(frames, plate.frames());
     if (!missing.empty()) {
         return fail(ErrorCode::kMissingFrames, "The plate " + project.plate.path + " has no " +
@@ -141,17 +152,20 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
                         ", which the surface has to be followed through. Restore the files, or "
                         "choose --frames and --reference-frame on one side of the gap.");
     }
-    if (!plan.propagated()) WEFT_CHECK_OK(check_pattern(region.matte->files, "The matte", all));
+    if (!plan.propagated())
+        WEFT_CHECK_OK(check_pattern(region.matte->files, "The matte", all, plate));
     for (const MatteSource& holdout : *region.holdouts) {
-        WEFT_CHECK_OK(check_pattern(holdout.files, "The holdout", all));
+        WEFT_CHECK_OK(check_pattern(holdout.files, "The holdout", all, plate));
     }
     for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
-        if (!pass.empty()) WEFT_CHECK_OK(check_pattern(pass, "The lighting pass", all));
+        if (!pass.empty()) WEFT_CHECK_OK(check_pattern(pass, "The lighting pass", all, plate));
     }
+    if (plan.has_uv)
+        WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
     if (plan.has_depth)
-        WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames));
+        WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames, plate));
     if (plan.has_lines) {
-        WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames));
+        WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames, plate));
     }
     if (!plan.track.empty() && plan.temporal != TemporalMode::kNone) {
         std::vector<int> tracked;
@@ -167,7 +181,8 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
         }
     }
     if (plan.true_motion && plan.temporal != TemporalMode::kNone) {
-        WEFT_CHECK_OK(check_pattern(region.motion.files, "The motion", motion_frames(plan, span)));
+        WEFT_CHECK_OK(
+            check_pattern(region.motion.files, "The motion", motion_frames(plan, span), plate));
     }
     return {};
 }

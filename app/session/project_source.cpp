@@ -1,6 +1,7 @@
 #include "app/session/project_source.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "engine/color/color_space.h"
 #include "engine/media/image_files.h"
@@ -11,13 +12,15 @@ namespace {
 
 class ProjectSource final : public ShotSource {
   public:
-    ProjectSource(std::shared_ptr<const CachedReader> plate, std::vector<Leaf<Region>> regions)
-        : plate_(std::move(plate)), regions_(std::move(regions)) {}
+    ProjectSource(std::shared_ptr<const CachedReader> plate, std::vector<Leaf<Region>> regions,
+                  std::shared_ptr<CutWatch> cuts)
+        : plate_(std::move(plate)), regions_(std::move(regions)), cuts_(std::move(cuts)) {}
 
     [[nodiscard]] Size size() const override { return plate_->size(); }
 
     [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override {
         WEFT_TRY(decoded, plate_->read_shared(frame));
+        if (cuts_) cuts_->look_at(frame, decoded->rgb, plate_->display_encoded());
         return std::shared_ptr<const ImageF3>(decoded, &decoded->rgb);
     }
 
@@ -50,7 +53,7 @@ class ProjectSource final : public ShotSource {
         WEFT_TRY(pattern, SequencePattern::parse(lines.files));
         MatteSelect select;
         select.invert = lines.invert;
-        return read_matte(pattern.path_for(frame), select, size());
+        return read_matte(path_on(pattern, frame), select, size());
     }
 
     [[nodiscard]] Expected<ImageF1> depth(int region, int frame) const override {
@@ -70,14 +73,22 @@ class ProjectSource final : public ShotSource {
     }
 
     [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
-        WEFT_TRY(pattern, SequencePattern::parse(at(region).motion.files));
-        return read_flow(pattern.path_for(frame), size());
+        const MotionSource& motion = at(region).motion;
+        WEFT_TRY(pattern, SequencePattern::parse(motion.files));
+        return read_motion(pattern.path_for(frame),
+                           {motion.convention, motion.direction, motion.layer}, size());
+    }
+
+    [[nodiscard]] Expected<ImageF2> uv(int region, int frame) const override {
+        const Placement& placement = at(region).placement;
+        WEFT_TRY(pattern, SequencePattern::parse(placement.uv));
+        return read_uv(path_on(pattern, frame), placement.uv_layer, size());
     }
 
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         const LightParams& light = at(region).light;
         const std::string& given = light.lighting.empty() ? light.albedo : light.lighting;
-        WEFT_TRY(picture, read_pass(given, frame));
+        WEFT_TRY(picture, read_pass(given, frame, light.pass_layer));
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
         WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
         to_linear->apply(picture.rgb);
@@ -89,10 +100,11 @@ class ProjectSource final : public ShotSource {
         return *regions_[static_cast<std::size_t>(region)];
     }
     // A picture of the plate's size, one a frame or the same for all.
-    [[nodiscard]] Expected<PlateFrame> read_pass(const std::string& files, int frame) const {
+    [[nodiscard]] Expected<PlateFrame> read_pass(const std::string& files, int frame,
+                                                 const std::string& layer = {}) const {
         WEFT_TRY(pattern, SequencePattern::parse(files));
-        const std::string path = pattern.is_single() ? files : pattern.path_for(frame);
-        WEFT_TRY(picture, read_image(path));
+        const std::string path = pattern.is_single() ? files : path_on(pattern, frame);
+        WEFT_TRY(picture, read_image(path, layer));
         if (picture.rgb.size() != size()) {
             return fail(ErrorCode::kUnreadable,
                         path + " is " + std::to_string(picture.rgb.width()) + " x " +
@@ -103,18 +115,28 @@ class ProjectSource final : public ShotSource {
     }
     [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
         WEFT_TRY(pattern, SequencePattern::parse(source.files));
-        return read_matte(pattern.path_for(frame), source.select, size());
+        return read_matte(path_on(pattern, frame), source.select, size());
+    }
+    // Where the plate holds a frame in place of a missing one, a file that is missing too is held.
+    [[nodiscard]] std::string path_on(const SequencePattern& pattern, int frame) const {
+        const int shown = plate_->shown_frame(frame);
+        std::error_code ignored;
+        const std::string path = pattern.path_for(frame);
+        if (shown == frame || std::filesystem::exists(path, ignored)) return path;
+        return pattern.path_for(shown);
     }
 
     std::shared_ptr<const CachedReader> plate_;
     std::vector<Leaf<Region>> regions_;
+    std::shared_ptr<CutWatch> cuts_;
 };
 
 }  // namespace
 
 std::shared_ptr<const ShotSource> make_project_source(std::shared_ptr<const CachedReader> plate,
-                                                      std::vector<Leaf<Region>> regions) {
-    return std::make_shared<ProjectSource>(std::move(plate), std::move(regions));
+                                                      std::vector<Leaf<Region>> regions,
+                                                      std::shared_ptr<CutWatch> cuts) {
+    return std::make_shared<ProjectSource>(std::move(plate), std::move(regions), std::move(cuts));
 }
 
 }  // namespace weft

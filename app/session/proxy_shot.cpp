@@ -111,6 +111,20 @@ class ProxySource final : public ShotSource {
     [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
         return shot_.source->motion(region, frame);
     }
+    // Coordinates are not averaged: across a border of the pass that would be a third place.
+    [[nodiscard]] Expected<ImageF2> uv(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->uv(region, frame));
+        ImageF2 out(size());
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const float* from =
+                    full.pixel(std::min(full.width() - 1, x * factor_ + factor_ / 2),
+                               std::min(full.height() - 1, y * factor_ + factor_ / 2));
+                std::copy_n(from, 2, out.pixel(x, y));
+            }
+        }
+        return out;
+    }
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         WEFT_TRY(full, shot_.source->light_pass(region, frame));
         return shrunk(full, factor_);

@@ -36,6 +36,8 @@ Project essence(const Project& project) {
     out.settings.excluded_licences.clear();
     out.output.path = fs::path(project.output.path).extension().string();
     out.output.movie.clear();
+    out.output.layers_path.clear();
+    out.output.burn_in = false;
     std::erase_if(out.regions, [](const Leaf<Region>& region) { return !region->enabled; });
     for (Leaf<Region>& region : out.regions) {
         region = region.with([](Region& r) {
@@ -269,6 +271,9 @@ Expected<VerifyResult> verify_recipe(const VerifyOptions& options, const CancelT
     JobSpec spec = options.run;
     spec.project = recipe.project;
     spec.project.output.movie.clear();
+    if (!spec.project.output.layers_path.empty())
+        spec.project.output.layers_path =
+            (fs::path(folder.path()) / "layers" / "####.exr").string();
     spec.project.output.path =
         (fs::path(folder.path()) / fs::path(recipe.project.output.path).filename()).string();
     spec.project.settings.frames = format_frame_list(wanted);

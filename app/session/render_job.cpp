@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
 
+#include "app/session/burn_in.h"
 #include "app/session/existing_frames.h"
+#include "app/session/frame_plan.h"
 #include "app/session/job_warnings.h"
+#include "app/session/layer_files.h"
 #include "app/session/memory_plan.h"
 #include "app/session/output_check.h"
 #include "app/session/recipe.h"
+#include "app/session/stage_cache.h"
+#include "app/session/version_up.h"
 #include "engine/core/parallel.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -44,11 +50,18 @@ class RenderJob {
         WEFT_CHECK_OK(open());
         result_.seconds.open = seconds_since(start);
         const auto work = Clock::now();
+        if (spec_.stage == JobStage::kMotion) {
+            WEFT_CHECK_OK(keep_motion(*shot_->source, plan_, shot_->plan.frames, whole_span(),
+                                      cancel_, progress_));
+            return std::move(result_);
+        }
         WEFT_CHECK_OK(timed(result_.seconds.analyse, [&]() -> Status {
-            if (to_render_.empty()) return {};
+            if (to_render_.empty() || spec_.stage == JobStage::kEncode) return {};
             return analyse_shot(*shot_->source, plan_, *store_, cancel_, progress_, backend_.get());
         }));
         WEFT_CHECK_OK(timed(result_.seconds.synthesise, [&] { return make_scenes(); }));
+        if (spec_.stage == JobStage::kAnalyse || spec_.stage == JobStage::kPlanes)
+            return std::move(result_);
         WEFT_CHECK_OK(timed(result_.seconds.render, [&] { return render_all(); }));
         result_.fps = static_cast<double>(to_render_.size()) / std::max(1e-9, seconds_since(work));
         result_.seconds.total = seconds_since(start);
@@ -112,6 +125,10 @@ class RenderJob {
         WEFT_CHECK_OK(check_existing());
         WEFT_TRY(store, open_analysis_cache(*shot_, spec_.cache, result_.warnings));
         store_ = store;
+        if (const std::string root = cache_root(spec_.cache); spec_.cache.keep && !root.empty()) {
+            WEFT_TRY(stages, open_stage_cache(*shot_, root));
+            plan_.stages = stages;
+        }
         return {};
     }
 
@@ -121,7 +138,60 @@ class RenderJob {
         write_.jpeg_quality = output.jpeg_quality;
         write_.exr_compression = output.exr_compression;
         write_.metadata = recipe_metadata(*shot_, result_.backend);
+        write_.pixel_aspect = shot_->plate->pixel_aspect();
+        WEFT_TRY(layers, parse_layer_names(output.layers));
+        layer_names_ = std::move(layers);
+        WEFT_CHECK_OK(choose_layer_files());
         return check_format(output.path, write_);
+    }
+
+    // Layers go into the output where it is an EXR, else into files of their own.
+    Status choose_layer_files() {
+        const Output& output = shot_->project.output;
+        is_exr_ = output.path.ends_with(".exr") || output.path.ends_with(".EXR");
+        if (layer_names_.empty()) return {};
+        if (output.layers_path.empty()) {
+            if (is_exr_) return {};
+            return fail(ErrorCode::kUsage,
+                        "Layers need an EXR. Write the output as .exr, or give the layers files of "
+                        "their own with --layers-output 'layers/####.exr'.");
+        }
+        WEFT_TRY(pattern, SequencePattern::parse(output.layers_path));
+        WEFT_CHECK_OK(check_format(output.layers_path, {.depth = PixelDepth::kHalf}));
+        WEFT_CHECK_OK(make_output_folder(pattern.path_for(plan_.frames.front())));
+        remove_stale_temporaries(pattern.path_for(plan_.frames.front()));
+        layer_pattern_ = std::move(pattern);
+        return {};
+    }
+
+    Status write_frame(int frame, const std::string& path, const RenderedFrame& rendered,
+                       const ImageF1& alpha) const {
+        std::vector<ExrLayer> layers;
+        if (rendered.layers) layers = exr_layers(*rendered.layers, layer_names_);
+        if (layer_pattern_) {
+            const ExrFrame apart{rendered.pixels, {}, {}, {}, {}, std::move(layers)};
+            WriteOptions half = write_;
+            half.depth = PixelDepth::kHalf;
+            WEFT_CHECK_OK(write_exr(layer_pattern_->path_for(frame), apart, half));
+            layers.clear();
+        }
+        if (!is_exr_) return write_image(path, rendered.pixels, alpha, write_);
+        ExrFrame exr{rendered.pixels, alpha, {}, {}, {}, std::move(layers)};
+        const std::string source = shot_->plate->path_of(frame);
+        const std::string& layer = shot_->project.plate.layer;
+        // Of the plate's own depth: else it would be another kind of picture.
+        if (write_.depth == shot_->plate->depth() && is_exr_with_colour(source, layer)) {
+            exr.source = source;
+            exr.source_layer = layer;
+            if (shot_->spaces.plate == shot_->spaces.out) exr.touched = rendered.touched;
+        }
+        return write_exr(path, exr, write_);
+    }
+
+    // What stands for a frame that the plate has not, where it is to be black.
+    [[nodiscard]] bool is_black(int frame) const {
+        return shot_->project.plate.missing == MissingFrames::kBlack &&
+               shot_->plate->shown_frame(frame) != frame;
     }
 
     // Makes the folder, and decides about frames that are there already, before any work is done.
@@ -132,7 +202,12 @@ class RenderJob {
         for (const int frame : plan_.frames)
             WEFT_CHECK_OK(check_no_input(*shot_, frame, pattern_->path_for(frame)));
         WEFT_CHECK_OK(check_movie());
-        WEFT_TRY(kept, frames_to_keep(*pattern_, plan_.frames, shot_->plate->size(), spec_.existing,
+        const bool writes = spec_.stage == JobStage::kAll || spec_.stage == JobStage::kFrames;
+        const ExistingFrames existing = writes ? spec_.existing
+                                        : spec_.stage == JobStage::kEncode
+                                            ? ExistingFrames::kResume
+                                            : ExistingFrames::kOverwrite;
+        WEFT_TRY(kept, frames_to_keep(*pattern_, plan_.frames, shot_->plate->size(), existing,
                                       write_.metadata));
         for (const int frame : plan_.frames) {
             const bool skip = std::binary_search(kept.begin(), kept.end(), frame);
@@ -147,7 +222,7 @@ class RenderJob {
     Status check_movie() const {
         const std::string& path = shot_->project.output.movie;
         std::error_code error;
-        if (path.empty()) return {};
+        if (path.empty() || spec_.stage == JobStage::kFrames) return {};
         remove_stale_temporaries(path);
         if (!fs::exists(path, error)) return {};
         WEFT_CHECK_OK(check_no_input(*shot_, plan_.frames.front(), path));
@@ -155,8 +230,23 @@ class RenderJob {
         return fail(ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.");
     }
 
+    // All frames that some region's analysis goes through.
+    [[nodiscard]] FrameSpan whole_span() const {
+        FrameSpan out = analysed_span(plan_, plan_.regions.front());
+        for (const RegionPlan& region : plan_.regions) {
+            const FrameSpan span = analysed_span(plan_, region);
+            out = {std::min(out.first, span.first), std::max(out.last, span.last)};
+        }
+        return out;
+    }
+
     Status make_scenes() {
-        if (to_render_.empty()) return {};
+        if (to_render_.empty() || spec_.stage == JobStage::kAnalyse) return {};
+        if (spec_.stage == JobStage::kEncode) {
+            return fail(ErrorCode::kMissingFrames,
+                        "The movie needs all frames, and " + frames_text(to_render_) +
+                            " of them are missing or of other settings. Render them first.");
+        }
         for (std::size_t k = 0; k < plan_.regions.size(); ++k) {
             if (const auto& texture = *plan_.regions[k].texture; !texture.is_plane) {
                 const auto samples = synthesis_samples(plan_.regions[k]);
@@ -194,7 +284,7 @@ class RenderJob {
 
     Status render_all() {
         std::unique_ptr<MovieWriter> movie;
-        if (!shot_->project.output.movie.empty()) {
+        if (!shot_->project.output.movie.empty() && spec_.stage != JobStage::kFrames) {
             WEFT_TRY(opened, open_review_movie());
             movie = std::move(opened);
         }
@@ -228,17 +318,31 @@ class RenderJob {
         return open_movie(path, shot_->plate->size(),
                           given > 0      ? given
                           : of_plate > 0 ? of_plate
-                                         : 24.0);
+                                         : 24.0,
+                          shot_->plate->pixel_aspect());
+    }
+
+    [[nodiscard]] std::string burnt_text(int frame) const {
+        const auto version = version_in(shot_->project.output.path);
+        char text[96];
+        std::snprintf(text, sizeof text, "%d   %s%s", frame,
+                      version ? ("v" + std::to_string(*version)).c_str() : "",
+                      version ? "   " : "");
+        return text + shot_->spaces.out.name;
     }
 
     Status one_frame(FrameResult& result, ImageF3* display) {
         if (cancel_.cancelled()) return cancelled(cancel_);
         const auto start = Clock::now();
-        if (!result.skipped) {
-            WEFT_TRY(rendered, render_frame(*shot_->source, plan_, scenes_, *store_, *backend_,
-                                            result.frame));
+        if (!result.skipped && is_black(result.frame)) {
+            WEFT_CHECK_OK(write_image(result.path, ImageF3(shot_->plate->size()), {}, write_));
+        } else if (!result.skipped) {
+            // A held frame is the frame that stands for it, grain and all.
+            const int shown = shot_->plate->shown_frame(result.frame);
+            WEFT_TRY(rendered,
+                     render_frame(*shot_->source, plan_, scenes_, *store_, *backend_, shown));
             WEFT_TRY(decoded, shot_->plate->read_shared(result.frame));
-            WEFT_CHECK_OK(write_image(result.path, rendered.pixels, decoded->alpha, write_));
+            WEFT_CHECK_OK(write_frame(result.frame, result.path, rendered, decoded->alpha));
             result.above_one = rendered.above_one;
             result.filled = rendered.filled;
             result.nonfinite = decoded->nonfinite;
@@ -248,6 +352,7 @@ class RenderJob {
             // As it is on the disk, so that the movie of a resumed run is the same.
             WEFT_TRY(written, read_image(result.path));
             display_from_out_->apply(written.rgb);
+            if (shot_->project.output.burn_in) burn_in(written.rgb, burnt_text(result.frame));
             *display = std::move(written.rgb);
         }
         result.seconds = seconds_since(start);
@@ -261,6 +366,12 @@ class RenderJob {
     }
 
     void finish_warnings() {
+        if (const std::vector<int> cuts = shot_->cuts->cuts(); !cuts.empty()) {
+            result_.warnings.push_back(
+                "A new scene seems to begin at " + frames_text(cuts) +
+                ". A surface is not followed across a cut: render each scene by itself "
+                "(--frames, with a reference frame in each).");
+        }
         const bool some_touched =
             std::any_of(result_.frames.begin(), result_.frames.end(),
                         [](const FrameResult& f) { return !f.untouched && !f.skipped; });
@@ -291,12 +402,27 @@ class RenderJob {
     std::vector<RegionScene> scenes_;
     std::vector<std::pair<std::size_t, int>> empty_references_;  // region, frame
     std::shared_ptr<const ColorTransform> display_from_out_;
+    std::vector<std::string> layer_names_;
+    std::optional<SequencePattern> layer_pattern_;  // of files of their own
+    bool is_exr_ = false;
     std::size_t frames_at_once_ = 1;
     std::mutex progress_mutex_;
     std::int64_t done_ = 0;
 };
 
 }  // namespace
+
+Expected<JobStage> parse_job_stage(const std::string& name) {
+    static const std::map<std::string, JobStage> kNames{
+        {"all", JobStage::kAll},         {"motion", JobStage::kMotion},
+        {"analyse", JobStage::kAnalyse}, {"planes", JobStage::kPlanes},
+        {"frames", JobStage::kFrames},   {"encode", JobStage::kEncode}};
+    const auto at = kNames.find(name);
+    if (at != kNames.end()) return at->second;
+    return fail(ErrorCode::kUsage,
+                "There is no stage '" + name +
+                    "'. There are motion, analyse, planes, frames, encode, all.");
+}
 
 Expected<BackendChoice> choose_backend(const std::string& name) {
     BackendRegistry registry;

@@ -22,6 +22,19 @@ enum class ExistingFrames {
     kResume  ///< Keep those of them that were rendered with the same settings.
 };
 
+/// A part of a render, for machines that share it. Each uses what those before it left in the
+/// cache.
+enum class JobStage {
+    kAll,
+    kMotion,   ///< The motion between neighbours, for the frames given.
+    kAnalyse,  ///< The analysis of the whole shot.
+    kPlanes,   ///< The texture planes.
+    kFrames,   ///< The frames given, without a movie.
+    kEncode    ///< The movie from frames that are there.
+};
+/// By its name: all, motion, analyse, planes, frames or encode. Errors: Usage.
+[[nodiscard]] Expected<JobStage> parse_job_stage(const std::string& name);
+
 /// Sets how many threads this process uses, OpenCV's included; 0 is one a processor.
 void use_threads(int threads);
 
@@ -32,7 +45,8 @@ struct JobSpec {
     int threads = 0;  ///< 0: one a processor.
     ExistingFrames existing = ExistingFrames::kRefuse;
     AnalysisCacheOptions cache;
-    std::string texture_library;    ///< For textures "db:ID"; empty: the user's own.
+    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
+    JobStage stage = JobStage::kAll;
     std::int64_t memory_bytes = 0;  ///< What the process should keep to; 0: no limit.
 };
 

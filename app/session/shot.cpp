@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/session/crypto_files.h"
 #include "app/session/frame_plan.h"
+#include "app/session/missing_frames.h"
 #include "app/session/project_source.h"
 #include "app/session/track_file.h"
+#include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
@@ -58,10 +61,17 @@ class ShotOpener {
         shot_.plate = options_.plate;
         if (!shot_.plate) {
             WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
-            shot_.plate = cached(reader, options_.cache_bytes);
+            std::vector<int> wanted;
+            if (!shot_.project.settings.frames.empty()) {
+                WEFT_TRY(list, parse_frame_list(shot_.project.settings.frames));
+                wanted = std::move(list);
+            }
+            shot_.plate =
+                cached(with_missing_frames(reader, plate.missing, wanted), options_.cache_bytes);
         }
         for (const std::string& w : shot_.plate->warnings())
             shot_.warnings.push_back(w);
+        shot_.plan.layers = !shot_.project.output.layers.empty();
         WEFT_TRY(frames, frames_to_render(shot_.project, *shot_.plate));
         shot_.plan.frames = std::move(frames);
         shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft
@@ -129,15 +139,18 @@ class ShotOpener {
         for (std::size_t k = 0; k < shot_.project.regions.size(); ++k) {
             if (!shot_.project.regions[k]->enabled) continue;
             Status frozen;
-            shot_.project.regions[k] = shot_.project.regions[k].with(
-                [&](Region& with_frozen) { frozen = add_frozen_mattes(with_frozen); });
+            shot_.project.regions[k] = shot_.project.regions[k].with([&](Region& changed) {
+                frozen = name_crypto_files(changed, shot_.project.plate.path);
+                if (frozen) frozen = add_frozen_mattes(changed);
+            });
             const Region& region = *shot_.project.regions[k];
             auto added = frozen ? add_region(region) : std::move(frozen);
             if (!added) return fail_in(std::move(added).error(), "Region '" + region.name + "'");
             shot_.region_index.push_back(k);
             planned.push_back(shot_.project.regions[k]);
         }
-        shot_.source = make_project_source(shot_.plate, std::move(planned));
+        shot_.cuts = std::make_shared<CutWatch>();
+        shot_.source = make_project_source(shot_.plate, std::move(planned), shot_.cuts);
         return {};
     }
 
@@ -178,6 +191,12 @@ class ShotOpener {
         plan.placement = plane_placement(region.placement);
         WEFT_CHECK_OK(add_placement_keys(region, plan));
         WEFT_CHECK_OK(plane_from_plate(plan.placement));
+        plan.has_uv = !region.placement.uv.empty();
+        if (plan.has_uv && region.temporal.mode != TemporalMode::kLocked) {
+            return fail(ErrorCode::kUsage,
+                        "A UV pass needs --temporal locked: the other modes make the texture "
+                        "where it lies.");
+        }
         plan.seam = region.synthesis.seam;
         plan.overlap_px = region.synthesis.overlap_px;
         plan.feather_px = region.synthesis.feather_px;
@@ -394,6 +413,11 @@ class ShotOpener {
         plan.light_pass = !light.lighting.empty() ? RegionPlan::Pass::kLighting
                           : !light.albedo.empty() ? RegionPlan::Pass::kAlbedo
                                                   : RegionPlan::Pass::kNone;
+        plan.exact_light = light.exact;
+        if (light.exact && plan.light_pass == RegionPlan::Pass::kNone) {
+            return fail(ErrorCode::kUsage,
+                        "--light-exact needs a pass. Give one with --albedo or --lighting.");
+        }
         return {};
     }
 

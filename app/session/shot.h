@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/project/project.h"
+#include "app/session/scene_cuts.h"
 #include "engine/media/frame_cache.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
@@ -38,6 +39,7 @@ struct Shot {
     ShotSpaces spaces;
     std::vector<ShotTexture> textures;
     std::vector<std::string> warnings;
+    std::shared_ptr<CutWatch> cuts;  ///< Has seen every plate that was read.
 };
 
 /// The depth that the output will have: what the user chose, or what the plate and the format

@@ -41,6 +41,8 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
     spec.attribute("oiio:UnassociatedAlpha", 1);  // the samples go into the file as they are
     // OpenImageIO would write the time of day, and the same frame would differ from run to run.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (options.pixel_aspect != 1)
+        spec.attribute("PixelAspectRatio", static_cast<float>(options.pixel_aspect));
     if (format == "openexr") {
         for (const auto& [name, text] : options.metadata)
             spec.attribute(name, text);

@@ -36,6 +36,8 @@ class CachedReader final : public FrameReader {
         return reader_->stamp(frame);
     }
     [[nodiscard]] std::vector<std::string> warnings() const override { return reader_->warnings(); }
+    [[nodiscard]] double pixel_aspect() const override { return reader_->pixel_aspect(); }
+    [[nodiscard]] int shown_frame(int frame) const override { return reader_->shown_frame(frame); }
 
   private:
     struct State;

@@ -48,6 +48,11 @@ class FrameReader {
     [[nodiscard]] virtual Expected<Hash128> stamp(int frame) const = 0;
     /// What is odd about the plate though it can be read (a movie that says it has more frames).
     [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
+    /// Width of a pixel over its height.
+    [[nodiscard]] virtual double pixel_aspect() const { return 1; }
+    /// The frame whose picture read() gives: another than `frame` where one is held in place of a
+    /// missing one.
+    [[nodiscard]] virtual int shown_frame(int frame) const { return frame; }
 };
 
 /// Opens a pattern (a folder with exactly one numbered sequence counts as one), a movie file or a

@@ -21,6 +21,7 @@ struct WriteOptions {
     std::string exr_compression =
         "zip";          ///< auto (zip), none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
     int dpx_bits = 10;  ///< A U16 DPX holds 10 bits (the film standard), 12 or 16.
+    double pixel_aspect = 1;  ///< Width of a pixel over its height.
     /// Texts for the file's header (engine/media/metadata.h).
     std::vector<std::pair<std::string, std::string>> metadata = {};
 };
@@ -62,6 +63,7 @@ class MovieWriter {
 /// Errors: Usage (another extension, an empty size, such an fps), Unreadable (the folder, or no
 /// encoder for this size), NoSpace.
 [[nodiscard]] Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size,
-                                                                double fps);
+                                                                double fps,
+                                                                double pixel_aspect = 1);
 
 }  // namespace weft

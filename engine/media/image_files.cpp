@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/media/cryptomatte.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
@@ -20,13 +21,6 @@ namespace {
 
 std::string text_of(Size size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-Status check_exists(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) == 0) return {};
-    return fail(ErrorCode::kMissingFrames,
-                "There is no file " + path + ". Supply it, or correct the name.");
 }
 
 Status check_size(const std::string& path, Size have, Size expected) {
@@ -123,6 +117,12 @@ Matte equal_to(const Raster& raster, int channel, int value) {
     return matte;
 }
 
+void invert(Matte& matte) {
+    std::uint8_t* const p = matte.data();
+    for (std::size_t i = 0; i < matte.size_bytes(); ++i)
+        p[i] = static_cast<std::uint8_t>(255 - p[i]);
+}
+
 Error no_channel(const std::string& path, const Raster& raster, const std::string& channel) {
     const std::string have = raster.colors() < 3 ? "grey only" : "R, G and B only";
     return unreadable(path, "it has no channel '" + channel + "'", "It has " + have + ".");
@@ -130,13 +130,25 @@ Error no_channel(const std::string& path, const Raster& raster, const std::strin
 
 }  // namespace
 
+Status check_picture_exists(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) return {};
+    return fail(ErrorCode::kMissingFrames,
+                "There is no file " + path + ". Supply it, or correct the name.");
+}
+
 Expected<PlateFrame> read_image(const std::string& path, const std::string& layer) {
     WEFT_TRY(raster, read_raster(path, {layer, {}, false}));
     return to_plate(raster);
 }
 
 Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, Size expected) {
-    WEFT_CHECK_OK(check_exists(path));
+    WEFT_CHECK_OK(check_picture_exists(path));
+    if (!select.crypto.empty()) {
+        WEFT_TRY(objects, read_cryptomatte(path, select.crypto, expected));
+        if (select.invert) invert(objects);
+        return objects;
+    }
     const bool by_color = is_color_name(select.channel);
     RasterRequest request;
     request.raw_codes = select.value.has_value();
@@ -164,11 +176,7 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     } else {
         matte = coverage(raster, source);
     }
-    if (select.invert) {
-        std::uint8_t* const p = matte.data();
-        for (std::size_t i = 0; i < matte.size_bytes(); ++i)
-            p[i] = static_cast<std::uint8_t>(255 - p[i]);
-    }
+    if (select.invert) invert(matte);
     return matte;
 }
 

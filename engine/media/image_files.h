@@ -23,6 +23,9 @@ struct MatteSelect {
     std::string channel;  ///< "R", "G", "B", "A", "Y" (luma) or a channel's name; empty: A
                           ///< when the file has an alpha that is not all opaque, else Y.
     bool invert = false;
+    /// Objects of a Cryptomatte by name, with commas between (engine/media/cryptomatte.h); the
+    /// others do not count then, but for `invert`.
+    std::string crypto = {};
     bool operator==(const MatteSelect&) const = default;
 };
 
@@ -36,6 +39,34 @@ struct MatteSelect {
 /// `.flo` (Middlebury) or 16-bit PNG in the KITTI encoding. Unknown motion has d = 0 and valid = 0.
 /// Errors as read_matte().
 [[nodiscard]] Expected<FlowField> read_flow(const std::string& path, Size expected);
+/// How a pass holds motion. Vectors of renderers point upwards for y > 0.
+enum class MotionConvention {
+    kFiles,    ///< .flo and KITTI: read_flow().
+    kBlender,  ///< Cycles' Vector pass: pixels; X, Y to the previous frame, Z, W from the next.
+    kNuke,     ///< forward.u, .v and backward.u, .v: pixels.
+    kMoonray,  ///< R, G: screen space, −1 to 1 over the width, premultiplied by alpha.
+    kFlame,    ///< R, G: shares of the picture's size.
+    kArnold    ///< R, G of motionvector, raw: pixels.
+};
+struct MotionSelect {
+    MotionConvention convention = MotionConvention::kFiles;
+    MotionDirection direction = MotionDirection::kForward;
+    std::string layer = {};  ///< What stands before ".X" in the channels' names; empty: found.
+};
+/// The motion to the next or the previous frame, pixels, y down. Errors as read_flow(); Unreadable,
+/// listing the channels, when there is no such pass.
+[[nodiscard]] Expected<FlowField> read_motion(const std::string& path, const MotionSelect& select,
+                                              Size expected);
+
+/// A UV pass or an ST-map: two channels (U, V or R, G) in 0–1, the origin at the bottom left; more
+/// where a texture repeats. `layer`: what stands before ".U"; empty: found. Errors as
+/// read_motion().
+[[nodiscard]] Expected<ImageF2> read_uv(const std::string& path, const std::string& layer,
+                                        Size expected);
+
+/// Errors: MissingFrames when there is no such file.
+[[nodiscard]] Status check_picture_exists(const std::string& path);
+
 /// In steps of 1/64 px. Motion of 512 px and more does not fit and is written as unknown. Errors as
 /// write_image().
 [[nodiscard]] Status write_flow_kitti(const std::string& path, const FlowField& flow);

@@ -104,6 +104,12 @@ int MovieDecoder::claimed_frames() const {
     return frames > 0 && frames < 1e8 ? static_cast<int>(frames) : 0;
 }
 
+double MovieDecoder::pixel_aspect() const {
+    const double aspect = as_double(av_guess_sample_aspect_ratio(input_.get(), stream_, nullptr));
+    if (!(aspect > 0.05 && aspect < 20)) return 1;
+    return rotation_deg() % 180 == 0 ? aspect : 1 / aspect;
+}
+
 int MovieDecoder::rotation_deg() const {
     const std::uint8_t* matrix =
         av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);

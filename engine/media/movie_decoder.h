@@ -23,6 +23,8 @@ class MovieDecoder {
     [[nodiscard]] double fps() const;  ///< 0 when the file does not say.
     /// How many frames the container says it shows; 0 when it does not.
     [[nodiscard]] int claimed_frames() const;
+    /// Width of a pixel over its height.
+    [[nodiscard]] double pixel_aspect() const;
     /// By how much the picture is to be turned clockwise for display: 0, 90, 180 or 270.
     [[nodiscard]] int rotation_deg() const;
 

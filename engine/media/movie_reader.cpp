@@ -77,6 +77,7 @@ struct MovieFacts {
     Size size;
     PixelDepth depth = PixelDepth::kU8;
     double fps = 0;
+    double pixel_aspect = 1;
     int frames = 0;         ///< That can be decoded.
     int claimed = 0;        ///< What the container says; 0 when it does not.
     int damaged = 0;        ///< Frames that were decoded with errors.
@@ -99,6 +100,7 @@ class MoviePlate final : public FrameReader {
     const std::vector<int>& frames() const override { return frames_; }
     Size size() const override { return facts_.size; }
     double fps() const override { return facts_.fps; }
+    double pixel_aspect() const override { return facts_.pixel_aspect; }
     PixelDepth depth() const override { return facts_.depth; }
     bool display_encoded() const override { return true; }
     std::string path_of(int /*frame*/) const override { return path_; }
@@ -184,10 +186,16 @@ Expected<std::shared_ptr<const FrameReader>> open_movie_plate(const std::string&
     facts.size = first->info.size;
     facts.depth = depth_of(first->info.kind);
     facts.fps = decoder.fps();
+    facts.pixel_aspect = decoder.pixel_aspect();
     facts.high_dynamic_range =
         frame->color_trc == AVCOL_TRC_SMPTE2084 || frame->color_trc == AVCOL_TRC_ARIB_STD_B67;
     // Containers lie about their number of frames, so they are counted.
     for (; frame; frame = decoder.next(), ++facts.frames) {
+        if (frame->interlaced_frame) {
+            return tl::unexpected(
+                unreadable(path, "it is interlaced: each frame holds two moments in time",
+                           "Deinterlace it first, for instance: ffmpeg -i IN -vf bwdif OUT."));
+        }
         if (!is_damaged(*frame)) continue;
         if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
     }

@@ -56,10 +56,11 @@ AVRational frame_rate(double fps) {
 // curve in the tags: players that manage colours (QuickTime, Safari) then show what the PNG frames
 // show, where a BT.709 tag would make them lift the shadows, and the others look at the matrix and
 // the range only.
-void describe(AVCodecContext& codec, Size coded, AVRational fps, bool lossless) {
+void describe(AVCodecContext& codec, Size coded, AVRational fps, bool lossless, double aspect) {
     codec.width = coded.width;
     codec.height = coded.height;
-    codec.sample_aspect_ratio = {1, 1};
+    constexpr int kLargestAspectTerm = 1000;
+    codec.sample_aspect_ratio = av_d2q(aspect, kLargestAspectTerm);
     codec.framerate = fps;
     codec.time_base = av_inv_q(fps);
     codec.color_primaries = AVCOL_PRI_BT709;
@@ -100,11 +101,12 @@ const AVCodec* find_encoder(bool lossless) {
 
 class VideoFile final : public MovieWriter {
   public:
-    VideoFile(std::string path, TemporaryFile temporary, Size size, bool lossless)
+    VideoFile(std::string path, TemporaryFile temporary, Size size, bool lossless, double aspect)
         : path_(std::move(path)),
           temporary_(std::move(temporary)),
           size_(size),
-          lossless_(lossless) {}
+          lossless_(lossless),
+          aspect_(aspect) {}
 
     Status open(double fps) {
         if (!open_codec(frame_rate(fps))) {
@@ -159,7 +161,7 @@ class VideoFile final : public MovieWriter {
         // 4:2:0 has half as many columns and rows of chroma.
         const Size coded =
             lossless_ ? size_ : Size{round_up_to_even(size_.width), round_up_to_even(size_.height)};
-        describe(*codec_, coded, fps, lossless_);
+        describe(*codec_, coded, fps, lossless_, aspect_);
         codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;  // both containers want it
         Dictionary options;
         choose_quality(*codec_, fps, lossless_, options);
@@ -224,6 +226,7 @@ class VideoFile final : public MovieWriter {
     TemporaryFile temporary_;
     Size size_;
     bool lossless_;
+    double aspect_;  // width of a pixel over its height
     AvCodec codec_;
     AvOutput output_;
     AvFrame frame_;
@@ -236,7 +239,8 @@ class VideoFile final : public MovieWriter {
 
 }  // namespace
 
-Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size, double fps) {
+Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size, double fps,
+                                                  double pixel_aspect) {
     silence_video_library();
     const std::string extension = std::filesystem::path(path).extension().string();
     const bool lossless = extension == ".mkv";
@@ -248,7 +252,8 @@ Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size 
                     path + ": a movie needs a size and a frame rate between 0.01 and 1000.");
     }
     WEFT_TRY(temporary, TemporaryFile::create(path));
-    auto file = std::make_unique<VideoFile>(path, std::move(temporary), size, lossless);
+    auto file = std::make_unique<VideoFile>(path, std::move(temporary), size, lossless,
+                                            pixel_aspect > 0 ? pixel_aspect : 1.0);
     WEFT_CHECK_OK(file->open(fps));
     return file;
 }

@@ -316,7 +316,9 @@ Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, c
         return tl::unexpected(damaged(path, "it has no pixels"));
     }
     if (spec.depth > 1) return tl::unexpected(damaged(path, "it is a volume, not a picture"));
-    return RasterInfo{size, kind_of(spec, pick), fps_of(spec)};
+    const double aspect = spec.get_float_attribute("PixelAspectRatio", 1.0f);
+    return RasterInfo{size, kind_of(spec, pick), fps_of(spec),
+                      aspect > 0.05 && aspect < 20 ? aspect : 1.0};
 }
 
 Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request) {
@@ -386,6 +388,19 @@ Expected<ColourPlace> locate_colour(const std::string& path, const std::string& 
         for (std::size_t c = 0; c < 3; ++c)
             place.rgb[c] = pick.begin + pick.channels[c];
         return place;
+    });
+}
+
+Expected<std::vector<std::string>> exr_channels(const std::string& path) {
+    return guarded(path, [&]() -> Expected<std::vector<std::string>> {
+        WEFT_TRY(input, open_input(path));
+        std::vector<std::string> names;
+        for (int part = 0; input->seek_subimage(part, 0); ++part) {
+            const ImageSpec& spec = input->spec();
+            names.insert(names.end(), spec.channelnames.begin(), spec.channelnames.end());
+        }
+        static_cast<void>(input->geterror());
+        return names;
     });
 }
 

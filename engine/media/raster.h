@@ -20,6 +20,7 @@ struct RasterInfo {
     Size size;                          ///< The display window.
     SampleKind kind = SampleKind::kU8;  ///< Of the channels that were asked for; mixed: the widest.
     double fps = 0;                     ///< 0 when the file does not say.
+    double pixel_aspect = 1;            ///< Width of a pixel over its height.
 };
 
 /// Interleaved samples, `channels` per pixel, row by row without gaps. Half, float and other kinds
@@ -51,6 +52,10 @@ struct ColourPlace {
 /// Errors: Unreadable when the file is no EXR or the layer has no three colours.
 [[nodiscard]] Expected<ColourPlace> locate_colour(const std::string& path,
                                                   const std::string& layer);
+
+/// The names of all channels of an EXR's parts, a part's own name in front where it has one and the
+/// channels have none. Errors: Unreadable.
+[[nodiscard]] Expected<std::vector<std::string>> exr_channels(const std::string& path);
 
 /// Reads the header only. Errors: Unreadable with the path; `RasterRequest` names nothing there.
 [[nodiscard]] Expected<RasterInfo> probe_raster(const std::string& path,

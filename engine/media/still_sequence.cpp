@@ -37,6 +37,7 @@ class StillSequence final : public FrameReader {
     const std::vector<int>& frames() const override { return frames_; }
     Size size() const override { return first_.size; }
     double fps() const override { return first_.fps; }
+    double pixel_aspect() const override { return first_.pixel_aspect; }
     PixelDepth depth() const override { return depth_of(first_.kind); }
     bool display_encoded() const override { return is_display_encoded(first_.kind); }
     std::string path_of(int frame) const override { return pattern_.path_for(frame); }

@@ -7,6 +7,11 @@ Expected<ImageF3> ShotSource::light_pass(int /*region*/, int frame) const {
                 "There is no lighting pass for frame " + std::to_string(frame) + ".");
 }
 
+Expected<ImageF2> ShotSource::uv(int /*region*/, int frame) const {
+    return fail(ErrorCode::kRenderFailed,
+                "There is no UV pass for frame " + std::to_string(frame) + ".");
+}
+
 Expected<std::optional<Shading>> region_shading(const ShotSource& source, const RegionPlan& region,
                                                 const AnalysisStore& store, int index, int frame,
                                                 const ImageF3& working) {

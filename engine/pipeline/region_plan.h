@@ -16,6 +16,7 @@
 #include "engine/lighting/shading.h"
 #include "engine/motion/corner_track.h"
 #include "engine/motion/optical_flow.h"
+#include "engine/pipeline/stage_store.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/sample_atlas.h"
@@ -85,6 +86,8 @@ struct RegionPlan {
     float highlights = 0;        ///< How much of the old surface's gloss is kept.
     enum class Pass { kNone, kAlbedo, kLighting };
     Pass light_pass = Pass::kNone;  ///< A pass of the artist's that gives the plate's light.
+    bool exact_light = false;       ///< That light as it is, not relative to the reference frame's.
+    bool has_uv = false;            ///< A UV pass says which place of the plane each pixel shows.
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {
         return strength_keys.empty() ? light.strength : strength_keys.at(frame)[0];
@@ -125,8 +128,10 @@ struct ShotPlan {
     bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
         out_from_plate, display_from_working;
+    bool layers = false;              ///< Frames are rendered with their FrameLayers.
     float plate_quantum = 0;          ///< The step of the plate's codes, of 1; 0: floating point.
     std::vector<RegionPlan> regions;  ///< Lowest layer first.
+    std::shared_ptr<StageStore> stages;  ///< Planes and motion made before; may be null.
 };
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
@@ -21,8 +22,20 @@ int plane_side(int plate_px, float scale) {
     return std::clamp(rounded, kSmallestPlane, kLargestPlane);
 }
 
+// Grown, or found where it was grown before.
+Expected<TexturePlane> kept_texture(const ShotPlan& plan, const RegionPlan& region,
+                                    const PlaneOptions& options, const CancelToken& cancel,
+                                    const ProgressFn& progress) {
+    if (!plan.stages) return grow_texture(region, options, cancel, progress);
+    const Hash128 key = plane_key(synthesis_samples(region), options);
+    if (auto before = plan.stages->plane(key)) return std::move(*before);
+    WEFT_TRY(plane, grow_texture(region, options, cancel, progress));
+    plan.stages->keep_plane(key, plane);
+    return plane;
+}
+
 Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
-                                  std::optional<PlaneStats>& stats, const CancelToken& cancel,
+                                  RegionScene& scene, const CancelToken& cancel,
                                   const ProgressFn& progress, const Backend* backend) {
     const TexturePicture& texture = *region.texture;
     if (texture.is_plane) {
@@ -32,8 +45,9 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
     PlaneOptions options =
         plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = true;
-    WEFT_TRY(plane, grow_texture(region, options, cancel, progress));
-    stats = plane.stats;
+    WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
+    scene.stats = plane.stats;
+    if (plan.layers) scene.plane_seams = seam_texels(plane);
     return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
 }
 
@@ -108,8 +122,7 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
     WEFT_TRY(plane_from, plane_from_plate(region.placement));
     scene.plane_from_plate = plane_from;
     if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
-        WEFT_TRY(plane,
-                 make_plane(plan, region, source.size(), scene.stats, cancel, progress, backend));
+        WEFT_TRY(plane, make_plane(plan, region, source.size(), scene, cancel, progress, backend));
         scene.plane = std::move(plane);
         WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
         scene.seams = std::move(seams);

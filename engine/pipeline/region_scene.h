@@ -26,6 +26,7 @@ struct RegionScene {
     float shutter_deg = 0;
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
+    Matte plane_seams;                ///< Where a grown plane has seams (ShotPlan::layers).
 };
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the

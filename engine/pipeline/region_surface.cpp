@@ -77,10 +77,12 @@ Expected<LatticeField> RegionSurface::velocity() const {
 }
 
 bool RegionSurface::is_one_lookup() const {
+    if (region_.has_uv) return false;
     return !seam() && (!(scene_.shutter_deg > 0) || region_.shutter_evidence.empty());
 }
 
 Expected<TextureCoords> RegionSurface::coords(const Recti& box) const {
+    if (exact_) return *exact_;
     if (region_.temporal != TemporalMode::kLocked) {
         constexpr int kCoarse = 64;
         return texture_coords(LatticeField(plate_, kCoarse), scene_.plane_from_plate, box);
@@ -210,8 +212,9 @@ Expected<ImageF3> RegionSurface::two_histories(const HistorySeam& seam, const Re
 }
 
 Expected<ImageF3> RegionSurface::texture(const Recti& box, const Matte& matte) const {
-    if (const HistorySeam* between = seam()) return two_histories(*between, box, matte);
-    if (region_.temporal == TemporalMode::kLocked) {
+    const HistorySeam* between = exact_ ? nullptr : seam();
+    if (between) return two_histories(*between, box, matte);
+    if (region_.temporal == TemporalMode::kLocked && !exact_) {
         WEFT_TRY(ref_from_cur, stored(AnalysisKind::kCoords));
         return layer(ref_from_cur, box, matte);
     }

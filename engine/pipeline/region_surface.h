@@ -5,12 +5,12 @@
 
 #include "engine/compute/backend.h"
 #include "engine/core/error.h"
+#include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/region_scene.h"
-#include "engine/core/fields.h"
 
 namespace weft {
 
@@ -38,6 +38,9 @@ class RegionSurface {
           frame_(frame),
           plate_(plate) {}
 
+    /// From now on the texture is looked up at these places, whatever the analysis found: those of
+    /// a UV pass. `exact` must outlive the surface.
+    void use_coords(const TextureCoords& exact) { exact_ = &exact; }
     /// Whether one lookup for each pixel gives the texture: there is no motion blur, and no seam
     /// between the histories of two references.
     [[nodiscard]] bool is_one_lookup() const;
@@ -72,6 +75,7 @@ class RegionSurface {
     const Backend& backend_;
     int frame_;
     Size plate_;
+    const TextureCoords* exact_ = nullptr;
 };
 
 }  // namespace weft

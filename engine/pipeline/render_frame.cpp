@@ -10,12 +10,14 @@
 #include "engine/composite/line_layer.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
+#include "engine/lighting/exact_light.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_surface.h"
+#include "engine/pipeline/uv_coords.h"
 
 namespace weft {
 namespace {
@@ -40,6 +42,7 @@ class FrameRenderer {
           working_(transformed(*plate_, *plan.working_from_plate)),
           canvas_(working_),
           touched_(plate_->size()) {
+        if (plan.layers) layers_.emplace(plate_->size());
         if (place == Place::kDevice) device_ = backend.open_frame(canvas_);
     }
 
@@ -67,6 +70,9 @@ class FrameRenderer {
     Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
                       const RegionScene& scene, const Matte& matte, const Matte& inside,
                       const std::optional<Shading>& shading);
+    // The region's share of the frame's layers, but for the patch.
+    Status note_share(int index, const RegionSurface& surface, const Recti& box,
+                      const RegionScene& scene, const Matte& inside, ViewF3 unlit, ViewF3 lit);
     Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
                          const RegionScene& scene, const Matte& inside,
                          const std::optional<Shading>& shading);
@@ -90,6 +96,7 @@ class FrameRenderer {
     const ImageF3 working_;  // the plate in the working space
     ImageF3 canvas_;         // layers go over it
     Matte touched_;
+    std::optional<FrameLayers> layers_;
     std::optional<PlateViews> views_;
     bool lit_ = false;
     std::unique_ptr<FrameCanvas> device_;
@@ -106,7 +113,8 @@ bool fits_device(const RegionPlan& region, const RegionScene& scene) {
     const bool light = !region.lights() || (region.light.form == LightForm::kGain &&
                                             region.cast <= 0 && region.highlights <= 0);
     const bool grain = region.grain > 0 && scene.grain.present();
-    return light && !grain && !(region.focus > 0) && !region.has_lines && !region.extract_lines;
+    return light && !grain && !region.has_uv && !region.exact_light && !(region.focus > 0) &&
+           !region.has_lines && !region.extract_lines;
 }
 
 Expected<Matte> FrameRenderer::composite_matte(int index) {
@@ -139,6 +147,14 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
             transfer_statistics(texture, old_surface, matte, options.strength);
         else
             match_histogram(texture, old_surface, matte, options.strength);
+        return {};
+    }
+    if (region.exact_light && region.light_pass != RegionPlan::Pass::kNone) {
+        WEFT_TRY(pass, source_.light_pass(index, frame_));
+        const ViewF3 part = pass.view().crop(box);
+        const bool albedo = region.light_pass == RegionPlan::Pass::kAlbedo;
+        apply_exact_light(texture, old_surface, albedo ? part : ViewF3(), albedo ? ViewF3() : part,
+                          matte, options.strength);
         return {};
     }
     if (!shading) return {};
@@ -228,13 +244,38 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
                                  const std::optional<Shading>& shading) {
     WEFT_TRY(texture, surface.texture(box, inside));
     WEFT_CHECK_OK(match_focus(index, box, inside, texture));
+    const ImageF3 unlit = layers_ ? texture : ImageF3();
     WEFT_CHECK_OK(light(index, scene, box, inside, shading, texture));
+    if (layers_) WEFT_CHECK_OK(note_share(index, surface, box, scene, inside, unlit, texture));
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
     ImageF3 old_surface = unmix_surface(area, inside);
     // The ink has the plate's grain already.
     WEFT_CHECK_OK(lay_ink(index, box, matte, texture, old_surface));
+    if (layers_) add_patch(*layers_, box, inside, texture);
     composite_over(area, area, old_surface, inside, texture);
+    return {};
+}
+
+Status FrameRenderer::note_share(int index, const RegionSurface& surface, const Recti& box,
+                                 const RegionScene& scene, const Matte& inside, ViewF3 unlit,
+                                 ViewF3 lit) {
+    LayerShare share{box,
+                     inside,
+                     unlit,
+                     lit,
+                     nullptr,
+                     scene.plane.size(),
+                     scene.plane.wrap(),
+                     scene.plane_seams,
+                     static_cast<float>(region_of(plan_, index).random_key)};
+    if (scene.plane.empty()) {
+        add_share(*layers_, share);
+        return {};
+    }
+    WEFT_TRY(lookup, surface.lookup(box));
+    share.coords = &lookup.coords;
+    add_share(*layers_, share);
     return {};
 }
 
@@ -278,7 +319,14 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     }
     lit_ = lit_ || region_of(plan_, index).lights();
     WEFT_TRY(falling, shading(index, scene));
-    const RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
+    RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
+    TextureCoords exact;
+    if (region_of(plan_, index).has_uv) {
+        WEFT_TRY(uv, source_.uv(index, frame_));
+        exact = coords_from_uv(uv, box, inside, scene.plane.size(),
+                               region_of(plan_, index).placement_at(frame_).scale);
+        surface.use_coords(exact);
+    }
     if (device_) {
         WEFT_CHECK_OK(add_on_device(index, surface, box, scene, inside, falling));
     } else {
@@ -291,6 +339,10 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
 
 Expected<RenderedFrame> FrameRenderer::finish() {
     RenderedFrame out;
+    if (layers_) {
+        finish_layers(*layers_, working_, canvas_);
+        out.layers = std::move(layers_);
+    }
     const bool rolls_off = lit_ && plan_.display_referred;
     if (device_) {
         const auto knee = rolls_off ? std::optional(kKnee) : std::nullopt;
@@ -332,7 +384,7 @@ Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& p
         again = renderer.device_failed();
         return rendered;
     };
-    bool fits = true, again = false;
+    bool fits = !plan.layers, again = false;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
         const RegionSurface surface(plan, static_cast<int>(k), scenes[k], store, backend, frame,
                                     plate->size());

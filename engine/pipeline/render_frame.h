@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "engine/compute/backend.h"
+#include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/region_scene.h"
 
 namespace weft {
@@ -11,7 +13,8 @@ struct RenderedFrame {
                                  ///< values (through out_from_plate, if that is not the identity).
     Matte touched;               ///< The union of all mattes.
     std::int64_t above_one = 0;  ///< Pixels that would have clipped and were rolled off.
-    std::int64_t filled = 0;     ///< NaN or infinite plate pixels that a region filled.
+    std::optional<FrameLayers> layers;  ///< Where ShotPlan::layers asks for them.
+    std::int64_t filled = 0;            ///< NaN or infinite plate pixels that a region filled.
 };
 
 /// Renders one frame. A pure function of its arguments: frames may be rendered in any order, from

@@ -31,6 +31,9 @@ class ShotSource {
     /// The file of true motion of this frame, to the next or the previous one as
     /// RegionPlan::motion_forward says.
     [[nodiscard]] virtual Expected<FlowField> motion(int region, int frame) const = 0;
+    /// The region's UV pass (RegionPlan::has_uv): H×W×2 of the plate's size, 0–1, origin bottom
+    /// left.
+    [[nodiscard]] virtual Expected<ImageF2> uv(int region, int frame) const;
     /// The region's depth pass (RegionPlan::has_depth) as nearness, of the plate's size: the
     /// reciprocal of a distance, or a coded picture's value as it is. Empty without one.
     [[nodiscard]] virtual Expected<ImageF1> depth(int /*region*/, int /*frame*/) const {

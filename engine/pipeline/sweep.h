@@ -7,6 +7,7 @@
 #include "engine/core/fields.h"
 #include "engine/core/progress.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
 
@@ -43,6 +44,18 @@ using SweepVisitor = std::function<Status(const SweepFrame&)>;
 /// those of the source and of the visitor, and cancellation.
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
                            const SweepVisitor& visit);
+
+/// prev_from_cur between two neighbours of a sweep, estimated or kept from before
+/// (ShotPlan::stages).
+[[nodiscard]] FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& current,
+                                       int previous, const PlateViews& previous_views);
+
+/// Works out the motion between each of `frames` (ascending) and the one before it, both ways, and
+/// keeps it in ShotPlan::stages, so that sweeps over `span` find it. Errors: those of the source,
+/// cancellation.
+[[nodiscard]] Status keep_motion(const ShotSource& source, const ShotPlan& plan,
+                                 const std::vector<int>& frames, FrameSpan span,
+                                 const CancelToken& cancel, const ProgressFn& progress);
 
 /// The error of a cancelled work.
 [[nodiscard]] tl::unexpected<Error> cancelled(const CancelToken& cancel);

@@ -12,7 +12,7 @@ Region full_region() {
     MatteSource matte;
     matte.keyframes = {
         {-5, {"mattes/a.png", {}}}, {12, {"mattes/b.png", {}}}, {100, {"mattes/c.png", {}}}};
-    matte.select = {4, "R", true};
+    matte.select = {4, "R", true, "Wall,Door"};
     matte.steadiness = 0.75;
     matte.frozen = {10, 11};
     matte.frozen_files = "final/####.png";
@@ -32,7 +32,14 @@ Region full_region() {
     r.placement.offset_keys = "1:0,0 24:10,5";
     r.reference_frames = {12, 40};
     r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
-    r.motion = {"flow/####.flo", MotionDirection::kBackward, "pins.nk", {}};
+    r.placement.uv = "uv/####.exr";
+    r.placement.uv_layer = "shot.UV";
+    r.motion = {"flow/####.flo",
+                MotionDirection::kBackward,
+                MotionConvention::kNuke,
+                "vectors",
+                "pins.nk",
+                {}};
     r.synthesis = {
         SeamMethod::kDynamicProgramming, 24, 3, SeamCost::kPaper, 5, true, true, false, {}};
     r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};
@@ -46,6 +53,8 @@ Region full_region() {
     r.light.highlights = 0.5;
     r.light.albedo = "albedo/####.exr";
     r.light.lighting = "lighting/####.exr";
+    r.light.pass_layer = "shot.DiffCol";
+    r.light.exact = true;
     r.finish = {0.5, 0.25, "depth/####.exr", 172.8, {}};
     r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
@@ -56,10 +65,11 @@ Region full_region() {
 Project full_project() {
     Project p;
     p.name = "Shot 010";
-    p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, {}};
+    p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, MissingFrames::kHold, {}};
     p.color = {"linear", "srgb", "linear", {}};
     p.settings = {Quality::kDraft, 9007199254740991, "1-40", "GPL, CC-BY-NC", {}};
-    p.output = {"out/####.exr", OutputDepth::kHalf, 80, "piz", "review.mp4", {}};
+    p.output = {"out/####.exr", OutputDepth::kHalf, 80, "piz", "review.mp4", true,
+                "patch,st",     "layers/####.exr",  {}};
     p.regions.emplace_back(full_region());
     Region second;
     second.id = 2;

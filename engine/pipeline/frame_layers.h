@@ -1,0 +1,47 @@
+#pragma once
+// What a compositor needs to do the composite again: the parts that a frame was put together from.
+
+#include "engine/compute/plane_pyramid.h"
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+/// All of the plate's size, in the working space, before the roll-off of display-referred output:
+/// output = plate · (1 − alpha) + patch + edge. Where the plate is not finite it counts as 0.
+struct FrameLayers {
+    ImageF3 patch;  ///< All regions, premultiplied, unclipped.
+    ImageF1 alpha;
+    ImageF3 edge;   ///< What soft edges take away of the old surface, and all that the rest leaves.
+    ImageF3 light;  ///< What the texture was multiplied by; 1 where there is no region.
+    ImageF2 st;     ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
+    ImageF1 seam;   ///< 1 where a seam of the texture plane shows.
+    ImageF1 id;     ///< The region's id, of the topmost; 0 where there is none.
+
+    explicit FrameLayers(Size size);
+};
+
+/// One region's share over `box`. `matte` and the pictures are of the box's size. `unlit` and
+/// `lit`: the texture before and after light; `coords` may be empty (no ST, no seams).
+/// `plane_seams`: 255 at the seams of the plane; may be empty.
+struct LayerShare {
+    Recti box;
+    ViewU8x1 matte;
+    ViewF3 unlit, lit;
+    const TextureCoords* coords = nullptr;
+    Size plane;
+    WrapMode wrap = WrapMode::kRepeat;
+    ViewU8x1 plane_seams;
+    float id = 0;
+};
+void add_share(FrameLayers& layers, const LayerShare& share);
+/// The finished texture (with grain and ink) over what the layers below left.
+void add_patch(FrameLayers& layers, const Recti& box, ViewU8x1 matte, ViewF3 texture);
+/// `plate` and `composite` in the working space.
+void finish_layers(FrameLayers& layers, ViewF3 plate, ViewF3 composite);
+
+/// 255 at texels whose right or lower neighbour is not their neighbour in the sample.
+[[nodiscard]] Matte seam_texels(const TexturePlane& plane);
+
+}  // namespace weft

@@ -1,0 +1,25 @@
+#include "engine/pipeline/stage_store.h"
+
+namespace weft {
+namespace {
+
+// Raised whenever growing a plane computes something else.
+constexpr int kPlaneVersion = 1;
+
+}  // namespace
+
+Hash128 plane_key(const std::vector<ImageU8x3>& samples, const PlaneOptions& options) {
+    Hasher hasher;
+    hasher.value(kPlaneVersion);
+    for (const ImageU8x3& sample : samples)
+        hasher.image(sample);
+    hasher.value(options.size.width).value(options.size.height);
+    hasher.value(static_cast<int>(options.seam)).value(static_cast<int>(options.seam_cost));
+    hasher.value(options.overlap_px).value(options.feather_px).value(options.seed);
+    hasher.value(options.region).value(options.frame).value(options.tileable);
+    hasher.value(options.refine_passes).value(options.align);
+    hasher.value(options.orientations.rotations).value(options.orientations.mirror);
+    return hasher.finish();
+}
+
+}  // namespace weft

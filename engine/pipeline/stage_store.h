@@ -1,0 +1,26 @@
+#pragma once
+// What is worth keeping of stages that do not depend on the order of frames: planes and motion.
+
+#include <optional>
+
+#include "engine/core/fields.h"
+#include "engine/core/hash.h"
+#include "engine/synthesis/texture_plane.h"
+
+namespace weft {
+
+/// Thread-safe. What cannot be kept is made again: neither function fails.
+class StageStore {
+  public:
+    virtual ~StageStore() = default;
+    [[nodiscard]] virtual std::optional<TexturePlane> plane(const Hash128& key) const = 0;
+    virtual void keep_plane(const Hash128& key, const TexturePlane& plane) = 0;
+    /// The estimated motion prev_from_cur with its consistency, where it was worked out before.
+    [[nodiscard]] virtual std::optional<FlowField> motion(int current, int previous) const = 0;
+    virtual void keep_motion(int current, int previous, const FlowField& motion) = 0;
+};
+
+/// Of all that a grown plane depends on, but for the backend, which changes nothing.
+[[nodiscard]] Hash128 plane_key(const std::vector<ImageU8x3>& samples, const PlaneOptions& options);
+
+}  // namespace weft

@@ -1,0 +1,26 @@
+#pragma once
+// Bytes as a file, for readers that want a name.
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace weft::fuzz {
+
+/// The same name all the time, so that nothing piles up; private to the process.
+inline std::string put_file(const std::uint8_t* data, std::size_t size, const char* extension) {
+    static const std::string stem = [] {
+        const char* folder = std::getenv("TMPDIR");
+        return std::string(folder ? folder : "/tmp") + "/weft_fuzz_" + std::to_string(getpid());
+    }();
+    const std::string path = stem + extension;
+    if (std::FILE* file = std::fopen(path.c_str(), "wb")) {
+        std::fwrite(data, 1, size, file);
+        std::fclose(file);
+    }
+    return path;
+}
+
+}  // namespace weft::fuzz

@@ -1,0 +1,19 @@
+// Pictures by their bytes: EXR, PNG, TIFF, DPX, JPEG. The first byte chooses the name's extension.
+#include "engine/media/cryptomatte.h"
+#include "engine/media/frame_reader.h"
+#include "engine/media/image_files.h"
+#include "engine/media/metadata.h"
+#include "fuzz/fuzz_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long size) {
+    if (size < 2) return 0;
+    static const char* const kExtensions[] = {".exr", ".png"};
+    const std::string path = weft::fuzz::put_file(data + 1, size - 1, kExtensions[data[0] % 2]);
+    static_cast<void>(weft::read_image(path));
+    weft::MatteSelect ids;
+    ids.value = 3;
+    static_cast<void>(weft::read_matte(path, ids, {}));
+    static_cast<void>(weft::read_recipe_metadata(path));
+    if (data[0] % 2 == 0) static_cast<void>(weft::list_cryptomatte(path));
+    return 0;
+}

@@ -1,0 +1,178 @@
+// A shot cut into a farm's tasks; looks and collected projects.
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.h"
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Farm : public CliTest {
+  protected:
+    // A shot with a grown texture, estimated motion and a movie.
+    void make_project() {
+        make_shot(7);
+        expect_success(run({"new", "shot.weft", "--plate", "frames/####.png", "-o", "out/####.png",
+                            "--movie", "out.mkv", "--quality", "draft"}));
+        expect_success(run({"region", "add", "shot.weft", "--name", "card", "--matte",
+                            "masks/####.png", "--texture", "sample.png", "--refine", "0"}));
+    }
+    Json submitted(const std::string& engine) {
+        const Outcome outcome = run({"submit", "shot.weft", "--to", engine, "-o", "farm", "--chunk",
+                                     "3", "--threads", "1", "--json"});
+        expect_success(outcome);
+        return outcome.exit == 0 ? Json::parse(outcome.out)["files"] : Json();
+    }
+    int task(const std::string& stage, int index) {
+        return run({"task", "farm/job.json", stage, std::to_string(index), "--progress", "none"})
+            .exit;
+    }
+};
+
+TEST_F(Farm, TasksGiveTheBytesOfOneMachine) {
+    make_project();
+    submitted("slurm");
+    const Json job = Json::parse(bytes("farm/job.json"));
+    Words stages;
+    for (const Json& stage : job["stages"])
+        stages.push_back(stage["name"]);
+    EXPECT_EQ(stages, (Words{"motion", "analyse", "planes", "frames", "encode"}));
+    for (const Json& stage : job["stages"]) {
+        // Backwards, and the first one twice, as a farm may.
+        const int count = static_cast<int>(stage["frames"].size());
+        for (int k = count - 1; k >= 0; --k)
+            ASSERT_EQ(task(stage["name"], k), 0) << stage["name"] << k;
+        ASSERT_EQ(task(stage["name"], 0), 0) << stage["name"];
+    }
+    const auto by_tasks = contents("out");
+    const std::string movie = bytes("out.mkv");
+    ASSERT_EQ(by_tasks.size(), 7u);
+    expect_success(run({"render", "shot.weft", "--restart", "--no-cache", "--backend", "cpu"}));
+    EXPECT_EQ(contents("out"), by_tasks);
+    EXPECT_EQ(bytes("out.mkv"), movie);
+    EXPECT_EQ(task("frames", 3), 2);
+    EXPECT_EQ(task("paint", 0), 2);
+}
+
+TEST_F(Farm, EncodingWaitsForAllFrames) {
+    make_project();
+    submitted("slurm");
+    EXPECT_EQ(task("encode", 0), 4);
+}
+
+TEST_F(Farm, OpenJdTemplatesHaveTheFormOfTheSpecification) {
+    make_project();
+    submitted("openjd");
+    const Json job = Json::parse(bytes("farm/template.json"));
+    EXPECT_EQ(job["specificationVersion"], "jobtemplate-2023-09");
+    EXPECT_LE(job["name"].get<std::string>().size(), 128u);
+    EXPECT_EQ(job["steps"][3]["dependencies"][0]["dependsOn"], "planes");
+    const Json& space = job["steps"][3]["parameterSpace"]["taskParameterDefinitions"][0];
+    EXPECT_EQ(space["type"], "INT");
+    EXPECT_EQ(space["range"], "0-2");
+    const Json& action = job["steps"][3]["script"]["actions"]["onRun"];
+    EXPECT_EQ(action["command"], "{{Param.Weft}}");
+    EXPECT_EQ(action["args"][3], "{{Task.Param.Index}}");
+    EXPECT_EQ(action["cancelation"]["mode"], "NOTIFY_THEN_TERMINATE");
+    for (const auto& [key, value] : job.items())
+        EXPECT_TRUE(key == "specificationVersion" || key == "name" || key == "steps" ||
+                    key == "parameterDefinitions")
+            << key;
+    ASSERT_EQ(task("motion", 0), 0);
+    const Outcome told = run({"task", "farm/job.json", "analyse", "0", "--progress", "openjd"});
+    EXPECT_THAT(told.out, HasSubstr("openjd_progress: 100.0\n"));
+    EXPECT_THAT(told.out, HasSubstr("openjd_status: analyse frame "));
+    fs::remove(folder_ / "frames/0003.png");
+    EXPECT_THAT(run({"task", "farm/job.json", "frames", "0", "--progress", "openjd"}).out,
+                HasSubstr("openjd_fail: "));
+}
+
+TEST_F(Farm, NoScriptHoldsAName) {
+    make_project();
+    fs::rename(folder_ / "shot.weft", folder_ / "x'; touch hacked; '.weft");
+    for (const std::string engine : {"slurm", "openjd", "flamenco", "deadline", "opencue"}) {
+        const Outcome outcome =
+            run({"submit", "x'; touch hacked; '.weft", "--to", engine, "-o", "farm_" + engine});
+        expect_success(outcome);
+        for (const std::string& name : names("farm_" + engine)) {
+            if (name == "job.json") continue;
+            EXPECT_THAT(bytes("farm_" + engine + "/" + name), Not(HasSubstr("hacked;"))) << name;
+        }
+    }
+    EXPECT_EQ(run({"submit", "x'; touch hacked; '.weft", "--to", "opencue", "-o", "a'b"}).exit, 2);
+    EXPECT_EQ(run({"submit", "x'; touch hacked; '.weft", "--to", "spreadsheet", "-o", "f"}).exit,
+              2);
+}
+
+TEST_F(Farm, RootsAreMapped) {
+    make_project();
+    fs::rename(folder_ / "frames", folder_ / "plates");
+    std::string text = bytes("shot.weft");
+    text.replace(text.find("frames/####.png"), 15, "/nowhere/else/####.png");
+    put("shot.weft", text);
+    EXPECT_EQ(run({"render", "shot.weft"}).exit, 4);
+    expect_success(run({"render", "shot.weft", "--map", "/nowhere/else=" + in("plates")}));
+    EXPECT_EQ(run({"render", "shot.weft", "--map", "/nowhere"}).exit, 2);
+}
+
+TEST_F(Farm, ALookGoesFromShotToShot) {
+    make_project();
+    expect_success(run({"region", "set", "shot.weft", "card", "--rotate", "33", "--light-strength",
+                        "0.25", "--temporal", "paper"}));
+    expect_success(run({"look", "save", "shot.weft", "card.look.json"}));
+    fs::create_directories(folder_ / "b");
+    expect_success(
+        run({"new", "b/other.weft", "--plate", "../frames/####.png", "-o", "o/####.png"}));
+    expect_success(run({"region", "add", "b/other.weft", "--name", "wall", "--matte",
+                        "../masks/####.png", "--plane", "../tile.png"}));
+    expect_success(run({"look", "apply", "card.look.json", "b/other.weft"}));
+    const Json region = Json::parse(bytes("b/other.weft"))["regions"][0];
+    EXPECT_EQ(region["placement"]["rotate_deg"], 33.0);
+    EXPECT_EQ(region["light"]["strength"], 0.25);
+    EXPECT_EQ(region["temporal"]["mode"], "paper");
+    EXPECT_EQ(region["matte"]["files"], "../masks/####.png");
+    EXPECT_FALSE(region["texture"].contains("plane"));
+    EXPECT_TRUE(fs::exists(fs::path(region["texture"]["sample"].get<std::string>())));
+    expect_success(run({"region", "add", "b/other.weft", "--name", "floor", "--matte",
+                        "../masks/####.png", "--plane", "../tile.png"}));
+    EXPECT_EQ(run({"look", "apply", "card.look.json", "b/other.weft"}).exit, 2);
+    expect_success(run({"look", "apply", "card.look.json", "b/other.weft", "--region", "floor"}));
+}
+
+TEST_F(Farm, ACollectedProjectRendersTheSameElsewhere) {
+    make_project();
+    expect_success(run({"render", "shot.weft"}));
+    // A path that leads out of the folder must not lead the copy out of its own.
+    std::string text = bytes("shot.weft");
+    text.replace(text.find("\"sample.png\""), 12,
+                 "\"../" + folder_.filename().string() + "/sample.png\"");
+    put("shot.weft", text);
+    expect_success(run({"collect", "shot.weft", "kept/here"}));
+    for (const char* gone : {"frames", "masks"})
+        fs::remove_all(folder_ / gone);
+    fs::remove(folder_ / "sample.png");
+    EXPECT_EQ(names("kept"), (Words{"here"}));
+    EXPECT_THAT(bytes("kept/here/shot.weft"), Not(HasSubstr("..")));
+    expect_success(run({"render", "kept/here/shot.weft"}));
+    EXPECT_EQ(bytes("kept/here/out/out.mkv"), bytes("out.mkv"));
+    fs::remove(folder_ / "kept/here/out/out.mkv");
+    EXPECT_EQ(contents("kept/here/out"), contents("out"));
+    EXPECT_EQ(run({"collect", "shot.weft", "kept/here"}).exit, 2);
+}
+
+TEST_F(Farm, VersionAndDoctorSayWhatIsThere) {
+    EXPECT_THAT(run({"--version"}).out, HasSubstr("backends: cpu"));
+    const Outcome doctor = run({"doctor", "--json"});
+    expect_success(doctor);
+    EXPECT_TRUE(Json::parse(doctor.out).is_array());
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,101 @@
+// Loaded before the C library (LD_PRELOAD): the disk that fails. WEFT_FAULT is "CALL N KIND PART":
+// from the N-th CALL (write, read, fsync, rename) on a file whose path holds PART on, every call
+// fails with KIND (ENOSPC, EIO), or is cut short (short: half of the bytes), or takes 2 ms (slow),
+// or only the N-th one does with "once" behind it.
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+struct Plan {
+    char call[16] = "", kind[16] = "", part[256] = "", once[8] = "";
+    long from = 0;
+    Plan() {
+        if (const char* text = std::getenv("WEFT_FAULT"))
+            std::sscanf(text, "%15s %ld %15s %255s %7s", call, &from, kind, part, once);
+    }
+};
+
+// Whether this call of `name` on `path` is one that fails.
+bool strikes(const char* name, const char* path) {
+    static const Plan plan;
+    static std::atomic<long> count{0};
+    if (std::strcmp(plan.call, name) != 0 || !std::strstr(path, plan.part)) return false;
+    const long n = ++count;
+    return plan.once[0] ? n == plan.from : n >= plan.from;
+}
+
+const char* kind() {
+    static const Plan plan;
+    return plan.kind;
+}
+
+bool strikes(const char* name, int file) {
+    char link[64], path[PATH_MAX] = "";
+    std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    const ssize_t n = readlink(link, path, sizeof path - 1);
+    if (n < 0) return false;
+    path[n] = 0;
+    return strikes(name, path);
+}
+
+// False when the call is to go on.
+bool fail_or_wait() {
+    if (std::strcmp(kind(), "slow") == 0) {
+        usleep(2000);
+        return false;
+    }
+    if (std::strcmp(kind(), "short") == 0) return false;
+    errno = std::strcmp(kind(), "ENOSPC") == 0 ? ENOSPC : EIO;
+    return true;
+}
+
+template <class F>
+F next(const char* name) {
+    return reinterpret_cast<F>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int file, const void* data, size_t size) {
+    static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
+    if (!strikes("write", file)) return real(file, data, size);
+    if (fail_or_wait()) return -1;
+    return real(file, data, std::strcmp(kind(), "short") == 0 && size > 1 ? size / 2 : size);
+}
+
+ssize_t read(int file, void* data, size_t size) {
+    static const auto real = next<ssize_t (*)(int, void*, size_t)>("read");
+    if (!strikes("read", file)) return real(file, data, size);
+    if (fail_or_wait()) return -1;
+    return real(file, data, std::strcmp(kind(), "short") == 0 && size > 1 ? size / 2 : size);
+}
+
+size_t fread(void* data, size_t size, size_t count, FILE* stream) {
+    static const auto real = next<size_t (*)(void*, size_t, size_t, FILE*)>("fread");
+    if (!strikes("read", fileno(stream))) return real(data, size, count, stream);
+    if (fail_or_wait()) return 0;
+    return real(data, size, count, stream);
+}
+
+int fsync(int file) {
+    static const auto real = next<int (*)(int)>("fsync");
+    if (!strikes("fsync", file) || !fail_or_wait()) return real(file);
+    return -1;
+}
+
+int rename(const char* from, const char* to) {
+    static const auto real = next<int (*)(const char*, const char*)>("rename");
+    if (!strikes("rename", to) || !fail_or_wait()) return real(from, to);
+    return -1;
+}
+}

@@ -1,0 +1,159 @@
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+
+#include <bit>
+
+#include "engine/media/cryptomatte.h"
+#include "engine/media/image_files.h"
+#include "tests/media/media_fixture.h"
+
+namespace weft {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CryptomatteTest : public MediaTest {
+  protected:
+    // 4×1: wholly the wall; three quarters wall, one the ball; wholly the ball; nothing.
+    void put(const std::string& name, const std::string& manifest) {
+        OIIO::ImageSpec spec(4, 1, 7, OIIO::TypeFloat);
+        spec.channelnames = {"R", "G", "B", "obj00.r", "obj00.g", "obj00.b", "obj00.a"};
+        spec.attribute("cryptomatte/1234567/name", "obj");
+        spec.attribute("cryptomatte/1234567/hash", "MurmurHash3_32");
+        spec.attribute("cryptomatte/1234567/conversion", "uint32_to_float32");
+        if (!manifest.empty()) spec.attribute("cryptomatte/1234567/manifest", manifest);
+        const float wall = std::bit_cast<float>(cryptomatte_id("Wall"));
+        const float ball = std::bit_cast<float>(cryptomatte_id("Ball"));
+        const std::vector<float> data{0, 0, 0, wall, 1,     0,    0,      //
+                                      0, 0, 0, wall, 0.75f, ball, 0.25f,  //
+                                      0, 0, 0, ball, 1,     0,    0,      //
+                                      0, 0, 0, 0,    0,     0,    0};
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    }
+    static constexpr const char* kManifest = R"({"Wall":"2c388f97","Ball":"74d3ebe9"})";
+};
+
+TEST_F(CryptomatteTest, NamesHaveTheHashesThatARendererGaveThem) {
+    EXPECT_EQ(cryptomatte_id("Wall"), 0x2c388f97u);
+    EXPECT_EQ(cryptomatte_id("Ball"), 0x74d3ebe9u);
+    EXPECT_EQ(cryptomatte_id("Ground"), 0x24950135u);
+}
+
+TEST_F(CryptomatteTest, ObjectsAreListedPickedAndRead) {
+    put("a.exr", kManifest);
+    const auto objects = list_cryptomatte(in("a.exr")).value();
+    ASSERT_EQ(objects.size(), 2u);
+    EXPECT_EQ(objects[0].name, "Wall");
+    EXPECT_DOUBLE_EQ(objects[0].coverage_px, 1.75);
+    EXPECT_EQ(objects[1].name, "Ball");
+    EXPECT_EQ(pick_cryptomatte(in("a.exr"), 1, 0).value().name, "Wall");
+    EXPECT_EQ(pick_cryptomatte(in("a.exr"), 2, 0).value().name, "Ball");
+    EXPECT_EQ(pick_cryptomatte(in("a.exr"), 3, 0).value().name, "");
+    EXPECT_EQ(pick_cryptomatte(in("a.exr"), 4, 0).error().code, ErrorCode::kUsage);
+
+    const Matte wall = read_cryptomatte(in("a.exr"), "Wall", {4, 1}).value();
+    EXPECT_EQ(std::vector<int>(wall.data(), wall.data() + 4), (std::vector<int>{255, 191, 0, 0}));
+    const Matte both = read_cryptomatte(in("a.exr"), "Wall,obj/B*", {}).value();
+    EXPECT_EQ(std::vector<int>(both.data(), both.data() + 4), (std::vector<int>{255, 255, 255, 0}));
+    MatteSelect select;
+    select.crypto = "Ball";
+    select.invert = true;
+    EXPECT_EQ(read_matte(in("a.exr"), select, {4, 1}).value().at(2, 0), 0);
+}
+
+TEST_F(CryptomatteTest, NamesAreFoundWithoutAManifest) {
+    put("a.exr", "");
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "Ball", {}).value().at(2, 0), 255);
+}
+
+TEST_F(CryptomatteTest, WhatIsNotThereIsSaid) {
+    put("a.exr", kManifest);
+    const auto none = read_cryptomatte(in("a.exr"), "Door", {});
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("'Door'"));
+    EXPECT_THAT(none.error().message, HasSubstr("Ball, Wall"));
+    EXPECT_THAT(read_cryptomatte(in("a.exr"), "Wall", {5, 1}).error().message, HasSubstr("4x1"));
+    EXPECT_EQ(list_cryptomatte(in("b.exr")).error().code, ErrorCode::kMissingFrames);
+}
+
+TEST(CryptomatteManifest, IsReadStrictly) {
+    const auto good =
+        parse_cryptomatte_manifest(R"( { "a b\"c" : "0000000A" , "é\u00e9": "ff" } )");
+    ASSERT_TRUE(good);
+    EXPECT_EQ(good->at("a b\"c"), 10u);
+    EXPECT_EQ(good->at("éé"), 255u);
+    EXPECT_TRUE(parse_cryptomatte_manifest("{}"));
+    for (const char* bad : {"", "{", "[]", R"({"a"})", R"({"a":"xyz"})", R"({"a":"123456789"})",
+                            R"({"a":"1")", R"({"a":"1",})", R"({"\u12":"1"})", R"({"a)"})
+        EXPECT_FALSE(parse_cryptomatte_manifest(bad)) << bad;
+}
+
+class MotionPass : public MediaTest {
+  protected:
+    // One pixel's vector everywhere in 8×4.
+    void put(const std::string& name, const std::vector<std::string>& channels,
+             const std::vector<float>& pixel) {
+        OIIO::ImageSpec spec(8, 4, static_cast<int>(channels.size()), OIIO::TypeFloat);
+        spec.channelnames = channels;
+        std::vector<float> data;
+        for (int i = 0; i < 32; ++i)
+            data.insert(data.end(), pixel.begin(), pixel.end());
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    }
+    std::vector<float> motion(const std::string& name, MotionConvention convention,
+                              MotionDirection direction, const std::string& layer = "") {
+        const auto flow = read_motion(in(name), {convention, direction, layer}, {8, 4});
+        EXPECT_TRUE(flow) << flow.error().text();
+        if (!flow) return {};
+        EXPECT_EQ(flow->valid.at(3, 2), 255);
+        return {flow->d.at(3, 2, 0), flow->d.at(3, 2, 1)};
+    }
+};
+
+constexpr auto kForward = MotionDirection::kForward, kBackward = MotionDirection::kBackward;
+
+// In all of them the surface goes 3 px to the right and 1 px up in a frame.
+TEST_F(MotionPass, EveryConventionGivesTheSameMotion) {
+    const std::vector<float> to_next{3, -1}, to_previous{-3, 1};
+    put("blender.exr", {"v.Vector.X", "v.Vector.Y", "v.Vector.Z", "v.Vector.W"}, {-3, -1, -3, -1});
+    EXPECT_EQ(motion("blender.exr", MotionConvention::kBlender, kBackward), to_previous);
+    EXPECT_EQ(motion("blender.exr", MotionConvention::kBlender, kForward), to_next);
+    put("nuke.exr", {"forward.u", "forward.v", "backward.u", "backward.v"}, {3, 1, -3, -1});
+    EXPECT_EQ(motion("nuke.exr", MotionConvention::kNuke, kForward), to_next);
+    EXPECT_EQ(motion("nuke.exr", MotionConvention::kNuke, kBackward), to_previous);
+    // Half covered: both the vector and the alpha are halved.
+    put("moonray.exr", {"motionvec.R", "motionvec.G", "A"}, {0.375f, 0.125f, 0.5f});
+    EXPECT_EQ(motion("moonray.exr", MotionConvention::kMoonray, kForward), to_next);
+    put("flame.exr", {"R", "G", "B"}, {0.375f, 0.25f, 0});
+    EXPECT_EQ(motion("flame.exr", MotionConvention::kFlame, kForward), to_next);
+    EXPECT_EQ(motion("flame.exr", MotionConvention::kFlame, kBackward), to_previous);
+    put("arnold.exr", {"R", "G", "B", "motionvector.R", "motionvector.G"}, {9, 9, 9, 3, 1});
+    EXPECT_EQ(motion("arnold.exr", MotionConvention::kArnold, kForward), to_next);
+    EXPECT_EQ(motion("arnold.exr", MotionConvention::kArnold, kForward, "motionvector"), to_next);
+}
+
+TEST_F(MotionPass, WhatIsNotThereIsListed) {
+    put("a.exr", {"R", "G", "B"}, {0, 0, 0});
+    const auto none = read_motion(in("a.exr"), {MotionConvention::kBlender, kForward, ""}, {8, 4});
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("R, G, B"));
+    EXPECT_FALSE(read_motion(in("a.exr"), {MotionConvention::kFlame, kForward, ""}, {9, 4}));
+}
+
+TEST_F(MotionPass, UvPassesHaveUAndVOrRAndG) {
+    put("uv.exr", {"shot.UV.U", "shot.UV.V", "shot.UV.A"}, {0.25f, 0.75f, 1});
+    EXPECT_EQ(read_uv(in("uv.exr"), "", {8, 4}).value().at(1, 1, 1), 0.75f);
+    put("st.exr", {"R", "G", "B"}, {0.5f, 0.125f, 0});
+    EXPECT_EQ(read_uv(in("st.exr"), "", {8, 4}).value().at(1, 1, 0), 0.5f);
+    EXPECT_EQ(read_uv(in("uv.exr"), "shot.UV", {8, 4}).value().at(1, 1, 0), 0.25f);
+    EXPECT_FALSE(read_uv(in("uv.exr"), "", {8, 5}));
+}
+
+}  // namespace
+}  // namespace weft

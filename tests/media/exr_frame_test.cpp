@@ -1,0 +1,192 @@
+// What an EXR frame keeps of its plate's file.
+#include <OpenImageIO/half.h>
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "engine/media/exr_frame.h"
+#include "engine/media/image_files.h"
+#include "engine/media/metadata.h"
+#include "tests/media/media_fixture.h"
+
+namespace weft {
+namespace {
+
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+using ::testing::HasSubstr;
+
+class ExrFrameTest : public MediaTest {
+  protected:
+    // Half R, G, B, A and float Z; the data window is larger than the display window on the left
+    // and smaller on the right. Native samples; the first pixel of the display is a NaN with a
+    // payload.
+    void put_source(const std::string& name, const std::string& compression = "piz",
+                    bool dated = true) {
+        ImageSpec spec(14, 8, 5, TypeDesc::HALF);
+        spec.x = -2;
+        spec.y = 1;
+        spec.full_x = 0;
+        spec.full_y = 0;
+        spec.full_width = 16;
+        spec.full_height = 10;
+        spec.channelnames = {"R", "G", "B", "A", "depth.Z"};
+        spec.channelformats = {TypeDesc::HALF, TypeDesc::HALF, TypeDesc::HALF, TypeDesc::HALF,
+                               TypeDesc::FLOAT};
+        spec.attribute("compression", compression);
+        spec.attribute("PixelAspectRatio", 2.0f);
+        const unsigned int code[2] = {0x01020304, 0};
+        spec.attribute("smpte:TimeCode", OIIO::TypeTimeCode, code);
+        spec.attribute("studio/shot", "sq010_sh020");
+        if (dated) spec.attribute("DateTime", "2020:02:02 02:02:02");
+        samples_.assign(12u * 14 * 8, 0);
+        for (std::size_t i = 0; i < 14 * 8; ++i) {
+            for (std::size_t c = 0; c < 4; ++c) {
+                const half h(static_cast<float>(i + 100 * c) / 64.0f);
+                std::memcpy(samples_.data() + 12 * i + 2 * c, &h, 2);
+            }
+            const float z = 1.0f / static_cast<float>(i + 3);
+            std::memcpy(samples_.data() + 12 * i + 8, &z, 4);
+        }
+        const std::uint16_t nan = 0x7E55;
+        std::memcpy(samples_.data() + 12 * 2, &nan, 2);
+        auto output = ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(TypeDesc::UNKNOWN, samples_.data()));
+        ASSERT_TRUE(output->close());
+    }
+
+    std::vector<unsigned char> native(const std::string& name, ImageSpec& spec) {
+        const auto input = ImageInput::open(in(name));
+        EXPECT_TRUE(input);
+        spec = input->spec();
+        std::vector<unsigned char> out(spec.image_bytes(true));
+        EXPECT_TRUE(input->read_image(0, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, out.data()));
+        return out;
+    }
+
+    std::vector<unsigned char> samples_;
+};
+
+TEST_F(ExrFrameTest, KeepsEveryBitOutsideOfWhatWasTouched) {
+    put_source("plate.exr");
+    const ImageF3 rgb(16, 10, 0.25f);
+    Matte touched(16, 10);
+    touched.at(5, 4) = 255;
+    touched.at(6, 4) = 1;
+    ExrFrame frame{rgb, {}, in("plate.exr"), "", touched, {}};
+    WriteOptions options;
+    options.exr_compression = "auto";
+    options.metadata = {{"weft:version", "1"}, {"weft:settings", "abc"}};
+    ASSERT_TRUE(write_exr(in("out.exr"), frame, options));
+
+    ImageSpec spec;
+    const auto out = native("out.exr", spec);
+    EXPECT_EQ(spec.x, -2);
+    EXPECT_EQ(spec.y, 1);
+    EXPECT_EQ(spec.width, 14);
+    EXPECT_EQ(spec.full_width, 16);
+    EXPECT_EQ(spec.get_string_attribute("compression"), "piz");
+    EXPECT_EQ(spec.get_float_attribute("PixelAspectRatio"), 2.0f);
+    EXPECT_EQ(spec.get_string_attribute("studio/shot"), "sq010_sh020");
+    EXPECT_EQ(spec.get_string_attribute("DateTime"), "2020:02:02 02:02:02");
+    EXPECT_EQ(spec.get_string_attribute("weft:settings"), "abc");
+    EXPECT_NE(spec.find_attribute("smpte:TimeCode"), nullptr);
+    ASSERT_EQ(spec.channelnames.back(), "depth.Z");
+    ASSERT_EQ(out.size(), samples_.size());
+    // Pixel (5, 4) of the display is (7, 3) of the data.
+    for (std::size_t i = 0; i < 14 * 8; ++i) {
+        const bool changed = i == 3 * 14 + 7 || i == 3 * 14 + 8;
+        for (std::size_t b = 0; b < 12; ++b) {
+            if (changed && b < 6) continue;
+            ASSERT_EQ(out[12 * i + b], samples_[12 * i + b]) << "pixel " << i << " byte " << b;
+        }
+    }
+    EXPECT_EQ(read_image(in("out.exr")).value().rgb.at(5, 4, 1), 0.25f);
+    EXPECT_EQ(read_recipe_metadata(in("out.exr"))["weft:settings"], "abc");
+}
+
+TEST_F(ExrFrameTest, TheDataWindowGrowsWithWhatIsPainted) {
+    put_source("plate.exr");
+    const ImageF3 rgb(16, 10, 0.5f);
+    Matte touched(16, 10);
+    touched.at(15, 9) = 255;
+    ASSERT_TRUE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", touched, {}}, {}));
+    ImageSpec spec;
+    native("out.exr", spec);
+    EXPECT_EQ(spec.x, -2);
+    EXPECT_EQ(spec.x + spec.width, 16);
+    EXPECT_EQ(spec.y + spec.height, 10);
+    EXPECT_EQ(read_image(in("out.exr")).value().rgb.at(15, 9, 2), 0.5f);
+}
+
+TEST_F(ExrFrameTest, NothingTellsTheTime) {
+    put_source("plate.exr", "zip", false);
+    const ImageF3 rgb(16, 10);
+    const Matte touched(16, 10, 255);
+    ASSERT_TRUE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", touched, {}}, {}));
+    ImageSpec spec;
+    native("out.exr", spec);
+    EXPECT_EQ(spec.get_string_attribute("DateTime"), "1970:01:01 00:00:00");
+}
+
+TEST_F(ExrFrameTest, LossyCompressionIsNotKept) {
+    put_source("plate.exr", "b44");
+    const ImageF3 rgb(16, 10);
+    const Matte touched(16, 10);
+    WriteOptions options;
+    options.exr_compression = "auto";
+    ASSERT_TRUE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", touched, {}}, options));
+    ImageSpec spec;
+    native("out.exr", spec);
+    EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
+}
+
+TEST_F(ExrFrameTest, LayersComeBackAtTheirOwnDepth) {
+    const ImageF3 rgb(6, 5, 0.5f);
+    std::vector<float> st;
+    for (int i = 0; i < 60; ++i)
+        st.push_back(0.1f + static_cast<float>(i) / 777.0f);
+    ExrFrame frame{
+        rgb, {}, "",
+        "",  {}, {{{"st.R", "st.G"}, true, st}, {{"seam.A"}, false, std::vector<float>(30, 0.1f)}}};
+    WriteOptions options;
+    options.depth = PixelDepth::kHalf;
+    ASSERT_TRUE(write_exr(in("out.exr"), frame, options));
+    const PlateFrame plain = read_image(in("out.exr")).value();
+    EXPECT_EQ(plain.rgb.at(2, 2, 0), 0.5f);
+    EXPECT_EQ(plain.depth, PixelDepth::kHalf);
+    const auto input = ImageInput::open(in("out.exr"));
+    std::vector<float> all(30u * static_cast<std::size_t>(input->spec().nchannels));
+    ASSERT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeFloat, all.data()));
+    for (int c = 0; c < input->spec().nchannels; ++c) {
+        const std::string name = input->spec().channel_name(c);
+        for (std::size_t i = 0; i < 30; ++i) {
+            const float v = all[i * static_cast<std::size_t>(input->spec().nchannels) +
+                                static_cast<std::size_t>(c)];
+            if (name == "st.R") {
+                ASSERT_EQ(v, st[2 * i]);
+            }
+            if (name == "seam.A") {
+                ASSERT_EQ(v, static_cast<float>(half(0.1f)));
+            }
+        }
+    }
+}
+
+TEST_F(ExrFrameTest, ANamedLayerIsReplacedAndTheOthersStay) {
+    put_source("plate.exr");
+    const ImageF3 rgb(16, 10, 2.0f);
+    const auto bad = write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "beauty", {}, {}}, {});
+    ASSERT_FALSE(bad);
+    EXPECT_THAT(bad.error().message, HasSubstr("beauty"));
+    EXPECT_FALSE(is_exr_with_colour(in("plate.exr"), "beauty"));
+    EXPECT_TRUE(is_exr_with_colour(in("plate.exr"), ""));
+}
+
+}  // namespace
+}  // namespace weft
