@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"fsync", "EIO", "/out/"}, Fault{"rename", "EIO", "/out/"},
                       Fault{"write", "ENOSPC", "/cache/"}, Fault{"read", "EIO", "/frames/"},
                       Fault{"read", "EIO", "/cache/"}, Fault{"read", "short", "/frames/"}),
-    [](const auto& info) {
-        std::string name = info.param.call + "_" + info.param.kind + info.param.part;
+    [](const auto& fault) {
+        std::string name = fault.param.call + "_" + fault.param.kind + fault.param.part;
         std::replace_if(
             name.begin(), name.end(),
             [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
