@@ -58,6 +58,7 @@ struct JointShape {
 // Soft edges are where either estimate has them.
 Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, ViewU8x1 after,
              const JointShape& joint, float share, const MatteOptions& options) {
+    if (!options.soft_edges) return found.matte;
     constexpr float kWidestPx = 20;
     const auto softness_of = [](ViewU8x1 matte, ViewF1 phi) {
         return edge_softness(matte, shape_without_strands(phi, 2 * kWidestPx), kWidestPx);

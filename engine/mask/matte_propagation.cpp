@@ -177,6 +177,12 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
     return with_soft_edges(part, found.phi, softness, found.matte, expected, options.steadiness);
 }
 
+bool MatteWalker::has_soft_edges() const {
+    const ImageF1& softness = state_->key_softness;
+    return std::any_of(softness.data(), softness.data() + softness.size_bytes() / sizeof(float),
+                       [](float half_width) { return half_width > 0; });
+}
+
 MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cur) {
     State& s = *state_;
     MatteEstimate estimate{Matte(frame.size()), 0};

@@ -15,6 +15,9 @@ struct MatteEstimate {
 
 struct MatteOptions {
     float steadiness = 0.5f;  ///< 0–1: how much of the boundary's boil is taken out.
+    /// Whether a painted edge is soft (MatteWalker::has_soft_edges()): where none is, merging two
+    /// estimates takes no edge for soft either, however unsure it is.
+    bool soft_edges = true;
 };
 
 /// Walks away from one keyframe, forwards or backwards in time, one frame at a time. The keyframe's
@@ -31,6 +34,9 @@ class MatteWalker {
     /// was in the frame before (of the walk), pixels; its `valid` says where that can be trusted,
     /// `d` is finite everywhere. Both have the keyframe's size.
     [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur);
+
+    /// Whether the keyframe's edge is soft anywhere: hair, fur, motion blur.
+    [[nodiscard]] bool has_soft_edges() const;
 
   private:
     struct State;

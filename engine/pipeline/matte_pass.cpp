@@ -34,7 +34,7 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
         Job job{static_cast<int>(k),
                 region.matte_keys,
                 analysed_span(plan, region),
-                {region.matte_steadiness},
+                {region.matte_steadiness, false},
                 {}};
         bool complete = true;
         for (int f = job.span.first; f <= job.span.last && complete; ++f) {
@@ -70,6 +70,7 @@ Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job
     if (job.is_key(at.frame)) {
         WEFT_TRY(key, context.source.matte_key(job.region, at.frame));
         job.walker.emplace(at.views->display, key, job.options);
+        job.options.soft_edges |= job.walker->has_soft_edges();
         return std::optional<MatteEstimate>(MatteEstimate{std::move(key), 1.0f});
     }
     if (!job.walker || at.frame < job.span.first || at.frame > job.span.last || !at.prev_from_cur) {

@@ -214,7 +214,7 @@ TEST_F(CliTest, SeveralReferenceFramesAnchorTheTexture) {
     expect_success(run_replace({"--light", "none", "-o", "two/####.png", "--reference-frame", "1",
                                 "--reference-frame", "5"}));
     // The first one holds the placement.
-    EXPECT_EQ(bytes("out/0001.png"), bytes("two/0001.png"));
+    EXPECT_EQ(picture("out/0001.png").rgb, picture("two/0001.png").rgb);
     const Vec2i shift{2 * Card::kStepX, 2 * Card::kStepY};
     EXPECT_LT(largest_difference(picture("two/0001.png").rgb, picture("two/0003.png").rgb,
                                  {60, 45, 90, 70}, shift),
@@ -268,11 +268,12 @@ TEST_F(CliTest, IdMattesChannelsAndInversion) {
         words[4] = folder + "/####.png";
         words.insert(words.end(), more.begin(), more.end());
         expect_success(run(words));
-        return bytes(folder + "-out/0001.png");
+        return picture(folder + "-out/0001.png").rgb;
     };
-    EXPECT_EQ(with_matte("ids", {"--matte-value", "3"}), bytes("out/0001.png"));
-    EXPECT_EQ(with_matte("inverse", {"--matte-invert"}), bytes("out/0001.png"));
-    EXPECT_EQ(with_matte("colours", {"--matte-channel", "G"}), bytes("out/0001.png"));
+    const ImageF3 plain = picture("out/0001.png").rgb;
+    EXPECT_EQ(with_matte("ids", {"--matte-value", "3"}), plain);
+    EXPECT_EQ(with_matte("inverse", {"--matte-invert"}), plain);
+    EXPECT_EQ(with_matte("colours", {"--matte-channel", "G"}), plain);
 }
 
 }  // namespace
