@@ -21,7 +21,10 @@ if(WEFT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 find_program(WEFT_MOLD mold)
 if(WEFT_MOLD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12.1)
-    add_link_options(-fuse-ld=mold)
+    # mold 1.10 lets the read-only part begin at an empty .tbss, in a page that nothing maps, when
+    # that happens to lie at a page's end; the loader then refuses the program ("cannot apply
+    # additional memory protection after relocation"). Without that part nothing can be wrong with it.
+    add_link_options(-fuse-ld=mold -Wl,-z,norelro)
 endif()
 
 # Contraction of a*b+c into FMA would make results depend on the instruction set

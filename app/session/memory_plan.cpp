@@ -9,8 +9,9 @@
 namespace weft {
 namespace {
 
-// Measured: the program with its libraries and texture planes, and what rendering holds for each
-// pixel of a frame at the same time (working plate, canvas, texture, old surface, output, mattes).
+// An estimate, not measured: the program with its libraries and texture planes, and what rendering
+// holds for each pixel of a frame at the same time (working plate, canvas, texture, old surface,
+// output, mattes).
 constexpr std::int64_t kProgramBytes = 220ll << 20;
 constexpr std::int64_t kBytesPerPixel = 130;
 
