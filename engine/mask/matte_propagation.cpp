@@ -107,6 +107,7 @@ struct MatteWalker::State {
     ImageF1 key_softness;               ///< Of the keyframe's edge, half its width in pixels …
     float clearance_px = kClearancePx;  ///< … and what colours are learned beyond.
     Matte last;                         ///< The matte of the frame that was reached last.
+    bool soft_edges = false;            ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
@@ -131,6 +132,10 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            copy_of(key)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
+    const ImageF1& softness = state_->key_softness;
+    state_->soft_edges =
+        std::any_of(softness.data(), softness.data() + softness.size_bytes() / sizeof(float),
+                    [](float half_width) { return half_width > 0; });
     state_->clearance_px = clearance_of(phi, state_->key_softness);
 }
 
@@ -159,6 +164,7 @@ LocalColorField MatteWalker::State::learn_colors(ViewU8x3 part, const Transporte
 // Hair, fur and motion blur are where they were on the keyframe, carried along.
 Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                  ViewF2 prev_from_cur, const Recti& area) const {
+    if (!soft_edges) return found.matte;
     ImageF1 softness(part.size());
     Matte expected(part.size());
     parallel_rows(part.height(), 16, [&](int y0, int y1) {
@@ -178,9 +184,7 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
 }
 
 bool MatteWalker::has_soft_edges() const {
-    const ImageF1& softness = state_->key_softness;
-    return std::any_of(softness.data(), softness.data() + softness.size_bytes() / sizeof(float),
-                       [](float half_width) { return half_width > 0; });
+    return state_->soft_edges;
 }
 
 MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cur) {
