@@ -94,7 +94,8 @@ std::vector<Recti> patches_of(const Shape& shape, const Coverage& coverage) {
         std::stable_sort(found.begin(), found.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
         std::vector<Recti> chosen;
-        for (const auto& [score, r] : found) {
+        for (const auto& candidate : found) {
+            const Recti& r = candidate.second;
             const bool apart = std::none_of(chosen.begin(), chosen.end(), [&](const Recti& c) {
                 const Recti both = c.intersected(r);
                 return !both.empty() && both.width() * both.height() * 3 > side * side;
