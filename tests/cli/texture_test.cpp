@@ -140,7 +140,7 @@ TEST_F(LibraryTexture, IsMarkedAndKept) {
     EXPECT_TRUE(Json::parse(kept.out)["searches"].empty());
 }
 
-TEST_F(LibraryTexture, IsFoundByARectangleOfAPlate) {
+TEST_F(LibraryTexture, IsComparedWithAPlateOnlyWhereMaterialsWereLearned) {
     const Outcome found = run({"texture", "similar", "frames/0001.png", "--rectangle", "8,8,64,64",
                                "--db", "lib.db", "--json"});
     // Of one material nothing is learned by which to compare, and that is said.
