@@ -54,15 +54,7 @@ void light_inspector(Ctx& c) {
         }
         section_gap(c);
     }
-    if (section(c, "Through time")) {
-        const PanelName panel(c, "Time");
-        region_parameter(c, *region, "temporal.mode", "The texture is");
-        if (region->temporal.mode == TemporalMode::kPaper) {
-            region_parameter(c, *region, "temporal.blend");
-            region_parameter(c, *region, "temporal.weight");
-        }
-        section_gap(c);
-    }
+    time_section(c, *region);
     if (section(c, "Camera", false)) {
         const PanelName panel(c, "Camera");
         quiet(c, "Seen at final quality");

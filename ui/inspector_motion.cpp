@@ -91,15 +91,7 @@ void motion_inspector(Ctx& c) {
         }
         section_gap(c);
     }
-    if (section(c, "Through time")) {
-        const PanelName panel(c, "Time");
-        region_parameter(c, *region, "temporal.mode", "The texture is");
-        if (region->temporal.mode == TemporalMode::kPaper) {
-            region_parameter(c, *region, "temporal.blend");
-            region_parameter(c, *region, "temporal.weight");
-        }
-        section_gap(c);
-    }
+    time_section(c, *region);
 }
 
 }  // namespace weft::ui

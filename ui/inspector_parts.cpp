@@ -201,4 +201,15 @@ void provenance_section(Ctx& c, const Region& region) {
     section_gap(c);
 }
 
+void time_section(Ctx& c, const Region& region) {
+    if (!section(c, "Through time")) return;
+    const PanelName panel(c, "Time");
+    region_parameter(c, region, "temporal.mode", "The texture is");
+    if (region.temporal.mode == TemporalMode::kPaper) {
+        region_parameter(c, region, "temporal.blend");
+        region_parameter(c, region, "temporal.weight");
+    }
+    section_gap(c);
+}
+
 }  // namespace weft::ui

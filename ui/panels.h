@@ -44,6 +44,8 @@ void file_browser(Ctx& c);
 void leave_question(Ctx& c);
 void tour(Ctx& c);
 
+/// The inspector's section of how the texture goes through time.
+void time_section(Ctx& c, const Region& region);
 /// Sliders, choices and texts of one parameter of a region, from its entry in the table.
 void region_parameter(Ctx& c, const Region& region, std::string_view key,
                       const char* label = nullptr);

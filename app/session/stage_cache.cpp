@@ -1,10 +1,9 @@
 #include "app/session/stage_cache.h"
 
-#include <cstring>
 #include <filesystem>
-#include <type_traits>
 
 #include "app/session/blob_file.h"
+#include "engine/core/byte_stream.h"
 #include "engine/core/hash.h"
 
 namespace weft {
@@ -15,56 +14,6 @@ namespace fs = std::filesystem;
 // Raised whenever the estimate computes something else.
 constexpr int kMotionVersion = 1;
 
-class Writer {
-  public:
-    template <class T>
-    requires std::is_trivially_copyable_v<T> Writer& value(const T& v) { return raw(&v, sizeof v); }
-    Writer& raw(const void* data, std::size_t size) {
-        const auto* p = static_cast<const std::uint8_t*>(data);
-        bytes.insert(bytes.end(), p, p + size);
-        return *this;
-    }
-    template <class T, int C>
-    Writer& image(const Image<T, C>& image) {
-        value(image.width()).value(image.height());
-        return raw(image.data(), image.size_bytes());
-    }
-    Bytes bytes;
-};
-
-class Reader {
-  public:
-    explicit Reader(const Bytes& bytes) : bytes_(bytes) {}
-    template <class T>
-    requires std::is_trivially_copyable_v<T> Reader& value(T& v) { return raw(&v, sizeof v); }
-    Reader& raw(void* to, std::size_t size) {
-        if (size > bytes_.size() - at_) ok_ = false;
-        if (!ok_) return *this;
-        if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
-        at_ += size;
-        return *this;
-    }
-    template <class T, int C>
-    Reader& image(Image<T, C>& image) {
-        int width = 0, height = 0;
-        value(width).value(height);
-        constexpr int kLargest = 1 << 16;
-        ok_ = ok_ && width >= 0 && height >= 0 && width <= kLargest && height <= kLargest;
-        const auto pixels =
-            static_cast<std::size_t>(ok_ ? width : 0) * static_cast<std::size_t>(ok_ ? height : 0);
-        ok_ = ok_ && pixels * C * sizeof(T) <= bytes_.size() - at_;
-        if (!ok_) return *this;
-        image = Image<T, C>(width, height);
-        return raw(image.data(), image.size_bytes());
-    }
-    [[nodiscard]] bool complete() const { return ok_ && at_ == bytes_.size(); }
-
-  private:
-    const Bytes& bytes_;
-    std::size_t at_ = 0;
-    bool ok_ = true;
-};
-
 class DiskStages final : public StageStore {
   public:
     DiskStages(fs::path planes, fs::path motion)
@@ -73,30 +22,30 @@ class DiskStages final : public StageStore {
     [[nodiscard]] std::optional<TexturePlane> plane(const Hash128& key) const override {
         const auto bytes = read_blob((planes_ / key.hex()).string());
         if (!bytes) return std::nullopt;
-        Reader reader(*bytes);
+        ByteReader reader(*bytes);
         TexturePlane out;
         reader.image(out.pixels).image(out.source).image(out.origin).value(out.stats);
         if (!reader.complete() || out.source.size() != out.pixels.size()) return std::nullopt;
         return out;
     }
     void keep_plane(const Hash128& key, const TexturePlane& plane) override {
-        Writer writer;
+        ByteWriter writer;
         writer.image(plane.pixels).image(plane.source).image(plane.origin).value(plane.stats);
-        keep(planes_, key.hex(), writer.bytes);
+        keep(planes_, key.hex(), writer.take());
     }
     [[nodiscard]] std::optional<FlowField> motion(int current, int previous) const override {
         const auto bytes = read_blob((motion_ / name_of(current, previous)).string());
         if (!bytes) return std::nullopt;
-        Reader reader(*bytes);
+        ByteReader reader(*bytes);
         FlowField out;
         reader.image(out.d).image(out.valid);
         if (!reader.complete() || out.d.size() != out.valid.size()) return std::nullopt;
         return out;
     }
     void keep_motion(int current, int previous, const FlowField& motion) override {
-        Writer writer;
+        ByteWriter writer;
         writer.image(motion.d).image(motion.valid);
-        keep(motion_, name_of(current, previous), writer.bytes);
+        keep(motion_, name_of(current, previous), writer.take());
     }
 
   private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/blur_inside.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -17,21 +18,7 @@ constexpr float kOfMeasuring = 0.66f;    // px²: central differences, and edges
 constexpr std::size_t kFewestEdges = 60;
 constexpr std::size_t kFewestOfPlace = 12;
 constexpr float kSharpest = 0.3f, kMostBlurred = 6.0f;
-constexpr float kLeastBlur = 0.2f;
 constexpr float kAlike = 1.1f;
-
-std::vector<float> gaussian(float sigma) {
-    const int radius = std::max(1, static_cast<int>(std::ceil(3.0f * sigma)));
-    std::vector<float> kernel(static_cast<std::size_t>(2 * radius + 1));
-    float sum = 0;
-    for (int k = -radius; k <= radius; ++k) {
-        const float r = static_cast<float>(k) / sigma;
-        sum += kernel[static_cast<std::size_t>(k + radius)] = std::exp(-0.5f * r * r);
-    }
-    for (float& k : kernel)
-        k /= sum;
-    return kernel;
-}
 
 // Lightness as an eye weighs it, nearly: the square root.
 ImageF1 lightness(ViewF3 linear) {
@@ -49,7 +36,7 @@ ImageF1 lightness(ViewF3 linear) {
 }
 
 ImageF1 blurred(const ImageF1& plane, float sigma) {
-    const std::vector<float> kernel = gaussian(sigma);
+    const std::vector<float> kernel = gaussian_kernel(sigma);
     const int r = static_cast<int>(kernel.size() / 2);
     ImageF1 rows(plane.size()), out(plane.size());
     parallel_rows(plane.height(), 16, [&](int y0, int y1) {
@@ -184,42 +171,6 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
 float blur_between(float from_px, float to_px) {
     if (!(from_px > 0) || !(to_px > kAlike * from_px)) return 0;
     return std::sqrt(to_px * to_px - from_px * from_px);
-}
-
-void blur_inside(ImageView<float, 3> picture, ViewU8x1 matte, float sigma_px) {
-    if (!(sigma_px >= kLeastBlur) || picture.empty()) return;
-    const std::vector<float> kernel = gaussian(sigma_px);
-    const int r = static_cast<int>(kernel.size() / 2);
-    const int w = picture.width(), h = picture.height();
-    Image<float, 4> rows(w, h);  // colour times weight, weight
-    parallel_rows(h, 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < w; ++x) {
-                float* to = rows.pixel(x, y);
-                for (int u = std::max(0, x - r); u <= std::min(w - 1, x + r); ++u) {
-                    if (matte.row(y)[u] == 0) continue;
-                    const float k = kernel[static_cast<std::size_t>(u - x + r)];
-                    const float* p = picture.pixel(u, y);
-                    to[0] += k * p[0], to[1] += k * p[1], to[2] += k * p[2], to[3] += k;
-                }
-            }
-        }
-    });
-    parallel_rows(h, 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < w; ++x) {
-                if (matte.row(y)[x] == 0) continue;
-                float sum[4] = {0, 0, 0, 0};
-                for (int v = std::max(0, y - r); v <= std::min(h - 1, y + r); ++v) {
-                    const float k = kernel[static_cast<std::size_t>(v - y + r)];
-                    for (int c = 0; c < 4; ++c)
-                        sum[c] += k * rows.pixel(x, v)[c];
-                }
-                for (int c = 0; c < 3; ++c)
-                    picture.pixel(x, y)[c] = sum[c] / sum[3];
-            }
-        }
-    });
 }
 
 }  // namespace weft

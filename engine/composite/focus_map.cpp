@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "engine/core/blur_inside.h"
 #include "engine/core/parallel.h"
 
 namespace weft {

@@ -250,17 +250,6 @@ class CryptoFile {
     std::vector<Layer> layers_;
 };
 
-template <class F>
-auto guarded(const std::string& path, const F& body) -> decltype(body()) {
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, path + " does not fit into memory.");
-    } catch (const std::exception& e) {
-        return tl::unexpected(damaged(path, e.what()));
-    }
-}
-
 std::string name_of(const Layer& layer, std::uint32_t id) {
     for (const auto& [name, hash] : layer.ids)
         if (hash == id) return name;

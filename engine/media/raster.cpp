@@ -355,18 +355,6 @@ Expected<RasterInfo> probe_oiio(const std::string& path, const RasterRequest& re
     return info_of(*input, path, pick);
 }
 
-// OpenImageIO throws only where the libraries below it do.
-template <class F>
-auto guarded(const std::string& path, const F& body) -> decltype(body()) {
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, path + " does not fit into memory.");
-    } catch (const std::exception& e) {
-        return tl::unexpected(damaged(path, e.what()));
-    }
-}
-
 // A PNG has neither layers nor named channels, so such a request takes OpenImageIO's way to the
 // message that lists what there is.
 bool goes_to_libpng(const std::string& path, const RasterRequest& request) {

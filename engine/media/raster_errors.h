@@ -2,6 +2,8 @@
 // Internal: what both decoders say and check alike.
 
 #include <cstdint>
+#include <exception>
+#include <new>
 #include <string>
 
 #include "engine/core/error.h"
@@ -17,5 +19,17 @@ namespace weft {
 /// Errors: NoSpace when a picture of this size cannot be held by this machine: better said than
 /// killed by the system half way.
 [[nodiscard]] Status check_memory(const std::string& path, Size size, int channels);
+
+/// `body()`, with what the libraries below OpenImageIO throw as errors about the file.
+template <class F>
+auto guarded(const std::string& path, const F& body) -> decltype(body()) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::kNoSpace, path + " does not fit into memory.");
+    } catch (const std::exception& e) {
+        return tl::unexpected(damaged(path, e.what()));
+    }
+}
 
 }  // namespace weft

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "engine/color/color_space.h"
+#include "engine/core/blur_inside.h"
 #include "engine/core/parallel.h"
 #include "engine/metrics/region.h"
 
@@ -27,46 +28,6 @@ ImageF3 to_linear(ViewF3 encoded) {
 
 float luminance(const float* p) {
     return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
-
-// A Gaussian as normalised convolution over the matte, along rows and then columns.
-void blur(ImageF3& linear, ViewU8x1 matte, float sigma) {
-    const int radius = static_cast<int>(std::ceil(3 * sigma));
-    std::vector<float> kernel(static_cast<std::size_t>(2 * radius + 1));
-    for (int k = -radius; k <= radius; ++k) {
-        const float r = static_cast<float>(k) / sigma;
-        kernel[static_cast<std::size_t>(k + radius)] = std::exp(-0.5f * r * r);
-    }
-    const int w = linear.width(), h = linear.height();
-    Image<float, 4> rows(w, h);
-    parallel_rows(h, 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < w; ++x) {
-                float* to = rows.pixel(x, y);
-                for (int u = std::max(0, x - radius); u <= std::min(w - 1, x + radius); ++u) {
-                    if (matte.row(y)[u] == 0) continue;
-                    const float k = kernel[static_cast<std::size_t>(u - x + radius)];
-                    const float* p = linear.pixel(u, y);
-                    to[0] += k * p[0], to[1] += k * p[1], to[2] += k * p[2], to[3] += k;
-                }
-            }
-        }
-    });
-    parallel_rows(h, 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < w; ++x) {
-                if (matte.row(y)[x] == 0) continue;
-                float sum[4] = {0, 0, 0, 0};
-                for (int v = std::max(0, y - radius); v <= std::min(h - 1, y + radius); ++v) {
-                    const float k = kernel[static_cast<std::size_t>(v - y + radius)];
-                    for (int c = 0; c < 4; ++c)
-                        sum[c] += k * rows.pixel(x, v)[c];
-                }
-                for (int c = 0; c < 3; ++c)
-                    linear.pixel(x, y)[c] = sum[c] / sum[3];
-            }
-        }
-    });
 }
 
 double median_inside(const ImageF3& linear, ViewU8x1 matte) {
@@ -150,7 +111,7 @@ TruthComparison::Frame TruthComparison::compare(ViewF3 result, ViewF3 truth, Vie
     if (!(first_ > 0)) first_ = bright, first_true_ = true_bright;
     if (first_ > 0 && first_true_ > 0)
         out.brightness = bright / first_, out.true_brightness = true_bright / first_true_;
-    if (blur_px_ > 0) blur(r, matte, blur_px_), blur(t, matte, blur_px_);
+    if (blur_px_ > 0) blur_inside(r, matte, blur_px_), blur_inside(t, matte, blur_px_);
     const Matte shade = shade_of(t, matte);
     Mean inside, soft, shadow;
     for (int y = 0; y < matte.height(); ++y) {

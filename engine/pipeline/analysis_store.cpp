@@ -3,59 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
+#include <utility>
+
+#include "engine/core/byte_stream.h"
 
 namespace weft {
 namespace {
 
 constexpr int kLargestSide = 1 << 16;
-
-// Plain values one after the other, in the machine's (little-endian) order.
-class Writer {
-  public:
-    template <class T>
-    requires std::is_trivially_copyable_v<T> Writer& value(const T& v) { return raw(&v, sizeof v); }
-    Writer& raw(const void* data, std::size_t size) {
-        const auto* p = static_cast<const std::uint8_t*>(data);
-        bytes_.insert(bytes_.end(), p, p + size);
-        return *this;
-    }
-    Bytes take() { return std::move(bytes_); }
-
-  private:
-    Bytes bytes_;
-};
-
-class Reader {
-  public:
-    explicit Reader(const Bytes& bytes) : bytes_(bytes) {}
-    template <class T>
-    Reader& value(T& v) {
-        return raw(&v, sizeof v);
-    }
-    Reader& raw(void* data, std::size_t size) {
-        if (size > bytes_.size() - position_) {
-            ok_ = false;
-        } else if (ok_ && size > 0) {
-            std::memcpy(data, bytes_.data() + position_, size);
-            position_ += size;
-        }
-        return *this;
-    }
-    // Everything was read, and nothing is left over.
-    [[nodiscard]] bool complete() const { return ok_ && position_ == bytes_.size(); }
-    [[nodiscard]] bool ok() const { return ok_; }
-    // Whether as much is still to come: to be asked before room is made for it.
-    [[nodiscard]] bool holds(double count, std::size_t element_bytes) const {
-        return count * static_cast<double>(element_bytes) <=
-               static_cast<double>(bytes_.size() - position_);
-    }
-
-  private:
-    const Bytes& bytes_;
-    std::size_t position_ = 0;
-    bool ok_ = true;
-};
 
 double area(Size s) {
     return static_cast<double>(s.width) * s.height;
@@ -107,7 +62,7 @@ Expected<Bytes> MemoryAnalysisStore::get(const AnalysisKey& key) const {
 }
 
 Bytes encode(const StoredMatte& m) {
-    return Writer()
+    return ByteWriter()
         .value(m.matte.size())
         .value(m.confidence)
         .raw(m.matte.data(), m.matte.size_bytes())
@@ -115,7 +70,7 @@ Bytes encode(const StoredMatte& m) {
 }
 
 Bytes encode(const LatticeField& field) {
-    return Writer()
+    return ByteWriter()
         .value(field.full_size())
         .value(field.spacing())
         .raw(field.nodes().data(), field.nodes().size_bytes())
@@ -129,7 +84,7 @@ Bytes encode(const Shading& shading) {
         const float* row = shading.value.row(y);
         std::transform(row, row + shading.value.width(), std::back_inserter(codes), log_code);
     }
-    return Writer()
+    return ByteWriter()
         .value(shading.full)
         .value(shading.downscale)
         .value(shading.value.size())
@@ -170,7 +125,7 @@ Bytes encode(const SurfaceSample& s) {
     const std::vector<std::int16_t> luma = luma_codes(s.luma);
     const std::vector<std::int16_t> paint =
         luma_codes(s.paint.empty() ? ImageF1(s.luma.size()) : s.paint);
-    return Writer()
+    return ByteWriter()
         .value(s.full)
         .value(s.downscale)
         .value(s.box)
@@ -182,19 +137,19 @@ Bytes encode(const SurfaceSample& s) {
 }
 
 Bytes encode(const GrainModel& grain) {
-    return Writer().value(grain.deviation).value(grain.kernel).value(grain.mix).take();
+    return ByteWriter().value(grain.deviation).value(grain.kernel).value(grain.mix).take();
 }
 
 Bytes encode(const ImageU8x3& picture) {
-    return Writer().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
+    return ByteWriter().value(picture.size()).raw(picture.data(), picture.size_bytes()).take();
 }
 
 Bytes encode(float number) {
-    return Writer().value(number).take();
+    return ByteWriter().value(number).take();
 }
 
 Expected<StoredMatte> decode_matte(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     Size size;
     StoredMatte out;
     reader.value(size).value(out.confidence);
@@ -205,7 +160,7 @@ Expected<StoredMatte> decode_matte(const Bytes& bytes) {
 }
 
 Expected<LatticeField> decode_lattice(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     Size full;
     int spacing = 0;
     reader.value(full).value(spacing);
@@ -219,7 +174,7 @@ Expected<LatticeField> decode_lattice(const Bytes& bytes) {
 }
 
 Expected<Shading> decode_shading(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     Shading out;
     Size size;
     reader.value(out.full).value(out.downscale).value(size);
@@ -239,7 +194,7 @@ Expected<Shading> decode_shading(const Bytes& bytes) {
 }
 
 Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     SurfaceSample s;
     reader.value(s.full).value(s.downscale).value(s.box).value(s.floor);
     if (!reader.ok() || !sane(s.full) || s.downscale < 1 || s.downscale > kLargestSide ||
@@ -269,7 +224,7 @@ Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
 }
 
 Expected<GrainModel> decode_grain(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     GrainModel grain;
     reader.value(grain.deviation).value(grain.kernel).value(grain.mix);
     if (!reader.complete()) return damaged("grain");
@@ -277,7 +232,7 @@ Expected<GrainModel> decode_grain(const Bytes& bytes) {
 }
 
 Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     Size size;
     reader.value(size);
     if (!reader.ok() || !sane(size) || !reader.holds(area(size), 3)) return damaged("texture");
@@ -287,7 +242,7 @@ Expected<ImageU8x3> decode_picture(const Bytes& bytes) {
 }
 
 Expected<float> decode_number(const Bytes& bytes) {
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     float number = 0;
     reader.value(number);
     if (!reader.complete() || !std::isfinite(number)) return damaged("number");

@@ -8,6 +8,7 @@
 #include "engine/composite/focus.h"
 #include "engine/composite/focus_map.h"
 #include "engine/composite/line_layer.h"
+#include "engine/core/blur_inside.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 #include "engine/lighting/exact_light.h"

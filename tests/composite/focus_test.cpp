@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/composite/focus.h"
+#include "engine/core/blur_inside.h"
 
 namespace weft {
 namespace {
