@@ -46,10 +46,11 @@ std::vector<int> analysed_frames(const Shot& shot) {
 }
 
 bool estimates_motion(const Shot& shot) {
-    return std::any_of(
-        shot.plan.regions.begin(), shot.plan.regions.end(), [](const RegionPlan& region) {
-            return region.propagated() || (!region.true_motion && region.track.empty());
-        });
+    return std::any_of(shot.plan.regions.begin(), shot.plan.regions.end(),
+                       [](const RegionPlan& region) {
+                           return region.propagated() || !region.painted_holdouts.empty() ||
+                                  (!region.true_motion && region.track.empty());
+                       });
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Brush {
     float hardness = 0.8f;  ///< 1: a hard edge; 0: falls off from the centre.
     float opacity = 1;      ///< Of the whole stroke, however often it crosses itself.
     bool subtract = false;
+    bool pressure_size = true, pressure_opacity = false;  ///< What a pen's pressure changes.
     bool operator==(const Brush&) const = default;
 };
 
@@ -23,8 +24,8 @@ struct Brush {
 class Stroke {
   public:
     Stroke(const Matte& before, const Brush& brush);
-    /// Paints from the last point to `to` (the first call makes a dot), `pressure` in (0, 1] scales
-    /// the radius. Returns what changed of `matte`.
+    /// Paints from the last point to `to` (the first call makes a dot); `pressure` in (0, 1] scales
+    /// the radius, the opacity or both, as the brush says. Returns what changed of `matte`.
     Recti move_to(Vec2 to, float pressure, Matte& matte);
     [[nodiscard]] const Recti& touched() const { return touched_; }
 
@@ -32,7 +33,7 @@ class Stroke {
     Matte before_, coverage_;
     Brush brush_;
     std::optional<Vec2> last_;
-    float last_radius_ = 0;
+    float last_radius_ = 0, last_pressure_ = 1;
     Recti touched_;
 };
 

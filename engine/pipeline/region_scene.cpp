@@ -45,6 +45,7 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
     PlaneOptions options =
         plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = true;
+    options.amendments = region.amendments;
     WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
     scene.stats = plane.stats;
     if (plan.layers) scene.plane_seams = seam_texels(plane);
@@ -64,7 +65,7 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     const ImageF3 working = transformed(*plate, *plan.working_from_plate);
     WEFT_TRY(shading, region_shading(source, region, store, index, frame, working));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
-    WEFT_TRY(holdout, holdout_matte(source, plan, index, frame));
+    WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
     if (region.cast > 0) scene.reference_colour = light_colour(working, visible, *shading);

@@ -176,7 +176,8 @@ class Follower {
     [[nodiscard]] Expected<Matte> visible_at(Job& job, const SweepFrame& at) const {
         WEFT_TRY(extent,
                  extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
-        WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, at.frame));
+        WEFT_TRY(holdout,
+                 holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
         job.held_now = job.held.advance({at.views->display, extent, holdout});
         if (job.held_now) job.held_frames.insert(walking_back_ ? at.frame + 1 : at.frame);
         Matte visible = without_holdout(extent, holdout);
@@ -270,7 +271,8 @@ class Follower {
             }
             WEFT_TRY(extent,
                      extent_matte(context_.source, context_.plan, store_, job.region, frame));
-            WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, frame));
+            WEFT_TRY(holdout,
+                     holdout_matte(context_.source, context_.plan, store_, job.region, frame));
             WEFT_CHECK_OK(blend(job, frame, without_holdout(extent, holdout), ref_from_frame));
         }
         return {};
