@@ -104,7 +104,8 @@ Expected<Recommendation> TextureLibrary::recommend(const RecommendRequest& given
     for (const RegionToSuit& region : request.regions) {
         WEFT_TRY(look,
                  look_at_region(request.plate, region, state_->model ? &*state_->model : nullptr));
-        const RegionJudge judge(index, request, region, look);
+        const RegionJudge judge(index, state_->model ? &*state_->model : nullptr, request, region,
+                                look);
         out.regions.push_back(suggest_for(index, request, region, look, judge));
         if (!region.keep.empty()) {
             WEFT_TRY(id, state_->full_id(region.keep));

@@ -240,6 +240,7 @@ Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionToSuit& region,
                         "' is empty on this frame. Choose a frame that shows it.");
     }
     RegionLook look;
+    look.place = place_of_region(region.matte);
     look.area_px = static_cast<float>(shape.area);
     look.short_side_px =
         std::min(static_cast<float>(std::sqrt(shape.area)),
