@@ -82,6 +82,7 @@ struct SceneSuggestion {
 struct Recommendation {
     std::vector<RegionSuggestions> regions;
     std::vector<SceneSuggestion> together;  ///< With two regions and more; best first.
+    std::string notice;  ///< What is amiss with the image–text model that the library names.
     double seconds = 0;
 };
 

@@ -260,6 +260,7 @@ Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionToSuit& region,
         look.inside.mean = {look.inside.mean.l + k * m.mean.l, look.inside.mean.a + k * m.mean.a,
                             look.inside.mean.b + k * m.mean.b};
     }
+    look.squares = patches;
     look.inside.accent = measured.front().accent;
     look_around(plate, region.matte, look);
     return look;

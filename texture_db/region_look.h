@@ -17,7 +17,10 @@ struct WeightedColor {
 
 struct RegionLook {
     MeasuredTexture inside;                       ///< Mean over samples of the region.
+    std::vector<Recti> squares;                   ///< Of the plate, that stand for the region.
     std::vector<std::vector<float>> descriptors;  ///< Of those samples; empty without a model.
+    /// What an image–text model takes the region for, by material of the index; empty without one.
+    std::vector<float> materials;
     RegionPlace place;
     float area_px = 0;
     float short_side_px = 0;                  ///< Of a square of the region's typical width.

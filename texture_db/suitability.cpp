@@ -108,6 +108,14 @@ void RegionJudge::vote(const DescriptorModel& model) {
         std::sort(near_ones.begin(), near_ones.end());
         typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
     }
+    scale_votes();
+    // A model that has read of the world is believed as much as the library's own eye.
+    for (std::size_t m = 0; m < look_.materials.size(); ++m)
+        votes_[m] += look_.materials[m];
+    scale_votes();
+}
+
+void RegionJudge::scale_votes() {
     const float most = votes_.empty() ? 0 : *std::max_element(votes_.begin(), votes_.end());
     for (float& v : votes_)
         v = most > 0 ? v / most : 0;

@@ -48,6 +48,7 @@ class RegionJudge {
 
   private:
     void vote(const DescriptorModel& model);
+    void scale_votes();
     void find_role();
 
     const SampleIndex& index_;
