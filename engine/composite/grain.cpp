@@ -81,7 +81,10 @@ std::array<float, GrainModel::kSide * GrainModel::kSide> kernel_of(
     const std::array<double, GrainModel::kSide * GrainModel::kSide>& acf) {
     constexpr int kSize = 16, kSide = GrainModel::kSide;
     std::array<std::array<double, kSize>, kSize> root{};
-    const auto cosine = [](int a) { return std::cos(2 * std::numbers::pi * a / kSize); };
+    // Long double: see docs/decisions/0002-determinism.md.
+    const auto cosine = [](int a) {
+        return static_cast<double>(std::cos(2 * std::numbers::pi_v<long double> * a / kSize));
+    };
     for (int v = 0; v < kSize; ++v) {
         for (int u = 0; u < kSize; ++u) {
             double power = 0;
