@@ -19,7 +19,8 @@ std::size_t lag(int x, int y) {
 }
 
 double cosine(int a) {
-    return std::cos(2 * std::numbers::pi * a / kSize);
+    // Long double: see docs/decisions/0002-determinism.md.
+    return static_cast<double>(std::cos(2 * std::numbers::pi_v<long double> * a / kSize));
 }
 
 double& at(Plane& plane, int u, int v) {
