@@ -51,7 +51,9 @@ double misfit(const Variogram& along, const Variogram& across, double length, in
     double sum = 0, squares = 0;
     for (int t = 1; t <= reach; ++t) {
         const double blurred = regularised(across, t, length);
-        const double d = std::log(along[static_cast<std::size_t>(t)] / std::max(blurred, 1e-9));
+        // Long double: see docs/decisions/0002-determinism.md.
+        const long double ratio = along[static_cast<std::size_t>(t)] / std::max(blurred, 1e-9);
+        const auto d = static_cast<double>(std::log(ratio));
         sum += d;
         squares += d * d;
     }
