@@ -93,7 +93,7 @@ class Session {
     // ---- mattes (session_mattes.cpp) ----
     [[nodiscard]] RegionMatteView matte_of(const Region& region, int frame);
     [[nodiscard]] bool may_paint();
-    [[nodiscard]] std::optional<Matte> matte_to_paint_on();
+    [[nodiscard]] MattePtr matte_to_paint_on();
     void begin_stroke(const BeginStroke& action);
     void end_stroke();
     void keep_matte(Matte matte, RegionId region, int frame, const std::string& label,
