@@ -52,7 +52,7 @@ void make_shot(const Sandbox& sandbox) {
         << R"({"schema": "weft.project/1", "name": "Small",
                "plate": {"path": "plates/####.png", "fps": 24.0},
                "regions": [{"id": 1, "name": "floor",
-                            "matte": {"keyframes": {"1": {"path": "matte.png"}}},
+                            "matte": {"keyframes": [{"frame": 1, "path": "matte.png"}]},
                             "texture": {"sample": ")"
         << WEFT_SOURCE_DIR << R"(/assets/demo/textures/brick.png"}}]})";
 }
@@ -142,9 +142,14 @@ Started start_painting(const Sandbox& sandbox, const std::string& script, int st
     return out;
 }
 
-std::string gave_up(const Sandbox& sandbox, pid_t pid) {
+// Where nothing can be drawn there is nothing to kill; any other end is a failure.
+void gave_up(const Sandbox& sandbox, pid_t pid) {
     ::kill(pid, SIGKILL);
-    return "The editor did not start: " + finish(sandbox, pid).errors;
+    const std::string errors = finish(sandbox, pid).errors;
+    if (errors.find("No OpenGL") != std::string::npos ||
+        errors.find("cannot draw without a display") != std::string::npos)
+        GTEST_SKIP() << errors;
+    FAIL() << "The editor did not start painting: " << errors;
 }
 
 // What is lost at most is a second's work.
@@ -161,7 +166,7 @@ TEST(Kill, WhilePaintingEveryFinishedStrokeSurvives) {
         const Sandbox sandbox;
         make_shot(sandbox);
         const Started editor = start_painting(sandbox, painting(sandbox, ""), 3);
-        if (!editor.ready) GTEST_SKIP() << gave_up(sandbox, editor.pid);
+        if (!editor.ready) return gave_up(sandbox, editor.pid);
         const int finished = killed_later(sandbox, editor.pid);
         expect_snapshot(sandbox, finished);
     }
@@ -173,7 +178,7 @@ TEST(Kill, WhileSavingTheProjectIsTheOldOneOrTheNewOne) {
         make_shot(sandbox);
         const Started editor =
             start_painting(sandbox, painting(sandbox, R"(, {"key": "Ctrl+S"})"), 3);
-        if (!editor.ready) GTEST_SKIP() << gave_up(sandbox, editor.pid);
+        if (!editor.ready) return gave_up(sandbox, editor.pid);
         const int finished = killed_later(sandbox, editor.pid);
         expect_whole_files(sandbox.in(""));
         // A save comes after every stroke: the file holds them, whatever the snapshot says.
@@ -198,7 +203,7 @@ TEST(Kill, WhileRenderingFramesAreWholeAndStrokesAreThere) {
             at = script.find(R"({"stroke")", at + 1);
         script.insert(at, submit);
         const Started editor = start_painting(sandbox, script, 4);
-        if (!editor.ready) GTEST_SKIP() << gave_up(sandbox, editor.pid);
+        if (!editor.ready) return gave_up(sandbox, editor.pid);
         const std::vector<pid_t> jobs = children_of(editor.pid);
         const int finished = killed_later(sandbox, editor.pid);
         const bool both = round % 2 == 0;
