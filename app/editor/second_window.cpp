@@ -65,7 +65,7 @@ void SecondWindow::draw(EditorApp& app) {
     int width = 0, height = 0;
     glfwMakeContextCurrent(window_);
     glfwGetFramebufferSize(window_, &width, &height);
-    app.pictures().show_alone(shown, viewer.display, width, height, fresh_);
+    app.pictures().show_alone(shown, viewer.display, viewer.aspect, width, height, fresh_);
     fresh_ = false;
     glfwSwapBuffers(window_);
     glfwMakeContextCurrent(main_);
