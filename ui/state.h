@@ -92,7 +92,8 @@ struct DrawerState {
     std::string new_collection;
     std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
     int similar_frame = 0;
-    std::string picked;  ///< Path of the texture in the large preview.
+    std::string picked;                           ///< Path of the texture in the large preview.
+    bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
 };
 
 struct BrowserState {
