@@ -37,13 +37,17 @@ void notices(Ctx& c) {
     const Theme& t = c.theme;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = std::min(t.px(440), screen.x - t.px(40));
-    float y = t.px(52);
+    // Where nothing is in their way: over the picture, but not over the queue of renders.
+    const bool low = c.view.open && c.state.workspace == Workspace::kJobs;
+    const float x = std::floor(low ? screen.x - width - t.px(16) : (screen.x - width) / 2);
+    float y = low ? screen.y - t.px(26 + 12) : t.px(52);
     const PanelName panel(c, "Notices");
     const auto box = [&](const char* id, NoticeKind kind, const std::string& text, auto&& buttons,
                          float extra) {
         const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - t.px(76));
         const float h = std::max(t.px(40), size.y + t.px(22)) + extra;
-        ImGui::SetNextWindowPos({std::floor((screen.x - width) / 2), y});
+        if (low) y -= h;
+        ImGui::SetNextWindowPos({x, y});
         ImGui::SetNextWindowSize({width, h});
         ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
@@ -70,7 +74,7 @@ void notices(Ctx& c) {
                      text.c_str(), nullptr, width - t.px(76));
         buttons(at, h);
         ImGui::End();
-        y += h + t.px(8);
+        y += low ? -t.px(8) : h + t.px(8);
     };
     if (c.view.recovery) {
         const std::string what =

@@ -168,6 +168,14 @@ void take_layers(const ExportState& e, SubmitJob& job) {
         job.layers_path = folder_of(job.output) + "/layers/####.exr";
 }
 
+// What keeps it from being rendered, by the region's name where it is a region's.
+std::string in_words(const Ctx& c, const Issue& problem) {
+    for (const Leaf<Region>& region : c.view.project.regions)
+        if (const auto found = c.view.unready.find(region->id); found != c.view.unready.end())
+            return region->name + " is not ready. " + found->second + ".";
+    return without_flags(problem.what + ". " + problem.what_to_do + ".");
+}
+
 void export_card(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Export", size, t.panel, true, t.px(16));
@@ -228,9 +236,7 @@ void export_card(Ctx& c, ImVec2 size) {
         if (issue.severity == Severity::kError && !problem) problem = &issue;
     // The output is chosen here, so that its absence in the document is no obstacle.
     const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
-    if (!ready)
-        banner(c, icons::kAlert, t.bad,
-               without_flags(problem->what + ". " + problem->what_to_do + "."));
+    if (!ready) banner(c, icons::kAlert, t.bad, in_words(c, *problem));
     const std::string label = "Render " + std::to_string(frames.size()) + " frames";
     if (button(c, (label + "##submit").c_str(),
                {.icon = icons::kRocket,

@@ -94,10 +94,11 @@ struct DrawerState {
     std::string new_collection;
     std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
     int similar_frame = 0;
-    std::string picked;          ///< Path of the texture in the large preview.
-    bool together = false;       ///< Suggestions for all regions at once.
-    std::vector<RegionId> kept;  ///< Regions whose texture stays then.
-    int together_first = 0;      ///< The first one that is shown.
+    std::string picked;                           ///< Path of the texture in the large preview.
+    bool together = false;                        ///< Suggestions for all regions at once.
+    std::vector<RegionId> kept;                   ///< Regions whose texture stays then.
+    int together_first = 0;                       ///< The first one that is shown.
+    bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
 };
 
 struct BrowserState {

@@ -315,13 +315,19 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
-    const float left = t.px(196), count_w = t.px(200);
+    const float left = t.px(196), count_w = t.px(260);
     // One texture, large: once one is picked. Until then its room belongs to the others.
     const auto picked = std::find_if(cards->begin(), cards->end(), [&](const TextureCard& card) {
         return card.path == c.state.drawer.picked;
     });
-    const float right =
-        picked == cards->end() ? 0 : std::clamp(size.x * 0.24f, t.px(200), t.px(320));
+    // It opens a moment after the click: the second click of a double one finds the same texture.
+    DrawerState& d = c.state.drawer;
+    constexpr double kMomentS = 0.35;
+    if (picked == cards->end()) d.large_shown = false;
+    d.large_due = picked != cards->end() && !d.large_shown;
+    if (d.large_due && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
+        d.large_shown = true;
+    const float right = d.large_shown ? std::clamp(size.x * 0.24f, t.px(200), t.px(320)) : 0;
     const float head = t.px(38), body = size.y - head;
     ImGui::SetCursorScreenPos({origin.x + t.px(10), origin.y + t.px(6)});
     input(c, "Search textures", c.state.drawer.search, "Search textures", t.px(260),

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr std::size_t kBudgetBytes = std::size_t{512} << 20;
+constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
 constexpr int kPiecePixels = 1 << 18;
 constexpr double kGrantedMs = 5;  // of this thread's own time, a frame
 
@@ -45,37 +45,55 @@ void GlTextures::begin_frame() {
     trim();
 }
 
+std::map<std::uint64_t, GlTextures::Texture>::iterator GlTextures::oldest() {
+    const auto found = std::min_element(
+        textures_.begin(), textures_.end(),
+        [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    return found == textures_.end() || found->second.used + 1 >= frame_ ? textures_.end() : found;
+}
+
 void GlTextures::trim() {
     while (bytes_ > kBudgetBytes) {
-        const auto oldest = std::min_element(
-            textures_.begin(), textures_.end(),
-            [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
-        if (oldest == textures_.end() || oldest->second.used + 1 >= frame_) return;
-        glDeleteTextures(1, &oldest->second.id);
-        bytes_ -= oldest->second.bytes;
-        textures_.erase(oldest);
+        const auto gone = oldest();
+        if (gone == textures_.end()) return;
+        glDeleteTextures(1, &gone->second.id);
+        bytes_ -= gone->second.bytes;
+        textures_.erase(gone);
     }
 }
 
 GlTextures::Texture& GlTextures::made(const PicturePtr& picture, Values values) {
     const std::uint64_t codes = values == Values::kCodes ? std::uint64_t{1} << 63 : 0;
-    Texture& texture = textures_[picture->id | codes];
-    texture.used = frame_;
-    if (texture.id) return texture;
+    const std::uint64_t key = picture->id | codes;
+    if (const auto known = textures_.find(key); known != textures_.end()) {
+        known->second.used = frame_;
+        return known->second;
+    }
     const int w = picture->size.width, h = picture->size.height;
     const bool half = picture->srgb.empty();
-    glGenTextures(1, &texture.id);
-    glBindTexture(GL_TEXTURE_2D, texture.id);
-    const GLint format = half ? GL_RGBA16F : codes ? GL_RGBA8 : GL_SRGB8_ALPHA8;
-    glTexImage2D(GL_TEXTURE_2D, 0, format, w, h, 0, GL_RGBA,
+    Texture fresh;
+    fresh.size = picture->size;
+    fresh.format = half ? GL_RGBA16F : codes ? GL_RGBA8 : GL_SRGB8_ALPHA8;
+    fresh.bytes = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * (half ? 8 : 4);
+    fresh.used = frame_;
+    const auto old = bytes_ + fresh.bytes > kBudgetBytes ? oldest() : textures_.end();
+    if (old != textures_.end() && old->second.size == fresh.size &&
+        old->second.format == fresh.format) {
+        // Memory that is there already costs nothing: a large new one costs more than its pixels.
+        fresh.id = old->second.id;
+        textures_.erase(old);
+        return textures_[key] = fresh;
+    }
+    glGenTextures(1, &fresh.id);
+    glBindTexture(GL_TEXTURE_2D, fresh.id);
+    glTexImage2D(GL_TEXTURE_2D, 0, fresh.format, w, h, 0, GL_RGBA,
                  half ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    texture.bytes = static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * (half ? 8 : 4);
-    bytes_ += texture.bytes;
-    return texture;
+    bytes_ += fresh.bytes;
+    return textures_[key] = fresh;
 }
 
 void GlTextures::hand_over(const Picture& picture, Texture& texture, int rows) {

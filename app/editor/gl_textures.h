@@ -35,11 +35,15 @@ class GlTextures {
     struct Texture {
         unsigned id = 0;
         int rows = 0;  // handed over so far
+        Size size;
+        int format = 0;
         std::size_t bytes = 0;
         std::uint64_t used = 0;
     };
     Texture& made(const PicturePtr& picture, Values values);
     void hand_over(const Picture& picture, Texture& texture, int rows);
+    // The texture that nobody has looked at for longest, or end().
+    [[nodiscard]] std::map<std::uint64_t, Texture>::iterator oldest();
     void trim();
 
     std::map<std::uint64_t, Texture> textures_;

@@ -134,8 +134,10 @@ void Session::submit(const SubmitJob& action) {
                 return;
             }
             known_jobs_.emplace(*id, JobState::kWaiting);
-            notify(NoticeKind::kInfo, "Rendering " + std::to_string(request.frames.size()) +
-                                          " frames to " + request.project.output.path + ".");
+            notify(NoticeKind::kInfo,
+                   "Rendering " + std::to_string(request.frames.size()) + " frames to " +
+                       fs::path(request.project.output.path).parent_path().filename().string() +
+                       ".");
         };
     }));
 }
