@@ -23,6 +23,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR
 # The libraries: everything below the command line. weft::weft stands for all of them.
 add_library(weft_api INTERFACE)
 target_link_libraries(weft_api INTERFACE weft::session)
+target_compile_features(weft_api INTERFACE cxx_std_20)
 set_target_properties(weft_api PROPERTIES EXPORT_NAME weft)
 get_property(libraries GLOBAL PROPERTY WEFT_LIBRARIES)
 list(REMOVE_ITEM libraries weft_interactive weft_ui weft_editor weft_cli)

@@ -185,6 +185,17 @@ TEST(Parameters, LightTakesAChoiceOrAPicture) {
     EXPECT_EQ(allowed_values(light), "plate, none, painted or a path");
 }
 
+TEST(Parameters, FramesAreKeptOnceInTheOrderGiven) {
+    const auto& frozen = region_parameter("--matte-frozen");
+    Region region;
+    ASSERT_TRUE(set_parameter_text(region, frozen, "7,3-5,4,7,1-50000,1-50000"));
+    const std::vector<int>& frames = region.matte->frozen;
+    ASSERT_EQ(frames.size(), 50000u);
+    EXPECT_EQ((std::vector<int>(frames.begin(), frames.begin() + 5)),
+              (std::vector<int>{7, 3, 4, 5, 1}));
+    EXPECT_FALSE(set_parameter_text(region, frozen, "1-600000,1-600000"));
+}
+
 TEST(Parameters, FormatIsReadBack) {
     for (const auto& p : region_parameters()) {
         Region region;
