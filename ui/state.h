@@ -91,8 +91,9 @@ struct DrawerState {
     std::shared_ptr<const TextureAnswer> answer;  ///< To words and conditions.
     std::string collection;                       ///< Name of the one that is shown; empty: none.
     std::string new_collection;
-    std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
+    std::string similar_key;  ///< Of the rectangle or picture that similar ones were asked for by.
     int similar_frame = 0;
+    std::string similar_file;    ///< The picture; empty: a rectangle of `similar_frame`.
     std::string picked;          ///< Path of the texture in the large preview.
     bool together = false;       ///< Suggestions for all regions at once.
     std::vector<RegionId> kept;  ///< Regions whose texture stays then.
@@ -112,7 +113,8 @@ struct BrowserState {
         kTextureFolder,
         kTrack,
         kPlate,
-        kExportMattes
+        kExportMattes,
+        kSimilar
     };
     Purpose purpose = Purpose::kNone;
     std::string folder, name, filter;
@@ -165,6 +167,7 @@ struct UiState {
     bool shape_drawing = false;
     ScribbleState scribbles;
     std::optional<Vec2> rectangle_from;
+    bool keep_overlay = false;                    ///< Tool::kKeep has turned the pieces on.
     bool keep_again = false, keep_seams = false;  ///< What Tool::kKeep does, and to what.
     std::optional<float> pen_pressure;  ///< Of the tablet's pen, 0–1; unset: none is down.
     int worst_by = 0;                   ///< Of the report: flicker, seams, drift.

@@ -49,7 +49,9 @@ Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region
     WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
     scene.stats = plane.stats;
     if (plan.layers) scene.plane_seams = seam_texels(plane);
-    return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
+    PlanePyramid pyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
+    if (plan.keep_planes) scene.grown = std::make_shared<const TexturePlane>(std::move(plane));
+    return pyramid;
 }
 
 // S₀, the plate's median shading inside the matte on the reference frame, and the light's colour

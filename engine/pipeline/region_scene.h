@@ -2,6 +2,7 @@
 // A region made ready to be rendered: its texture plane, its placement, the light it is relative
 // to.
 
+#include <memory>
 #include <optional>
 
 #include "engine/compute/plane_pyramid.h"
@@ -27,6 +28,8 @@ struct RegionScene {
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
     Matte plane_seams;                ///< Where a grown plane has seams (ShotPlan::layers).
+    /// The grown plane itself, where ShotPlan::keep_planes asks for it.
+    std::shared_ptr<const TexturePlane> grown;
 };
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
