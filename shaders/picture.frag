@@ -10,6 +10,8 @@ uniform float gain;    // 2^exposure
 uniform float inverse_gamma;
 uniform int channel;   // 0 colour, 1-3 one channel, 4 luma
 uniform int curve;     // 0 sRGB, 1 BT.1886 (gamma 2.4), 2 as it is
+uniform ivec2 taps;       // under one pixel of the screen, when the picture is shown smaller
+uniform vec2 footprint;   // of one pixel of the screen, in the picture's own 0..1
 
 vec3 encode(vec3 v) {
     v = max(v, vec3(0.0));
@@ -18,8 +20,17 @@ vec3 encode(vec3 v) {
     return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), v));
 }
 
+vec3 light(sampler2D picture) {
+    if (taps == ivec2(1)) return texture(picture, uv).rgb;
+    vec3 sum = vec3(0.0);
+    for (int y = 0; y < taps.y; ++y)
+        for (int x = 0; x < taps.x; ++x)
+            sum += texture(picture, uv + ((vec2(x, y) + 0.5) / vec2(taps) - 0.5) * footprint).rgb;
+    return sum / float(taps.x * taps.y);
+}
+
 vec3 shown(sampler2D picture) {
-    vec3 v = texture(picture, uv).rgb * gain;
+    vec3 v = light(picture) * gain;
     if (channel == 4) v = vec3(dot(v, vec3(0.2126, 0.7152, 0.0722)));
     else if (channel > 0) v = vec3(v[channel - 1]);
     return pow(encode(v), vec3(inverse_gamma));

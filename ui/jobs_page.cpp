@@ -107,10 +107,12 @@ void estimate(Ctx& c, std::size_t frames) {
 
 // The command line's names of things say nothing here.
 std::string without_flags(std::string text) {
-    for (std::size_t at = text.find(" (--"); at != std::string::npos; at = text.find(" (--")) {
-        const std::size_t end = text.find(')', at);
-        if (end == std::string::npos) break;
-        text.erase(at, end + 1 - at);
+    for (const char* begin : {" (--", " (weft "}) {
+        for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin)) {
+            const std::size_t end = text.find(')', at);
+            if (end == std::string::npos) break;
+            text.erase(at, end + 1 - at);
+        }
     }
     return text;
 }
@@ -164,6 +166,14 @@ void take_layers(const ExportState& e, SubmitJob& job) {
     const bool exr = std::string_view(kExtensions[e.format]) == "exr";
     if (!job.layers.empty() && (!exr || e.layers_apart))
         job.layers_path = folder_of(job.output) + "/layers/####.exr";
+}
+
+// What keeps it from being rendered, by the region's name where it is a region's.
+std::string in_words(const Ctx& c, const Issue& problem) {
+    for (const Leaf<Region>& region : c.view.project.regions)
+        if (const auto found = c.view.unready.find(region->id); found != c.view.unready.end())
+            return region->name + " is not ready. " + found->second + ".";
+    return without_flags(problem.what + ". " + problem.what_to_do + ".");
 }
 
 void export_card(Ctx& c, ImVec2 size) {
@@ -226,9 +236,7 @@ void export_card(Ctx& c, ImVec2 size) {
         if (issue.severity == Severity::kError && !problem) problem = &issue;
     // The output is chosen here, so that its absence in the document is no obstacle.
     const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
-    if (!ready)
-        banner(c, icons::kAlert, t.bad,
-               without_flags(problem->what + ". " + problem->what_to_do + "."));
+    if (!ready) banner(c, icons::kAlert, t.bad, in_words(c, *problem));
     const std::string label = "Render " + std::to_string(frames.size()) + " frames";
     if (button(c, (label + "##submit").c_str(),
                {.icon = icons::kRocket,
@@ -326,7 +334,7 @@ void job_row(Ctx& c, const JobView& job) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float w = ImGui::GetContentRegionAvail().x, h = t.px(92);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + w, at.y + h}, t.panel, t.radius);
+    list.AddRectFilled(at, {at.x + w, at.y + h}, t.raised, t.radius);
     const ImVec2 thumb_max(at.x + t.px(132), at.y + h - t.px(8));
     const ImVec2 thumb_min(at.x + t.px(8), at.y + t.px(8));
     list.AddRectFilled(thumb_min, thumb_max, t.field, t.radius);
@@ -393,7 +401,8 @@ void jobs_page(Ctx& c, ImVec2 size) {
     const float left = std::min(t.px(400), size.x * 0.42f);
     export_card(c, {left, size.y});
     ImGui::SetCursorScreenPos({at.x + left, at.y});
-    begin_panel(c, "Queue", {size.x - left, size.y}, t.surround, true, t.px(16));
+    begin_panel(c, "Queue", {size.x - left, size.y}, t.panel, true, t.px(16));
+    ImGui::GetWindowDrawList()->AddLine({at.x + left, at.y}, {at.x + left, at.y + size.y}, t.line);
     ImGui::PushFont(t.title);
     ImGui::TextUnformatted("Queue");
     ImGui::PopFont();

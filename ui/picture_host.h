@@ -23,6 +23,8 @@ struct PictureDraw {
     PicturePtr a, b;  ///< b: what `a` is compared with.
     enum class Mode : int { kSingle, kWipe, kDifference };
     Mode mode = Mode::kSingle;
+    int pane =
+        0;  ///< Which place of the screen; until a large picture has come, it keeps the last.
     ImVec2 min{0, 0}, max{0, 0};            ///< Where the whole picture lies, in screen pixels.
     ImVec2 clip_min{0, 0}, clip_max{0, 0};  ///< What of it may be painted.
     float wipe = 0.5f;                      ///< Left of this part of the picture is `a`.

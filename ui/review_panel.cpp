@@ -131,8 +131,8 @@ void review_panel(Ctx& c, ImVec2 size) {
     switch (report.state) {
         case QualityReport::State::kNone:
             empty_state(c, icons::kReview, "Not measured yet",
-                        "Render the shot, then measure it here: flicker and brightness of every "
-                        "frame beside the plate's own.");
+                        "Render the shot, then measure it here: flicker, brightness and sharpness "
+                        "of every frame beside the plate's own.");
             break;
         case QualityReport::State::kFailed:
             empty_state(c, icons::kAlert, "It could not be measured", report.error.c_str());
@@ -147,12 +147,15 @@ void review_panel(Ctx& c, ImVec2 size) {
             break;
         case QualityReport::State::kDone: {
             const ImVec2 room = ImGui::GetContentRegionAvail();
-            const float half = std::floor((room.x - t.gap) * 0.5f);
-            graph(c, {half, room.y}, "Flicker, in 8-bit steps a frame", &Row::flicker,
+            const float third = std::floor((room.x - 2 * t.gap) / 3);
+            graph(c, {third, room.y}, "Flicker, 8-bit steps a frame", &Row::flicker,
                   &Row::flicker_plate);
-            ImGui::SameLine();
-            graph(c, {half, room.y}, "Brightness, in 8-bit steps", &Row::brightness,
+            ImGui::SameLine(0, t.gap);
+            graph(c, {third, room.y}, "Brightness, 8-bit steps", &Row::brightness,
                   &Row::brightness_plate);
+            ImGui::SameLine(0, t.gap);
+            graph(c, {third, room.y}, "Sharpness, % of the first frame", &Row::sharpness,
+                  &Row::sharpness_plate);
             break;
         }
     }

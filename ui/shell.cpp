@@ -166,15 +166,18 @@ void Shell::layout(Ctx& c) {
     const bool drawer = panels && state_.workspace == Workspace::kTexture;
     const bool report = panels && state_.workspace == Workspace::kReview;
     const bool four = state_.viewer.compare == Compare::kFourUp;
-    const bool strip = panels && state_.workspace == Workspace::kLight && !(low && four);
+    // Four pictures need the room that the strip would take.
+    const bool strip =
+        panels && state_.workspace == Workspace::kLight && !(four && screen.y / t.scale < 1100);
     const float least_view = t.px(120);
-    float extra_h = drawer   ? t.px(state_.drawer_h)
-                    : report ? t.px(state_.review_h)
-                    : strip  ? t.px(state_.strip_h)
-                             : 0;
+    float extra_h =
+        drawer   ? t.px(state_.drawer_h)
+        : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 150)
+        : strip  ? t.px(state_.strip_h)
+                 : 0;
     // Unless the artist has drawn it larger, the picture keeps more than half.
     const UiState fresh;
-    const float most_h = std::min(body_h - timeline_h - least_view, (low ? 0.36f : 0.42f) * body_h);
+    const float most_h = std::min(body_h - timeline_h - least_view, (low ? 0.34f : 0.36f) * body_h);
     const bool own_size = (drawer && state_.drawer_h > fresh.drawer_h) ||
                           (strip && state_.strip_h > fresh.strip_h) ||
                           (report && state_.review_h > fresh.review_h);

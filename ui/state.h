@@ -41,9 +41,10 @@ enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBy
 
 struct ViewerState {
     bool fit = true;
-    float zoom = 1;     ///< Screen pixels of a plate pixel.
-    float aspect = 1;   ///< Width of a plate pixel over its height.
-    Vec2 center{0, 0};  ///< Plate pixel in the middle of the view.
+    float zoom = 1;         ///< Screen pixels of a plate pixel.
+    float aspect = 1;       ///< Width of a plate pixel over its height.
+    std::string aspect_of;  ///< The plate that it was taken from; the artist may change it then.
+    Vec2 center{0, 0};      ///< Plate pixel in the middle of the view.
     Compare compare = Compare::kResult;
     float wipe = 0.5f;
     bool hold_original = false;
@@ -98,6 +99,7 @@ struct DrawerState {
     bool together = false;       ///< Suggestions for all regions at once.
     std::vector<RegionId> kept;  ///< Regions whose texture stays then.
     int together_first = 0;      ///< The first one that is shown.
+    bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
 };
 
 struct BrowserState {

@@ -53,8 +53,15 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
             list.AddImageRounded(id, min, {min.x + w, min.y + h}, {0, 0}, {1, 1}, IM_COL32_WHITE,
                                  t.radius);
     } else {
+        // What it waits for: the frames before it, or the picture that is looked at.
+        const PreviewView& preview = c.view.preview;
+        const std::string waiting = preview.analysing && preview.total > 0
+                                        ? "After the analysis, " + std::to_string(preview.done) +
+                                              "/" + std::to_string(preview.total)
+                                    : c.view.analysis_paused ? std::string("The analysis is paused")
+                                                             : std::string("Being worked out…");
         text_in(list, t.small, at, max, one.error.empty() ? t.quiet : t.bad,
-                one.error.empty() ? "Waiting for its turn…" : "No result");
+                one.error.empty() ? waiting.c_str() : "No result");
     }
     const bool here = frames && one.frame == c.view.frame;
     if (here || ImGui::IsItemHovered())

@@ -265,28 +265,19 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::EndChild();
 }
 
-void large(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
+void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     const Theme& t = c.theme;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
     ImGui::BeginChild("Large", size, true,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
     ImGui::PopStyleVar();
     const PanelName name(c, "Large");
-    const auto card = std::find_if(cards.begin(), cards.end(), [&](const TextureCard& x) {
-        return x.path == c.state.drawer.picked;
-    });
-    if (card == cards.end()) {
-        empty_state(c, icons::kTexture, "One texture, large",
-                    "Click a texture to see it repeated here. Double-click puts it on the region.");
-        ImGui::EndChild();
-        return;
-    }
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const float picture_h = std::max(t.px(60), room.y - t.px(84));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 max(at.x + room.x, at.y + picture_h);
     list.AddRectFilled(at, max, t.field, t.radius);
-    if (const PicturePtr picture = c.textures.thumbnail(card->path, 512)) {
+    if (const PicturePtr picture = c.textures.thumbnail(card.path, 512)) {
         if (const ImTextureID id = c.pictures.texture(picture)) {
             // Repeated, at one screen pixel a texel, so that its joins can be judged.
             const float w = static_cast<float>(picture->size.width);
@@ -299,18 +290,18 @@ void large(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         }
     }
     ImGui::SetCursorScreenPos({at.x, max.y + t.px(6)});
-    heading(c, fitted(card->name, room.x - t.px(40)).c_str());
+    heading(c, fitted(card.name, room.x - t.px(40)).c_str());
     ImGui::SameLine(room.x - t.px(18));
-    const bool favourite = listed(c.settings.favourites, card->path);
+    const bool favourite = listed(c.settings.favourites, card.path);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - t.px(4));
     if (icon_button(c, favourite ? icons::kHeart : icons::kHeartOutline, "Favourite", favourite,
                     nullptr, true, t.px(26))) {
         if (favourite)
-            std::erase(c.settings.favourites, card->path);
+            std::erase(c.settings.favourites, card.path);
         else
-            c.settings.favourites.push_back(card->path);
+            c.settings.favourites.push_back(card.path);
     }
-    const TextureCard known = c.textures.details(*card);
+    const TextureCard known = c.textures.details(card);
     std::string facts = known.material;
     if (!known.author.empty()) facts += " · " + known.author;
     facts += " · " + (known.licence.empty() ? "licence not stated" : known.licence);
@@ -320,7 +311,7 @@ void large(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
                 .look = Look::kPrimary,
                 .enabled = c.view.selected_region() != nullptr,
                 .width = -1}))
-        c.emit(ApplyTexture{card->path, 0});
+        c.emit(ApplyTexture{card.path, 0});
     ImGui::EndChild();
 }
 
@@ -334,7 +325,19 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
-    const float left = t.px(196), right = std::clamp(size.x * 0.24f, t.px(200), t.px(320));
+    const float left = t.px(196), count_w = t.px(260);
+    // One texture, large: once one is picked. Until then its room belongs to the others.
+    const auto picked = std::find_if(cards->begin(), cards->end(), [&](const TextureCard& card) {
+        return card.path == c.state.drawer.picked;
+    });
+    // It opens a moment after the click: the second click of a double one finds the same texture.
+    DrawerState& d = c.state.drawer;
+    constexpr double kMomentS = 0.35;
+    if (picked == cards->end()) d.large_shown = false;
+    d.large_due = picked != cards->end() && !d.large_shown;
+    if (d.large_due && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
+        d.large_shown = true;
+    const float right = d.large_shown ? std::clamp(size.x * 0.24f, t.px(200), t.px(320)) : 0;
     const float head = t.px(38), body = size.y - head;
     ImGui::SetCursorScreenPos({origin.x + t.px(10), origin.y + t.px(6)});
     input(c, "Search textures", c.state.drawer.search, "Search textures", t.px(260),
@@ -349,18 +352,20 @@ void texture_drawer(Ctx& c, ImVec2 size) {
                           : (narrowed ? std::to_string(c.state.drawer.cache.shown.size()) + " of "
                                       : std::string()) +
                                 std::to_string(cards->size()) + " textures";
-    text_in(list, t.small, {origin.x + size.x - right, origin.y},
+    text_in(list, t.small, {origin.x + size.x - count_w, origin.y},
             {origin.x + size.x - t.px(12), origin.y + head}, t.quiet,
-            fitted(count, right - t.px(20)).c_str(), 1);
+            fitted(count, count_w - t.px(20)).c_str(), 1);
     ImGui::SetCursorScreenPos({origin.x, origin.y + head});
     materials(c, *cards, {left, body});
     ImGui::SetCursorScreenPos({origin.x + left, origin.y + head});
     grid(c, *cards, {size.x - left - right, body});
-    ImGui::SetCursorScreenPos({origin.x + size.x - right, origin.y + head});
-    large(c, *cards, {right, body});
     list.AddLine({origin.x + left, origin.y + head}, {origin.x + left, origin.y + size.y}, t.line);
-    list.AddLine({origin.x + size.x - right, origin.y + head},
-                 {origin.x + size.x - right, origin.y + size.y}, t.line);
+    if (right > 0) {
+        ImGui::SetCursorScreenPos({origin.x + size.x - right, origin.y + head});
+        large(c, *picked, {right, body});
+        list.AddLine({origin.x + size.x - right, origin.y + head},
+                     {origin.x + size.x - right, origin.y + size.y}, t.line);
+    }
     end_panel(c);
 }
 

@@ -231,10 +231,10 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     for (const RegionMatteView& shown : c.view.mattes)
         if (shown.region == region->id) matte = shown.keep;
     const std::string& excluded = c.view.project.settings.excluded_licences;
-    const std::string key =
-        std::to_string(region->id) + "/" + std::to_string(cards.size()) + "/" + excluded;
+    const std::string key = std::to_string(region->id) + "/" + std::to_string(cards.size()) + "/" +
+                            excluded + "/" + region->name;
     if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
-        c.textures.suggest_for(key, c.view.plate_picture, matte, excluded);
+        c.textures.suggest_for(key, {region->name, c.view.plate_picture, matte, excluded});
     const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
     if (found.empty()) {
         if (!c.textures.suggested(key))

@@ -273,6 +273,10 @@ void viewer(Ctx& c, ImVec2 size) {
     ViewerState& s = c.state.viewer;
     const bool two_wide = s.compare == Compare::kSideBySide, four = s.compare == Compare::kFourUp;
     const Size plate = c.view.plate.size;
+    if (!plate.empty() && s.aspect_of != c.view.plate.path) {
+        s.aspect_of = c.view.plate.path;
+        s.aspect = static_cast<float>(std::clamp(c.view.plate.pixel_aspect, 0.1, 10.0));
+    }
     if (s.fit && !plate.empty()) {
         const ImVec2 one(size.x * (two_wide || four ? 0.5f : 1.0f), size.y * (four ? 0.5f : 1.0f));
         const Size shown{static_cast<int>(static_cast<float>(plate.width) * s.aspect),
@@ -311,6 +315,7 @@ void viewer(Ctx& c, ImVec2 size) {
             draw.clip_min = pane.map.min;
             draw.clip_max = pane.map.max;
             draw.wipe = s.wipe;
+            draw.pane = static_cast<int>(&pane - panes.data());
             draw.smooth = s.zoom < 4;
             draw.display = s.display;
             c.pictures.draw(list, draw);

@@ -75,32 +75,33 @@ void welcome(Ctx& c, ImVec2 size) {
             "Or drop a folder, a sequence or a movie");
     // Recent projects.
     const float rx = x + column + t.px(32), rw = width - column - t.px(32);
-    text_in(list, t.strong, {rx, y - t.px(26)}, {rx + rw, y - t.px(4)}, t.text, "Recent projects",
-            0);
+    list.AddRectFilled({rx, y}, {rx + rw, y + t.px(320)}, t.panel, t.px(5));
+    text_in(list, t.strong, {rx + t.px(16), y + t.px(10)}, {rx + rw, y + t.px(34)}, t.text,
+            "Recent projects", 0);
     if (c.view.recent.empty()) {
-        list.AddRectFilled({rx, y}, {rx + rw, y + t.px(320)}, faded(t.panel, 0.6f), t.px(5));
         text_in(list, t.regular, {rx, y + t.px(130)}, {rx + rw, y + t.px(154)}, t.quiet,
                 "Projects that you save appear here");
         text_in(list, t.small, {rx, y + t.px(154)}, {rx + rw, y + t.px(176)}, t.off,
                 "Begin with the demo shot");
     }
-    float row_y = y;
+    float row_y = y + t.px(44);
     for (const std::string& path : c.view.recent) {
-        if (row_y + t.px(50) > y + t.px(330)) break;
-        ImGui::SetCursorScreenPos({rx, row_y});
+        if (row_y + t.px(50) > y + t.px(320)) break;
+        ImGui::SetCursorScreenPos({rx + t.px(8), row_y});
         ImGui::PushID(path.c_str());
-        if (ImGui::InvisibleButton("##recent", {rw, t.px(48)})) c.emit(OpenProject{path});
+        if (ImGui::InvisibleButton("##recent", {rw - t.px(16), t.px(48)}))
+            c.emit(OpenProject{path});
         ImGui::PopID();
         c.note(name_of(path));
         const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-        list.AddRectFilled(min, max, t.panel, t.px(4));
+        list.AddRectFilled(min, max, t.raised, t.px(4));
         if (ImGui::IsItemHovered()) list.AddRectFilled(min, max, t.hover, t.px(4));
         icon_in(c, list, {min.x, min.y}, {min.x + t.px(44), max.y}, t.quiet, icons::kFilm);
         text_in(list, t.strong, {min.x + t.px(46), min.y + t.px(6)}, {max.x, min.y + t.px(26)},
                 t.text, name_of(path).c_str(), 0);
         ImGui::PushFont(t.small);
         text_in(list, t.small, {min.x + t.px(46), min.y + t.px(25)}, {max.x, max.y - t.px(4)},
-                t.quiet, fitted(path, rw - t.px(56), true).c_str(), 0);
+                t.quiet, fitted(path, rw - t.px(72), true).c_str(), 0);
         ImGui::PopFont();
         row_y += t.px(54);
     }

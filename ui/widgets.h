@@ -81,6 +81,8 @@ void icon_in(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, cons
 /// "1:02" or "3 h 12 min".
 [[nodiscard]] std::string time_text(double seconds);
 [[nodiscard]] std::string bytes_text(double bytes);
+/// A label without what follows "##", which only tells widgets apart.
+[[nodiscard]] std::string visible(const char* label);
 [[nodiscard]] std::string number_text(double value, int decimals);
 
 /// A child window filled with a surface. End with end_panel(). The name prefixes its items.

@@ -123,7 +123,7 @@ void EditorApp::watch() const {
 }
 
 bool EditorApp::idle() const {
-    return !session_->busy() && !shell_->waiting();
+    return !session_->busy() && !shell_->waiting() && !pictures_.pending();
 }
 
 std::uint64_t EditorApp::news() const {

@@ -17,7 +17,7 @@ extern char** environ;
 namespace weft {
 namespace {
 
-constexpr std::size_t kBudgetBytes = std::size_t{512} << 20;
+constexpr int kSecondWindow = 1000;  // its place; the panes have small numbers
 
 GLuint compile(GLenum kind, const char* source, std::string& log) {
     const GLuint shader = glCreateShader(kind);
@@ -64,9 +64,8 @@ struct GlPictures::Order {
 GlPictures::GlPictures() = default;
 
 GlPictures::~GlPictures() {
-    for (const auto* textures : {&pictures_, &mattes_})
-        for (const auto& [key, texture] : *textures)
-            glDeleteTextures(1, &texture.id);
+    for (const auto& [key, matte] : mattes_)
+        glDeleteTextures(1, &matte.id);
     if (picture_program_) glDeleteProgram(picture_program_);
     if (matte_program_) glDeleteProgram(matte_program_);
     if (quad_buffer_) glDeleteBuffers(1, &quad_buffer_);
@@ -94,84 +93,31 @@ Status GlPictures::make_shaders() {
 }
 
 void GlPictures::begin_frame() {
-    ++frame_;
     orders_.clear();
-    trim();
+    textures_.begin_frame();
 }
 
-void GlPictures::trim() {
-    while (bytes_ > kBudgetBytes) {
-        const auto oldest = std::min_element(
-            pictures_.begin(), pictures_.end(),
-            [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
-        if (oldest == pictures_.end() || oldest->second.used + 1 >= frame_) return;
-        glDeleteTextures(1, &oldest->second.id);
-        bytes_ -= oldest->second.bytes;
-        pictures_.erase(oldest);
+// A picture that is on its way is finished before the next one begins: else none would ever come
+// while a large plate plays.
+unsigned GlPictures::texture_at(int place, const PicturePtr& wanted) {
+    Place& p = places_[place];
+    if (!wanted) {
+        p = {};
+        return 0;
     }
-}
-
-unsigned GlPictures::texture_of(const PicturePtr& picture, bool smooth, bool shrunk) {
-    if (!picture || picture->size.empty()) return 0;
-    Texture& texture = pictures_[picture->id];
-    texture.used = frame_;
-    if (!texture.id) {
-        glGenTextures(1, &texture.id);
-        glBindTexture(GL_TEXTURE_2D, texture.id);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-        const int w = picture->size.width, h = picture->size.height;
-        // The driver turns sRGB codes into linear light before it filters.
-        if (!picture->srgb.empty())
-            glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8, w, h, 0, GL_RGB, GL_UNSIGNED_BYTE,
-                         picture->srgb.data());
-        else
-            glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, w, h, 0, GL_RGB, GL_HALF_FLOAT,
-                         picture->half.data());
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        texture.bytes = picture->size_bytes();
-        bytes_ += texture.bytes;
-    }
-    glBindTexture(GL_TEXTURE_2D, texture.id);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
-    // Smaller sizes only for those who look at them: a software renderer takes long to make them.
-    if (shrunk && !texture.has_smaller) {
-        glGenerateMipmap(GL_TEXTURE_2D);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        texture.has_smaller = true;
-        texture.bytes += picture->size_bytes() / 3;
-        bytes_ += picture->size_bytes() / 3;
-    }
-    return texture.id;
+    if (!p.next || p.next == p.shown) p.next = wanted;
+    if (textures_.in_pieces(p.next)) p.shown = p.next;
+    return textures_.in_pieces(p.shown);
 }
 
 ImTextureID GlPictures::texture(const PicturePtr& picture) {
-    if (!picture || picture->size.empty() || picture->srgb.empty()) return nullptr;
-    // ImGui's own shader shows codes as they stand: these textures hold them undecoded.
-    Texture& texture = pictures_[picture->id | (std::uint64_t{1} << 63)];
-    texture.used = frame_;
-    if (!texture.id) {
-        glGenTextures(1, &texture.id);
-        glBindTexture(GL_TEXTURE_2D, texture.id);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture->size.width, picture->size.height, 0,
-                     GL_RGB, GL_UNSIGNED_BYTE, picture->srgb.data());
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        texture.bytes = picture->size_bytes();
-        bytes_ += texture.bytes;
-    }
-    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id));
+    if (!picture || picture->srgb.empty()) return nullptr;
+    const unsigned id = textures_.whole(picture, GlTextures::Values::kCodes);
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(id));
 }
 
 unsigned GlPictures::matte_texture(std::uint64_t key, const MatteDraw& draw, ViewU8x1 pixels) {
-    Texture& texture = mattes_[key];
-    texture.used = frame_;
+    Matte& texture = mattes_[key];
     const bool fresh = texture.id == 0 || !(texture.size == pixels.size());
     if (!fresh && texture.version == draw.version) return texture.id;
     if (texture.id == 0) glGenTextures(1, &texture.id);
@@ -200,13 +146,8 @@ void GlPictures::draw(ImDrawList& list, const PictureDraw& draw) {
     Order& order = orders_.emplace_back();
     order.host = this;
     order.picture = draw;
-    const auto shrunk = [&](const PicturePtr& picture) {
-        constexpr float kVisibly = 0.75f;
-        const float shown = (draw.max.x - draw.min.x) * ImGui::GetIO().DisplayFramebufferScale.x;
-        return picture && shown < kVisibly * static_cast<float>(picture->size.width);
-    };
-    order.a = texture_of(draw.a, draw.smooth, shrunk(draw.a));
-    order.b = texture_of(draw.b, draw.smooth, shrunk(draw.b));
+    order.a = texture_at(2 * draw.pane, draw.a);
+    order.b = texture_at(2 * draw.pane + 1, draw.b);
     if (!order.a) return;
     list.AddCallback(run, &order);
     list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
@@ -266,8 +207,9 @@ void GlPictures::execute(const Order& order) const {
         const PictureDraw& p = order.picture;
         clip(p.clip_min, p.clip_max);
         place(picture_program_, p.min, p.max);
-        bind(1, order.b ? order.b : order.a, picture_program_, "picture_b");
-        bind(0, order.a, picture_program_, "picture_a");
+        bind_picture(1, order.b ? order.b : order.a, "picture_b", p.smooth);
+        bind_picture(0, order.a, "picture_a", p.smooth);
+        set_footprint(p.a->size, (p.max.x - p.min.x) * sx, (p.max.y - p.min.y) * sy);
         glUniform1i(at(picture_program_, "mode"), static_cast<GLint>(p.mode));
         glUniform1f(at(picture_program_, "wipe"), p.wipe);
         set_display(p.display);
@@ -277,6 +219,27 @@ void GlPictures::execute(const Order& order) const {
     glActiveTexture(GL_TEXTURE0);
 }
 
+void GlPictures::bind_picture(unsigned unit, unsigned texture, const char* name,
+                              bool smooth) const {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+    glUniform1i(at(picture_program_, name), static_cast<GLint>(unit));
+}
+
+// A picture shown smaller than it is: the shader takes the mean under each pixel of the screen,
+// by taps that lie at most two texels apart, which is as far as one of them sees.
+void GlPictures::set_footprint(Size picture, float width, float height) const {
+    const float across = static_cast<float>(picture.width) / std::max(1.0f, width);
+    const float down = static_cast<float>(picture.height) / std::max(1.0f, height);
+    const auto taps = [](float texels) {
+        return texels <= 1.05f ? 1 : std::clamp(static_cast<int>(std::ceil(texels / 2)), 2, 8);
+    };
+    glUniform2i(at(picture_program_, "taps"), taps(across), taps(down));
+    glUniform2f(at(picture_program_, "footprint"), 1 / std::max(1.0f, width),
+                1 / std::max(1.0f, height));
+}
+
 void GlPictures::set_display(const DisplaySettings& display) const {
     glUniform1f(at(picture_program_, "gain"), std::exp2(display.exposure));
     glUniform1f(at(picture_program_, "inverse_gamma"), 1.0f / std::max(0.01f, display.gamma));
@@ -284,14 +247,14 @@ void GlPictures::set_display(const DisplaySettings& display) const {
     glUniform1i(at(picture_program_, "curve"), static_cast<GLint>(display.curve));
 }
 
-void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& display, int width,
-                            int height, bool fresh) {
+void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& display, float aspect,
+                            int width, int height, bool fresh) {
     glViewport(0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    const unsigned id = texture_of(picture, true, false);
+    const unsigned id = texture_at(kSecondWindow, picture);
     if (!id) return;
     if (fresh) {
         // Vertex arrays are not shared between contexts.
@@ -303,17 +266,17 @@ void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& di
     }
     glBindVertexArray(alone_);
     const auto w = static_cast<float>(width), h = static_cast<float>(height);
-    const auto pw = static_cast<float>(picture->size.width);
+    const auto pw = static_cast<float>(picture->size.width) * aspect;
     const auto ph = static_cast<float>(picture->size.height);
     const float zoom = std::min(w / pw, h / ph);
-    const float x = (w - zoom * pw) / 2, y = (h - zoom * ph) / 2;
+    const ImVec2 shown(zoom * pw, zoom * ph);
+    const float x = (w - shown.x) / 2, y = (h - shown.y) / 2;
     glUseProgram(picture_program_);
-    glUniform4f(at(picture_program_, "place"), x, y, x + zoom * pw, y + zoom * ph);
+    glUniform4f(at(picture_program_, "place"), x, y, x + shown.x, y + shown.y);
     glUniform2f(at(picture_program_, "screen"), w, h);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, id);
-    glUniform1i(at(picture_program_, "picture_a"), 0);
-    glUniform1i(at(picture_program_, "picture_b"), 0);
+    bind_picture(1, id, "picture_b", true);
+    bind_picture(0, id, "picture_a", true);
+    set_footprint(picture->size, shown.x, shown.y);
     glUniform1i(at(picture_program_, "mode"), 0);
     set_display(display);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "app/editor/gl_textures.h"
 #include "ui/picture_host.h"
 
 namespace weft {
@@ -32,34 +33,38 @@ class GlPictures final : public PictureHost {
         if (on_second_window) on_second_window();
     }
     /// Draws a picture alone, as large as fits, into the current context, which shares this one's
-    /// textures; `fresh`: for the first time there.
-    void show_alone(const PicturePtr& picture, const DisplaySettings& display, int width,
-                    int height, bool fresh);
+    /// textures. `aspect`: width of a pixel over its height; `fresh`: for the first time there.
+    void show_alone(const PicturePtr& picture, const DisplaySettings& display, float aspect,
+                    int width, int height, bool fresh);
     /// Forgets the orders of the last frame and textures that were not used for a while.
     void begin_frame();
+    /// Whether a picture of the last frame is still on its way to the screen.
+    [[nodiscard]] bool pending() const { return textures_.pending(); }
     std::function<void()> on_fullscreen, on_second_window;
 
   private:
     struct Order;
-    struct Texture {
+    struct Matte {
         unsigned id = 0;
-        std::size_t bytes = 0;
-        std::uint64_t used = 0;
-        std::uint64_t version = 0;  // of a matte
-        bool has_smaller = false;
+        std::uint64_t version = 0;
         Size size;
     };
-    [[nodiscard]] unsigned texture_of(const PicturePtr& picture, bool smooth, bool shrunk);
+    // What a place on the screen shows: the last picture that was all there, and the next one.
+    struct Place {
+        PicturePtr shown, next;
+    };
+    [[nodiscard]] unsigned texture_at(int place, const PicturePtr& wanted);
     [[nodiscard]] unsigned matte_texture(std::uint64_t key, const MatteDraw& draw, ViewU8x1 pixels);
-    void trim();
     static void run(const ImDrawList* list, const ImDrawCmd* command);
     void execute(const Order& order) const;
     void set_display(const DisplaySettings& display) const;
+    void bind_picture(unsigned unit, unsigned texture, const char* name, bool smooth) const;
+    void set_footprint(Size picture, float width, float height) const;
 
-    std::map<std::uint64_t, Texture> pictures_, mattes_;
+    GlTextures textures_;
+    std::map<int, Place> places_;
+    std::map<std::uint64_t, Matte> mattes_;
     std::list<Order> orders_;  // stable addresses: draw lists point to them until the frame is over
-    std::size_t bytes_ = 0;
-    std::uint64_t frame_ = 0;
     unsigned picture_program_ = 0, matte_program_ = 0, quad_ = 0, quad_buffer_ = 0;
     unsigned alone_ = 0;  // the vertex array of the second context
 };

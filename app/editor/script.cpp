@@ -214,7 +214,10 @@ Status ScriptRunner::step(const Json& step) {
     } else if (step.contains("reset_times")) {
         app_.reset_times();
     } else if (step.contains("screenshot")) {
-        robot_.frames(2);
+        // A large picture comes in pieces.
+        do
+            robot_.frames(2);
+        while (app_.pictures().pending());
         return write_(text("screenshot"));
     } else {
         return fail(ErrorCode::kUnreadable, "This step is not known: " + step.dump());

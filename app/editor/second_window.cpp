@@ -7,9 +7,8 @@
 namespace weft {
 namespace {
 
-void on_key(GLFWwindow* window, int key, int, int action, int mods) {
-    const bool leave = key == GLFW_KEY_ESCAPE || (key == GLFW_KEY_F11 && (mods & GLFW_MOD_SHIFT));
-    if (leave && action == GLFW_PRESS) glfwSetWindowShouldClose(window, GLFW_TRUE);
+SecondWindow* self_of(GLFWwindow* window) {
+    return static_cast<SecondWindow*>(glfwGetWindowUserPointer(window));
 }
 
 // A screen that the main window is not on, or nothing.
@@ -40,6 +39,24 @@ void SecondWindow::close() {
     glfwMakeContextCurrent(main_);
 }
 
+void SecondWindow::listen() {
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int mods) {
+        SecondWindow& second = *self_of(window);
+        second.stirred_ = true;
+        const bool leave =
+            key == GLFW_KEY_ESCAPE || (key == GLFW_KEY_F11 && (mods & GLFW_MOD_SHIFT));
+        if (leave && action == GLFW_PRESS)
+            glfwSetWindowShouldClose(window, GLFW_TRUE);
+        else if (second.on_key)
+            second.on_key(key, code, action);
+    });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self_of(w)->stirred_ = true; });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self_of(w)->stirred_ = true; });
+    glfwSetFramebufferSizeCallback(window_,
+                                   [](GLFWwindow* w, int, int) { self_of(w)->stirred_ = true; });
+}
+
 void SecondWindow::toggle() {
     if (window_) return close();
     GLFWmonitor* screen = other_screen(main_);
@@ -47,7 +64,7 @@ void SecondWindow::toggle() {
     window_ = glfwCreateWindow(mode ? mode->width : 960, mode ? mode->height : 540, "Weft: picture",
                                mode ? screen : nullptr, main_);
     if (!window_) return;
-    glfwSetKeyCallback(window_, on_key);
+    listen();
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(0);  // the main window keeps the time
     glfwMakeContextCurrent(main_);
@@ -65,7 +82,7 @@ void SecondWindow::draw(EditorApp& app) {
     int width = 0, height = 0;
     glfwMakeContextCurrent(window_);
     glfwGetFramebufferSize(window_, &width, &height);
-    app.pictures().show_alone(shown, viewer.display, width, height, fresh_);
+    app.pictures().show_alone(shown, viewer.display, viewer.aspect, width, height, fresh_);
     fresh_ = false;
     glfwSwapBuffers(window_);
     glfwMakeContextCurrent(main_);

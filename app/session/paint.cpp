@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <opencv2/imgproc.hpp>
 
 namespace weft {
@@ -54,10 +55,31 @@ cv::Mat signed_distance(const Matte& matte) {
     return in_distance - out_distance;
 }
 
+// Columns of a row that can lie within `reach` of a line: a long slanting one touches little of
+// its box.
+std::pair<int, int> columns_near(Vec2 from, Vec2 to, float y, float reach, Recti box) {
+    float first = 0, last = 1;
+    if (const float down = to.y - from.y; std::abs(down) > 1e-3f) {
+        first = (y - reach - from.y) / down;
+        last = (y + reach - from.y) / down;
+        if (first > last) std::swap(first, last);
+        first = std::clamp(first, 0.0f, 1.0f);
+        last = std::clamp(last, 0.0f, 1.0f);
+    }
+    const float a = from.x + first * (to.x - from.x), b = from.x + last * (to.x - from.x);
+    return {std::max(box.x0, static_cast<int>(std::floor(std::min(a, b) - reach))),
+            std::min(box.x1, static_cast<int>(std::ceil(std::max(a, b) + reach)))};
+}
+
 }  // namespace
 
-Stroke::Stroke(const Matte& before, const Brush& brush)
-    : before_(before), coverage_(before.size()), brush_(brush) {}
+Stroke::Stroke(std::shared_ptr<const Matte> before, const Brush& brush)
+    : before_(std::move(before)),
+      coverage_(static_cast<std::uint8_t*>(
+          std::calloc(std::max<std::size_t>(1, before_->size_bytes()), 1))),
+      brush_(brush) {
+    if (!coverage_) throw std::bad_alloc();
+}
 
 Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
     const float press = std::clamp(pressure, 0.05f, 1.0f);
@@ -79,7 +101,10 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
     const float length2 = along.x * along.x + along.y * along.y;
     const float target = brush_.subtract ? 0.0f : 255.0f;
     for (int y = box.y0; y < box.y1; ++y) {
-        for (int x = box.x0; x < box.x1; ++x) {
+        const auto [x0, x1] = columns_near(from, to, static_cast<float>(y) + 0.5f, reach, box);
+        std::uint8_t* covered =
+            coverage_.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(matte.width());
+        for (int x = x0; x < x1; ++x) {
             const Vec2 p = Vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f - from;
             const float t = length2 > 0
                                 ? std::clamp((p.x * along.x + p.y * along.y) / length2, 0.0f, 1.0f)
@@ -89,10 +114,10 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
             const float s = from_strength + t * (strength - from_strength);
             const auto cover =
                 to_code(255.0f * s * profile(std::sqrt(dx * dx + dy * dy), r, brush_.hardness));
-            std::uint8_t& known = coverage_.at(x, y);
+            std::uint8_t& known = covered[x];
             if (cover <= known) continue;
             known = cover;
-            const auto base = static_cast<float>(before_.at(x, y));
+            const auto base = static_cast<float>(before_->at(x, y));
             matte.at(x, y) = to_code(base + (target - base) * brush_.opacity *
                                                 static_cast<float>(cover) / 255.0f);
         }

@@ -2,6 +2,8 @@
 // Painting on mattes: pure functions on pixels, used by the editor's tools.
 
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,14 +25,20 @@ struct Brush {
 /// nothing, so opacity is that of the stroke.
 class Stroke {
   public:
-    Stroke(const Matte& before, const Brush& brush);
+    /// `before` is never null. Neither copies nor touches it: a stroke begins at once on any size.
+    Stroke(std::shared_ptr<const Matte> before, const Brush& brush);
     /// Paints from the last point to `to` (the first call makes a dot); `pressure` in (0, 1] scales
     /// the radius, the opacity or both, as the brush says. Returns what changed of `matte`.
     Recti move_to(Vec2 to, float pressure, Matte& matte);
     [[nodiscard]] const Recti& touched() const { return touched_; }
 
   private:
-    Matte before_, coverage_;
+    struct Release {
+        void operator()(std::uint8_t* memory) const { std::free(memory); }
+    };
+    std::shared_ptr<const Matte> before_;
+    // Of every pixel of the matte: the system gives zeroes where the stroke goes, and there only.
+    std::unique_ptr<std::uint8_t[], Release> coverage_;
     Brush brush_;
     std::optional<Vec2> last_;
     float last_radius_ = 0, last_pressure_ = 1;

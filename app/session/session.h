@@ -96,7 +96,7 @@ class Session {
         return region_by_id(document(), selected_);
     }
     [[nodiscard]] bool may_paint();
-    [[nodiscard]] std::optional<Matte> matte_to_paint_on();
+    [[nodiscard]] MattePtr matte_to_paint_on();
     void begin_stroke(const BeginStroke& action);
     void end_stroke();
     void keep_matte(Matte matte, RegionId region, int layer, int frame, const std::string& label,

@@ -27,7 +27,12 @@ std::string relative_to(const std::string& dir, const std::string& path) {
 Expected<Project> project_for_plate(const std::string& path) {
     Project project;
     project.plate.path = path;
-    project.name = fs::path(path).filename().string();
+    // A name for a person: the folder's where the file's is only a number or its pattern.
+    const fs::path named(path);
+    const bool numbered =
+        named.stem().string().find_first_not_of("0123456789#%d@") == std::string::npos;
+    project.name =
+        (numbered && named.has_parent_path() ? named.parent_path() : named).filename().string();
     if (fs::is_directory(path)) {
         WEFT_TRY(sequence, find_sequence(path));
         project.plate.path = sequence.text();

@@ -1,6 +1,7 @@
 // Renders, and measuring what they gave.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <mutex>
 
@@ -25,6 +26,34 @@ struct MeasuringInputs {
     std::function<Expected<Matte>(int)> matte;
 };
 
+// Mean absolute step of luma to the right and down, between pixels that both are inside.
+double mean_step(ViewF3 picture, ViewU8x1 matte) {
+    const auto luma = [&](int x, int y) {
+        const float* p = picture.pixel(x, y);
+        return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) +
+               0.0722 * static_cast<double>(p[2]);
+    };
+    constexpr std::uint8_t kInside = 200;
+    double sum = 0;
+    std::int64_t count = 0;
+    for (int y = 0; y + 1 < picture.height(); ++y)
+        for (int x = 0; x + 1 < picture.width(); ++x) {
+            if (matte.at(x, y) < kInside || matte.at(x + 1, y) < kInside ||
+                matte.at(x, y + 1) < kInside)
+                continue;
+            const double here = luma(x, y);
+            sum += std::abs(luma(x + 1, y) - here) + std::abs(luma(x, y + 1) - here);
+            ++count;
+        }
+    return count ? sum / static_cast<double>(count) : 0;
+}
+
+// In per cent of the first value that is not nothing.
+float of_first(double value, double& first) {
+    if (first <= 0) first = value;
+    return first > 0 ? static_cast<float>(100 * value / first) : 0;
+}
+
 Status measure_all(const MeasuringInputs& in, Measuring& shared) {
     WEFT_TRY(result, open_plate(in.result_pattern, {}));
     std::vector<int> frames;
@@ -39,6 +68,7 @@ Status measure_all(const MeasuringInputs& in, Measuring& shared) {
     options.estimator = MeasuringEstimator::kFarneback;
     options.measure_drift = false;
     SequenceMeasure measure(options);
+    double first_step = 0, first_plate_step = 0;
     for (const int frame : frames) {
         if (shared.cancelled) return {};
         WEFT_TRY(after, result->read(frame));
@@ -50,12 +80,15 @@ Status measure_all(const MeasuringInputs& in, Measuring& shared) {
         step.source = before.rgb;
         step.matte = matte;
         WEFT_TRY(found, measure.add(step));
+        const float sharpness = of_first(mean_step(after.rgb, matte), first_step);
+        const float plate_sharpness = of_first(mean_step(before.rgb, matte), first_plate_step);
         const std::lock_guard lock(shared.mutex);
         ++shared.report.done;
         shared.report.rows.push_back({frame, static_cast<float>(found.tde.value_or(0)),
                                       static_cast<float>(found.source_tde.value_or(0)),
                                       static_cast<float>(found.mean_v.value_or(0)),
-                                      static_cast<float>(found.source_mean_v.value_or(0))});
+                                      static_cast<float>(found.source_mean_v.value_or(0)),
+                                      sharpness, plate_sharpness});
     }
     return {};
 }
@@ -101,8 +134,10 @@ void Session::submit(const SubmitJob& action) {
                 return;
             }
             known_jobs_.emplace(*id, JobState::kWaiting);
-            notify(NoticeKind::kInfo, "Rendering " + std::to_string(request.frames.size()) +
-                                          " frames to " + request.project.output.path + ".");
+            notify(NoticeKind::kInfo,
+                   "Rendering " + std::to_string(request.frames.size()) + " frames to " +
+                       fs::path(request.project.output.path).parent_path().filename().string() +
+                       ".");
         };
     }));
 }

@@ -125,22 +125,22 @@ bool Session::may_paint() {
     return false;
 }
 
-std::optional<Matte> Session::matte_to_paint_on() {
+MattePtr Session::matte_to_paint_on() {
     const Region* region = region_by_id(document(), selected_);
     const RegionMatteView shown = matte_of(*region, layer_, frame_);
-    if (shown.keep) return *shown.keep;
+    if (shown.keep) return shown.keep;
     if (shown.kind == RegionMatteView::Kind::kLoading &&
         layer_source(*region, layer_).keyframes.contains(frame_)) {
         notify(NoticeKind::kWarning, "This keyframe is still being read. Try again in a moment.");
-        return std::nullopt;
+        return nullptr;
     }
-    return Matte(reader_->size());
+    return std::make_shared<const Matte>(reader_->size());
 }
 
 void Session::begin_stroke(const BeginStroke& action) {
     end_stroke();
     if (!open_ || !may_paint()) return;
-    auto before = matte_to_paint_on();
+    const MattePtr before = matte_to_paint_on();
     if (!before) return;
     playing_ = 0;
     painting_.emplace();
@@ -148,7 +148,7 @@ void Session::begin_stroke(const BeginStroke& action) {
     painting_->layer = layer_;
     painting_->frame = frame_;
     painting_->canvas = *before;
-    painting_->stroke.emplace(*before, action.brush);
+    painting_->stroke.emplace(before, action.brush);
     painting_->version = next_picture_id();
     (void)painting_->stroke->move_to(action.at, action.pressure, painting_->canvas);
     painting_->changed = rect_of(before->size());
@@ -156,13 +156,13 @@ void Session::begin_stroke(const BeginStroke& action) {
 
 void Session::end_stroke() {
     if (!painting_) return;
-    const Painting done = std::move(*painting_);
+    Painting done = std::move(*painting_);
     painting_.reset();
     if (!done.stroke || done.stroke->touched().empty()) return;
     const Region* region = region_by_id(document(), done.region);
     if (!region) return;
     keep_matte(
-        done.canvas, done.region, done.layer, done.frame,
+        std::move(done.canvas), done.region, done.layer, done.frame,
         "Paint " + layer_name(*region, done.layer) + " on frame " + std::to_string(done.frame));
 }
 
@@ -204,7 +204,7 @@ void Session::keep_matte(Matte matte, RegionId region, int layer, int frame,
 void Session::change_matte(std::function<Matte(const Matte&)> change, std::string label) {
     end_stroke();
     if (!open_ || !may_paint()) return;
-    auto before = matte_to_paint_on();
+    MattePtr before = matte_to_paint_on();
     if (!before) return;
     changing_.emplace();
     changing_->region = selected_;
@@ -212,7 +212,7 @@ void Session::change_matte(std::function<Matte(const Matte&)> change, std::strin
     changing_->frame = frame_;
     changing_->label = std::move(label);
     changing_->matte = in_background(
-        [change = std::move(change), matte = std::move(*before)] { return change(matte); });
+        [change = std::move(change), matte = std::move(before)] { return change(*matte); });
 }
 
 void Session::take_changed_matte() {

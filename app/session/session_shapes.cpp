@@ -28,7 +28,7 @@ Matte drawn(const std::vector<std::vector<Vec2>>& lines, Size size) {
     pen.radius_px = 3;
     pen.hardness = 1;
     for (const auto& line : lines) {
-        Stroke stroke(out, pen);
+        Stroke stroke(std::make_shared<const Matte>(out), pen);
         for (const Vec2 point : line)
             (void)stroke.move_to(point, 1, out);
     }

@@ -80,6 +80,7 @@ void Session::show_plate() {
         plate.state = PlateView::State::kOpen;
         plate.error.clear();
         plate.size = reader_->size();
+        plate.pixel_aspect = reader_->pixel_aspect();
         plate.frames = reader_->frames();
         plate.depth = depth_name(reader_->depth());
     }

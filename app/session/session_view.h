@@ -36,6 +36,7 @@ struct PlateView {
     std::string path, error, space, depth;
     Size size;
     double fps = 24;
+    double pixel_aspect = 1;  ///< Width of a pixel over its height, as the files say.
     std::vector<int> frames;
     std::size_t cached_bytes = 0, budget_bytes = 0;
 };
@@ -77,10 +78,12 @@ struct QualityReport {
     int done = 0, total = 0;
     struct Row {
         int frame = 0;
+        /// Mean change of a surface point to the next frame, and mean brightness, in codes.
         float flicker = 0, flicker_plate = 0, brightness = 0, brightness_plate = 0;
+        /// Mean step between neighbouring pixels of the region, in per cent of its first frame's.
+        float sharpness = 0, sharpness_plate = 0;
     };
-    std::vector<Row>
-        rows;  ///< Flicker: mean change of a surface point to the next frame, in codes.
+    std::vector<Row> rows;
 };
 
 struct StripView {

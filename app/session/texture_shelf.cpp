@@ -115,16 +115,12 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
     return nullptr;
 }
 
-void TextureShelf::suggest_for(const std::string& key, PicturePtr plate,
-                               std::shared_ptr<const Matte> matte,
-                               const std::string& excluded_licences) {
+void TextureShelf::suggest_for(const std::string& key, SurfaceToSuit surface) {
     {
         const std::lock_guard lock(mutex_);
         if (key == ranked_key_ || key == rank_due_) return;
         rank_due_ = key;
-        rank_plate_ = std::move(plate);
-        rank_matte_ = std::move(matte);
-        rank_excluded_ = excluded_licences;
+        rank_surface_ = std::move(surface);
     }
     wake_.notify_all();
 }
@@ -240,11 +236,11 @@ const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
     return &(looks_[path] = look);
 }
 
-void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte,
-                        const std::string& excluded_licences) {
-    const ImageU8x3 whole = shrink(plate, 1 << 20);
+void TextureShelf::rank(const std::string& key, const SurfaceToSuit& asked) {
+    const ImageU8x3 whole = shrink(*asked.plate, 1 << 20);
+    const Matte& matte = *asked.matte;
     if (!library_cards_.empty() && whole.size() == matte.size())
-        return recommend(key, whole, matte, excluded_licences);
+        return recommend(key, whole, asked);
     Look surface;
     if (whole.size() == matte.size()) {
         statistics(
@@ -340,11 +336,9 @@ void TextureShelf::work() {
             lock.lock();
         } else {
             const std::string key = std::exchange(rank_due_, {});
-            const PicturePtr plate = std::exchange(rank_plate_, nullptr);
-            const auto matte = std::exchange(rank_matte_, nullptr);
-            const std::string excluded = rank_excluded_;
+            const SurfaceToSuit surface = std::exchange(rank_surface_, {});
             lock.unlock();
-            if (plate && matte) rank(key, *plate, *matte, excluded);
+            if (surface.plate && surface.matte) rank(key, surface);
             lock.lock();
         }
     }

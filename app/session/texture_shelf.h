@@ -79,6 +79,14 @@ struct TextureAnswer {
     std::vector<TextureCount> origins, licences;  ///< Over all of them, most frequent first.
 };
 
+/// A region that wants a texture.
+struct SurfaceToSuit {
+    std::string region;  ///< Its name, which may say what it is.
+    PicturePtr plate;
+    std::shared_ptr<const Matte> matte;  ///< Of the plate's size.
+    std::string excluded_licences;
+};
+
 /// Thread-safe; nothing blocks.
 class TextureShelf {
   public:
@@ -111,10 +119,8 @@ class TextureShelf {
     /// Null while it is being made: asked for again every frame by what is visible. The newest wish
     /// comes first.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
-    /// Ranks the cards for a surface that looks like this, those under the excluded licences left
-    /// out; empty while it is being worked out.
-    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte,
-                     const std::string& excluded_licences = {});
+    /// Ranks the cards for a surface; `key` stands for all that it depends on.
+    void suggest_for(const std::string& key, SurfaceToSuit surface);
     /// The same for all regions together, from the library; `key` stands for all that it depends
     /// on.
     void suggest_together(const std::string& key, PicturePtr plate,
@@ -151,14 +157,12 @@ class TextureShelf {
     void search_library(const TextureQuestion& question);
     void recommend_together(const Together& asked);
     void look_for_similar(const std::string& key, const Picture* picture, const Recti& part);
-    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
-                   const std::string& excluded_licences);
+    void recommend(const std::string& key, const ImageU8x3& plate, const SurfaceToSuit& surface);
     void publish();
     void scan(const std::vector<std::string>& folders);
     void make_thumbnail(const Wish& wish);
     [[nodiscard]] std::vector<PicturePtr> trim();
-    void rank(const std::string& key, const Picture& plate, const Matte& matte,
-              const std::string& excluded_licences);
+    void rank(const std::string& key, const SurfaceToSuit& surface);
     [[nodiscard]] const Look* look_of(const std::string& path);
 
     const std::size_t budget_bytes_;
@@ -178,9 +182,7 @@ class TextureShelf {
     std::uint64_t clock_ = 0;
     std::atomic<std::uint64_t> arrivals_ = 0;
     std::string ranked_key_, rank_due_;
-    PicturePtr rank_plate_;
-    std::shared_ptr<const Matte> rank_matte_;
-    std::string rank_excluded_;
+    SurfaceToSuit rank_surface_;
     std::vector<TextureSuggestion> ranked_;
     std::map<std::string, Look> looks_;  // of the working thread alone
     std::shared_ptr<TextureLibrary> library_;

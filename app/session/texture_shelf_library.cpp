@@ -210,12 +210,12 @@ void TextureShelf::look_for_similar(const std::string& key, const Picture* pictu
     ++arrivals_;
 }
 
-void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
-                             const std::string& excluded_licences) {
+void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate,
+                             const SurfaceToSuit& surface) {
     RecommendRequest request;
-    request.excluded_licences = licence_list(excluded_licences);
+    request.excluded_licences = licence_list(surface.excluded_licences);
     request.plate = plate;
-    request.regions.push_back({"region", matte.view(), {}, {}});
+    request.regions.push_back({surface.region, surface.matte->view(), {}, {}});
     const auto found = library_->recommend(request);
     std::vector<TextureSuggestion> out;
     if (found && !found->regions.empty()) {

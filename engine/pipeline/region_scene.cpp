@@ -34,26 +34,6 @@ Expected<TexturePlane> kept_texture(const ShotPlan& plan, const RegionPlan& regi
     return plane;
 }
 
-Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
-                                  RegionScene& scene, const CancelToken& cancel,
-                                  const ProgressFn& progress, const Backend* backend) {
-    const TexturePicture& texture = *region.texture;
-    if (texture.is_plane) {
-        return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
-                            texture.wrap);
-    }
-    PlaneOptions options =
-        plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
-    options.tileable = true;
-    options.amendments = region.amendments;
-    WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
-    scene.stats = plane.stats;
-    if (plan.layers) scene.plane_seams = seam_texels(plane);
-    PlanePyramid pyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
-    if (plan.keep_planes) scene.grown = std::make_shared<const TexturePlane>(std::move(plane));
-    return pyramid;
-}
-
 // S₀, the plate's median shading inside the matte on the reference frame, and the light's colour
 // there. Painted light is relative to 1.
 Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
@@ -75,6 +55,32 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
 }
 
 }  // namespace
+
+bool has_plane(const RegionPlan& region) {
+    return region.temporal == TemporalMode::kLocked || region.texture->is_plane;
+}
+
+Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
+                                 const CancelToken& cancel, const ProgressFn& progress,
+                                 const Backend* backend) {
+    const TexturePicture& texture = *region.texture;
+    if (texture.is_plane) {
+        return RegionPlane{
+            PlanePyramid(transformed(texture.pixels, *region.working_from_texture), texture.wrap),
+            std::nullopt,
+            {},
+            nullptr};
+    }
+    PlaneOptions options =
+        plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
+    options.tileable = true;
+    options.amendments = region.amendments;
+    WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
+    RegionPlane out{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat),
+                    plane.stats, plan.layers ? seam_texels(plane) : Matte(), nullptr};
+    if (plan.keep_planes) out.grown = std::make_shared<const TexturePlane>(std::move(plane));
+    return out;
+}
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
     return {plane_side(plate.width, placement.scale), plane_side(plate.height, placement.scale)};
@@ -119,14 +125,20 @@ ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& pla
 Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                  const AnalysisStore& store, int region_index,
                                  const CancelToken& cancel, const ProgressFn& progress,
-                                 const Backend* backend) {
+                                 const Backend* backend, std::optional<RegionPlane> made) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
     WEFT_TRY(plane_from, plane_from_plate(region.placement));
     scene.plane_from_plate = plane_from;
-    if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
-        WEFT_TRY(plane, make_plane(plan, region, source.size(), scene, cancel, progress, backend));
-        scene.plane = std::move(plane);
+    if (has_plane(region)) {
+        if (!made) {
+            WEFT_TRY(plane, make_plane(plan, region, source.size(), cancel, progress, backend));
+            made = std::move(plane);
+        }
+        scene.plane = std::move(made->pyramid);
+        scene.stats = made->stats;
+        scene.plane_seams = std::move(made->seams);
+        scene.grown = std::move(made->grown);
         WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
         scene.seams = std::move(seams);
     }

@@ -79,6 +79,25 @@ Finished run(const Sandbox& sandbox, const std::vector<std::string>& arguments) 
     return finish(sandbox, start(sandbox, arguments));
 }
 
+std::vector<pid_t> children_of(pid_t pid) {
+    std::vector<pid_t> out;
+    std::error_code error;
+    for (const auto& task :
+         fs::directory_iterator("/proc/" + std::to_string(pid) + "/task", error)) {
+        std::ifstream file(task.path() / "children");
+        for (pid_t child = 0; file >> child;)
+            out.push_back(child);
+    }
+    return out;
+}
+
+bool runs(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::size_t name_end = text.rfind(')');
+    return name_end != std::string::npos && text.compare(name_end + 2, 1, "Z") != 0;
+}
+
 bool has_tool(const std::string& name) {
     std::istringstream path(std::getenv("PATH") ? std::getenv("PATH") : "");
     for (std::string folder; std::getline(path, folder, ':');)

@@ -35,6 +35,10 @@ struct Finished {
 [[nodiscard]] bool has_ended(pid_t pid);
 [[nodiscard]] Finished finish(const Sandbox& sandbox, pid_t pid);
 [[nodiscard]] Finished run(const Sandbox& sandbox, const std::vector<std::string>& arguments);
+/// The processes that it has started and that still run.
+[[nodiscard]] std::vector<pid_t> children_of(pid_t pid);
+/// Whether there is such a process that has not ended.
+[[nodiscard]] bool runs(pid_t pid);
 /// Whether a program is there, on PATH.
 [[nodiscard]] bool has_tool(const std::string& name);
 

@@ -113,49 +113,102 @@ double tiles_that_differ(const ImageF3& a, const ImageF3& b) {
     return static_cast<double>(different) / tiles;
 }
 
-// The layout of every workspace, compared with pictures that somebody has looked at. With
-// WEFT_UPDATE_GOLDEN in the environment they are written anew. The analysis is paused, so that
-// what is seen does not depend on the machine.
-TEST(Screenshots, EveryWorkspaceLooksAsItDid) {
-    const Sandbox sandbox;
-    const std::pair<const char*, const char*> pages[] = {{"mask", "Mask"},
-                                                         {"motion", "Motion"},
-                                                         {"light", "Seams & Light"},
-                                                         {"review", "Review"},
-                                                         {"jobs", "Jobs"}};
+struct Page {
+    const char* file;
+    const char* workspace;
+};
+constexpr Page kPages[] = {{"mask", "Mask"},           {"texture", "Texture"}, {"motion", "Motion"},
+                           {"light", "Seams & Light"}, {"review", "Review"},   {"jobs", "Jobs"}};
+
+// Compares with pictures that somebody has looked at. With WEFT_UPDATE_GOLDEN in the environment
+// they are written anew.
+void expect_golden(const std::string& picture_path, const std::string& name) {
+    const auto picture = read_image(picture_path);
+    ASSERT_TRUE(picture) << picture.error().text();
+    const ImageF3 now = quartered(picture->rgb);
+    const std::string golden =
+        std::string(WEFT_SOURCE_DIR) + "/tests/editor/golden/" + name + ".jpg";
+    if (std::getenv("WEFT_UPDATE_GOLDEN")) {
+        WriteOptions options;
+        options.jpeg_quality = 85;
+        ASSERT_TRUE(write_image(golden, now, {}, options));
+        return;
+    }
+    const auto before = read_image(golden);
+    ASSERT_TRUE(before) << before.error().text();
+    ASSERT_EQ(before->rgb.size(), now.size());
+    EXPECT_LT(tiles_that_differ(before->rgb, now), 0.06)
+        << name << " looks different. Look at it; if that is meant, write the golden pictures "
+        << "anew with WEFT_UPDATE_GOLDEN=1.";
+}
+
+// Goes through the workspaces after `begin` and compares each with golden/<prefix><page>.jpg.
+void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>& arguments,
+                         const std::string& begin, const std::string& prefix) {
     {
         std::ofstream script(sandbox.in("script.json"));
-        script << R"([{"click": "Top/Region"}, {"click": "Menu/Pause the analysis"},)"
-               << R"({"wait_for": "plate"}, {"wait_for": "mattes"}, {"wait": 1.5})";
-        for (const auto& [file, page] : pages)
-            script << R"(, {"workspace": ")" << page
-                   << R"("}, {"hover": "Top/File"}, {"wait": 0.3},)"
-                   << R"({"screenshot": ")" << sandbox.in(std::string(file) + ".png") << R"("})";
+        script << "[" << begin;
+        for (const Page& page : kPages)
+            script << R"(, {"workspace": ")" << page.workspace
+                   << R"("}, {"hover": "Top/File"}, {"wait": 0.7}, {"screenshot": ")"
+                   << sandbox.in(std::string(page.file) + ".png") << R"("})";
         script << "]";
     }
-    const Finished done = run(
-        sandbox, {"edit", "--demo", "--script", sandbox.in("script.json"), "--size", "1280x720"});
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--script", sandbox.in("script.json"), "--size", "1280x720"});
+    const Finished done = run(sandbox, all);
     if (no_gl(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
-    for (const auto& [file, page] : pages) {
-        const auto picture = read_image(sandbox.in(std::string(file) + ".png"));
-        ASSERT_TRUE(picture) << picture.error().text();
-        const ImageF3 now = quartered(picture->rgb);
-        const std::string golden =
-            std::string(WEFT_SOURCE_DIR) + "/tests/editor/golden/" + file + ".jpg";
-        if (std::getenv("WEFT_UPDATE_GOLDEN")) {
-            WriteOptions options;
-            options.jpeg_quality = 90;
-            ASSERT_TRUE(write_image(golden, now, {}, options));
-            continue;
-        }
-        const auto before = read_image(golden);
-        ASSERT_TRUE(before) << before.error().text();
-        ASSERT_EQ(before->rgb.size(), now.size());
-        EXPECT_LT(tiles_that_differ(before->rgb, now), 0.06)
-            << page << " looks different. Look at it; if that is meant, write the golden pictures "
-            << "anew with WEFT_UPDATE_GOLDEN=1.";
-    }
+    for (const Page& page : kPages)
+        expect_golden(sandbox.in(std::string(page.file) + ".png"), prefix + page.file);
+}
+
+// The analysis is paused, so that what is seen does not depend on the machine.
+TEST(Screenshots, EveryWorkspaceLooksAsItDid) {
+    const Sandbox sandbox;
+    expect_golden_pages(sandbox, {"edit", "--demo"},
+                        R"({"click": "Top/Region"}, {"click": "Menu/Pause the analysis"},)"
+                        R"({"wait_for": "plate"}, {"wait_for": "mattes"}, {"wait": 1.5})",
+                        "");
+}
+
+void write_plates(const Sandbox& sandbox) {
+    std::filesystem::create_directories(sandbox.in("shot"));
+    ImageF3 frame(320, 180);
+    for (int y = 0; y < frame.height(); ++y)
+        for (int x = 0; x < frame.width(); ++x)
+            for (int c = 0; c < 3; ++c)
+                frame.pixel(x, y)[c] = static_cast<float>((c + 1) * x + y) / 1200.0f;
+    for (const char* name : {"0001.png", "0002.png", "0003.png", "0004.png"})
+        ASSERT_TRUE(write_image(sandbox.in(std::string("shot/") + name), frame, {}, {}));
+}
+
+TEST(Screenshots, AnEmptyShotSaysWhatToDoInEveryWorkspace) {
+    const Sandbox sandbox;
+    write_plates(sandbox);
+    expect_golden_pages(sandbox, {"edit", sandbox.in("shot")}, R"({"wait_for": "plate"})",
+                        "empty_");
+}
+
+TEST(Screenshots, AFailingShotSaysWhyInEveryWorkspace) {
+    const Sandbox sandbox;
+    write_plates(sandbox);
+    std::ofstream(sandbox.in("shot.weft")) << R"({"schema": "weft.project/1", "name": "Failing",
+               "plate": {"path": "shot/####.png", "fps": 24.0},
+               "regions": [{"id": 1, "name": "floor", "matte": {"files": "gone/####.png"},
+                            "texture": {"sample": "gone.png"}}]})";
+    expect_golden_pages(sandbox, {"edit", sandbox.in("shot.weft")},
+                        R"({"wait_for": "plate"}, {"wait_for": "failure"}, {"wait": 1})",
+                        "failing_");
+}
+
+TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
+    const Sandbox sandbox;
+    const std::string out = sandbox.in("welcome.png");
+    const Finished done = run(sandbox, {"edit", "--screenshot", out, "--size", "1280x720"});
+    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    ASSERT_EQ(done.code, 0) << done.errors;
+    expect_golden(out, "welcome");
 }
 
 TEST(Screenshots, AScriptThatFailsSaysWhichStep) {

@@ -246,7 +246,7 @@ TEST(PenPressure, ChangesTheSizeTheOpacityOrNothing) {
         brush.hardness = 1;
         brush.pressure_size = size;
         brush.pressure_opacity = opacity;
-        Stroke stroke(matte, brush);
+        Stroke stroke(std::make_shared<const Matte>(matte), brush);
         (void)stroke.move_to({32, 32}, 0.5f, matte);
         return std::pair<int, int>(matte.at(32, 32), matte.at(32 + 15, 32));
     };

@@ -1,0 +1,177 @@
+// Windows in the middle of the screen: the keys, the settings, what the shot is.
+#include "ui/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+
+// A window in the middle of the screen, closed by its cross or Esc.
+bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const Theme& t = c.theme;
+    size.x = std::min(size.x, screen.x - t.px(32));
+    size.y = std::min(size.y, screen.y - t.px(32));
+    ImGui::SetNextWindowPos(
+        {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::SetNextWindowFocus();
+    ImGui::Begin(
+        title, nullptr,
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar(3);
+    ImGui::PopStyleColor();
+    c.panel = title;
+    ImGui::PushFont(t.title);
+    ImGui::TextUnformatted(title);
+    ImGui::PopFont();
+    ImGui::SetCursorPos({size.x - t.px(42), t.px(10)});
+    if (icon_button(c, icons::kClose, "Close")) open = false;
+    ImGui::SetCursorPos({t.px(16), t.px(50)});
+    if (ImGui::IsKeyPressed(256) && c.state.rebinding.empty() && !ImGui::IsAnyItemActive())
+        open = false;
+    return true;
+}
+
+void end_sheet(Ctx& c) {
+    ImGui::End();
+    c.panel.clear();
+}
+
+void shortcut_sheet(Ctx& c) {
+    if (!c.state.shortcuts_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "Keyboard shortcuts", {t.px(920), t.px(640)}, c.state.shortcuts_open);
+    quiet(c, "Click a key to change it; Esc leaves it as it is, Backspace takes it away.");
+    for (const std::string& clash : c.commands.collisions())
+        banner(c, icons::kAlert, t.warn, "The same key twice: " + clash);
+    ImGui::BeginChild("##keys", {0, 0});
+    const float column = std::floor((ImGui::GetContentRegionAvail().x - t.px(40)) / 3);
+    const ImVec2 origin = ImGui::GetCursorScreenPos();
+    float y[3] = {origin.y, origin.y, origin.y};
+    std::string category;
+    int at = -1;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto column_of = [](const std::string& name) {
+        if (name == "View") return 1;
+        return name == "Time" || name == "Tool" || name == "Render" ? 2 : 0;
+    };
+    for (const Command& command : c.commands.all()) {
+        at = column_of(command.category);
+        const float x = origin.x + (column + t.px(20)) * static_cast<float>(at);
+        if (command.category != category) {
+            category = command.category;
+            if (y[at] > origin.y) y[at] += t.px(10);
+            text_in(list, t.strong, {x, y[at]}, {x + column, y[at] + t.px(24)}, t.text,
+                    category.c_str(), 0);
+            y[at] += t.px(26);
+        }
+        ImGui::SetCursorScreenPos({x, y[at]});
+        ImGui::PushID(command.id.c_str());
+        if (ImGui::InvisibleButton("##key", {column, t.px(22)})) c.state.rebinding = command.id;
+        ImGui::PopID();
+        c.note(command.name);
+        const bool listening = c.state.rebinding == command.id;
+        if (ImGui::IsItemHovered() || listening)
+            list.AddRectFilled({x - t.px(4), y[at]}, {x + column, y[at] + t.px(22)},
+                               listening ? faded(t.accent, 0.3f) : t.hover, t.radius);
+        ImGui::PushFont(t.small);
+        text_in(list, t.small, {x, y[at]}, {x + column, y[at] + t.px(22)}, t.quiet,
+                fitted(command.name, column - t.px(90)).c_str(), 0);
+        ImGui::PopFont();
+        text_in(list, t.small, {x, y[at]}, {x + column - t.px(6), y[at] + t.px(22)}, t.text,
+                listening ? "press a key" : chord_text(command.key).c_str(), 1);
+        y[at] += t.px(22);
+    }
+    ImGui::SetCursorScreenPos({origin.x, std::max({y[0], y[1], y[2]})});
+    ImGui::Dummy({1, t.px(8)});
+    ImGui::EndChild();
+    end_sheet(c);
+    if (c.state.rebinding.empty()) return;
+    const KeyChord pressed = pressed_chord(false);
+    if (pressed.key == 0) return;
+    if (pressed.key == 259)
+        c.settings.keys[c.state.rebinding] = "";
+    else if (pressed.key != 256)
+        c.settings.keys[c.state.rebinding] = chord_text(pressed);
+    c.commands.bind(c.settings.keys);
+    c.state.rebinding.clear();
+}
+
+void settings_window(Ctx& c) {
+    if (!c.state.settings_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "Settings", {t.px(460), t.px(380)}, c.state.settings_open);
+    quiet(c, "Theme");
+    int dark = c.settings.dark ? 0 : 1;
+    if (segments(c, "Theme", {"Dark", "Light"}, dark)) c.settings.dark = dark == 0;
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "Around the picture");
+    int grey = c.settings.grey_surround ? 1 : 0;
+    if (segments(c, "Surround", {"As the theme", "18% grey"}, grey))
+        c.settings.grey_surround = grey == 1;
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "Size of the interface");
+    const double scales[] = {0, 1, 1.25, 1.5, 2};
+    int scale = 0;
+    for (int k = 1; k < 5; ++k)
+        if (std::abs(c.settings.ui_scale - scales[k]) < 0.01) scale = k;
+    if (segments(c, "Scale", {"Screen's", "100%", "125%", "150%", "200%"}, scale))
+        c.settings.ui_scale = scales[scale];
+    ImGui::Dummy({0, t.px(10)});
+    if (button(c, "Keyboard shortcuts…", {.icon = icons::kKeyboard})) {
+        c.state.settings_open = false;
+        c.state.shortcuts_open = true;
+    }
+    ImGui::SameLine();
+    if (button(c, "All keys as they were")) {
+        c.settings.keys.clear();
+        c.commands.bind(c.settings.keys);
+    }
+    end_sheet(c);
+}
+
+// What the plate is and what the shot works in.
+void shot_window(Ctx& c) {
+    if (!c.state.shot_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "Shot settings", {t.px(540), t.px(560)}, c.state.shot_open);
+    heading(c, "Plate");
+    project_parameter(c, "plate.path", "Frames");
+    project_parameter(c, "plate.layer", "Layer");
+    project_parameter(c, "plate.space", "Colour space");
+    project_parameter(c, "plate.fps", "Frame rate");
+    double aspect = static_cast<double>(c.state.viewer.aspect);
+    if (slider(c,
+               {.label = "Pixel aspect",
+                .tip = "Width of a pixel over its height, for the view alone: 2 for anamorphic",
+                .min = 0.5,
+                .max = 2,
+                .standard = c.view.plate.pixel_aspect,
+                .typed_min = 0.1,
+                .typed_max = 10},
+               aspect) != Change::kNone)
+        c.state.viewer.aspect = static_cast<float>(aspect);
+    ImGui::Dummy({0, t.px(8)});
+    heading(c, "Colour");
+    project_parameter(c, "color.working_space", "Working space");
+    project_parameter(c, "color.texture_space", "Textures");
+    project_parameter(c, "color.out_space", "Result");
+    ImGui::Dummy({0, t.px(8)});
+    heading(c, "Render");
+    project_parameter(c, "settings.seed", "Variation");
+    project_parameter(c, "settings.excluded_licences", "No textures under");
+    project_parameter(c, "output.exr_compression", "EXR compression");
+    project_parameter(c, "output.jpeg_quality");
+    end_sheet(c);
+}
+
+}  // namespace weft::ui
