@@ -36,6 +36,8 @@ const char* title_of(Purpose purpose) {
             return "Choose a planar track";
         case Purpose::kExportMattes:
             return "Choose where the mattes go";
+        case Purpose::kSimilar:
+            return "Choose a picture to find textures like it";
         case Purpose::kNone:
             break;
     }
@@ -91,6 +93,11 @@ void accept(Ctx& c, const std::string& path) {
         }
         case Purpose::kMotion:
             c.edit(SetRegionParameter{ref, "motion.files", path});
+            break;
+        case Purpose::kSimilar:
+            c.state.drawer.similar_key = "file " + path;
+            c.state.drawer.similar_file = path;
+            c.textures.find_similar(c.state.drawer.similar_key, path);
             break;
         case Purpose::kPlate:
             c.edit(SetProjectParameter{"plate.path", path});

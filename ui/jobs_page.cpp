@@ -153,7 +153,7 @@ void layer_choice(Ctx& c) {
         if (segments(c, "Where", {"In the frames", "Files of their own"}, apart))
             e.layers_apart = apart == 1;
     } else {
-        quiet(c, "In EXR files of their own, in a folder 'layers' beside the frames");
+        quiet(c, "As EXR files, in a folder 'layers' beside them");
     }
     ImGui::Dummy({0, t.px(2)});
     section_gap(c);

@@ -66,7 +66,10 @@ void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
     // What one works on has to be seen.
-    if (c.view.overlay != Overlay::kPieces) c.emit(ShowOverlay{Overlay::kPieces});
+    if (c.view.overlay != Overlay::kPieces) {
+        c.emit(ShowOverlay{Overlay::kPieces});
+        c.state.keep_overlay = true;
+    }
     if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     UiState& s = c.state;
     const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);

@@ -190,6 +190,7 @@ void similar_tool(Ctx& c, const ViewMap& map, bool active) {
                            std::to_string(part.y0) + " " + std::to_string(part.x1) + " " +
                            std::to_string(part.y1);
     s.drawer.similar_frame = c.view.frame;
+    s.drawer.similar_file.clear();
     c.textures.find_similar(s.drawer.similar_key, c.view.plate_picture, part);
 }
 

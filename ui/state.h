@@ -92,12 +92,13 @@ struct DrawerState {
     std::shared_ptr<const TextureAnswer> answer;  ///< To words and conditions.
     std::string collection;                       ///< Name of the one that is shown; empty: none.
     std::string new_collection;
-    std::string similar_key;  ///< Of the rectangle that similar textures were asked for by.
+    std::string similar_key;  ///< Of the rectangle or picture that similar ones were asked for by.
     int similar_frame = 0;
-    std::string picked;                           ///< Path of the texture in the large preview.
-    bool together = false;                        ///< Suggestions for all regions at once.
-    std::vector<RegionId> kept;                   ///< Regions whose texture stays then.
-    int together_first = 0;                       ///< The first one that is shown.
+    std::string similar_file;    ///< The picture; empty: a rectangle of `similar_frame`.
+    std::string picked;          ///< Path of the texture in the large preview.
+    bool together = false;       ///< Suggestions for all regions at once.
+    std::vector<RegionId> kept;  ///< Regions whose texture stays then.
+    int together_first = 0;      ///< The first one that is shown.
     bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
 };
 
@@ -114,7 +115,8 @@ struct BrowserState {
         kTextureFolder,
         kTrack,
         kPlate,
-        kExportMattes
+        kExportMattes,
+        kSimilar
     };
     Purpose purpose = Purpose::kNone;
     std::string folder, name, filter;
@@ -167,6 +169,7 @@ struct UiState {
     bool shape_drawing = false;
     ScribbleState scribbles;
     std::optional<Vec2> rectangle_from;
+    bool keep_overlay = false;                    ///< Tool::kKeep has turned the pieces on.
     bool keep_again = false, keep_seams = false;  ///< What Tool::kKeep does, and to what.
     std::optional<float> pen_pressure;  ///< Of the tablet's pen, 0–1; unset: none is down.
     int worst_by = 0;                   ///< Of the report: flicker, seams, drift.

@@ -165,6 +165,14 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         if (row(material.c_str(), icons::kTagOutline, count, d.material == material))
             pick(material, false, false);
     ImGui::Dummy({0, t.px(6)});
+    if (button(c, "Like a picture…",
+               {.icon = icons::kMagnify,
+                .look = Look::kQuiet,
+                .tip = "Finds the library's textures that look like a picture of your own",
+                .width = -1})) {
+        c.state.browser.purpose = BrowserState::Purpose::kSimilar;
+        c.state.browser.just_opened = true;
+    }
     if (button(c, "Add a folder…", {.icon = icons::kPlus, .look = Look::kQuiet, .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kTextureFolder;
         c.state.browser.just_opened = true;
@@ -212,9 +220,11 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         if (button(c, "All textures again", {.icon = icons::kClose})) d.similar_key.clear();
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
-        quiet(c, ("Like the rectangle on frame " + std::to_string(d.similar_frame) +
-                  (c.textures.similar(d.similar_key) ? "" : "  ·  looking…"))
-                     .c_str());
+        const std::string like =
+            d.similar_file.empty()
+                ? "Like the rectangle on frame " + std::to_string(d.similar_frame)
+                : "Like " + d.similar_file.substr(d.similar_file.find_last_of('/') + 1);
+        quiet(c, (like + (c.textures.similar(d.similar_key) ? "" : "  ·  looking…")).c_str());
     } else if (wanted.empty() && d.material.empty() && d.collection.empty() && d.origin.empty() &&
                d.licence.empty() && d.look.empty() && !d.favourites_only && !d.recent_only) {
         d.together ? suggested_together(c, cards) : suggested(c, cards);

@@ -116,6 +116,8 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const std::string layer = c.view.layer.empty() ? "result" : c.view.layer;
     value("##Layer", layer, t.px(62), "Layer: the result, or one for compositing", nullptr);
     if (ImGui::IsItemClicked()) ImGui::OpenPopup("##layers");
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(8), t.px(6)});
     if (ImGui::BeginPopup("##layers")) {
         for (const char* one : {"", "patch", "edge", "light", "st", "matte", "seam", "id"}) {
             if (ImGui::MenuItem(*one ? one : "result", nullptr, c.view.layer == one)) {
@@ -126,6 +128,7 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
         }
         ImGui::EndPopup();
     }
+    ImGui::PopStyleVar(2);
     ImGui::SameLine();
     constexpr const char* kCurves[] = {"sRGB", "Video", "Raw"};
     value("##Curve", kCurves[static_cast<int>(s.display.curve)], t.px(46),

@@ -260,6 +260,8 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
                                         static_cast<double>(found.texel.y)));
     lines.push_back(found.seam ? "On a seam, difference " + std::to_string(*found.seam)
                                : "Inside a piece");
+    if (const auto& marked = over->marked; !marked.empty() && marked.at(at.x, at.y) != 0)
+        lines.push_back(marked.at(at.x, at.y) == 255 ? "Kept by hand" : "Made again");
     if (found.light)
         lines.push_back("Light × " + number_text(static_cast<double>(*found.light), 2));
     lines.push_back(

@@ -256,6 +256,10 @@ std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
 
 void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (c.view.plate.size.empty()) return;
+    if (c.state.keep_overlay && c.state.tool != Tool::kKeep) {
+        c.state.keep_overlay = false;
+        if (c.view.overlay == Overlay::kPieces) c.emit(ShowOverlay{Overlay::kNone});
+    }
     switch (c.state.tool) {
         case Tool::kPan:
             return;

@@ -267,7 +267,7 @@ struct SubmitJob {
     std::string frames;  ///< As in a frame list; empty: all.
     std::string output, movie;
     bool overwrite = false, skip_existing = false;
-    std::string layers, layers_path;  ///< As Output's.
+    std::string layers = {}, layers_path = {};  ///< As Output's.
     bool operator==(const SubmitJob&) const = default;
 };
 enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };

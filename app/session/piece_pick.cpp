@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 namespace weft {
 namespace {
@@ -109,14 +108,15 @@ std::optional<PlaneAmendment> piece_at(const Provenance& from, Vec2 plate_pixel)
     const auto start = stored_texel(from, plate_pixel);
     if (!start) return std::nullopt;
     const Texels texels(*from.plane);
-    const auto before = [](Vec2i a, Vec2i b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
-    std::set<Vec2i, decltype(before)> seen(before);
+    Image<std::uint8_t, 1> seen(from.plane->source.size(), 0);
     std::vector<Vec2i> stored{*start};
-    seen.insert(*start);
+    seen.at(start->x, start->y) = 1;
     for (std::size_t k = 0; k < stored.size() && stored.size() < kMostTexels; ++k) {
         for (const Vec2i step : std::array<Vec2i, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
             const Vec2i next = texels.at(stored[k] + step);
-            if (texels.joined(stored[k], step) && seen.insert(next).second) stored.push_back(next);
+            if (seen.at(next.x, next.y) || !texels.joined(stored[k], step)) continue;
+            seen.at(next.x, next.y) = 1;
+            stored.push_back(next);
         }
     }
     return runs_of(*from.plane, std::move(stored));

@@ -211,6 +211,18 @@ void draw_motion(const LatticeField& ref_from_cur, OverlayPicture& out) {
     }
 }
 
+// As the scene has kept it, or once more.
+Expected<std::shared_ptr<const TexturePlane>> grown_plane(const Shot& shot, const RegionPlan& plan,
+                                                          const RegionScene& scene,
+                                                          const CancelToken& cancel) {
+    if (scene.grown && scene.grown->source.size() == scene.plane.size()) return scene.grown;
+    PlaneOptions options = plane_options(plan, shot.plan.seed, scene.plane.size());
+    options.tileable = true;
+    options.amendments = plan.amendments;
+    WEFT_TRY(plane, grow_texture(plan, options, cancel));
+    return std::make_shared<const TexturePlane>(std::move(plane));
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& shot, int region,
@@ -219,10 +231,8 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
     const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
     if (plan.texture->is_plane || scene.plane.empty()) return nullptr;
     if (map_ && map_of_ == scene.plane.identity()) return map_;
-    PlaneOptions options = plane_options(plan, shot.plan.seed, scene.plane.size());
-    options.tileable = true;
-    options.amendments = plan.amendments;
-    WEFT_TRY(plane, grow_texture(plan, options, cancel));
+    WEFT_TRY(grown, grown_plane(shot, plan, scene, cancel));
+    const TexturePlane& plane = *grown;
     const std::vector<ImageU8x3> samples = synthesis_samples(plan);
     const SampleAtlas atlas({samples.begin(), samples.end()}, plan.orientations);
     const Image<std::int32_t, 2> position = atlas_positions(atlas, plane);
@@ -250,7 +260,7 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
     map->samples.push_back(std::filesystem::path(from.sample).filename().string());
     for (const std::string& further : from.also)
         map->samples.push_back(std::filesystem::path(further).filename().string());
-    map->source = std::move(plane.source);
+    map->source = plane.source;
     map_ = std::move(map);
     map_of_ = scene.plane.identity();
     return map_;

@@ -114,6 +114,10 @@ Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,
         // The layers want to know where the seams are.
         ShotPlan plan = shot.plan;
         plan.layers = true;
+        // A very large one is grown again where somebody asks where its pieces are.
+        constexpr std::int64_t kMostTexels = 6'000'000;
+        const Size size = plane_size(plan.regions[k].placement, shot.source->size());
+        plan.keep_planes = std::int64_t{size.width} * size.height <= kMostTexels;
         auto scene = make_scene(*shot.source, plan, store, static_cast<int>(k), cancel, {});
         if (!scene) {
             const Region& region = *shot.project.regions[shot.region_index[k]];

@@ -307,10 +307,16 @@ void TextureShelf::work() {
             lock.lock();
         } else if (!similar_due_.empty()) {
             const std::string key = std::exchange(similar_due_, {});
-            const PicturePtr picture = std::exchange(similar_picture_, nullptr);
-            const Recti part = similar_part_;
+            PicturePtr picture = std::exchange(similar_picture_, nullptr);
+            const std::string file = std::exchange(similar_file_, {});
+            Recti part = similar_part_;
             lock.unlock();
-            if (picture) look_for_similar(key, *picture, part);
+            if (!picture && !file.empty()) {
+                if (const auto read = read_image(file))
+                    picture = make_picture(read->rgb, true, nullptr, nullptr);
+                if (picture) part = rect_of(picture->size);
+            }
+            look_for_similar(key, picture.get(), part);
             lock.lock();
         } else if (together_due_) {
             const Together asked = *std::exchange(together_due_, {});

@@ -110,6 +110,8 @@ class TextureShelf {
     [[nodiscard]] std::shared_ptr<const TextureAnswer> everything() const;
     /// Looks for textures like this part of a picture, in the background. `key` stands for it.
     void find_similar(const std::string& key, PicturePtr picture, Recti part);
+    /// The same for a picture file.
+    void find_similar(const std::string& key, const std::string& picture_path);
     /// What was found, the nearest first; null while it is worked out, or without a library.
     [[nodiscard]] std::shared_ptr<const std::vector<std::string>> similar(
         const std::string& key) const;
@@ -154,7 +156,7 @@ class TextureShelf {
     void look_up(const std::string& path);
     void search_library(const TextureQuestion& question);
     void recommend_together(const Together& asked);
-    void look_for_similar(const std::string& key, const Picture& picture, const Recti& part);
+    void look_for_similar(const std::string& key, const Picture* picture, const Recti& part);
     void recommend(const std::string& key, const ImageU8x3& plate, const SurfaceToSuit& surface);
     void publish();
     void scan(const std::vector<std::string>& folders);
@@ -190,6 +192,7 @@ class TextureShelf {
     std::shared_ptr<const TextureAnswer> search_result_, everything_;
     std::string similar_due_, similar_key_;
     PicturePtr similar_picture_;
+    std::string similar_file_;
     Recti similar_part_;
     std::shared_ptr<const std::vector<std::string>> similar_result_;
     std::optional<Together> together_due_;

@@ -172,13 +172,24 @@ void TextureShelf::find_similar(const std::string& key, PicturePtr picture, Rect
     wake_.notify_all();
 }
 
+void TextureShelf::find_similar(const std::string& key, const std::string& picture_path) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (key == similar_key_ || key == similar_due_) return;
+        similar_due_ = key;
+        similar_picture_.reset();
+        similar_file_ = picture_path;
+    }
+    wake_.notify_all();
+}
+
 std::shared_ptr<const std::vector<std::string>> TextureShelf::similar(
     const std::string& key) const {
     const std::lock_guard lock(mutex_);
     return key == similar_key_ ? similar_result_ : nullptr;
 }
 
-void TextureShelf::look_for_similar(const std::string& key, const Picture& picture,
+void TextureShelf::look_for_similar(const std::string& key, const Picture* picture,
                                     const Recti& part) {
     auto paths = std::make_shared<std::vector<std::string>>();
     std::shared_ptr<TextureLibrary> library;
@@ -186,8 +197,8 @@ void TextureShelf::look_for_similar(const std::string& key, const Picture& pictu
         const std::lock_guard lock(mutex_);
         library = library_;
     }
-    if (library) {
-        const ImageU8x3 whole = shrink(picture, 1 << 20);
+    if (library && picture) {
+        const ImageU8x3 whole = shrink(*picture, 1 << 20);
         constexpr int kCount = 120;
         if (const auto found = library->similar(whole.view().crop(part), kCount))
             for (const SearchHit& hit : *found)

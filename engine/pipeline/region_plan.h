@@ -141,6 +141,7 @@ struct ShotPlan {
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
         out_from_plate, display_from_working;
     bool layers = false;              ///< Frames are rendered with their FrameLayers.
+    bool keep_planes = false;         ///< Scenes keep what their planes were made of.
     float plate_quantum = 0;          ///< The step of the plate's codes, of 1; 0: floating point.
     std::vector<RegionPlan> regions;  ///< Lowest layer first.
     std::shared_ptr<StageStore> stages;  ///< Planes and motion made before; may be null.

@@ -68,15 +68,18 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
         return RegionPlane{
             PlanePyramid(transformed(texture.pixels, *region.working_from_texture), texture.wrap),
             std::nullopt,
-            {}};
+            {},
+            nullptr};
     }
     PlaneOptions options =
         plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = true;
     options.amendments = region.amendments;
     WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
-    return RegionPlane{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat),
-                       plane.stats, plan.layers ? seam_texels(plane) : Matte()};
+    RegionPlane out{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat),
+                    plane.stats, plan.layers ? seam_texels(plane) : Matte(), nullptr};
+    if (plan.keep_planes) out.grown = std::make_shared<const TexturePlane>(std::move(plane));
+    return out;
 }
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
@@ -135,6 +138,7 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         scene.plane = std::move(made->pyramid);
         scene.stats = made->stats;
         scene.plane_seams = std::move(made->seams);
+        scene.grown = std::move(made->grown);
         WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
         scene.seams = std::move(seams);
     }

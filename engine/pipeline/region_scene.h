@@ -2,6 +2,7 @@
 // A region made ready to be rendered: its texture plane, its placement, the light it is relative
 // to.
 
+#include <memory>
 #include <optional>
 
 #include "engine/compute/plane_pyramid.h"
@@ -27,6 +28,8 @@ struct RegionScene {
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
     Matte plane_seams;                ///< Where a grown plane has seams (ShotPlan::layers).
+    /// The grown plane itself, where ShotPlan::keep_planes asks for it.
+    std::shared_ptr<const TexturePlane> grown;
 };
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
@@ -37,8 +40,9 @@ struct RegionScene {
 /// A region's texture, ready to be looked up.
 struct RegionPlane {
     PlanePyramid pyramid;
-    std::optional<PlaneStats> stats;  ///< If it was grown.
-    Matte seams;                      ///< As RegionScene::plane_seams.
+    std::optional<PlaneStats> stats;            ///< If it was grown.
+    Matte seams;                                ///< As RegionScene::plane_seams.
+    std::shared_ptr<const TexturePlane> grown;  ///< As RegionScene::grown.
 };
 
 /// Whether a region has one plane for the whole shot.

@@ -70,5 +70,47 @@ TEST(RegionScene, SettingsReachTheSynthesis) {
     EXPECT_TRUE(standard.align);
 }
 
+TEST(RegionScene, WhatIsKeptIsInThePlaneThatIsRendered) {
+    const MemoryShot shot = make_wall();
+    ShotPlan plan = make_plan(make_region(sample_texture()), 1, 2);
+    plan.keep_planes = true;
+    MemoryAnalysisStore store;
+    ASSERT_TRUE(analyse_shot(shot, plan, store, {}, {}));
+    const auto before = make_scene(shot, plan, store, 0, {}, {});
+    ASSERT_TRUE(before) << before.error().text();
+    ASSERT_TRUE(before->grown);
+    PlaneAmendment kept;
+    for (int y = 100; y < 140; ++y)
+        for (int x = 60; x < 130; ++x) {
+            const std::int32_t* from = before->grown->source.pixel(x, y);
+            kept.runs.push_back({x, y, 1, from[0], from[1], 0, 0});
+        }
+    plan.seed = 8;
+    const auto without = make_scene(shot, plan, store, 0, {}, {});
+    plan.regions[0].amendments = {kept};
+    const auto with = make_scene(shot, plan, store, 0, {}, {});
+    ASSERT_TRUE(without && with);
+    const auto same = [&](const RegionScene& other) {
+        for (int y = 100; y < 140; ++y)
+            for (int x = 60; x < 130; ++x)
+                if (!std::equal(before->grown->pixels.pixel(x, y),
+                                before->grown->pixels.pixel(x, y) + 3,
+                                other.grown->pixels.pixel(x, y)))
+                    return false;
+        return true;
+    };
+    EXPECT_FALSE(same(*without));
+    EXPECT_TRUE(same(*with));
+    // A plane that was kept on disk without it is not taken for this one.
+    const std::vector<ImageU8x3> samples = synthesis_samples(plan.regions[0]);
+    PlaneOptions options = plane_options(plan.regions[0], plan.seed, {512, 512});
+    const Hash128 plain = plane_key(samples, options);
+    options.amendments = plan.regions[0].amendments;
+    EXPECT_NE(plane_key(samples, options).hex(), plain.hex());
+    const Hash128 amended = plane_key(samples, options);
+    options.amendments[0].kind = PlaneAmendment::Kind::kAgain;
+    EXPECT_NE(plane_key(samples, options).hex(), amended.hex());
+}
+
 }  // namespace
 }  // namespace weft

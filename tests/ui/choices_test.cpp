@@ -150,6 +150,24 @@ TEST_F(Choices, TheToolShowsThePieces) {
     EXPECT_EQ(emitted<ShowOverlay>().back().overlay, Overlay::kPieces);
 }
 
+TEST_F(Choices, ThePiecesGoWithTheTool) {
+    go("Seams & Light", Tool::kKeep);
+    robot->frames(1);
+    view.overlay = Overlay::kPieces;
+    shell->state().tool = Tool::kPan;
+    clear();
+    robot->frames(2);
+    ASSERT_FALSE(emitted<ShowOverlay>().empty());
+    EXPECT_EQ(emitted<ShowOverlay>().front().overlay, Overlay::kNone);
+}
+
+TEST_F(Choices, APictureOfOnesOwnIsLookedFor) {
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("Materials/Like a picture…"));
+    robot->frames(1);
+    EXPECT_EQ(shell->state().browser.purpose, BrowserState::Purpose::kSimilar);
+}
+
 TEST_F(Choices, HintsGoToTheirFrame) {
     view.to_correct = {{1006, CorrectionHint::Kind::kDrift, 0.7f},
                        {1009, CorrectionHint::Kind::kStretch, 2.4f}};
