@@ -1,6 +1,6 @@
 # Every library comes from a Debian package; ./run installs them by name.
 find_package(Threads REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS calib3d core features2d imgcodecs imgproc optflow
+find_package(OpenCV 4.6 REQUIRED COMPONENTS calib3d core dnn features2d imgcodecs imgproc optflow
              photo video)
 find_package(OpenImageIO REQUIRED)
 find_package(glm REQUIRED)

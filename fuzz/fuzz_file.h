@@ -7,6 +7,12 @@
 #include <cstdlib>
 #include <string>
 
+// What was freed last is kept to find late uses of it: 256 MB by default, and large pictures beside
+// it exceed libFuzzer's limit without any fault.
+extern "C" inline const char* __asan_default_options() {
+    return "quarantine_size_mb=16";
+}
+
 namespace weft::fuzz {
 
 /// The same name all the time, so that nothing piles up; private to the process.

@@ -185,18 +185,26 @@ Expected<TextureInfo> TextureLibrary::info(const std::string& given) {
     return info;
 }
 
-Expected<std::string> TextureLibrary::note(const std::string& key) {
-    const std::scoped_lock lock(state_->mutex);
-    WEFT_TRY(query, state_->database->query("SELECT value FROM note WHERE key = ?"));
+Expected<std::string> text_note(Database& database, const std::string& key) {
+    WEFT_TRY(query, database.query("SELECT value FROM note WHERE key = ?"));
     query.bind(key);
     WEFT_TRY(found, query.step());
     return found ? query.text(0) : std::string();
 }
 
+Status set_text_note(Database& database, const std::string& key, const std::string& value) {
+    WEFT_TRY(query, database.query("INSERT OR REPLACE INTO note VALUES(?, ?)"));
+    return query.bind(key).bind(value).run();
+}
+
+Expected<std::string> TextureLibrary::note(const std::string& key) {
+    const std::scoped_lock lock(state_->mutex);
+    return text_note(*state_->database, key);
+}
+
 Status TextureLibrary::set_note(const std::string& key, const std::string& value) {
     const std::scoped_lock lock(state_->mutex);
-    WEFT_TRY(query, state_->database->query("INSERT OR REPLACE INTO note VALUES(?, ?)"));
-    return query.bind(key).bind(value).run();
+    return set_text_note(*state_->database, key, value);
 }
 
 namespace {

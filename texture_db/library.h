@@ -142,6 +142,15 @@ class TextureLibrary {
     /// materials count as one). Returns how many. Learns the descriptor before and after.
     [[nodiscard]] Expected<int> vote_out_strangers(const CancelToken& cancel = {},
                                                    const ProgressFn& progress = {});
+    /// Names the image–text model (image_text_model.h) that searches and recommendations ask
+    /// beside everything else, and looks at every sample with it, unless that is done; stopped at
+    /// any point, the next call goes on. Empty: none. Errors: Unreadable, when the model cannot be
+    /// used; then the one before stays.
+    [[nodiscard]] Status use_image_text_model(const std::string& folder,
+                                              const CancelToken& cancel = {},
+                                              const ProgressFn& progress = {});
+    /// The folder of the model that is named, or empty.
+    [[nodiscard]] Expected<std::string> image_text_model();
     /// Takes over everything that a library has, descriptor and all, into this one, which must be
     /// empty; in one transaction. Only where its note `key` says `value`. Returns whether it did.
     [[nodiscard]] Expected<bool> copy_from(const std::string& path, const std::string& key,

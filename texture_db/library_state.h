@@ -11,6 +11,7 @@
 #include "texture_db/descriptor_model.h"
 #include "texture_db/index.h"
 #include "texture_db/library.h"
+#include "texture_db/library_sight.h"
 #include "texture_db/word_reader.h"
 
 namespace weft {
@@ -26,6 +27,17 @@ struct TextureLibrary::State {
     std::optional<WordReader> words;
     std::int64_t loaded_data_version = -1, loaded_changes = -1;
 
+    // The image–text model that the library names, and what it made of the samples.
+    std::optional<ImageTextModel> sight_model;
+    std::optional<SampleSight> sight;
+    std::string sight_fault;  // why there is none though one is named
+    bool sight_tried = false;
+    std::int64_t sight_changes = -1;
+
+    /// Opens the model that the library names and reads what it saw, unless that is done. Call
+    /// after refresh(), with the mutex held. A model that cannot be used is no error: `sight_fault`
+    /// says why.
+    [[nodiscard]] Status open_sight();
     /// Makes index, model and words current. Call with the mutex held.
     [[nodiscard]] Status refresh();
     /// The full id of an id or a prefix of it.
@@ -47,6 +59,10 @@ struct PreparedPicture {
     std::string hash;
     std::vector<std::byte> bytes;
 };
+/// A note's text; empty for one that is not there.
+[[nodiscard]] Expected<std::string> text_note(Database& database, const std::string& key);
+[[nodiscard]] Status set_text_note(Database& database, const std::string& key,
+                                   const std::string& value);
 [[nodiscard]] Status store_descriptor(Database& database, std::int64_t key,
                                       std::span<const float> descriptor);
 [[nodiscard]] PreparedTexture prepare_texture(const NewTexture& texture);

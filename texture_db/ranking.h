@@ -9,6 +9,12 @@
 
 namespace weft {
 
+/// By material of the index: the least of what its samples are away, a sample's own distance and
+/// seven tenths of that of its material's middle; very far for one that the model does not know.
+[[nodiscard]] std::vector<float> material_distances(const SampleIndex& index,
+                                                    const DescriptorModel& model,
+                                                    std::span<const float> descriptor);
+
 /// By a sample's own distance and seven tenths of that of its material's middle. The first five are
 /// of five materials, the nearest of each, since what a picture shows is not sure; then all others.
 /// Distances as they were compared.

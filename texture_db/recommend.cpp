@@ -31,6 +31,22 @@ float company_of(const IndexedSample& a, const IndexedSample& b) {
     return same * (0.35f * apart + 0.35f * harmony + 0.15f * saturation + 0.15f * contrast);
 }
 
+// What the image–text model takes the region for: the mean over its squares.
+Expected<std::vector<float>> seen_materials(ImageTextModel& model, const SampleIndex& index,
+                                            ViewU8x3 plate, const RegionLook& look) {
+    std::vector<std::string> names;
+    for (int m = 0; m < index.materials.size(); ++m)
+        names.push_back(index.materials.text(m));
+    std::vector<float> out(names.size());
+    for (const Recti& square : look.squares) {
+        WEFT_TRY(seen, model.see(plate.crop(square)));
+        const std::vector<float> likely = model.likelihoods(seen, names);
+        for (std::size_t m = 0; m < out.size(); ++m)
+            out[m] += likely[m] / static_cast<float>(look.squares.size());
+    }
+    return out;
+}
+
 // Beam search over the regions: the ten best beginnings are carried on.
 std::vector<SceneSuggestion> together(const SampleIndex& index,
                                       const std::vector<std::vector<Suggestion>>& choices,
@@ -100,11 +116,17 @@ Expected<Recommendation> TextureLibrary::recommend(const RecommendRequest& given
         request.wish.like = id;
     }
     Recommendation out;
+    WEFT_CHECK_OK(state_->open_sight());
+    out.notice = state_->sight_fault;
     std::vector<std::vector<Suggestion>> choices;
     for (const RegionToSuit& region : request.regions) {
-        WEFT_TRY(look,
-                 look_at_region(request.plate, region, state_->model ? &*state_->model : nullptr));
-        const RegionJudge judge(index, request, region, look);
+        const DescriptorModel* model = state_->model ? &*state_->model : nullptr;
+        WEFT_TRY(look, look_at_region(request.plate, region, model));
+        if (state_->sight_model && state_->sight) {
+            WEFT_TRY(seen, seen_materials(*state_->sight_model, index, request.plate, look));
+            look.materials = std::move(seen);
+        }
+        const RegionJudge judge(index, model, request, region, look);
         out.regions.push_back(suggest_for(index, request, region, look, judge));
         if (!region.keep.empty()) {
             WEFT_TRY(id, state_->full_id(region.keep));

@@ -41,6 +41,7 @@ struct RecommendRequest {
 /// The parts of a suggestion's score, each 0 … 1.
 struct SuitParts {
     float material = 0;   ///< Likeness to what the region shows now.
+    float use = 0;        ///< Serves as what the region is: a wall, the ground, a garment …
     float colour = 0;     ///< Harmony with the rest of the frame.
     float style = 0;      ///< Contrast, saturation and detail as in the rest of the frame.
     float scale = 0;      ///< Structure fits the region's size.
@@ -81,6 +82,7 @@ struct SceneSuggestion {
 struct Recommendation {
     std::vector<RegionSuggestions> regions;
     std::vector<SceneSuggestion> together;  ///< With two regions and more; best first.
+    std::string notice;  ///< What is amiss with the image–text model that the library names.
     double seconds = 0;
 };
 

@@ -240,6 +240,7 @@ Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionToSuit& region,
                         "' is empty on this frame. Choose a frame that shows it.");
     }
     RegionLook look;
+    look.place = place_of_region(region.matte);
     look.area_px = static_cast<float>(shape.area);
     look.short_side_px =
         std::min(static_cast<float>(std::sqrt(shape.area)),
@@ -259,6 +260,7 @@ Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionToSuit& region,
         look.inside.mean = {look.inside.mean.l + k * m.mean.l, look.inside.mean.a + k * m.mean.a,
                             look.inside.mean.b + k * m.mean.b};
     }
+    look.squares = patches;
     look.inside.accent = measured.front().accent;
     look_around(plate, region.matte, look);
     return look;

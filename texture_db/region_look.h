@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "texture_db/descriptor_model.h"
 #include "texture_db/recommend.h"
+#include "texture_db/surface_role.h"
 
 namespace weft {
 
@@ -16,7 +17,11 @@ struct WeightedColor {
 
 struct RegionLook {
     MeasuredTexture inside;                       ///< Mean over samples of the region.
+    std::vector<Recti> squares;                   ///< Of the plate, that stand for the region.
     std::vector<std::vector<float>> descriptors;  ///< Of those samples; empty without a model.
+    /// What an image–text model takes the region for, by material of the index; empty without one.
+    std::vector<float> materials;
+    RegionPlace place;
     float area_px = 0;
     float short_side_px = 0;                  ///< Of a square of the region's typical width.
     std::vector<WeightedColor> surroundings;  ///< Main colours of the rest of the frame.

@@ -51,7 +51,13 @@ CREATE TABLE saved_search(name TEXT PRIMARY KEY, query TEXT NOT NULL);
 // learned anew.
 constexpr const char* kForget = "DELETE FROM model; DELETE FROM descriptor;";
 
-constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget};
+// Version 4: what an image–text model makes of each sample (library_sight.h).
+constexpr const char* kSight = R"sql(
+CREATE TABLE sight(sample INTEGER PRIMARY KEY REFERENCES sample(key) ON DELETE CASCADE,
+    data BLOB NOT NULL);
+)sql";
+
+constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget, kSight};
 
 Status upgrade(Database& database, int from) {
     for (int version = from; version < kLibrarySchema; ++version) {

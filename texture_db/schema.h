@@ -5,7 +5,7 @@
 
 namespace weft {
 
-inline constexpr int kLibrarySchema = 3;
+inline constexpr int kLibrarySchema = 4;
 /// "weft" in ASCII: SQLite's application_id tells a texture library from any other database.
 inline constexpr int kLibraryApplicationId = 0x77656674;
 

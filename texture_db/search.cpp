@@ -104,8 +104,17 @@ class Filter {
     std::vector<bool> materials_, packages_, categories_, licences_;
 };
 
+// How surely the image–text model sees the words in a sample: 0 … 1 from its likeness in standard
+// deviations. Nine tenths of a library are below kSeen.
+constexpr float kSeen = 2;
+float seen_in(float deviations) {
+    return 1 / (1 + std::exp(-2 * (deviations - kSeen)));
+}
+
+// `seen` is empty, or what the image–text model thinks of each sample.
 std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
-                              const std::vector<TermHits>& terms, bool all_words) {
+                              const std::vector<TermHits>& terms, bool all_words,
+                              const std::vector<float>& seen) {
     std::vector<Scored> out;
     for (std::size_t i = 0; i < index.samples.size(); ++i) {
         const IndexedSample& s = index.samples[i];
@@ -121,7 +130,10 @@ std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
         if (terms.empty()) {
             out.push_back({i, 1});
         } else if (all_words && every) {
-            out.push_back({i, std::pow(product, 1.0f / static_cast<float>(terms.size()))});
+            const float words = std::pow(product, 1.0f / static_cast<float>(terms.size()));
+            out.push_back({i, seen.empty() ? words : 0.7f * words + 0.3f * seen_in(seen[i])});
+        } else if (all_words && !seen.empty() && seen[i] > kSeen) {
+            out.push_back({i, 0.6f * seen_in(seen[i])});
         } else if (!all_words && sum > 0.5f) {
             out.push_back({i, 0.9f * sum / static_cast<float>(terms.size())});
         }
@@ -275,10 +287,18 @@ Expected<SearchResult> TextureLibrary::search(const SearchQuery& query) {
     const Filter filter(query, index, std::move(members));
     // Words alone that nobody understands find nothing, rather than everything.
     const bool nothing = terms.empty() && !out.ignored.empty();
-    std::vector<Scored> hits =
-        nothing ? std::vector<Scored>() : score_all(index, filter, terms, true);
+    std::vector<float> seen;
+    if (!terms.empty() || nothing) {
+        WEFT_CHECK_OK(state_->open_sight());
+        if (state_->sight)
+            seen = likeness_to_words(*state_->sight, state_->sight_model->read(query.text));
+        if (!state_->sight_fault.empty()) out.understood.push_back(state_->sight_fault);
+    }
+    std::vector<Scored> hits = nothing && seen.empty()
+                                   ? std::vector<Scored>()
+                                   : score_all(index, filter, terms, true, seen);
     if (hits.empty() && terms.size() > 1) {
-        hits = score_all(index, filter, terms, false);
+        hits = score_all(index, filter, terms, false, {});
         if (!hits.empty())
             out.understood.push_back("no texture fits every word: the nearest are shown");
     }
@@ -290,8 +310,11 @@ Expected<SearchResult> TextureLibrary::search(const SearchQuery& query) {
         std::min(hits.size(), from + static_cast<std::size_t>(std::max(0, query.limit)));
     for (std::size_t i = from; i < to; ++i) {
         const IndexedSample& s = index.samples[hits[i].sample];
-        out.hits.push_back({s.id, s.name, index.materials.text(s.material), hits[i].score,
-                            reasons_of(terms, index, s)});
+        std::vector<std::string> reasons = reasons_of(terms, index, s);
+        if (!seen.empty() && seen[hits[i].sample] > kSeen)
+            reasons.push_back("looks like it to " + state_->sight_model->name());
+        out.hits.push_back(
+            {s.id, s.name, index.materials.text(s.material), hits[i].score, std::move(reasons)});
     }
     out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return out;

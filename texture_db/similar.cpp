@@ -24,10 +24,9 @@ SearchHit hit_of(const SampleIndex& index, std::size_t i, float distance) {
             {"looks alike"}};
 }
 
-}  // namespace
-
-std::vector<Neighbour> rank_for_picture(const SampleIndex& index, const DescriptorModel& model,
-                                        std::span<const float> descriptor, std::size_t count) {
+// Every sample with its own distance and that of its material's middle.
+std::vector<Neighbour> judged(const SampleIndex& index, const DescriptorModel& model,
+                              std::span<const float> descriptor) {
     const std::vector<float> middle = model.distances_to_centres(descriptor);
     std::vector<float> by_material(static_cast<std::size_t>(index.materials.size()), 1e4f);
     for (std::size_t m = 0; m < model.materials.size(); ++m) {
@@ -35,20 +34,48 @@ std::vector<Neighbour> rank_for_picture(const SampleIndex& index, const Descript
             by_material[static_cast<std::size_t>(i)] = middle[m];
     }
     const std::vector<float> squared = index.squared_distances(descriptor);
-    std::vector<Neighbour> all, best(by_material.size(), {0, SampleIndex::kFar});
+    std::vector<Neighbour> all;
     for (std::size_t i = 0; i < squared.size(); ++i) {
         if (squared[i] >= SampleIndex::kFar) continue;
         const auto material = static_cast<std::size_t>(index.looks[i].material);
         const bool drawn = index.samples[i].origin == TextureOrigin::kProcedural;
         all.push_back(
             {i, std::sqrt(squared[i]) + kMiddle * by_material[material] + (drawn ? kDrawn : 0)});
-        if (all.back().distance < best[material].distance) best[material] = all.back();
     }
+    return all;
+}
+
+bool nearer(const Neighbour& a, const Neighbour& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.sample < b.sample;
+}
+
+// The nearest of each material.
+std::vector<Neighbour> best_of_each(const SampleIndex& index, const std::vector<Neighbour>& all) {
+    std::vector<Neighbour> best(static_cast<std::size_t>(index.materials.size()),
+                                {0, SampleIndex::kFar});
+    for (const Neighbour& n : all) {
+        Neighbour& own = best[static_cast<std::size_t>(index.looks[n.sample].material)];
+        if (n.distance < own.distance) own = n;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<float> material_distances(const SampleIndex& index, const DescriptorModel& model,
+                                      std::span<const float> descriptor) {
+    std::vector<float> out;
+    for (const Neighbour& n : best_of_each(index, judged(index, model, descriptor)))
+        out.push_back(n.distance);
+    return out;
+}
+
+std::vector<Neighbour> rank_for_picture(const SampleIndex& index, const DescriptorModel& model,
+                                        std::span<const float> descriptor, std::size_t count) {
+    std::vector<Neighbour> all = judged(index, model, descriptor);
     if (all.empty()) return {};
     const auto shown = std::min(all.size(), count + kFirst);
-    const auto nearer = [](const Neighbour& a, const Neighbour& b) {
-        return a.distance != b.distance ? a.distance < b.distance : a.sample < b.sample;
-    };
+    std::vector<Neighbour> best = best_of_each(index, all);
     std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end(),
                       nearer);
     std::sort(best.begin(), best.end(), nearer);

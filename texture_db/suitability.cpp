@@ -2,15 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "texture_db/licence.h"
+#include "texture_db/ranking.h"
 
 namespace weft {
 namespace {
 
 using A = TextureAttribute;
 
-constexpr int kNeighbours = 40;
+constexpr int kNeighbours = 9;
+// What the patches look like says less than where the region lies: a photograph's grey feathers
+// are as near to marble as to fur.
+constexpr float kSeenCounts = 0.4f, kLeastSeen = 0.08f;
+constexpr float kNameless =
+    0.04f;                       // what is left of a role that the region's name does not speak of
+constexpr float kServes = 0.7f;  // share of the best from which a material simply serves
+constexpr float kBeliefWidth = 2.0f;  // of distances between descriptors
 
 // exp(−d²/2w²), the exponent alone: products of several take one exp.
 float away(float difference, float width) {
@@ -61,8 +70,9 @@ float distance(std::span<const float> x, std::span<const float> y) {
 
 }  // namespace
 
-RegionJudge::RegionJudge(const SampleIndex& index, const RecommendRequest& request,
-                         const RegionToSuit& region, const RegionLook& look)
+RegionJudge::RegionJudge(const SampleIndex& index, const DescriptorModel* model,
+                         const RecommendRequest& request, const RegionToSuit& region,
+                         const RegionLook& look)
     : index_(index),
       request_(request),
       region_(region),
@@ -72,36 +82,80 @@ RegionJudge::RegionJudge(const SampleIndex& index, const RecommendRequest& reque
       squared_(index.samples.size(), SampleIndex::kFar) {
     const auto like = index.by_id.find(request.wish.like);
     like_ = like == index.by_id.end() ? index.samples.size() : like->second;
-    vote();
+    if (model != nullptr) vote(*model);
+    find_role();
 }
 
-// Which materials the region looks like, by the neighbours of its patches in the descriptor.
-void RegionJudge::vote() {
-    std::vector<float> near_ones;
+// Which materials the region looks like: for each of its patches every material is as likely as
+// its nearest sample and its middle are near (ranking.h), and the patches are averaged.
+void RegionJudge::vote(const DescriptorModel& model) {
+    std::vector<float> near_ones, belief(votes_.size());
     for (const auto& descriptor : look_.descriptors) {
         const std::vector<float> squared = index_.squared_distances(descriptor);
         for (std::size_t i = 0; i < squared.size(); ++i)
             squared_[i] = std::min(squared_[i], squared[i]);
         const auto neighbours = lowest(squared, kNeighbours);
-        for (std::size_t k = 0; k < neighbours.size(); ++k) {
-            votes_[static_cast<std::size_t>(index_.looks[neighbours[k].sample].material)] +=
-                1.0f / (1.0f + 0.15f * static_cast<float>(k));
-        }
         if (neighbours.size() > 8) near_ones.push_back(neighbours[8].distance);
+        const std::vector<float> away = material_distances(index_, model, descriptor);
+        const float least = *std::min_element(away.begin(), away.end());
+        float sum = 0;
+        for (std::size_t m = 0; m < away.size(); ++m)
+            sum += belief[m] = std::exp(-(away[m] - least) / kBeliefWidth);
+        for (std::size_t m = 0; m < away.size(); ++m)
+            votes_[m] += belief[m] / sum;
     }
     if (!near_ones.empty()) {
         std::sort(near_ones.begin(), near_ones.end());
         typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
     }
-    // A material with many samples has more of them anywhere: that must not decide.
-    std::vector<float> count(votes_.size());
-    for (const SampleLook& s : index_.looks)
-        count[static_cast<std::size_t>(s.material)] += 1;
-    for (std::size_t m = 0; m < votes_.size(); ++m)
-        votes_[m] /= std::sqrt(std::max(count[m], 1.0f));
+    scale_votes();
+    // A model that has read of the world is believed as much as the library's own eye.
+    for (std::size_t m = 0; m < look_.materials.size(); ++m)
+        votes_[m] += look_.materials[m];
+    scale_votes();
+}
+
+void RegionJudge::scale_votes() {
     const float most = votes_.empty() ? 0 : *std::max_element(votes_.begin(), votes_.end());
     for (float& v : votes_)
         v = most > 0 ? v / most : 0;
+}
+
+// What the region is in the picture, from what it looks like and where it lies; and how well each
+// material serves as that.
+void RegionJudge::find_role() {
+    for (int m = 0; m < index_.materials.size(); ++m)
+        materials_.push_back(roles_of_material(index_.materials.text(m)));
+    role_ = roles_of_place(look_.place);
+    float seen = 0;
+    for (const float v : votes_)
+        seen += v;
+    for (std::size_t r = 0; seen > 0 && r < kSurfaceRoles; ++r) {
+        float usual = 0;
+        for (std::size_t m = 0; m < materials_.size(); ++m)
+            usual += votes_[m] * materials_[m][r];
+        role_[r] *= std::pow(std::max(usual / seen, kLeastSeen), kSeenCounts);
+    }
+    const RoleWeights named = roles_of_name(region_.name);
+    for (std::size_t r = 0; r < kSurfaceRoles; ++r)
+        role_[r] *= kNameless + (1 - kNameless) * named[r];
+    const float sum = std::accumulate(role_.begin(), role_.end(), 0.0f);
+    for (float& r : role_)
+        r = sum > 0 ? r / sum : 1.0f / kSurfaceRoles;
+    for (const RoleWeights& material : materials_) {
+        // What serves as everything speaks for nothing.
+        float use = 0;
+        for (std::size_t r = 0; r < kSurfaceRoles; ++r)
+            use += role_[r] * material[r] * material[r];
+        use_.push_back(use / std::accumulate(material.begin(), material.end(), 0.0f));
+    }
+    const float best = use_.empty() ? 0 : *std::max_element(use_.begin(), use_.end());
+    for (float& u : use_)
+        u = best > 0 ? std::min(u / (kServes * best), 1.0f) : 1;
+}
+
+SurfaceRole RegionJudge::role() const {
+    return static_cast<SurfaceRole>(std::max_element(role_.begin(), role_.end()) - role_.begin());
 }
 
 SuitedSample RegionJudge::judge(std::size_t i) const {
@@ -110,6 +164,7 @@ SuitedSample RegionJudge::judge(std::size_t i) const {
     c.sample = static_cast<std::uint32_t>(i);
     const float beyond = std::max(0.0f, std::sqrt(squared_[i]) - typical_) / typical_;
     c.parts.material = 0.45f * near(beyond, 0.8f) + 0.55f * vote_of(i);
+    c.parts.use = use_[static_cast<std::size_t>(s.material)];
     c.parts.colour = harmony_.with(s.chroma, s.hue_deg);
     c.parts.style = style_fit(s, look_);
     c.parts.scale = scale_fit(s, look_);
@@ -152,8 +207,9 @@ float RegionJudge::likeness(std::size_t i, std::size_t j) const {
         return 1;
     const LabColor &p = index_.looks[i].mean, &q = index_.looks[j].mean;
     const float apart = distance(index_.descriptor(i), index_.descriptor(j));
-    return 0.6f * near(apart / typical_, 0.8f) +
-           0.4f * near(std::hypot(p.l - q.l, p.a - q.a, p.b - q.b), 9);
+    const float material = index_.looks[i].material == index_.looks[j].material ? 1.0f : 0.0f;
+    return 0.4f * near(apart / typical_, 0.8f) +
+           0.3f * near(std::hypot(p.l - q.l, p.a - q.a, p.b - q.b), 9) + 0.3f * material;
 }
 
 }  // namespace weft

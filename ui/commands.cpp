@@ -336,6 +336,8 @@ void add_tool_commands(std::vector<Command>& out) {
     add("tool.similar", "Find similar textures", icons::kMagnify, "Shift+F", Tool::kSimilar);
     add("tool.pin", "Pin the texture", icons::kPin, "Shift+P", Tool::kPin);
     add("tool.lamp", "Move the lamps", icons::kLightbulb, "Shift+L", Tool::kLamp);
+    add("tool.keep", "Keep pieces, or make them again", icons::kLock, "Shift+K", Tool::kKeep);
+    add("tool.crypto", "Pick from a Cryptomatte", icons::kPick, "Shift+C", Tool::kCrypto);
     add("tool.flood", "Select by colour", icons::kFlood, "U", Tool::kFlood);
     add("tool.place", "Place the texture", icons::kMove, "R", Tool::kPlace);
     add("tool.measure", "Size by a line", icons::kRuler, "Shift+M", Tool::kMeasure);

@@ -54,6 +54,7 @@ void light_inspector(Ctx& c) {
         }
         section_gap(c);
     }
+    keep_section(c, *region);
     time_section(c, *region);
     if (section(c, "Camera", false)) {
         const PanelName panel(c, "Camera");

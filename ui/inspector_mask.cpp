@@ -1,7 +1,8 @@
-// The inspector of the Mask workspace: tools, mattes and what stands in front.
+// The inspector of the Mask workspace: tools and mattes.
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/matte_layer.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -11,9 +12,16 @@ namespace {
 
 void matte_source_card(Ctx& c, const Region& region) {
     const Theme& t = c.theme;
-    const MatteSource& matte = *region.matte;
-    if (!matte.files.empty()) {
-        info_row(c, "Matte files", matte.files);
+    const MatteSource matte = c.view.painted_source();
+    if (c.view.matte_layer > 0)
+        banner(c, icons::kLayers, t.warn,
+               "You are painting what is in front, layer " + std::to_string(c.view.matte_layer) +
+                   ". It is cut out of the surface.");
+    if (!matte.files.empty() || !matte.select.crypto.empty()) {
+        if (!matte.select.crypto.empty())
+            info_row(c, "Cryptomatte", matte.select.crypto, matte.select.crypto.c_str());
+        else
+            info_row(c, "Matte files", matte.files);
         if (button(c, "Paint instead",
                    {.icon = icons::kBrush,
                     .enabled = c.view.plate.state == PlateView::State::kOpen,
@@ -21,6 +29,10 @@ void matte_source_card(Ctx& c, const Region& region) {
                            "from it",
                     .width = -1}))
             c.emit(PaintInstead{});
+        return;
+    }
+    if (matte.keyframes.empty() && c.view.matte_layer > 0) {
+        wrapped(c, "One frame is enough to begin; the others follow.", t.quiet);
         return;
     }
     if (matte.keyframes.empty()) {
@@ -38,15 +50,6 @@ void matte_source_card(Ctx& c, const Region& region) {
         return;
     }
     info_row(c, "Keyframes", std::to_string(matte.keyframes.size()));
-    float least = 2;
-    int worst = 0;
-    for (std::size_t k = 0; k < c.view.marks.size(); ++k) {
-        const float confidence = c.view.marks[k].confidence;
-        if (confidence >= 0 && confidence < least) {
-            least = confidence;
-            worst = c.view.plate.frames[k];
-        }
-    }
     const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
     const bool key_here = matte.keyframes.contains(c.view.frame);
     if (button(c, "Key here",
@@ -62,7 +65,7 @@ void matte_source_card(Ctx& c, const Region& region) {
                 .enabled = key_here,
                 .tip = "The frame follows its neighbours again",
                 .width = half}))
-        c.edit(RemoveMatteKeyframe{{region.id, {}}, c.view.frame});
+        c.edit(without_layer_key(region, c.view.matte_layer, c.view.frame));
     auto before = matte.keyframes.lower_bound(c.view.frame);
     const bool can_copy = before != matte.keyframes.begin() && !key_here;
     if (button(c, "Copy the key before",
@@ -71,62 +74,16 @@ void matte_source_card(Ctx& c, const Region& region) {
                 .tip = "Puts the nearest earlier keyframe's matte here",
                 .width = -1}))
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
-    if (least <= 1 && least < 0.8f && worst != c.view.frame) {
-        ImGui::Dummy({0, t.px(2)});
-        banner(c, icons::kAlert, t.warn,
-               "Frame " + std::to_string(worst) + " is the least sure (" +
-                   number_text(100.0 * static_cast<double>(least), 0) +
-                   "%). A keyframe there helps most.");
-        if (button(c, "Go there", {.icon = icons::kArrowRight, .width = -1}))
-            c.emit(GoToFrame{worst});
-    }
 }
 
-// What passes in front of the surface: it is cut out of the matte, and the surface comes back
-// behind it with the texture that it had.
-void holdouts_section(Ctx& c, const Region& region) {
-    if (!section(c, "In front of it", !region.holdouts->empty())) return;
-    const PanelName panel(c, "Holdouts");
-    if (region.holdouts->empty())
-        wrapped(c,
-                "Mattes of what passes in front are cut out; the surface comes back behind them.",
-                c.theme.quiet);
-    for (std::size_t k = 0; k < region.holdouts->size(); ++k) {
-        const MatteSource& holdout = (*region.holdouts)[k];
-        ImGui::PushID(static_cast<int>(k));
-        const std::size_t slash = holdout.files.find_last_of('/');
-        info_row(c, ("Layer " + std::to_string(k + 1)).c_str(),
-                 holdout.files.substr(slash == std::string::npos ? 0 : slash + 1),
-                 holdout.files.c_str());
-        if (button(c, ("Remove layer " + std::to_string(k + 1)).c_str(),
-                   {.icon = icons::kClose, .look = Look::kQuiet, .width = -1})) {
-            std::vector<MatteSource> left = *region.holdouts;
-            left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
-            c.edit(SetHoldouts{{region.id, {}}, left});
-        }
-        ImGui::PopID();
-    }
-    // Another region's matte serves as well: paint it there.
-    for (const Leaf<Region>& other : c.view.project.regions) {
-        if (other->id == region.id || other->matte->files.empty()) continue;
-        const auto& list = *region.holdouts;
-        const bool has = std::any_of(list.begin(), list.end(), [&](const MatteSource& m) {
-            return m.files == other->matte->files;
-        });
-        if (!has && button(c, ("Cut out " + other->name).c_str(),
-                           {.icon = icons::kMinus,
-                            .tip = "That region's matte is cut out of this one",
-                            .width = -1})) {
-            std::vector<MatteSource> more = list;
-            more.push_back(*other->matte);
-            c.edit(SetHoldouts{{region.id, {}}, more});
-        }
-    }
-    if (button(c, "Add matte files…##holdout", {.icon = icons::kFolderImage, .width = -1})) {
-        c.state.browser.purpose = BrowserState::Purpose::kHoldout;
-        c.state.browser.just_opened = true;
-    }
-    section_gap(c);
+// What a tablet's pen changes by its pressure.
+void pressure_row(Ctx& c, Brush& brush) {
+    int which = (brush.pressure_size ? 1 : 0) + (brush.pressure_opacity ? 2 : 0);
+    if (!choice(c, "Pen pressure", {"Nothing", "Size", "Opacity", "Both"}, which,
+                "What a tablet's pen changes by its pressure, where there is one", 1))
+        return;
+    brush.pressure_size = which == 1 || which == 3;
+    brush.pressure_opacity = which >= 2;
 }
 
 void files_section(Ctx& c, const Region& region) {
@@ -193,6 +150,7 @@ void mask_inspector(Ctx& c) {
                  .standard = 0.8},
                 b.hardness);
             row({.label = "Opacity", .tip = "Of the whole stroke", .standard = 1}, b.opacity);
+            pressure_row(c, b);
             quiet(c, "Alt subtracts, Shift draws a line");
         } else if (c.state.tool == Tool::kFlood) {
             double tolerance = c.state.brush.tolerance;
@@ -207,6 +165,11 @@ void mask_inspector(Ctx& c) {
                        tolerance) != Change::kNone)
                 c.state.brush.tolerance = static_cast<int>(tolerance);
             quiet(c, "Click a colour; Alt takes it away");
+        } else if (c.state.tool == Tool::kCrypto) {
+            wrapped(c, "Click an object of the plate's Cryptomatte to add it, Alt takes it away.",
+                    t.quiet);
+            if (const std::string names = c.view.painted_source().select.crypto; !names.empty())
+                info_row(c, "Objects", names, names.c_str());
         } else if (c.state.tool == Tool::kPolygon) {
             quiet(c, "Click corners; Enter closes, Esc drops");
         } else if (c.state.tool == Tool::kShape) {
@@ -232,9 +195,10 @@ void mask_inspector(Ctx& c) {
         matte_source_card(c, *region);
         section_gap(c);
     }
-    if (region->matte->files.empty() && section(c, "Edge")) {
+    const MatteSource painted = c.view.painted_source();
+    if (painted.files.empty() && section(c, "Edge")) {
         const PanelName panel(c, "Edge");
-        const bool enabled = !c.view.matte_busy && !region->matte->empty();
+        const bool enabled = !c.view.matte_busy && !painted.empty();
         const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * t.gap) / 3);
         if (button(
                 c, "Grow",
@@ -253,39 +217,9 @@ void mask_inspector(Ctx& c) {
             c.emit(FeatherMatte{2});
         section_gap(c);
     }
-    if (section(c, "Other frames")) {
-        const PanelName panel(c, "Propagation");
-        const SessionView& v = c.view;
-        if (region->matte->keyframes.empty()) {
-            wrapped(c,
-                    region->matte->files.empty()
-                        ? "What you paint is carried to the other frames by itself."
-                        : "The files have a matte for every frame.",
-                    c.theme.quiet);
-        } else if (v.preview.analysing) {
-            const float part = v.preview.total > 0 ? static_cast<float>(v.preview.done) /
-                                                         static_cast<float>(v.preview.total)
-                                                   : 0;
-            progress_bar(c, part,
-                         "Carrying the matte, " + std::to_string(v.preview.done) + " of " +
-                             std::to_string(v.preview.total));
-            if (button(c, "Pause", {.icon = icons::kPause, .width = -1}))
-                c.emit(PauseAnalysis{true});
-        } else if (v.analysis_paused) {
-            if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
-                c.emit(PauseAnalysis{false});
-        } else if (v.unready.contains(region->id)) {
-            wrapped(c, "Choose a texture, and the matte is carried through the shot.",
-                    c.theme.quiet);
-        } else {
-            wrapped(c,
-                    "Carried through the shot. The strip below the ruler is light where it is "
-                    "unsure.",
-                    c.theme.quiet);
-        }
-        section_gap(c);
-    }
     holdouts_section(c, *region);
+    propagation_section(c, *region);
+    if (!painted.keyframes.empty()) hints_section(c, true);
     files_section(c, *region);
 }
 

@@ -50,6 +50,7 @@ void motion_inspector(Ctx& c) {
         }
         section_gap(c);
     }
+    hints_section(c, false);
     corrections_section(c, *region);
     if (section(c, "Motion")) {
         const PanelName panel(c, "Motion");

@@ -18,9 +18,27 @@ void magnified_warning(Ctx& c, const Region& region) {
     const KeyedValues keys = read_keyed(region.placement.scale_keys, 1);
     if (!keys.empty()) scale = keyed_at(keys, c.view.frame)[0];
     if (scale <= kMostMagnified) return;
+    // What came from the library may have a larger original.
+    TextureCard card;
+    card.path = library_name_of(region.texture.sample);
+    if (!card.path.empty()) card = c.textures.details(card);
+    const bool larger =
+        card.original_scale > 1 && region.texture.sample.find("_larger.") == std::string::npos;
     banner(c, icons::kMagnify, c.theme.warn,
-           "Magnified " + number_text(scale, 1) +
-               " times: it will look soft. Take a larger picture of it.");
+           "Magnified " + number_text(scale, 1) + " times: it will look soft." +
+               (larger ? "" : " Take a larger picture of it."));
+    if (larger &&
+        button(c,
+               ("Use its original, " + number_text(static_cast<double>(card.original_scale), 1) +
+                " times as fine##larger")
+                   .c_str(),
+               {.icon = icons::kGrowing,
+                .look = Look::kPrimary,
+                .tip = "Grows the texture from the larger picture that the sample was cut from; it "
+                       "stays as large on the surface",
+                .width = -1}))
+        c.emit(UseLargerOriginal{region.id});
+    if (larger) c.note("Use its original");
 }
 
 void bricks_controls(Ctx& c) {

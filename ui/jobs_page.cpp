@@ -125,6 +125,57 @@ std::string in_words(const Ctx& c, const Issue& problem) {
     return without_flags(problem.what + ". " + problem.what_to_do + ".");
 }
 
+// Layers for compositing, and where they go.
+void layer_choice(Ctx& c) {
+    const Theme& t = c.theme;
+    ExportState& e = c.state.output;
+    static constexpr std::pair<const char*, const char*> kLayers[] = {
+        {"patch", "The new texture with its coverage, premultiplied"},
+        {"edge", "What soft edges take away of the old surface"},
+        {"light", "What the texture was multiplied by"},
+        {"st", "ST-map: the place in the texture that each pixel shows"},
+        {"matte", "Coverage of all regions"},
+        {"seam", "Where a seam of the grown texture shows"},
+        {"id", "The region's number"}};
+    if (!section(c, "Layers for compositing", false)) return;
+    const PanelName panel(c, "Layers");
+    const float left = ImGui::GetCursorPosX();
+    const float third = std::floor(ImGui::GetContentRegionAvail().x / 3);
+    int column = 0;
+    for (const auto& [name, tip] : kLayers) {
+        const auto at = std::find(e.layers.begin(), e.layers.end(), name);
+        bool on = at != e.layers.end();
+        if (column > 0) ImGui::SameLine(left + third * static_cast<float>(column));
+        if (checkbox(c, name, on, tip)) {
+            if (on)
+                e.layers.emplace_back(name);
+            else
+                e.layers.erase(at);
+        }
+        column = (column + 1) % 3;
+    }
+    const bool exr = std::string_view(kExtensions[e.format]) == "exr";
+    if (e.layers.empty()) return section_gap(c);
+    if (exr) {
+        int apart = e.layers_apart ? 1 : 0;
+        if (segments(c, "Where", {"In the frames", "Files of their own"}, apart))
+            e.layers_apart = apart == 1;
+    } else {
+        quiet(c, "In EXR files of their own, in a folder 'layers' beside the frames");
+    }
+    ImGui::Dummy({0, t.px(2)});
+    section_gap(c);
+}
+
+// "patch,st" in the order in which they are listed in files.
+void take_layers(const ExportState& e, SubmitJob& job) {
+    for (const std::string& name : e.layers)
+        job.layers += (job.layers.empty() ? "" : ",") + name;
+    const bool exr = std::string_view(kExtensions[e.format]) == "exr";
+    if (!job.layers.empty() && (!exr || e.layers_apart))
+        job.layers_path = folder_of(job.output) + "/layers/####.exr";
+}
+
 void export_card(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Export", size, t.panel, true, t.px(16));
@@ -169,6 +220,7 @@ void export_card(Ctx& c, ImVec2 size) {
         version_up(e.output);
     checkbox(c, "Review movie beside it", e.with_movie,
              "An .mp4 of the result, to look at and to send round");
+    layer_choice(c);
     ImGui::Dummy({0, t.px(4)});
     quiet(c, "Frames that are there already");
     segments(c, "Existing", {"Stop", "Keep", "Overwrite"}, e.existing);
@@ -197,6 +249,7 @@ void export_card(Ctx& c, ImVec2 size) {
         if (e.with_movie) job.movie = folder_of(e.output) + ".mp4";
         job.overwrite = e.existing == 2;
         job.skip_existing = e.existing == 1;
+        take_layers(e, job);
         c.emit(job);
     }
     c.note("Render frames");

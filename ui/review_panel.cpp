@@ -66,6 +66,60 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
     tooltip(c, "Blue: the result. Grey: the plate itself, over the same pixels. Drag to go there");
 }
 
+// A frame and how bad it is, in figures.
+struct Worst {
+    int frame = 0;
+    float badness = 0;
+    std::string text;
+};
+
+std::vector<Worst> worst_of(const Ctx& c, int by) {
+    std::vector<Worst> out;
+    const auto percent = [](float part) {
+        return number_text(100.0 * static_cast<double>(part), 0) + "%";
+    };
+    if (by == 0 && c.view.report.state == QualityReport::State::kDone) {
+        for (const Row& row : c.view.report.rows)
+            out.push_back({row.frame, row.flicker - row.flicker_plate,
+                           number_text(static_cast<double>(row.flicker), 2) + " against " +
+                               number_text(static_cast<double>(row.flicker_plate), 2)});
+    }
+    for (std::size_t k = 0; by > 0 && k < c.view.marks.size(); ++k) {
+        const float value = by == 1 ? c.view.marks[k].seam : c.view.marks[k].drift;
+        if (value >= 0)
+            out.push_back(
+                {c.view.plate.frames[k], value,
+                 by == 1 ? "seams " + percent(value) + " steeper" : percent(value) + " different"});
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const Worst& a, const Worst& b) { return a.badness > b.badness; });
+    constexpr std::size_t kShown = 6;
+    if (out.size() > kShown) out.resize(kShown);
+    return out;
+}
+
+void worst_frames(Ctx& c) {
+    if (!section(c, "Worst frames")) return;
+    const PanelName panel(c, "Worst");
+    segments(c, "By", {"Flicker", "Seams", "Drift"}, c.state.worst_by);
+    const std::vector<Worst> worst = worst_of(c, c.state.worst_by);
+    if (worst.empty()) {
+        static constexpr const char* kMissing[] = {
+            "Measure a render, and the frames that flicker most are listed here.",
+            "Seams are looked at as the preview fills its frames.",
+            "Drift is looked at once the shot is analysed."};
+        wrapped(c, kMissing[c.state.worst_by], c.theme.quiet);
+    }
+    for (const Worst& one : worst) {
+        const std::string label = "Frame " + std::to_string(one.frame) + ":  " + one.text;
+        if (button(c, label.c_str(),
+                   {.look = one.frame == c.view.frame ? Look::kNormal : Look::kQuiet, .width = -1}))
+            c.emit(GoToFrame{one.frame});
+        c.note("Worst " + std::to_string(one.frame));
+    }
+    section_gap(c);
+}
+
 }  // namespace
 
 void review_panel(Ctx& c, ImVec2 size) {
@@ -147,25 +201,7 @@ void review_inspector(Ctx& c) {
         }
         section_gap(c);
     }
-    if (c.view.report.state == QualityReport::State::kDone && section(c, "Worst frames")) {
-        const PanelName panel(c, "Worst");
-        std::vector<Row> rows = c.view.report.rows;
-        std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-            return a.flicker - a.flicker_plate > b.flicker - b.flicker_plate;
-        });
-        for (std::size_t k = 0; k < std::min<std::size_t>(6, rows.size()); ++k) {
-            const Row& row = rows[k];
-            const std::string label = "Frame " + std::to_string(row.frame) + ":  " +
-                                      number_text(static_cast<double>(row.flicker), 2) +
-                                      " against " +
-                                      number_text(static_cast<double>(row.flicker_plate), 2);
-            if (button(c, label.c_str(),
-                       {.look = row.frame == c.view.frame ? Look::kNormal : Look::kQuiet,
-                        .width = -1}))
-                c.emit(GoToFrame{row.frame});
-        }
-        section_gap(c);
-    }
+    worst_frames(c);
 }
 
 }  // namespace weft::ui

@@ -32,7 +32,9 @@ enum class Tool : std::uint8_t {
     kSimilar,
     kPin,
     kLamp,
-    kMeasure
+    kMeasure,
+    kKeep,   ///< Keeps pieces of the texture, or has them made again.
+    kCrypto  ///< Picks objects of a Cryptomatte.
 };
 
 enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBySide, kFourUp };
@@ -94,6 +96,9 @@ struct DrawerState {
     int similar_frame = 0;
     std::string picked;                           ///< Path of the texture in the large preview.
     bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
+    bool together = false;                        ///< Suggestions for all regions at once.
+    std::vector<RegionId> kept;                   ///< Regions whose texture stays then.
+    int together_first = 0;                       ///< The first one that is shown.
 };
 
 struct BrowserState {
@@ -125,6 +130,8 @@ struct ExportState {
     int existing = 0;  ///< 0: refuse, 1: skip, 2: overwrite.
     bool with_movie = true;
     bool filled = false;
+    std::vector<std::string> layers;  ///< For compositing, as layer_files.h names them.
+    bool layers_apart = false;        ///< Into files of their own.
 };
 
 struct UiState {
@@ -160,6 +167,9 @@ struct UiState {
     bool shape_drawing = false;
     ScribbleState scribbles;
     std::optional<Vec2> rectangle_from;
+    bool keep_again = false, keep_seams = false;  ///< What Tool::kKeep does, and to what.
+    std::optional<float> pen_pressure;  ///< Of the tablet's pen, 0–1; unset: none is down.
+    int worst_by = 0;                   ///< Of the report: flicker, seams, drift.
     std::optional<std::pair<Vec2, Vec2>> measured;  ///< Line of the ruler, plate pixels.
     int measured_count = 4;                         ///< … and how many bricks it is long.
     StripKind strip = StripKind::kKeyframes;

@@ -7,6 +7,7 @@
 
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/texture_cards.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -85,31 +86,6 @@ void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>&
                  : d.origin.empty() && d.licence.empty() && d.look.empty()) &&
             matches(c, card, wanted))
             cache.shown.push_back(&card);
-}
-
-void thumbnail(Ctx& c, const std::string& path, ImVec2 min, ImVec2 max) {
-    const Theme& t = c.theme;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(min, max, t.field, t.radius);
-    const PicturePtr picture = c.textures.thumbnail(path, static_cast<int>(t.px(128)));
-    if (!picture) return;
-    const ImTextureID id = c.pictures.texture(picture);
-    if (!id) return;
-    // A square out of its middle.
-    const float w = static_cast<float>(picture->size.width);
-    const float h = static_cast<float>(picture->size.height);
-    const float u = w > h ? 0.5f * (1 - h / w) : 0, v = h > w ? 0.5f * (1 - w / h) : 0;
-    list.AddImageRounded(id, min, max, {u, v}, {1 - u, 1 - v}, IM_COL32_WHITE, t.radius);
-}
-
-void drag_source(Ctx& c, const TextureCard& card) {
-    if (!ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) return;
-    ImGui::SetDragDropPayload("TEXTURE", card.path.c_str(), card.path.size() + 1);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = c.theme.px(72);
-    ImGui::Dummy({side, side});
-    thumbnail(c, card.path, at, {at.x + side, at.y + side});
-    ImGui::EndDragDropSource();
 }
 
 void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
@@ -206,9 +182,9 @@ bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* ca
     c.note(caption);
     const bool hovered = ImGui::IsItemHovered();
     const bool twice = hovered && ImGui::IsMouseDoubleClicked(0);
-    drag_source(c, card);
+    texture_drag_source(c, card);
     ImGui::PopID();
-    thumbnail(c, card.path, at, {at.x + side, at.y + side});
+    texture_thumbnail(c, card.path, at, {at.x + side, at.y + side});
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool picked = c.state.drawer.picked == card.path;
     if (picked || hovered)
@@ -221,104 +197,6 @@ bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* ca
     if (pressed) c.state.drawer.picked = card.path;
     if (twice) c.emit(ApplyTexture{card.path, 0});
     return pressed;
-}
-
-// One suggestion: the artist's own frame with the texture on it, and why.
-void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, ImVec2 at,
-                ImVec2 size) {
-    const Theme& t = c.theme;
-    ImGui::SetCursorScreenPos(at);
-    ImGui::PushID(card.path.c_str());
-    const float h = size.y + t.px(38);
-    if (ImGui::InvisibleButton("##suggestion", {size.x, h})) c.state.drawer.picked = card.path;
-    c.note(card.name);
-    const bool hovered = ImGui::IsItemHovered();
-    if (hovered && ImGui::IsMouseDoubleClicked(0)) c.emit(ApplyTexture{card.path, 0});
-    tooltip(c, (card.name + ". " + why.reason + ". Double-click puts it on the region").c_str());
-    drag_source(c, card);
-    ImGui::PopID();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 max(at.x + size.x, at.y + size.y);
-    list.AddRectFilled(at, max, t.field, t.radius);
-    PicturePtr shown;
-    const bool mine = c.view.strip.kind == StripKind::kSuggested;
-    for (const StripCard& made : c.view.strip.cards)
-        if (mine && made.note == card.path) shown = made.picture;
-    const ImTextureID id = shown ? c.pictures.texture(shown) : nullptr;
-    if (id) {
-        // Filled, its middle cut to the card's shape.
-        const float pw = static_cast<float>(shown->size.width);
-        const float ph = static_cast<float>(shown->size.height);
-        const float wide = size.x / size.y, is = pw / ph;
-        const float u = is > wide ? 0.5f * (1 - wide / is) : 0;
-        const float v = is < wide ? 0.5f * (1 - is / wide) : 0;
-        list.AddImageRounded(id, at, max, {u, v}, {1 - u, 1 - v}, IM_COL32_WHITE, t.radius);
-        const float corner = t.px(30);
-        thumbnail(c, card.path, {max.x - corner, max.y - corner}, max);
-    } else {
-        // Until it is made the texture itself, repeated.
-        list.PushClipRect(at, max, true);
-        for (float x = at.x; x < max.x; x += size.y)
-            thumbnail(c, card.path, {x, at.y}, {x + size.y, max.y});
-        list.AddRectFilled({at.x, max.y - t.px(18)}, max, t.scrim);
-        list.PopClipRect();
-        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "on its way…");
-    }
-    const bool picked = c.state.drawer.picked == card.path;
-    if (picked || hovered)
-        list.AddRect({at.x - 1, at.y - 1}, {max.x + 1, max.y + 1},
-                     picked ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(picked ? 2 : 1));
-    ImGui::PushFont(t.small);
-    text_in(list, t.small, {at.x, max.y + t.px(2)}, {max.x, max.y + t.px(19)}, t.text,
-            fitted(card.name, size.x).c_str(), 0);
-    text_in(list, t.small, {at.x, max.y + t.px(18)}, {max.x, max.y + t.px(36)}, t.quiet,
-            fitted(why.reason, size.x).c_str(), 0);
-    ImGui::PopFont();
-}
-
-void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
-    const Region* region = c.view.selected_region();
-    if (!region) return;
-    const Theme& t = c.theme;
-    std::shared_ptr<const Matte> matte;
-    for (const RegionMatteView& shown : c.view.mattes)
-        if (shown.region == region->id) matte = shown.keep;
-    const std::string& excluded = c.view.project.settings.excluded_licences;
-    const std::string key =
-        std::to_string(region->id) + "/" + std::to_string(cards.size()) + "/" + excluded;
-    if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
-        c.textures.suggest_for(key, c.view.plate_picture, matte, excluded);
-    const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
-    if (found.empty()) {
-        if (!c.textures.suggested(key))
-            quiet(c, ("Looking for textures that suit " + region->name + "…").c_str());
-        return;
-    }
-    const PanelName name(c, "Suggested");
-    ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
-    ImGui::TextUnformatted(("Suggested for " + region->name + ", on this frame").c_str());
-    ImGui::PopStyleColor();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float w = t.px(148), h = t.px(92), step = w + t.px(10);
-    const float room = ImGui::GetContentRegionAvail().x;
-    const auto fit = static_cast<std::size_t>(std::max(1.0f, std::floor((room + t.px(10)) / step)));
-    std::vector<std::string> paths;
-    std::size_t shown = 0;
-    for (const TextureSuggestion& s : found) {
-        const auto card = std::find_if(cards.begin(), cards.end(),
-                                       [&](const TextureCard& x) { return x.path == s.path; });
-        if (shown == fit || card == cards.end()) continue;
-        paths.push_back(s.path);
-        suggestion(c, *card, s, {at.x + step * static_cast<float>(shown), at.y}, {w, h});
-        ++shown;
-    }
-    // Rendered on the frame while somebody looks at them.
-    if (c.view.strip.kind != StripKind::kSuggested || paths != c.state.strip_textures) {
-        c.state.strip_textures = paths;
-        c.emit(ShowStrip{StripKind::kSuggested, paths});
-    }
-    ImGui::SetCursorScreenPos({at.x, at.y + h + t.px(44)});
-    ImGui::Dummy({0, 0});
 }
 
 void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
@@ -339,7 +217,7 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
                      .c_str());
     } else if (wanted.empty() && d.material.empty() && d.collection.empty() && d.origin.empty() &&
                d.licence.empty() && d.look.empty() && !d.favourites_only && !d.recent_only) {
-        suggested(c, cards);
+        d.together ? suggested_together(c, cards) : suggested(c, cards);
     }
     if (shown.empty()) {
         if (!d.collection.empty())
@@ -427,63 +305,6 @@ void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     ImGui::EndChild();
 }
 
-// Words of the library's own that say how a texture looks.
-constexpr const char* kLooks[] = {"dark", "light",  "rough",  "smooth",    "striped", "regular",
-                                  "fine", "coarse", "glossy", "colourful", "warm",    "cold"};
-
-// One chip that opens a list; an entry is taken or given back.
-void chip_list(Ctx& c, const char* name, std::string& value,
-               const std::vector<TextureCount>& entries) {
-    const Theme& t = c.theme;
-    const std::string label =
-        (value.empty() ? std::string(name) : fitted(value, t.px(110))) + "##" + name;
-    ImGui::PushID(name);
-    if (ui::chip(c, label.c_str(), !value.empty())) ImGui::OpenPopup("##entries");
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
-    if (ImGui::BeginPopup("##entries")) {
-        const PanelName within(c, name);
-        if (ImGui::MenuItem("Any", nullptr, value.empty())) value.clear();
-        c.note("Any");
-        for (const TextureCount& entry : entries) {
-            const std::string count = entry.count > 0 ? std::to_string(entry.count) : "";
-            if (ImGui::MenuItem(entry.value.c_str(), count.c_str(), value == entry.value))
-                value = value == entry.value ? "" : entry.value;
-            c.note(entry.value);
-        }
-        ImGui::EndPopup();
-    }
-    ImGui::PopStyleVar();
-    ImGui::PopID();
-}
-
-// Where the textures come from, under which licence, and what they look like.
-void facets(Ctx& c) {
-    DrawerState& d = c.state.drawer;
-    const auto all = c.textures.everything();
-    if (!all) return;
-    const PanelName name(c, "Facets");
-    const auto& counts = d.answer ? *d.answer : *all;
-    const auto origin = [&](const char* value, const char* label) {
-        int count = 0;
-        for (const TextureCount& one : counts.origins)
-            if (one.value == value) count = one.count;
-        const bool active = d.origin == value;
-        if (count == 0 && !active) return;
-        if (chip(c, (std::string(label) + " " + std::to_string(count)).c_str(), active))
-            d.origin = active ? "" : value;
-        ImGui::SameLine();
-    };
-    origin("package", "Photographs");
-    origin("procedural", "Procedural");
-    origin("file", "Own");
-    chip_list(c, "Licence", d.licence, all->licences);
-    ImGui::SameLine();
-    std::vector<TextureCount> looks;
-    for (const char* look : kLooks)
-        looks.push_back({look, 0});
-    chip_list(c, "Look", d.look, looks);
-}
-
 }  // namespace
 
 void texture_drawer(Ctx& c, ImVec2 size) {
@@ -513,7 +334,7 @@ void texture_drawer(Ctx& c, ImVec2 size) {
           icons::kMagnify);
     ImGui::SameLine(0, t.px(12));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + t.px(2));
-    facets(c);
+    texture_facets(c);
     const std::string activity = c.textures.activity();
     const bool narrowed = c.state.drawer.cache.shown.size() != cards->size();
     const std::string count =

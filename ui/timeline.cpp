@@ -63,7 +63,13 @@ void transport(Ctx& c, ImVec2 size) {
             list.AddRectFilled({at.x - r, at.y - t.px(2)}, {at.x + r, at.y + t.px(2)}, color);
         right -= t.px(30);
     };
+    const auto known = [&](auto&& has) { return std::any_of(v.marks.begin(), v.marks.end(), has); };
+    if (!v.to_correct.empty()) legend("Correct", t.bad, 1);
     if (v.report.state == QualityReport::State::kDone) legend("Flicker", heat_color(0.7f), 2);
+    if (known([](const FrameMarks& m) { return m.seam >= 0; }))
+        legend("Seams", heat_color(0.6f), 2);
+    if (known([](const FrameMarks& m) { return m.drift >= 0; }))
+        legend("Drift", heat_color(0.5f), 2);
     legend("Result", t.good, 2);
     legend("Plate in memory", faded(t.accent, 0.8f), 2);
     legend("Reference frame", t.warn, 1);
@@ -152,15 +158,37 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
             list.AddQuadFilled({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y},
                                t.text);
     }
-    // Flicker of the measured render, beyond the plate's own: a strip of its own above.
-    const auto& report = v.report;
-    if (report.state != QualityReport::State::kDone) return;
-    const float flicker_y = confident ? heat_y - t.px(7) : heat_y;
-    for (const auto& row : report.rows) {
-        const float x = scale.x_of(row.frame);
-        const float excess = row.flicker - row.flicker_plate;
-        list.AddRectFilled({x - half, flicker_y}, {x + half, flicker_y + t.px(6)},
-                           heat_color(0.15f + excess / 8.0f));
+    // One thin strip for each figure that is known, upwards from the bottom.
+    float strip_y = confident ? heat_y - t.px(5) : heat_y + t.px(1);
+    const float strip_h = t.px(4);
+    const auto strip = [&](auto&& value_of) {
+        bool any = false;
+        for (std::size_t k = 0; k < v.marks.size(); ++k) {
+            const float value = value_of(v.marks[k]);
+            if (value < 0) continue;
+            any = true;
+            const float x = scale.x_of(v.plate.frames[k]);
+            list.AddRectFilled({x - half, strip_y}, {x + half, strip_y + strip_h},
+                               heat_color(std::clamp(value, 0.0f, 1.0f)));
+        }
+        if (any) strip_y -= strip_h + t.px(1);
+    };
+    strip([](const FrameMarks& m) { return m.drift; });
+    strip([](const FrameMarks& m) { return m.seam; });
+    // Flicker of the measured render, beyond the plate's own.
+    if (v.report.state == QualityReport::State::kDone) {
+        for (const auto& row : v.report.rows) {
+            const float x = scale.x_of(row.frame);
+            const float excess = row.flicker - row.flicker_plate;
+            list.AddRectFilled({x - half, strip_y}, {x + half, strip_y + strip_h},
+                               heat_color(0.15f + excess / 8.0f));
+        }
+    }
+    // Where a correction would help most.
+    for (const CorrectionHint& hint : v.to_correct) {
+        const float x = std::floor(scale.x_of(hint.frame)) + 0.5f, y = top - t.px(1);
+        list.AddTriangleFilled({x - t.px(4), y - t.px(6)}, {x + t.px(4), y - t.px(6)}, {x, y},
+                               t.bad);
     }
 }
 

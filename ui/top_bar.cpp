@@ -226,10 +226,10 @@ void tool_strip(Ctx& c, ImVec2 size) {
     // What one does in this workspace; every tool has its key anywhere.
     static const std::vector<const char*> kTools[] = {
         {"tool.pan", "tool.brush", "tool.eraser", "tool.lasso", "tool.polygon", "tool.shape",
-         "tool.flood", "tool.scribble"},
+         "tool.flood", "tool.scribble", "tool.crypto"},
         {"tool.pan", "tool.place", "tool.measure", "tool.similar"},
         {"tool.pan", "tool.pin", "tool.place"},
-        {"tool.pan", "tool.lamp", "tool.place"},
+        {"tool.pan", "tool.lamp", "tool.keep", "tool.place"},
         {"tool.pan"},
         {}};
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(4)});

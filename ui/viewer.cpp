@@ -61,6 +61,13 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
         case Compare::kResult:
             break;
     }
+    if (!v.layer.empty())
+        return {{whole,
+                 v.stages.layer_name == v.layer ? v.stages.layer : nullptr,
+                 nullptr,
+                 {},
+                 "",
+                 false}};
     return {{whole, shown_result(c), nullptr, {}, "", true}};
 }
 
@@ -68,7 +75,7 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     ViewerState& s = c.state.viewer;
-    const float bar_w = t.px(534);
+    const float bar_w = t.px(600);
     if (max.x - min.x < bar_w + t.px(20)) return;
     const ImVec2 at(std::floor(max.x - bar_w - t.px(4)), min.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -105,6 +112,20 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     if (ImGui::IsItemClicked())
         s.display.channel =
             static_cast<DisplaySettings::Channel>((static_cast<int>(s.display.channel) + 1) % 5);
+    ImGui::SameLine();
+    const std::string layer = c.view.layer.empty() ? "result" : c.view.layer;
+    value("##Layer", layer, t.px(62), "Layer: the result, or one for compositing", nullptr);
+    if (ImGui::IsItemClicked()) ImGui::OpenPopup("##layers");
+    if (ImGui::BeginPopup("##layers")) {
+        for (const char* one : {"", "patch", "edge", "light", "st", "matte", "seam", "id"}) {
+            if (ImGui::MenuItem(*one ? one : "result", nullptr, c.view.layer == one)) {
+                s.compare = Compare::kResult;
+                c.emit(ShowLayer{one});
+            }
+            c.note(std::string("Layer ") + (*one ? one : "result"));
+        }
+        ImGui::EndPopup();
+    }
     ImGui::SameLine();
     constexpr const char* kCurves[] = {"sRGB", "Video", "Raw"};
     value("##Curve", kCurves[static_cast<int>(s.display.curve)], t.px(46),

@@ -10,6 +10,7 @@ namespace weft::ui {
 
 /// Painting, shapes and placing with the mouse on the canvas.
 void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active);
+void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// Applies a texture to the region under the mouse, or to the selected one.
 void drop_texture(Ctx& c, const ViewMap& map, const std::string& path);
 

@@ -20,6 +20,29 @@ void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, 
     text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
 }
 
+// What passes in front of the selected region: red, since it is taken away.
+static void draw_holdouts(Ctx& c, ImDrawList& list, const ViewMap& map) {
+    const SessionView& v = c.view;
+    for (const RegionMatteView& holdout : v.holdouts) {
+        if (holdout.pixels.empty()) continue;
+        MatteDraw draw;
+        draw.pixels = holdout.pixels;
+        constexpr std::uint64_t kBeyondRegions = 2'000'000;
+        draw.key = kBeyondRegions + static_cast<std::uint64_t>(holdout.layer);
+        draw.version = holdout.version;
+        draw.changed = holdout.changed;
+        draw.min = map.to_screen({0, 0});
+        draw.max = map.to_screen(
+            {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
+        draw.clip_min = map.min;
+        draw.clip_max = map.max;
+        draw.color = c.theme.bad;
+        draw.outline = holdout.layer == v.matte_layer;
+        draw.opacity = draw.outline ? 0.45f : 0.22f;
+        c.pictures.draw(list, draw);
+    }
+}
+
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
     const bool in_mask = c.state.workspace == Workspace::kMask;
@@ -47,6 +70,7 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         draw.outline = selected;
         c.pictures.draw(list, draw);
     }
+    if (in_mask) draw_holdouts(c, list, map);
 }
 
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
@@ -70,6 +94,17 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     draw.clip_max = map.max;
     if (over->kind != Overlay::kMotion) {
         c.pictures.draw(list, draw);
+        if (over->marked.empty()) return;
+        // What is kept or was made again.
+        MatteDraw kept = draw;
+        kept.pixels = over->marked;
+        kept.where = {};
+        kept.key = 1'000'001;
+        kept.heat = false;
+        kept.color = t.accent_hover;
+        kept.opacity = 0.5f;
+        kept.outline = true;
+        c.pictures.draw(list, kept);
         return;
     }
     list.PushClipRect(map.min, map.max, true);
@@ -147,6 +182,8 @@ State state_of_picture(const Ctx& c) {
     }
     if (v.preview.state == PreviewView::State::kFailed)
         return {"Plate  ·  No result", t.bad, icons::kAlert};
+    if (v.result_current && !v.layer.empty() && c.state.viewer.compare == Compare::kResult)
+        return {"Layer for compositing: " + v.layer, t.good, icons::kLayers};
     if (v.result_current && !v.stages.approximate) {
         std::string what = v.preview_quality == Quality::kDraft ? "Result, draft" : "Result";
         if (v.stages.proxy > 1) what += ", 1/" + std::to_string(v.stages.proxy) + " size for now";
@@ -189,7 +226,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
         x += t.px(24);
     }
     // Errors may take all of the bar but for its controls.
-    const float room = std::max(t.px(60), max.x - x - t.px(550));
+    const float room = std::max(t.px(60), max.x - x - t.px(616));
     ImGui::PushFont(t.small);
     const std::string shown = fitted(state.text, room);
     ImGui::PopFont();

@@ -40,6 +40,7 @@ void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     BrushState& b = c.state.brush;
     const ImGuiIO& io = ImGui::GetIO();
     const Vec2 at = map.to_plate(io.MousePos);
+    const float pressure = c.state.pen_pressure.value_or(1.0f);
     if (hovered || b.painting) brush_ring(c, map);
     // Ctrl and the right button drag the size, as other painters do.
     if (hovered && io.KeyCtrl && ImGui::IsMouseDragging(1, 0))
@@ -48,14 +49,14 @@ void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (!b.painting && active && ImGui::IsMouseClicked(0)) {
         b.painting = true;
         if (io.KeyShift && b.line_from) {
-            c.emit(BeginStroke{brush_now(c), *b.line_from, 1});
-            c.emit(ContinueStroke{at, 1});
+            c.emit(BeginStroke{brush_now(c), *b.line_from, pressure});
+            c.emit(ContinueStroke{at, pressure});
         } else {
-            c.emit(BeginStroke{brush_now(c), at, 1});
+            c.emit(BeginStroke{brush_now(c), at, pressure});
         }
     } else if (b.painting) {
         for (const Vec2 point : path_on_plate(c, map))
-            c.emit(ContinueStroke{point, 1});
+            c.emit(ContinueStroke{point, pressure});
     }
     if (b.painting && !ImGui::IsMouseDown(0)) {
         b.painting = false;
@@ -284,6 +285,13 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return pin_tool(c, map, hovered, active);
         case Tool::kLamp:
             return lamp_tool(c, map, hovered);
+        case Tool::kKeep:
+            return keep_tool(c, map, hovered, active);
+        case Tool::kCrypto:
+            if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+            if (active && ImGui::IsMouseClicked(0) && c.state.viewer.pixel)
+                c.emit(PickCryptomatte{*c.state.viewer.pixel, ImGui::GetIO().KeyAlt});
+            return;
     }
 }
 

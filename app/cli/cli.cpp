@@ -8,6 +8,7 @@
 
 #include "app/cli/region_flags.h"
 #include "app/cli/texture_commands.h"
+#include "app/session/render_job.h"
 #include "app/session/report.h"
 
 namespace weft {
@@ -60,6 +61,7 @@ int parse(CLI::App& app, int argc, char** argv, int& exit) {
 int run_cli(int argc, char** argv, const EditCommand& edit) {
     // A write beyond the limit on a file's size then fails as on a full disk, with our message.
     std::signal(SIGXFSZ, SIG_IGN);
+    keep_libraries_steady();
     CLI::App app("Weft replaces textures in animation.", "weft");
     app.set_version_flag("--version", [] { return version_text(); });
     app.require_subcommand(1);

@@ -36,7 +36,8 @@ bool is_output_flag(std::string_view flag) {
 
 bool is_matte_flag(std::string_view flag) {
     return begins_with_any(flag, {"--matte-value", "--matte-channel", "--matte-invert",
-                                  "--matte-steadiness", "--matte-frozen", "--matte-frozen-files"});
+                                  "--matte-steadiness", "--matte-frozen", "--matte-frozen-files",
+                                  "--matte-carry", "--matte-from", "--matte-to"});
 }
 
 }  // namespace
@@ -84,8 +85,10 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command
-            .add_option("--holdout", holdouts_,
-                        "Matte of what passes in front of the surface, or crypto:NAME; repeatable")
+            .add_option(
+                "--holdout", holdouts_,
+                "Matte of what passes in front of the surface: a pattern, painted keyframes "
+                "(12=a.png), or crypto:NAME; repeatable")
             ->type_name("PATH")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -154,7 +157,14 @@ Status ProjectFlags::apply(Region& region) const {
             MatteSource holdout;
             WEFT_CHECK_OK(add_matte_text(holdout, text));
             if (!holdout.select.crypto.empty()) holdout.files = crypto_files_;
-            holdouts.push_back(std::move(holdout));
+            // What is painted on several frames is one layer.
+            const auto painted =
+                std::find_if(holdouts.begin(), holdouts.end(),
+                             [](const MatteSource& h) { return !h.keyframes.empty(); });
+            if (!holdout.keyframes.empty() && painted != holdouts.end())
+                painted->keyframes.insert(holdout.keyframes.begin(), holdout.keyframes.end());
+            else
+                holdouts.push_back(std::move(holdout));
         }
         region.holdouts = std::move(holdouts);
     }

@@ -238,6 +238,16 @@ void add_rest(CLI::App& group, int& exit) {
     add_texture_subcommand(group, "train", "Learn the descriptor anew from the library", train)
         ->callback([=, &exit] { exit = texture_train_command(*train); });
 
+    const auto sight = std::make_shared<TextureCommandOptions>();
+    const auto model = std::make_shared<TextureModelOptions>();
+    command = add_texture_subcommand(
+        group, "model", "Name an image-text model that searches and recommendations ask", sight);
+    command->add_option("folder", model->folder, "Folder with model.json; default: say which")
+        ->type_name("PATH");
+    command->add_flag("--none", model->none, "Name none");
+    command->footer("Example:\n  weft texture model ~/models/clip");
+    command->callback([=, &exit] { exit = texture_model_command(*sight, *model); });
+
     add_evaluate(group, exit);
 
     const auto common = std::make_shared<TextureCommandOptions>();

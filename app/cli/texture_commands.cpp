@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/console.h"
 #include "app/cli/texture_console.h"
@@ -360,6 +361,25 @@ int texture_evaluate_command(const TextureCommandOptions& common,
     if (!report) return report_error(report.error());
     print(stdout, common.json ? to_json(*report) : evaluation_text(*report));
     return 0;
+}
+
+int texture_model_command(const TextureCommandOptions& common, const TextureModelOptions& o) {
+    const auto run = [&]() -> Status {
+        if (o.none && !o.folder.empty())
+            return fail(ErrorCode::kUsage, "Give a folder or --none, and not both.");
+        WEFT_TRY(library, open_texture_library(common, false));
+        if (o.none || !o.folder.empty()) {
+            // A library is opened from anywhere: the folder is noted as it is found from anywhere.
+            const std::string folder = o.none ? "" : fs::absolute(o.folder).lexically_normal();
+            WEFT_CHECK_OK(library->use_image_text_model(
+                folder, cancel_on_signals(), common.json ? ProgressFn() : plain_progress()));
+        }
+        WEFT_TRY(named, library->image_text_model());
+        print(stdout, common.json ? nlohmann::ordered_json{{"model", named}}.dump(2) + "\n"
+                                  : "image-text model: " + (named.empty() ? "none" : named) + "\n");
+        return {};
+    };
+    return texture_exit_code(run());
 }
 
 int texture_train_command(const TextureCommandOptions& common) {

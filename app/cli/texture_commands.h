@@ -52,6 +52,11 @@ struct TextureRecommendOptions {
     std::string sheet;  ///< Picture of the suggestions to write.
 };
 
+struct TextureModelOptions {
+    std::string folder;  ///< Empty: say which is named.
+    bool none = false;
+};
+
 struct TextureExportOptions {
     std::vector<std::string> ids;
     std::string text;    ///< Instead of ids: what a search finds.
@@ -81,6 +86,7 @@ int texture_export_command(const TextureCommandOptions& common,
                            const TextureExportOptions& options);
 int texture_verify_command(const TextureCommandOptions& common);
 int texture_train_command(const TextureCommandOptions& common);
+int texture_model_command(const TextureCommandOptions& common, const TextureModelOptions& o);
 int texture_evaluate_command(const TextureCommandOptions& common, const EvaluationOptions& options);
 
 }  // namespace weft

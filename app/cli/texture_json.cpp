@@ -48,6 +48,7 @@ Json suggestion_json(const Suggestion& s) {
             {"reasons", s.reasons},
             {"parts",
              {{"material", number(p.material)},
+              {"use", number(p.use)},
               {"colour", number(p.colour)},
               {"style", number(p.style)},
               {"scale", number(p.scale)},

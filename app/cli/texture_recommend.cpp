@@ -122,6 +122,7 @@ Status run_recommend(const TextureCommandOptions& common, const TextureRecommend
     request.excluded_licences.insert(request.excluded_licences.end(), scene.excluded.begin(),
                                      scene.excluded.end());
     WEFT_TRY(advice, library->recommend(request));
+    if (!advice.notice.empty()) print(stderr, "weft: " + advice.notice + "\n");
     if (!o.sheet.empty()) {
         WEFT_TRY(sheet, recommendation_sheet(*library, scene.plate, scene.mattes, advice));
         WEFT_CHECK_OK(write_picture(o.sheet, sheet));

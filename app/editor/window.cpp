@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "app/editor/editor_app.h"
+#include "app/editor/pen.h"
 #include "app/editor/run_modes.h"
 #include "app/editor/second_window.h"
 #include "ui/input_queue.h"
@@ -17,6 +18,7 @@ namespace {
 struct WindowState {
     EditorApp* app = nullptr;
     InputQueue input;
+    std::unique_ptr<PenSource> pen = open_pen();
     bool event = true;  // something happened since the last frame
     int windowed[4] = {80, 80, 1600, 900};
 };
@@ -135,6 +137,8 @@ void draw(GLFWwindow* window, EditorApp& app, InputQueue& input) {
     ImGui_ImplGlfw_NewFrame();
     input.feed(ImGui::GetIO());
     app.shell().state().mouse_path = input.path();
+    PenSource* pen = state_of(window).pen.get();
+    app.shell().state().pen_pressure = pen ? pen->pressure() : std::nullopt;
     app.frame(glfwGetTime());
     // Drawing and swapping wait for the graphics card, which nothing here can hurry.
     clock.end();

@@ -39,6 +39,13 @@ struct Choices<MotionDirection> {
         {{MotionDirection::kForward, "forward"}, {MotionDirection::kBackward, "backward"}}};
 };
 template <>
+struct Choices<CarryDirection> {
+    static constexpr std::array<std::pair<CarryDirection, std::string_view>, 3> kNames{
+        {{CarryDirection::kBoth, "both"},
+         {CarryDirection::kForward, "forward"},
+         {CarryDirection::kBackward, "backward"}}};
+};
+template <>
 struct Choices<MissingFrames> {
     static constexpr std::array<std::pair<MissingFrames, std::string_view>, 4> kNames{
         {{MissingFrames::kError, "error"},

@@ -25,8 +25,12 @@ Expected<std::size_t> index_of(const Project& project, const RegionRef& ref) {
 template <class Change>
 Expected<Project> with_region(const Project& project, const RegionRef& ref, Change&& change) {
     WEFT_TRY(index, index_of(project, ref));
-    Region region = *project.regions[index];
+    const Region& before = *project.regions[index];
+    Region region = before;
     WEFT_CHECK_OK(change(region));
+    const bool same_samples = region.texture.sample == before.texture.sample &&
+                              region.texture.also == before.texture.also;
+    if (!same_samples && region.amendments == before.amendments) region.amendments = {};
     Project out = project;
     out.regions[index] = std::move(region);
     return out;
@@ -187,6 +191,22 @@ Expected<Project> apply_one(const Project& project, const SetCorrection& edit) {
     });
 }
 
+Expected<Project> apply_one(const Project& project, const SetAmendments& edit) {
+    for (const PlaneAmendment& amendment : edit.amendments) {
+        for (const TexelRun& run : amendment.runs) {
+            if (run.count < 1 || (run.orientation != 0 && run.count != 1))
+                return fail(ErrorCode::kUsage,
+                            fmt::format("A run of texels has the length {}; it must be 1 or more, "
+                                        "and 1 where the sample is turned",
+                                        run.count));
+        }
+    }
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        region.amendments = edit.amendments;
+        return {};
+    });
+}
+
 std::string name_of_region(const Project& project, const RegionRef& ref) {
     const Region* region = ref.id != 0 ? region_by_id(project, ref.id) : nullptr;
     return region && !region->name.empty() ? region->name
@@ -228,6 +248,10 @@ std::vector<Edit> region_edits(const Region& before, const Region& after) {
         if (parameter.group != "matte" && value != parameter.read(before))
             edits.emplace_back(SetRegionParameter{ref, parameter.full_key(), value});
     }
+    // Last, since other samples drop them.
+    if (before.amendments != after.amendments ||
+        (before.texture != after.texture && !after.amendments->empty()))
+        edits.emplace_back(SetAmendments{ref, *after.amendments});
     return edits;
 }
 
@@ -265,6 +289,9 @@ std::string edit_label(const Project& before, const Edit& edit) {
             return fmt::format("{} {} of {}",
                                e.pins.empty() ? "Remove correction" : "Correct frame", e.frame,
                                name(e.region));
+        }
+        std::string operator()(const SetAmendments& e) const {
+            return "Kept places of " + name(e.region);
         }
         std::string operator()(const SetTexture& e) const {
             return "Set the texture of " + name(e.region);

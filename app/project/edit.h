@@ -101,9 +101,17 @@ struct SetCorrection {
     bool operator==(const SetCorrection&) const = default;
 };
 
-using Edit = std::variant<SetPlate, SetOutput, SetProjectParameter, AddRegion, RemoveRegion,
-                          MoveRegion, RenameRegion, SetRegionParameter, SetMatte, SetMatteKeyframe,
-                          RemoveMatteKeyframe, SetHoldouts, SetTexture, SetCorrection>;
+/// What of the region's grown texture is kept or made again.
+struct SetAmendments {
+    RegionRef region;
+    std::vector<PlaneAmendment> amendments;
+    bool operator==(const SetAmendments&) const = default;
+};
+
+using Edit =
+    std::variant<SetPlate, SetOutput, SetProjectParameter, AddRegion, RemoveRegion, MoveRegion,
+                 RenameRegion, SetRegionParameter, SetMatte, SetMatteKeyframe, RemoveMatteKeyframe,
+                 SetHoldouts, SetTexture, SetCorrection, SetAmendments>;
 
 /// The project after the edit; the one before is untouched and shares what did not change. Errors:
 /// Usage (no such region, frame or parameter; a value out of range). Pure, thread-safe.

@@ -184,6 +184,18 @@ Status read(ObjectReader& object, SetHoldouts& edit) {
     edit = {std::move(region), std::move(holdouts)};
     return {};
 }
+Status read(ObjectReader& object, SetAmendments& edit) {
+    WEFT_TRY(region, read_region_ref(object));
+    WEFT_TRY(json, required(object, "amendments"));
+    WEFT_TRY(amendments, read_amendments(*json, object.path_of("amendments")));
+    edit = {std::move(region), std::move(amendments)};
+    return {};
+}
+void write(OrderedJson& object, const SetAmendments& edit) {
+    object["region"] = write_region_ref(edit.region);
+    object["amendments"] = write_amendments(edit.amendments);
+}
+
 void write(OrderedJson& object, const SetHoldouts& edit) {
     object["region"] = write_region_ref(edit.region);
     object["holdouts"] = write_holdouts(edit.holdouts);
@@ -225,7 +237,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Edit>> kNames{
     "set_plate",     "set_output",         "set_project_parameter", "add_region",
     "remove_region", "move_region",        "rename_region",         "set_region_parameter",
     "set_matte",     "set_matte_keyframe", "remove_matte_keyframe", "set_holdouts",
-    "set_texture",   "set_correction"};
+    "set_texture",   "set_correction",     "set_amendments"};
 
 template <std::size_t I = 0>
 Expected<Edit> read_named(std::string_view name, ObjectReader& object) {

@@ -117,6 +117,9 @@ void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> tab
                                 Project& project);
 
 [[nodiscard]] OrderedJson write_matte_source(const MatteSource& matte);
+[[nodiscard]] Expected<std::vector<PlaneAmendment>> read_amendments(const Json& json,
+                                                                    const std::string& path);
+[[nodiscard]] OrderedJson write_amendments(const std::vector<PlaneAmendment>& amendments);
 [[nodiscard]] OrderedJson write_holdouts(const std::vector<MatteSource>& holdouts);
 [[nodiscard]] OrderedJson write_region(const Region& region);
 [[nodiscard]] OrderedJson write_group(std::string_view group, const Region& region);

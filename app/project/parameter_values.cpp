@@ -4,12 +4,15 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "app/project/parameters.h"
 #include "engine/core/frame_range.h"
 
 namespace weft {
 namespace {
+
+constexpr std::size_t kMostFrames = 1'000'000;
 
 std::string display_name(const ParameterInfo& info) {
     return info.flag.empty() ? info.full_key() : fmt::format("{} ({})", info.flag, info.full_key());
@@ -149,10 +152,8 @@ Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterV
     }
     if (info.kind == ParameterKind::kFrames) {
         // In the order given, which may mean something, and each once.
-        std::vector<double> once;
-        for (const double number : *numbers)
-            if (std::find(once.begin(), once.end(), number) == once.end()) once.push_back(number);
-        *numbers = std::move(once);
+        std::set<double> known;
+        std::erase_if(*numbers, [&](double number) { return !known.insert(number).second; });
     }
     return value;
 }
@@ -238,6 +239,8 @@ Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text)
             for (std::size_t from = 0; from < text.size();) {
                 const std::size_t to = std::min(text.find(',', from), text.size());
                 WEFT_TRY(frames, parse_frame_list(text.substr(from, to - from)));
+                if (numbers.size() + frames.size() > kMostFrames)
+                    return fail(ErrorCode::kUsage, "The frames are more than a million.");
                 numbers.insert(numbers.end(), frames.begin(), frames.end());
                 from = to + 1;
             }

@@ -148,6 +148,13 @@ Project map_paths(const Project& project,
     return out;
 }
 
+std::size_t own_bytes(const std::vector<PlaneAmendment>& amendments) {
+    std::size_t bytes = amendments.capacity() * sizeof(PlaneAmendment);
+    for (const PlaneAmendment& amendment : amendments)
+        bytes += amendment.runs.capacity() * sizeof(TexelRun);
+    return bytes;
+}
+
 std::size_t own_bytes(const MatteSource& matte) {
     std::size_t bytes = sizeof matte +
                         heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel,

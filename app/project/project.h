@@ -19,9 +19,11 @@
 #include "engine/core/fields.h"
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/shading.h"
+#include "engine/mask/matte_reach.h"
 #include "engine/media/image_files.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
+#include "engine/synthesis/plane_amendment.h"
 #include "engine/temporal/temporal_mode.h"
 
 namespace weft {
@@ -107,6 +109,9 @@ struct MatteSource {
     double steadiness = 0.5;   ///< 0–1: how much boil is taken out of propagated mattes.
     std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated …
     std::string frozen_files;  ///< … from files of this pattern.
+    /// Which way painted mattes are carried, and between which frames; unset ends are the shot's.
+    CarryDirection carry = CarryDirection::kBoth;
+    std::optional<int> carry_from, carry_to;
     Extras extra;
     [[nodiscard]] bool empty() const {
         return files.empty() && keyframes.empty() && select.crypto.empty();
@@ -237,6 +242,9 @@ struct Region {
     std::vector<int> reference_frames;  ///< The first holds the placement; empty: the first frame.
     std::map<int, std::vector<CorrectionPin>> corrections;  ///< By frame; each has a pin or more.
     MotionSource motion;
+    /// Places of the grown texture that are kept or made again. They belong to the texture: an edit
+    /// that changes its samples drops them.
+    Leaf<std::vector<PlaneAmendment>> amendments;
     SynthesisParams synthesis;
     TemporalParams temporal;
     LightParams light;
@@ -280,6 +288,7 @@ struct Project {
 /// without its regions: estimates for bounding the undo history.
 [[nodiscard]] std::size_t own_bytes(const Region& region);
 [[nodiscard]] std::size_t own_bytes(const MatteSource& matte);
+[[nodiscard]] std::size_t own_bytes(const std::vector<PlaneAmendment>& amendments);
 [[nodiscard]] std::size_t own_bytes(const Project& project);
 
 }  // namespace weft

@@ -31,8 +31,7 @@ constexpr std::array kRegionGroups{
     group<Region, &Region::texture>("texture"),   group<Region, &Region::placement>("placement"),
     group<Region, &Region::motion>("motion"),     group<Region, &Region::synthesis>("synthesis"),
     group<Region, &Region::temporal>("temporal"), group<Region, &Region::light>("light"),
-    group<Region, &Region::finish>("finish"),
-    group<Region, &Region::lines>("lines"),
+    group<Region, &Region::finish>("finish"),     group<Region, &Region::lines>("lines"),
 };
 constexpr std::array kProjectGroups{
     group<Project, &Project::plate>("plate"),
@@ -206,6 +205,10 @@ Expected<Region> read_region(const Json& json, const std::string& path) {
         WEFT_TRY(read, read_corrections(*corrections, object.path_of("corrections")));
         region.corrections = std::move(read);
     }
+    if (const Json* amendments = object.take("amendments")) {
+        WEFT_TRY(read, read_amendments(*amendments, object.path_of("amendments")));
+        region.amendments = std::move(read);
+    }
     WEFT_CHECK_OK(read_groups(object, kRegionGroups, region_parameters(), region));
     region.extra = object.rest();
     return region;
@@ -294,6 +297,7 @@ OrderedJson write_region(const Region& region) {
     write_parameters(object, region_parameters(), "", region);
     object["matte"] = write_matte_source(*region.matte);
     if (!region.holdouts->empty()) object["holdouts"] = write_holdouts(*region.holdouts);
+    if (!region.amendments->empty()) object["amendments"] = write_amendments(*region.amendments);
     for (const auto& [frame, pins] : region.corrections)
         object["corrections"].push_back({{"frame", frame}, {"pins", write_pins(pins)}});
     for (const Group<Region>& known : kRegionGroups)

@@ -59,6 +59,27 @@ std::vector<Parameter<Owner>> matte_entries() {
              .flag = "--matte-frozen-files",
              .help = "Pattern of the frozen frames' mattes, as 'weft matte' wrote them",
              .is_path = true}),
+        entry<Owner, Path..., &MatteSource::carry>(
+            {.group = "matte",
+             .key = "carry",
+             .flag = "--matte-carry",
+             .help = "Which way painted mattes are carried; elsewhere there is none"}),
+        entry<Owner, Path..., &MatteSource::carry_from>(
+            {.group = "matte",
+             .key = "carry_from",
+             .flag = "--matte-from",
+             .help = "First frame that painted mattes are carried to",
+             .min = -kMaxFrame,
+             .max = kMaxFrame,
+             .optional = true}),
+        entry<Owner, Path..., &MatteSource::carry_to>(
+            {.group = "matte",
+             .key = "carry_to",
+             .flag = "--matte-to",
+             .help = "Last frame that painted mattes are carried to",
+             .min = -kMaxFrame,
+             .max = kMaxFrame,
+             .optional = true}),
     };
 }
 

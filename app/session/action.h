@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -106,6 +107,12 @@ struct MarkRange {
 };
 
 // ---- mattes ----
+/// What is painted from now on: 0 the selected region's matte, k its holdout k − 1; one more than
+/// it has begins a new one with the first stroke.
+struct SelectMatteLayer {
+    int layer = 0;
+    bool operator==(const SelectMatteLayer&) const = default;
+};
 struct BeginStroke {
     Brush brush;
     Vec2 at{0, 0};
@@ -166,6 +173,13 @@ struct CopyKeyframe {
     bool operator==(const CopyKeyframe&) const = default;
 };
 /// Leaves the files of the selected region's matte and paints on from what they show here.
+/// Adds the Cryptomatte object at this plate pixel to what is painted (SelectMatteLayer), or takes
+/// it away.
+struct PickCryptomatte {
+    Vec2i at{0, 0};
+    bool subtract = false;
+    bool operator==(const PickCryptomatte&) const = default;
+};
 struct PaintInstead {
     bool operator==(const PaintInstead&) const = default;
 };
@@ -198,6 +212,17 @@ struct ApplyTexture {
     RegionId region = 0;
     bool operator==(const ApplyTexture&) const = default;
 };
+/// Textures for several regions in one step of the history.
+struct ApplyTextures {
+    std::vector<std::pair<RegionId, std::string>> textures;  ///< Region and path.
+    bool operator==(const ApplyTextures&) const = default;
+};
+/// Takes the larger picture that the region's sample was cut from in its stead; its size on the
+/// plate stays.
+struct UseLargerOriginal {
+    RegionId region = 0;
+    bool operator==(const UseLargerOriginal&) const = default;
+};
 /// What the strip of small results compares.
 enum class StripKind : std::uint8_t {
     kNone,
@@ -227,6 +252,11 @@ struct ShowStages {
     bool shown = false;
     bool operator==(const ShowStages&) const = default;
 };
+/// Shows one of the layers for compositing (layer_files.h) in place of the result; empty: none.
+struct ShowLayer {
+    std::string name;
+    bool operator==(const ShowLayer&) const = default;
+};
 struct SetPreviewQuality {
     Quality quality = Quality::kDraft;
     bool operator==(const SetPreviewQuality&) const = default;
@@ -237,6 +267,7 @@ struct SubmitJob {
     std::string frames;  ///< As in a frame list; empty: all.
     std::string output, movie;
     bool overwrite = false, skip_existing = false;
+    std::string layers, layers_path;  ///< As Output's.
     bool operator==(const SubmitJob&) const = default;
 };
 enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };
@@ -255,10 +286,11 @@ using Action =
     std::variant<DoEdit, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
                  OpenAny, Save, SaveAs, CloseProject, Recover, SelectRegion, SoloRegion, LockRegion,
                  GoToFrame, StepFrames, StepKeyframe, Play, MarkRange, BeginStroke, ContinueStroke,
-                 EndStroke, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes,
-                 ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
-                 CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis,
-                 ApplyTexture, ShowOverlay, ShowStages, SetPreviewQuality, SubmitJob, CommandJob,
+                 EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape,
+                 FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte,
+                 KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine,
+                 PauseAnalysis, ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte,
+                 ShowLayer, ShowOverlay, ShowStages, SetPreviewQuality, SubmitJob, CommandJob,
                  MeasureResult>;
 
 }  // namespace weft

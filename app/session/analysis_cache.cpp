@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "app/session/blob_file.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the analysis itself computes something else.
-constexpr int kAnalysisVersion = 11;
+constexpr int kAnalysisVersion = 12;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -51,7 +52,10 @@ Status add_matte(Hasher& hasher, const MatteSource& matte) {
         hasher.value(frame);
         add_file(hasher, key.path);
     }
-    hasher.value(matte.steadiness);
+    hasher.value(matte.steadiness)
+        .value(static_cast<int>(matte.carry))
+        .value(matte.carry_from.value_or(std::numeric_limits<int>::min()))
+        .value(matte.carry_to.value_or(std::numeric_limits<int>::max()));
     hasher.value(matte.select.value.value_or(-1))
         .text(matte.select.channel)
         .value(matte.select.invert)
@@ -178,7 +182,9 @@ class DiskStore final : public AnalysisStore {
   private:
     [[nodiscard]] fs::path path_of(const AnalysisKey& key) const {
         return folders_[static_cast<std::size_t>(key.region)] /
-               (std::string(kind_name(key.kind)) + "." + std::to_string(key.frame));
+               (kind_name(key.kind) +
+                (key.layer == 0 ? std::string() : "-in-front" + std::to_string(key.layer)) + "." +
+                std::to_string(key.frame));
     }
     static tl::unexpected<Error> missing(const AnalysisKey& key) {
         return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " +

@@ -46,10 +46,27 @@ std::vector<int> analysed_frames(const Shot& shot) {
 }
 
 bool estimates_motion(const Shot& shot) {
-    return std::any_of(
-        shot.plan.regions.begin(), shot.plan.regions.end(), [](const RegionPlan& region) {
-            return region.propagated() || (!region.true_motion && region.track.empty());
-        });
+    return std::any_of(shot.plan.regions.begin(), shot.plan.regions.end(),
+                       [](const RegionPlan& region) {
+                           return region.propagated() || !region.painted_holdouts.empty() ||
+                                  (!region.true_motion && region.track.empty());
+                       });
+}
+
+// The 2023-09 schema allows a range of at most so many values.
+Status check_openjd(const FarmJob& job, int chunk) {
+    constexpr std::size_t kMostTasks = 1024;
+    for (const FarmStage& stage : job.stages) {
+        if (stage.frames.size() <= kMostTasks) continue;
+        const std::size_t wanted =
+            (stage.frames.size() * static_cast<std::size_t>(std::max(1, chunk)) + kMostTasks - 1) /
+            kMostTasks;
+        return fail(ErrorCode::kUsage,
+                    "Open Job Description takes at most 1024 tasks a step, and " + stage.name +
+                        " has " + std::to_string(stage.frames.size()) + ". Give --chunk " +
+                        std::to_string(wanted) + " or more.");
+    }
+    return {};
 }
 
 }  // namespace
@@ -86,6 +103,7 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
     job.name = fs::path(options.project).stem().string();
     job.file = (folder / "job.json").string();
     job.stages = farm_stages(shot, options.chunk);
+    if (options.engine == FarmEngine::kOpenJd) WEFT_CHECK_OK(check_openjd(job, options.chunk));
     Json stages = Json::array();
     for (const FarmStage& stage : job.stages)
         stages.push_back({{"name", stage.name}, {"frames", stage.frames}});

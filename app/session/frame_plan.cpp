@@ -155,7 +155,8 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     if (!plan.propagated())
         WEFT_CHECK_OK(check_pattern(region.matte->files, "The matte", all, plate));
     for (const MatteSource& holdout : *region.holdouts) {
-        WEFT_CHECK_OK(check_pattern(holdout.files, "The holdout", all, plate));
+        if (!holdout.files.empty())
+            WEFT_CHECK_OK(check_pattern(holdout.files, "The holdout", all, plate));
     }
     for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
         if (!pass.empty()) WEFT_CHECK_OK(check_pattern(pass, "The lighting pass", all, plate));

@@ -82,11 +82,15 @@ Stroke::Stroke(std::shared_ptr<const Matte> before, const Brush& brush)
 }
 
 Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
-    const float radius = std::max(0.5f, brush_.radius_px * std::clamp(pressure, 0.05f, 1.0f));
+    const float press = std::clamp(pressure, 0.05f, 1.0f);
+    const float radius = std::max(0.5f, brush_.radius_px * (brush_.pressure_size ? press : 1.0f));
+    const float strength = brush_.pressure_opacity ? press : 1.0f;
+    const float from_strength = last_ ? last_pressure_ : strength;
     const Vec2 from = last_.value_or(to);
     const float from_radius = last_ ? last_radius_ : radius;
     last_ = to;
     last_radius_ = radius;
+    last_pressure_ = strength;
     const float reach = std::max(radius, from_radius) + 2.0f;
     const Recti box = Recti{static_cast<int>(std::floor(std::min(from.x, to.x) - reach)),
                             static_cast<int>(std::floor(std::min(from.y, to.y) - reach)),
@@ -107,8 +111,9 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
                                 : 0.0f;
             const float dx = p.x - t * along.x, dy = p.y - t * along.y;
             const float r = from_radius + t * (radius - from_radius);
+            const float s = from_strength + t * (strength - from_strength);
             const auto cover =
-                to_code(255.0f * profile(std::sqrt(dx * dx + dy * dy), r, brush_.hardness));
+                to_code(255.0f * s * profile(std::sqrt(dx * dx + dy * dy), r, brush_.hardness));
             std::uint8_t& known = covered[x];
             if (cover <= known) continue;
             known = cover;

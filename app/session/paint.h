@@ -17,6 +17,7 @@ struct Brush {
     float hardness = 0.8f;  ///< 1: a hard edge; 0: falls off from the centre.
     float opacity = 1;      ///< Of the whole stroke, however often it crosses itself.
     bool subtract = false;
+    bool pressure_size = true, pressure_opacity = false;  ///< What a pen's pressure changes.
     bool operator==(const Brush&) const = default;
 };
 
@@ -26,8 +27,8 @@ class Stroke {
   public:
     /// `before` is never null. Neither copies nor touches it: a stroke begins at once on any size.
     Stroke(std::shared_ptr<const Matte> before, const Brush& brush);
-    /// Paints from the last point to `to` (the first call makes a dot), `pressure` in (0, 1] scales
-    /// the radius. Returns what changed of `matte`.
+    /// Paints from the last point to `to` (the first call makes a dot); `pressure` in (0, 1] scales
+    /// the radius, the opacity or both, as the brush says. Returns what changed of `matte`.
     Recti move_to(Vec2 to, float pressure, Matte& matte);
     [[nodiscard]] const Recti& touched() const { return touched_; }
 
@@ -40,7 +41,7 @@ class Stroke {
     std::unique_ptr<std::uint8_t[], Release> coverage_;
     Brush brush_;
     std::optional<Vec2> last_;
-    float last_radius_ = 0;
+    float last_radius_ = 0, last_pressure_ = 1;
     Recti touched_;
 };
 

@@ -51,6 +51,7 @@ void Preview::clear() {
     impl_->frame_bytes = 0;
     impl_->overlay.reset();
     impl_->confidences.clear();
+    impl_->healths.clear();
     impl_->shown = {};
     impl_->changed();
 }
@@ -70,7 +71,7 @@ void Preview::resume() {
     impl_->signal();
 }
 
-bool Preview::try_read(int frame, RegionId region, PreviewReading& reading) const {
+bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& reading) const {
     PreviewReading old;  // freed after the lock is
     const std::unique_lock lock(impl_->mutex, std::try_to_lock);
     if (!lock) return false;
@@ -79,8 +80,11 @@ bool Preview::try_read(int frame, RegionId region, PreviewReading& reading) cons
     reading.paused = impl_->paused;
     reading.overlay = impl_->overlay;
     reading.cards = impl_->cards;
-    if (const auto found = impl_->confidences.find(region); found != impl_->confidences.end())
+    if (const auto found = impl_->confidences.find({region, layer});
+        found != impl_->confidences.end())
         reading.confidence = found->second;
+    if (const auto found = impl_->healths.find(region); found != impl_->healths.end())
+        reading.health = found->second;
     if (!impl_->opened || impl_->opened->pixels != impl_->wanted_pixels) return true;
     for (const auto& [number, pictures] : impl_->frames)
         reading.there.push_back(number);
@@ -93,7 +97,7 @@ std::uint64_t Preview::news() const {
     return impl_->news.load();
 }
 
-Expected<Matte> Preview::propagated_matte(RegionId region, int frame) const {
+Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
     OpenedPtr now;
     {
         const std::lock_guard lock(impl_->mutex);
@@ -102,8 +106,10 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int frame) const {
     if (now) {
         for (std::size_t k = 0; k < now->shot->region_index.size(); ++k) {
             if (now->shot->project.regions[now->shot->region_index[k]]->id != region) continue;
-            const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte};
-            if (!now->store->has(key)) break;
+            const int kept =
+                stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
+            const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept};
+            if (kept < 0 || !now->store->has(key)) break;
             WEFT_TRY(bytes, now->store->get(key));
             WEFT_TRY(stored, decode_matte(bytes));
             return std::move(stored.matte);

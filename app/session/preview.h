@@ -58,6 +58,7 @@ struct PreviewRequest {
     std::vector<int> range;  ///< Frames to be analysed; empty: only what `frame` needs.
     std::vector<int> fill;   ///< Frames to be rendered when idle, in this order.
     bool stages = false;     ///< Also the pictures before the final one.
+    std::string layer;       ///< Also this layer for compositing of `frame`; empty: none.
     Overlay overlay = Overlay::kNone;
     RegionId overlay_region = 0;
     std::vector<StripWish> cards;  ///< To be made when the frame is there.
@@ -69,6 +70,8 @@ struct PreviewFrame {
     /// The texture was grown for another scale; the right one is being made.
     bool approximate = false;
     int proxy = 1;  ///< By how much the pictures are smaller than the plate.
+    std::string layer_name;
+    PicturePtr layer;  ///< As PreviewRequest::layer, on the screen's terms.
 };
 
 /// A value in 0–255 for each pixel of the overlay's region, with a matte of where it holds.
@@ -77,6 +80,7 @@ struct OverlayPicture {
     int frame = 0;
     std::uint64_t id = 0;
     Matte value, where;
+    Matte marked;  ///< Of kPieces: 255 where the texture is kept, 128 where it was made again.
     float low = 0, high = 1;  ///< What 0 and 255 stand for.
     std::string unit;
     struct Arrow {
@@ -84,6 +88,11 @@ struct OverlayPicture {
     };
     std::vector<Arrow> arrows;                     ///< Motion since the reference frame, in pixels.
     std::shared_ptr<const Provenance> provenance;  ///< Of kPieces.
+};
+
+/// How a frame of a region fares, as far as it is known (below 0: not).
+struct FrameHealth {
+    float drift = -1, stretch = -1, seam = -1;  ///< As in FrameMarks.
 };
 
 struct PreviewView {
@@ -108,6 +117,7 @@ struct PreviewReading {
     std::shared_ptr<const OverlayPicture> overlay;
     /// How sure the propagation was, by frame; empty for mattes that come from files.
     std::map<int, float> confidence;
+    std::map<int, FrameHealth> health;       ///< Of the region, by frame.
     std::map<std::string, StripCard> cards;  ///< Those that are made, by StripWish::key.
 };
 
@@ -129,12 +139,14 @@ class Preview {
     void pause();
     void resume();
 
-    /// Pictures of `frame`, confidence of `region`. False, and `reading` stays, likewise.
-    bool try_read(int frame, RegionId region, PreviewReading& reading) const;
+    /// Pictures of `frame`, confidence of `region`'s matte or of its holdout `layer` − 1. False,
+    /// and `reading` stays, likewise.
+    bool try_read(int frame, RegionId region, int layer, PreviewReading& reading) const;
     /// Grows with everything that try_read() would tell.
     [[nodiscard]] std::uint64_t news() const;
-    /// Reads a propagated matte; to be called in the background. Error: not propagated yet.
-    [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int frame) const;
+    /// Reads a propagated matte (`layer` 0) or holdout; to be called in the background. Error: not
+    /// propagated yet.
+    [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int layer, int frame) const;
     /// Changes whenever propagated mattes may have changed.
     [[nodiscard]] std::uint64_t matte_version() const;
 

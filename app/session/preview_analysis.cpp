@@ -25,6 +25,17 @@ int steps_to(const OpenedShot& opened, std::vector<int> frames) {
     return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store);
 }
 
+int stored_layer(const Region& region, int layer) {
+    if (layer == 0) return region.matte->keyframes.empty() ? -1 : 0;
+    const std::vector<MatteSource>& holdouts = *region.holdouts;
+    const auto at = static_cast<std::size_t>(layer) - 1;
+    if (at >= holdouts.size() || !holdouts[at].files.empty()) return -1;
+    int painted = 1;
+    for (std::size_t k = 0; k < at; ++k)
+        painted += holdouts[k].files.empty() ? 1 : 0;
+    return painted;
+}
+
 void Preview::Impl::analyse_loop() {
     lower_thread_priority();
     for (;;) {
@@ -47,11 +58,14 @@ void Preview::Impl::analyse_loop() {
         if (for_first > 0 && 2 * for_first < for_all) analyse(work, first, token);
         if (!token.cancelled()) analyse(work, all, token);
         collect_confidence(*work);
-        const std::lock_guard lock(mutex);
-        shown.analysing = false;
-        analysing_key.clear();
-        changed();
-        signal();
+        {
+            const std::lock_guard lock(mutex);
+            shown.analysing = false;
+            analysing_key.clear();
+            changed();
+            signal();
+        }
+        if (!token.cancelled()) collect_health(*work, token);
     }
 }
 
@@ -84,19 +98,22 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
 
 void Preview::Impl::collect_confidence(const OpenedShot& work) {
     for (std::size_t k = 0; k < work.shot->plan.regions.size(); ++k) {
-        if (!work.shot->plan.regions[k].propagated()) continue;
-        const RegionId id = work.shot->project.regions[work.shot->region_index[k]]->id;
-        std::map<int, float> found;
-        for (const int frame : work.shot->plate->frames()) {
-            const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte};
-            if (!work.store->has(key)) continue;
-            const auto bytes = work.store->get(key);
-            if (!bytes) continue;
-            if (const auto matte = decode_matte(*bytes)) found[frame] = matte->confidence;
+        const Region& region = *work.shot->project.regions[work.shot->region_index[k]];
+        for (int layer = 0; layer <= static_cast<int>(region.holdouts->size()); ++layer) {
+            const int stored = stored_layer(region, layer);
+            if (stored < 0) continue;
+            std::map<int, float> found;
+            for (const int frame : work.shot->plate->frames()) {
+                const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, stored};
+                if (!work.store->has(key)) continue;
+                const auto bytes = work.store->get(key);
+                if (!bytes) continue;
+                if (const auto matte = decode_matte(*bytes)) found[frame] = matte->confidence;
+            }
+            const std::lock_guard lock(mutex);
+            confidences[{region.id, layer}] = std::move(found);
+            ++mattes;
         }
-        const std::lock_guard lock(mutex);
-        confidences[id] = std::move(found);
-        ++mattes;
     }
 }
 

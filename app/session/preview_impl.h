@@ -35,6 +35,10 @@ using OpenedPtr = std::shared_ptr<const OpenedShot>;
 /// Frames of analysis still to be done for these frames.
 [[nodiscard]] int steps_to(const OpenedShot& opened, std::vector<int> frames);
 
+/// The layer under which the analysis keeps a matte (0) or the holdout `layer` − 1: it counts the
+/// painted ones. Below 0: there is none.
+[[nodiscard]] int stored_layer(const Region& region, int layer);
+
 struct Preview::Impl {
     using Clock = std::chrono::steady_clock;
 
@@ -55,7 +59,8 @@ struct Preview::Impl {
     bool grow(const OpenedShot& of);
     bool draw_overlay(const PreviewRequest& wanted);
     bool ready(int frame);
-    [[nodiscard]] Expected<PreviewFrame> pictures_of(int frame, bool stages, int factor);
+    [[nodiscard]] Expected<PreviewFrame> pictures_of(int frame, bool stages, int factor,
+                                                     const std::string& layer);
     [[nodiscard]] Expected<PicturePtr> card_picture(const OpenedShot& of, const StripWish& wish);
     [[nodiscard]] PicturePtr picture_of(const Shot& shot, const ImageF3& pixels) const;
     [[nodiscard]] int factor_of(const Shot& shot, std::int64_t pixels) const;
@@ -65,6 +70,7 @@ struct Preview::Impl {
     void analyse_loop();
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, const CancelToken& token);
     void collect_confidence(const OpenedShot& opened);
+    void collect_health(const OpenedShot& opened, const CancelToken& token);
 
     void changed() { shown.changes = ++news; }
     void signal() {
@@ -94,7 +100,9 @@ struct Preview::Impl {
     std::shared_ptr<const OverlayPicture> overlay;
     std::string overlay_key;
     std::map<std::string, StripCard> cards;
-    std::map<RegionId, std::map<int, float>> confidences;
+    /// By region and layer.
+    std::map<std::pair<RegionId, int>, std::map<int, float>> confidences;
+    std::map<RegionId, std::map<int, FrameHealth>> healths;
     std::atomic<std::uint64_t> mattes = 0;
     PreviewView shown;
     std::atomic<std::uint64_t> news = 0;

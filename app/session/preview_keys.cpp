@@ -41,6 +41,7 @@ std::string analysis_key(const Project& project) {
             r.texture = TextureSource{};
             r.placement = Placement{};
             r.synthesis = SynthesisParams{};
+            r.amendments = {};
             TemporalParams temporal;
             temporal.mode = r.temporal.mode;
             r.temporal = temporal;

@@ -130,6 +130,28 @@ void draw_pieces(const TextureCoords& coords, const PlaneMap& plane, OverlayPict
     });
 }
 
+// Where the artist has kept the texture, or had it made again.
+void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const PlaneMap& plane,
+                  OverlayPicture& out) {
+    const int width = plane.source.width(), height = plane.source.height();
+    Matte amended(plane.source.size());
+    for (const PlaneAmendment& amendment : plan.amendments) {
+        const bool keep = amendment.kind == PlaneAmendment::Kind::kKeep;
+        for (const TexelRun& run : amendment.runs)
+            for (int k = 0; k < run.count; ++k)
+                amended.at(wrapped(static_cast<float>(run.x + k), width),
+                           wrapped(static_cast<float>(run.y), height)) = keep ? 255 : 128;
+    }
+    out.marked = Matte(out.value.size());
+    for (int y = 0; y < out.marked.height(); ++y) {
+        for (int x = 0; x < out.marked.width(); ++x) {
+            if (out.where.at(x, y) == 0) continue;
+            const float* uv = coords.uv.pixel(x, y);
+            out.marked.at(x, y) = amended.at(wrapped(uv[0], width), wrapped(uv[1], height));
+        }
+    }
+}
+
 // Luma over its surroundings: what light does not change much.
 ImageF1 pattern_of(const ImageF3& plate, const ColorTransform& display_from_plate) {
     const Matte luma = make_views(plate, display_from_plate).luma;
@@ -199,6 +221,7 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
     if (map_ && map_of_ == scene.plane.identity()) return map_;
     PlaneOptions options = plane_options(plan, shot.plan.seed, scene.plane.size());
     options.tileable = true;
+    options.amendments = plan.amendments;
     WEFT_TRY(plane, grow_texture(plan, options, cancel));
     const std::vector<ImageU8x3> samples = synthesis_samples(plan);
     const SampleAtlas atlas({samples.begin(), samples.end()}, plan.orientations);
@@ -216,10 +239,11 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
         }
     });
     if (!plane.origin.empty()) {
-        map->which = Image<std::uint8_t, 1>(plane.origin.size());
+        map->which = map->orientation = Image<std::uint8_t, 1>(plane.origin.size());
         for (int y = 0; y < plane.origin.height(); ++y)
             for (int x = 0; x < plane.origin.width(); ++x)
-                map->which.at(x, y) = plane.origin.pixel(x, y)[0];
+                map->which.at(x, y) = plane.origin.pixel(x, y)[0],
+                                 map->orientation.at(x, y) = plane.origin.pixel(x, y)[1];
     }
     const TextureSource& from =
         shot.project.regions[shot.region_index[static_cast<std::size_t>(region)]]->texture;
@@ -242,7 +266,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     out.frame = frame;
     out.id = next_picture_id();
     WEFT_TRY(extent, extent_matte(*shot.source, shot.plan, store, region, frame));
-    WEFT_TRY(holdout, holdout_matte(*shot.source, shot.plan, region, frame));
+    WEFT_TRY(holdout, holdout_matte(*shot.source, shot.plan, store, region, frame));
     out.where = without_holdout(extent, holdout);
     out.value = Matte(size);
     if (kind == Overlay::kLight) {
@@ -277,6 +301,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
             break;
         case Overlay::kPieces: {
             if (plane) draw_pieces(coords, *plane, out);
+            if (plane && !plan.amendments.empty()) draw_amended(coords, plan, *plane, out);
             auto asked = std::make_shared<Provenance>();
             asked->ref_from_cur = std::move(ref_from_cur);
             asked->plane_from_plate = scene.plane_from_plate;

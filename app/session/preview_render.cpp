@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/session/background.h"
+#include "app/session/preview_health.h"
 #include "app/session/preview_impl.h"
 #include "engine/color/color_space.h"
 #include "engine/compute/backend_registry.h"
@@ -29,15 +30,67 @@ void isolate(ImageF3& pixels, const Matte& touched) {
     }
 }
 
+// A layer as one looks at it: colours as on the screen, data as grey or red and green.
+template <class Picture>
+PicturePtr layer_picture(const FrameLayers& layers, const std::string& name,
+                         const ColorTransform& out_from_working, Picture&& picture) {
+    const Size size = layers.alpha.size();
+    if (name == "patch" || name == "edge" || name == "light") {
+        ImageF3 pixels = name == "patch"  ? layers.patch
+                         : name == "edge" ? layers.edge
+                                          : layers.light;
+        // Light of 1 changes nothing: it is shown as a middle grey.
+        constexpr float kMiddle = 0.18f;
+        if (name == "light")
+            for (std::size_t i = 0; i < pixels.size_bytes() / sizeof(float); ++i)
+                pixels.data()[i] *= kMiddle;
+        out_from_working.apply(pixels);
+        return picture(pixels);
+    }
+    ImageU8x3 data(size);
+    const auto code = [](float v) {
+        return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
+    };
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            std::uint8_t* out = data.pixel(x, y);
+            if (name == "st") {
+                const float* st = layers.st.pixel(x, y);
+                out[0] = code(st[0]), out[1] = code(st[1]), out[2] = 0;
+            } else if (name == "id") {
+                // Ids are small numbers: each gets a colour of its own.
+                const auto id = static_cast<std::uint32_t>(layers.id.at(x, y));
+                const std::uint32_t mixed = id * 2654435761u;
+                for (int c = 0; c < 3; ++c)
+                    out[c] = id == 0 ? 0 : static_cast<std::uint8_t>(64 + (mixed >> (8 * c)) % 192);
+            } else {
+                const std::uint8_t grey =
+                    code(name == "seam" ? layers.seam.at(x, y) : layers.alpha.at(x, y));
+                out[0] = out[1] = out[2] = grey;
+            }
+        }
+    }
+    return make_picture(std::move(data));
+}
+
 // The final picture, and where they are wanted those before it.
 template <class Picture>
-Expected<PreviewFrame> render_stages(const ShotSource& source, const ShotPlan& plan,
+Expected<PreviewFrame> render_stages(const ShotSource& source, const ShotPlan& given,
                                      const std::vector<RegionScene>& scenes,
                                      const AnalysisStore& store, const Backend& backend, int frame,
-                                     bool stages, Picture&& picture) {
+                                     bool stages, const std::string& layer, Picture&& picture,
+                                     float& seam) {
     PreviewFrame out;
+    ShotPlan plan = given;
+    plan.layers = true;  // they also tell how the seams fare
     WEFT_TRY(lit, render_frame(source, plan, scenes, store, backend, frame));
     out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
+    seam = seam_prominence(lit);
+    if (!layer.empty() && lit.layers) {
+        out.layer_name = layer;
+        out.layer = layer_picture(*lit.layers, layer, *plan.out_from_working, picture);
+    }
+    plan.layers = false;
     if (!stages) return out;
     isolate(lit.pixels, lit.touched);
     out.stages[static_cast<std::size_t>(Stage::kLit)] = picture(lit.pixels);
@@ -51,7 +104,7 @@ Expected<PreviewFrame> render_stages(const ShotSource& source, const ShotPlan& p
 }
 
 std::size_t bytes_of(const PreviewFrame& frame) {
-    std::size_t sum = 0;
+    std::size_t sum = frame.layer ? frame.layer->size_bytes() : 0;
     for (const PicturePtr& p : frame.stages)
         sum += p ? p->size_bytes() : 0;
     return sum;
@@ -138,7 +191,8 @@ bool Preview::Impl::step_frame(const PreviewRequest& now) {
         const auto found = frames.find(now.frame);
         if (found != frames.end()) {
             const PreviewFrame& there = found->second;
-            shown_small = !there.approximate && (!now.stages || there.stages[0]);
+            shown_small = !there.approximate && (!now.stages || there.stages[0]) &&
+                          (now.layer.empty() || there.layer_name == now.layer);
             whole = shown_small && there.proxy == 1;
         }
         may_refine = !now.hurried && Clock::now() >= refine_at;
@@ -218,6 +272,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     changed();
     if (!same_analysis) {
         confidences.clear();
+        healths.clear();
         ++mattes;
     }
     const std::vector<int> range = now.range.empty() ? std::vector<int>{now.frame} : now.range;
@@ -250,16 +305,27 @@ PicturePtr Preview::Impl::picture_of(const Shot& shot, const ImageF3& pixels) co
     return make_picture(pixels, eight_bit, srgb_from_out.get(), linear_from_out.get());
 }
 
-Expected<PreviewFrame> Preview::Impl::pictures_of(int frame, bool stages, int factor) {
+Expected<PreviewFrame> Preview::Impl::pictures_of(int frame, bool stages, int factor,
+                                                  const std::string& layer) {
     const Shot& shot = *opened->shot;
+    float seam = -1;
+    const auto note_seam = [&] {
+        const std::lock_guard lock(mutex);
+        for (const std::size_t k : shot.region_index)
+            healths[shot.project.regions[k]->id][frame].seam = seam;
+    };
     const auto picture = [&](const ImageF3& pixels) { return picture_of(shot, pixels); };
-    if (factor == 1)
-        return render_stages(*shot.source, shot.plan, scenes.scenes(), *opened->store, *backend,
-                             frame, stages, picture);
+    if (factor == 1) {
+        auto whole = render_stages(*shot.source, shot.plan, scenes.scenes(), *opened->store,
+                                   *backend, frame, stages, layer, picture, seam);
+        note_seam();
+        return whole;
+    }
     const ProxyShot small(shot, *opened->store, *proxies, factor);
     const ProxyScenes placed(scenes.scenes(), factor);
     WEFT_TRY(made, render_stages(small.source(), small.plan(), scenes.scenes(), small.store(),
-                                 *backend, frame, stages, picture));
+                                 *backend, frame, stages, layer, picture, seam));
+    note_seam();
     made.proxy = factor;
     return made;
 }
@@ -292,7 +358,8 @@ bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
     }
     if (frame == now.frame) set_state(PreviewView::State::kRendering);
     const auto start = Clock::now();
-    auto made = pictures_of(frame, now.stages && frame == now.frame, factor);
+    auto made = pictures_of(frame, now.stages && frame == now.frame, factor,
+                            frame == now.frame ? now.layer : std::string());
     if (!made) {
         set_state(PreviewView::State::kFailed,
                   "Frame " + std::to_string(frame) + ": " + made.error().text());

@@ -7,6 +7,22 @@
 
 namespace weft {
 
+namespace {
+
+std::string amendments_text(const std::vector<PlaneAmendment>& amendments) {
+    Hasher hasher;
+    for (const PlaneAmendment& amendment : amendments) {
+        hasher.value(static_cast<int>(amendment.kind)).value(amendment.seed);
+        for (const TexelRun& run : amendment.runs) {
+            hasher.value(run.x).value(run.y).value(run.count).value(run.from_x).value(run.from_y);
+            hasher.value(run.sample).value(run.orientation);
+        }
+    }
+    return hasher.finish().hex();
+}
+
+}  // namespace
+
 std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
                                                         const std::string& analysis) {
     std::vector<Keys> keys;
@@ -21,6 +37,7 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         hasher.value(static_cast<int>(plan.seam)).value(plan.overlap_px).value(plan.feather_px);
         hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
         hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
+        hasher.text(amendments_text(plan.amendments));
         hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
         // The light that the scene is relative to comes from the analysis.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
@@ -94,7 +111,10 @@ Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,
     const std::vector<Keys> wanted = keys_of(shot, analysis);
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         if (keys_[k] == wanted[k]) continue;
-        auto scene = make_scene(*shot.source, shot.plan, store, static_cast<int>(k), cancel, {});
+        // The layers want to know where the seams are.
+        ShotPlan plan = shot.plan;
+        plan.layers = true;
+        auto scene = make_scene(*shot.source, plan, store, static_cast<int>(k), cancel, {});
         if (!scene) {
             const Region& region = *shot.project.regions[shot.region_index[k]];
             return fail_in(std::move(scene).error(),

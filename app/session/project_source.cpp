@@ -33,9 +33,17 @@ class ProjectSource final : public ShotSource {
         return read_matte(matte.keyframes.at(frame).path, matte.select, size());
     }
 
+    [[nodiscard]] Expected<Matte> holdout_key(int region, int painted, int frame) const override {
+        for (const MatteSource& holdout : *at(region).holdouts)
+            if (holdout.files.empty() && painted-- == 0)
+                return read_matte(holdout.keyframes.at(frame).path, holdout.select, size());
+        return ShotSource::holdout_key(region, painted, frame);
+    }
+
     [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override {
         std::optional<Matte> all;
         for (const MatteSource& holdout : *at(region).holdouts) {
+            if (holdout.files.empty()) continue;
             WEFT_TRY(one, read(holdout, frame));
             if (!all) {
                 all = std::move(one);

@@ -19,6 +19,7 @@ struct PlaneMap {
     Image<std::uint8_t, 1> which;   ///< Of several samples.
     Matte energy;                   ///< 0: no seam; from 48 on: a seam, the costlier the more.
     std::vector<std::string> samples;
+    Image<std::uint8_t, 1> orientation;  ///< As in SampleAtlas::Page; empty: all upright.
 };
 
 /// Of one region on one frame. Immutable; asking it takes microseconds.

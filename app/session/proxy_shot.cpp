@@ -155,6 +155,10 @@ class ProxyStore final : public AnalysisStore {
                 WEFT_TRY(field, decode_lattice(bytes));
                 return encode(shrunk(field, factor_));
             }
+            case AnalysisKind::kMatte: {
+                WEFT_TRY(stored, decode_matte(bytes));
+                return encode(StoredMatte{shrunk(stored.matte, factor_), stored.confidence});
+            }
             case AnalysisKind::kShading: {
                 WEFT_TRY(shading, decode_shading(bytes));
                 return encode(shrunk(shading, factor_));

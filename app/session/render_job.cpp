@@ -16,6 +16,7 @@
 #include "app/session/layer_files.h"
 #include "app/session/memory_plan.h"
 #include "app/session/output_check.h"
+#include "app/session/planes_ahead.h"
 #include "app/session/recipe.h"
 #include "app/session/stage_cache.h"
 #include "app/session/version_up.h"
@@ -55,6 +56,7 @@ class RenderJob {
                                       cancel_, progress_));
             return std::move(result_);
         }
+        grow_planes_ahead();
         WEFT_CHECK_OK(timed(result_.seconds.analyse, [&]() -> Status {
             if (to_render_.empty() || spec_.stage == JobStage::kEncode) return {};
             return analyse_shot(*shot_->source, plan_, *store_, cancel_, progress_, backend_.get());
@@ -240,6 +242,14 @@ class RenderJob {
         return out;
     }
 
+    // Beside the analysis, whose steps leave other processors idle. Not where memory is short: then
+    // planes and analysis are not held at the same time.
+    void grow_planes_ahead() {
+        const bool wanted = spec_.stage == JobStage::kAll && !to_render_.empty();
+        if (!wanted || thread_count() == 1 || spec_.memory_bytes > 0) return;
+        planes_ahead_.emplace(plan_, shot_->source->size(), cancel_, backend_.get());
+    }
+
     Status make_scenes() {
         if (to_render_.empty() || spec_.stage == JobStage::kAnalyse) return {};
         if (spec_.stage == JobStage::kEncode) {
@@ -258,8 +268,7 @@ class RenderJob {
                 }
             }
             WEFT_CHECK_OK(check_reference(k));
-            auto scene = make_scene(*shot_->source, plan_, *store_, static_cast<int>(k), cancel_,
-                                    {}, backend_.get());
+            auto scene = scene_of(k);
             if (!scene) {
                 const std::size_t at = shot_->region_index[k];
                 return fail_in(std::move(scene).error(), "Region '" +
@@ -270,6 +279,16 @@ class RenderJob {
             scenes_.push_back(std::move(*scene));
         }
         return {};
+    }
+
+    Expected<RegionScene> scene_of(std::size_t region) {
+        std::optional<RegionPlane> plane;
+        if (planes_ahead_) {
+            WEFT_TRY(made, planes_ahead_->take(region));
+            plane = std::move(made);
+        }
+        return make_scene(*shot_->source, plan_, *store_, static_cast<int>(region), cancel_, {},
+                          backend_.get(), std::move(plane));
     }
 
     // Where the reference frame shows nothing of the surface, there is no light to compare with and
@@ -400,6 +419,7 @@ class RenderJob {
     WriteOptions write_;
     std::shared_ptr<AnalysisStore> store_;
     std::vector<RegionScene> scenes_;
+    std::optional<PlanesAhead> planes_ahead_;
     std::vector<std::pair<std::size_t, int>> empty_references_;  // region, frame
     std::shared_ptr<const ColorTransform> display_from_out_;
     std::vector<std::string> layer_names_;
@@ -430,7 +450,14 @@ Expected<BackendChoice> choose_backend(const std::string& name) {
     return registry.choose(name);
 }
 
+void keep_libraries_steady() {
+    // Debian's OpenCV blurs, derives and scales floats with FMA where the processor has AVX2, and
+    // without where it has not.
+    cv::setUseOptimized(false);
+}
+
 void use_threads(int threads) {
+    keep_libraries_steady();
     set_thread_count(threads);
     cv::setNumThreads(thread_count());
 }

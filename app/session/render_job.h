@@ -35,7 +35,12 @@ enum class JobStage {
 /// By its name: all, motion, analyse, planes, frames or encode. Errors: Usage.
 [[nodiscard]] Expected<JobStage> parse_job_stage(const std::string& name);
 
-/// Sets how many threads this process uses, OpenCV's included; 0 is one a processor.
+/// Lets the libraries give the same bits on every x86-64 processor
+/// (docs/decisions/0002-determinism.md). Whoever computes pictures calls it once, before the first.
+void keep_libraries_steady();
+
+/// Sets how many threads this process uses, OpenCV's included; 0 is one a processor. Keeps the
+/// libraries steady too.
 void use_threads(int threads);
 
 /// A snapshot of everything that a render needs.

@@ -99,6 +99,16 @@ Json region_schema() {
          {{"type", "object"},
           {"properties",
            {{"frame", any_of_type("integer")}, {"pins", {{"type", "array"}, {"items", pin}}}}}}}};
+    const Json run{
+        {"type", "array"}, {"items", any_of_type("integer")}, {"minItems", 5}, {"maxItems", 7}};
+    region["properties"]["amendments"] = {{"type", "array"},
+                                          {"items",
+                                           {{"type", "object"},
+                                            {"properties",
+                                             {{"kind", {{"enum", {"keep", "again"}}}},
+                                              {"seed", any_of_type("integer")},
+                                              {"runs", {{"type", "array"}, {"items", run}}}}},
+                                            {"required", {"kind", "runs"}}}}};
     return region;
 }
 
@@ -136,7 +146,8 @@ Json actions_schema() {
         {"remove_matte_keyframe", {{"region", region}, {"frame", number}}},
         {"set_holdouts", {{"region", region}, {"holdouts", list}}},
         {"set_texture", {{"region", region}, {"texture", object}}},
-        {"set_correction", {{"region", region}, {"frame", number}, {"pins", list}}}};
+        {"set_correction", {{"region", region}, {"frame", number}, {"pins", list}}},
+        {"set_amendments", {{"region", region}, {"amendments", list}}}};
     Json kinds = Json::array();
     for (const auto& [name, keys] : kActions) {
         Json properties{{"action", {{"const", name}}}};

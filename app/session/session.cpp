@@ -7,6 +7,7 @@
 #include "app/project/project_file.h"
 #include "app/session/background.h"
 #include "app/session/kept_textures.h"
+#include "app/session/matte_layer.h"
 #include "app/session/session_measuring.h"
 #include "texture_db/library.h"
 
@@ -87,6 +88,7 @@ void Session::act(const Action& action) {
             [&](const Recover& a) { recover(a.accept); },
             [&](const SelectRegion& a) {
                 end_stroke();
+                if (selected_ != a.region) layer_ = 0;
                 selected_ = a.region;
                 ++document_version_;
                 request_due_ = true;
@@ -125,6 +127,13 @@ void Session::act(const Action& action) {
                 mark_out_ = a.out;
                 if (mark_in_ && mark_out_ && *mark_in_ > *mark_out_) std::swap(mark_in_, mark_out_);
                 request_due_ = true;
+            },
+            [&](const SelectMatteLayer& a) {
+                end_stroke();
+                const Region* region = painted_region();
+                layer_ =
+                    region ? std::clamp(a.layer, 0, static_cast<int>(region->holdouts->size()) + 1)
+                           : 0;
             },
             [&](const BeginStroke& a) { begin_stroke(a); },
             [&](const ContinueStroke& a) {
@@ -178,6 +187,15 @@ void Session::act(const Action& action) {
             [&](const ScaleByLine& a) { scale_by_line(a); },
             [&](const PauseAnalysis& a) { a.paused ? preview_.pause() : preview_.resume(); },
             [&](const ApplyTexture& a) { apply_texture(a.path, a.region ? a.region : selected_); },
+            [&](const ApplyTextures& a) { apply_textures(a); },
+            [&](const UseLargerOriginal& a) {
+                use_larger_original(a.region ? a.region : selected_);
+            },
+            [&](const PickCryptomatte& a) { pick_cryptomatte(a); },
+            [&](const ShowLayer& a) {
+                layer_name_ = a.name;
+                request_due_ = true;
+            },
             [&](const ShowOverlay& a) {
                 overlay_ = a.overlay;
                 request_due_ = true;
@@ -228,7 +246,7 @@ void Session::step_keyframe(int direction) {
     const Region* region = region_by_id(document(), selected_);
     if (!region) return;
     std::set<int> stops(region->reference_frames.begin(), region->reference_frames.end());
-    for (const auto& [frame, key] : region->matte->keyframes)
+    for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)
         stops.insert(frame);
     if (direction > 0) {
         if (const auto next = stops.upper_bound(frame_); next != stops.end()) go_to(*next);
@@ -326,6 +344,7 @@ void Session::request_preview() {
     request.frame = frame_;
     request.range = frames;
     request.stages = stages_;
+    request.layer = layer_name_;
     request.overlay = overlay_;
     request.overlay_region = selected_;
     request.cards = strip_wishes_;
@@ -373,7 +392,7 @@ void Session::fetch_texture(const std::string& path, RegionId region) {
     fetching_.emplace();
     fetching_->region = region;
     fetching_->path =
-        in_background([path, folder = folder.string(), library = options_.texture_library,
+        in_background([path, folder = texture_folder(), library = options_.texture_library,
                        excluded = licence_list(
                            document().settings.excluded_licences)]() -> Expected<std::string> {
             WEFT_TRY(texture, resolve_texture(library, path));

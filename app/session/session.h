@@ -91,12 +91,15 @@ class Session {
     [[nodiscard]] std::pair<int, int> played_range() const;  ///< Indices, inclusive.
 
     // ---- mattes (session_mattes.cpp) ----
-    [[nodiscard]] RegionMatteView matte_of(const Region& region, int frame);
+    [[nodiscard]] RegionMatteView matte_of(const Region& region, int layer, int frame);
+    [[nodiscard]] const Region* painted_region() const {
+        return region_by_id(document(), selected_);
+    }
     [[nodiscard]] bool may_paint();
     [[nodiscard]] MattePtr matte_to_paint_on();
     void begin_stroke(const BeginStroke& action);
     void end_stroke();
-    void keep_matte(Matte matte, RegionId region, int frame, const std::string& label,
+    void keep_matte(Matte matte, RegionId region, int layer, int frame, const std::string& label,
                     const Extras& extra = {});
     void change_matte(std::function<Matte(const Matte&)> change, std::string label);
     void take_changed_matte();
@@ -129,6 +132,10 @@ class Session {
     /// The document with what can be shown enabled, at the preview's quality.
     [[nodiscard]] Project project_to_preview(bool& any) const;
     void apply_texture(const std::string& path, RegionId region);
+    void apply_textures(const ApplyTextures& action);
+    void use_larger_original(RegionId region);
+    void pick_cryptomatte(const PickCryptomatte& action);
+    [[nodiscard]] std::string texture_folder() const;
     void fetch_texture(const std::string& path, RegionId region);
     void take_texture();
     void submit(const SubmitJob& action);
@@ -187,10 +194,11 @@ class Session {
     std::optional<int> mark_in_, mark_out_;
 
     RegionId selected_ = 0, solo_ = 0;
+    int layer_ = 0;  // of the selected region, as SelectMatteLayer
     std::set<RegionId> locked_;
     struct Painting {
         RegionId region = 0;
-        int frame = 0;
+        int layer = 0, frame = 0;
         Matte canvas;
         std::optional<Stroke> stroke;
         std::uint64_t version = 0;
@@ -201,12 +209,12 @@ class Session {
         MattePtr matte;
         std::uint64_t version = 0;
     };
-    std::map<RegionId, Shown> shown_mattes_;
+    std::map<std::pair<RegionId, int>, Shown> shown_mattes_;  // by region and layer
     std::map<std::string, std::uint64_t> missed_mattes_;  // name → matte_version() when it failed
     struct Changing {
         std::future<Matte> matte;
         RegionId region = 0;
-        int frame = 0;
+        int layer = 0, frame = 0;
         std::string label;
         Extras extra;  // of the keyframe that it becomes
     };
@@ -226,6 +234,7 @@ class Session {
     int strip_frame_ = 0;
     std::vector<std::function<void()>> strip_choices_;
     bool stages_ = false;
+    std::string layer_name_;
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;
     bool request_due_ = false;

@@ -116,6 +116,9 @@ void Session::submit(const SubmitJob& action) {
     request.project.output.path = fs::absolute(action.output).string();
     request.project.output.movie =
         action.movie.empty() ? std::string() : fs::absolute(action.movie).string();
+    request.project.output.layers = action.layers;
+    request.project.output.layers_path =
+        action.layers_path.empty() ? std::string() : fs::absolute(action.layers_path).string();
     request.frames = *frames;
     request.overwrite = action.overwrite;
     request.skip_existing = action.skip_existing;
@@ -186,7 +189,7 @@ void Session::measure(const std::string& pattern) {
              ->matte;
     const Size size = reader_->size();
     in.matte = [this, source, size, id = region->id](int frame) -> Expected<Matte> {
-        if (source.files.empty()) return preview_.propagated_matte(id, frame);
+        if (source.files.empty()) return preview_.propagated_matte(id, 0, frame);
         WEFT_TRY(files, SequencePattern::parse(source.files));
         return read_matte(files.path_for(frame), source.select, size);
     };

@@ -3,6 +3,7 @@
 
 #include "app/project/project_file.h"
 #include "app/session/background.h"
+#include "app/session/matte_layer.h"
 #include "app/session/output_check.h"
 #include "app/session/session.h"
 #include "engine/media/frame_writer.h"
@@ -25,12 +26,11 @@ void Session::write_mattes(const std::string& pattern_text,
     const auto [first, last] = played_range();
     const std::vector<int> frames(reader_->frames().begin() + first,
                                   reader_->frames().begin() + last + 1);
-    const MatteSource source =
-        *resolve_paths(document(), project_dir(path_))
-             .regions[find_region(document(), std::to_string(selected_)).value_or(0)]
-             ->matte;
+    const Project absolute = resolve_paths(document(), project_dir(path_));
+    const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
     chores_.push_back(in_background([this, pattern_text, frames, source, size = reader_->size(),
-                                     id = region->id, then = std::move(then)]() -> Finish {
+                                     id = region->id, layer = layer_,
+                                     then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
             WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
@@ -44,7 +44,7 @@ void Session::write_mattes(const std::string& pattern_text,
                            key != source.keyframes.end()) {
                     matte = read_matte(key->second.path, source.select, size);
                 } else {
-                    matte = preview_.propagated_matte(id, frame);
+                    matte = preview_.propagated_matte(id, layer, frame);
                 }
                 if (!matte) return tl::unexpected<Error>(matte.error());
                 WEFT_CHECK_OK(write_matte(pattern.path_for(frame), *matte));
@@ -78,6 +78,10 @@ void Session::freeze_mattes(bool frozen) {
         matte.frozen.clear();
         matte.frozen_files.clear();
         edit(SetMatte{ref, matte}, true);
+        return;
+    }
+    if (layer_ != 0) {
+        notify(NoticeKind::kWarning, "A holdout is not frozen. Choose the region's own matte.");
         return;
     }
     if (region->matte->keyframes.empty()) {

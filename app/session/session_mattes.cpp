@@ -6,6 +6,7 @@
 
 #include "app/project/project_file.h"
 #include "app/session/background.h"
+#include "app/session/matte_layer.h"
 #include "app/session/session.h"
 #include "engine/core/hash.h"
 #include "engine/media/image_files.h"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::string select_text(const MatteSelect& select) {
     return (select.value ? std::to_string(*select.value) : std::string()) + "/" + select.channel +
-           (select.invert ? "/inverted" : "");
+           (select.invert ? "/inverted" : "") + "/" + select.crypto;
 }
 
 // Stands for everything that a propagated matte depends on in the document.
@@ -26,30 +27,40 @@ std::string keys_text(const MatteSource& matte) {
     Hasher hasher;
     for (const auto& [frame, key] : matte.keyframes)
         hasher.value(frame).text(key.path);
+    hasher.value(matte.steadiness)
+        .value(static_cast<int>(matte.carry))
+        .value(matte.carry_from.value_or(-1))
+        .value(matte.carry_to.value_or(-1));
     return hasher.finish().hex();
 }
 
 }  // namespace
 
-RegionMatteView Session::matte_of(const Region& region, int frame) {
+RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
     RegionMatteView out;
     out.region = region.id;
-    if (painting_ && painting_->region == region.id && painting_->frame == frame) {
+    out.layer = layer;
+    if (painting_ && painting_->region == region.id && painting_->layer == layer &&
+        painting_->frame == frame) {
         out.kind = RegionMatteView::Kind::kPainted;
         out.pixels = painting_->canvas.view();
         out.version = painting_->version;
         out.changed = painting_->changed;
         return out;
     }
-    const MatteSource& source = *region.matte;
+    const MatteSource& source = layer_source(region, layer);
     if (source.empty() || !reader_) return out;
     const std::string dir = project_dir(path_);
     const Size size = reader_->size();
     std::string name;
     MatteShelf::Reader read;
-    if (!source.files.empty()) {
+    // A Cryptomatte without files of its own is in the plate's.
+    const std::string files = !source.files.empty()           ? source.files
+                              : !source.select.crypto.empty() ? document().plate.path
+                                                              : std::string();
+    if (!files.empty()) {
         out.kind = RegionMatteView::Kind::kFile;
-        const auto pattern = SequencePattern::parse(resolve_path(dir, source.files));
+        const auto pattern = SequencePattern::parse(resolve_path(dir, files));
         if (!pattern) {
             out.kind = RegionMatteView::Kind::kFailed;
             out.error = pattern.error().text();
@@ -65,9 +76,11 @@ RegionMatteView Session::matte_of(const Region& region, int frame) {
         read = [path, select = source.select, size] { return read_matte(path, select, size); };
     } else {
         out.kind = RegionMatteView::Kind::kPropagated;
-        name = "propagated " + std::to_string(region.id) + " " + std::to_string(frame) + " " +
-               keys_text(source);
-        read = [this, id = region.id, frame] { return preview_.propagated_matte(id, frame); };
+        name = "propagated " + std::to_string(region.id) + " " + std::to_string(layer) + " " +
+               std::to_string(frame) + " " + keys_text(source);
+        read = [this, id = region.id, layer, frame] {
+            return preview_.propagated_matte(id, layer, frame);
+        };
         // It may have come since it was last asked for.
         if (!shelf_.error(name).empty()) {
             const std::uint64_t now = preview_.matte_version();
@@ -84,7 +97,7 @@ RegionMatteView Session::matte_of(const Region& region, int frame) {
                                                    : RegionMatteView::Kind::kFailed;
         return out;
     }
-    Shown& shown = shown_mattes_[region.id];
+    Shown& shown = shown_mattes_[{region.id, layer}];
     if (shown.matte != out.keep) shown = {out.keep, next_picture_id()};
     out.version = shown.version;
     out.pixels = out.keep->view();
@@ -97,8 +110,9 @@ bool Session::may_paint() {
         notify(NoticeKind::kWarning, "Add a region first; then paint its matte.");
     } else if (locked_.contains(selected_)) {
         notify(NoticeKind::kWarning, "'" + region->name + "' is locked. Unlock it to paint.");
-    } else if (!region->matte->files.empty()) {
-        notify(NoticeKind::kWarning, "The matte of '" + region->name +
+    } else if (!layer_source(*region, layer_).files.empty() ||
+               !layer_source(*region, layer_).select.crypto.empty()) {
+        notify(NoticeKind::kWarning, "The matte of '" + layer_name(*region, layer_) +
                                          "' comes from files. Choose 'Paint instead' to make it "
                                          "your own.");
     } else if (!reader_) {
@@ -113,10 +127,10 @@ bool Session::may_paint() {
 
 MattePtr Session::matte_to_paint_on() {
     const Region* region = region_by_id(document(), selected_);
-    const RegionMatteView shown = matte_of(*region, frame_);
+    const RegionMatteView shown = matte_of(*region, layer_, frame_);
     if (shown.keep) return shown.keep;
     if (shown.kind == RegionMatteView::Kind::kLoading &&
-        region->matte->keyframes.contains(frame_)) {
+        layer_source(*region, layer_).keyframes.contains(frame_)) {
         notify(NoticeKind::kWarning, "This keyframe is still being read. Try again in a moment.");
         return nullptr;
     }
@@ -131,6 +145,7 @@ void Session::begin_stroke(const BeginStroke& action) {
     playing_ = 0;
     painting_.emplace();
     painting_->region = selected_;
+    painting_->layer = layer_;
     painting_->frame = frame_;
     painting_->canvas = *before;
     painting_->stroke.emplace(before, action.brush);
@@ -146,8 +161,9 @@ void Session::end_stroke() {
     if (!done.stroke || done.stroke->touched().empty()) return;
     const Region* region = region_by_id(document(), done.region);
     if (!region) return;
-    keep_matte(std::move(done.canvas), done.region, done.frame,
-               "Paint " + region->name + " on frame " + std::to_string(done.frame));
+    keep_matte(
+        std::move(done.canvas), done.region, done.layer, done.frame,
+        "Paint " + layer_name(*region, done.layer) + " on frame " + std::to_string(done.frame));
 }
 
 std::string Session::new_matte_path(RegionId region, int frame) {
@@ -168,16 +184,16 @@ std::string Session::beside_project(const std::string& path) const {
     return path_.empty() ? path : fs::path(path).lexically_relative(project_dir(path_)).string();
 }
 
-void Session::keep_matte(Matte matte, RegionId region, int frame, const std::string& label,
-                         const Extras& extra) {
+void Session::keep_matte(Matte matte, RegionId region, int layer, int frame,
+                         const std::string& label, const Extras& extra) {
     const Region* target = region_by_id(document(), region);
     if (!target) return;
     const std::string path = new_matte_path(region, frame);
     shelf_.write(path, std::make_shared<const Matte>(std::move(matte)));
     // What an older keyframe here was made of does not describe the new one.
-    MatteSource source = *target->matte;
+    MatteSource source = layer_source(*target, layer);
     source.keyframes[frame] = {beside_project(path), extra};
-    auto changed = apply_edit(history_.current(), SetMatte{{region, {}}, source});
+    auto changed = apply_edit(history_.current(), set_layer(*target, layer, source));
     if (!changed) {
         notify(NoticeKind::kError, changed.error().text());
         return;
@@ -192,6 +208,7 @@ void Session::change_matte(std::function<Matte(const Matte&)> change, std::strin
     if (!before) return;
     changing_.emplace();
     changing_->region = selected_;
+    changing_->layer = layer_;
     changing_->frame = frame_;
     changing_->label = std::move(label);
     changing_->matte = in_background(
@@ -206,14 +223,17 @@ void Session::take_changed_matte() {
     changing_.reset();
     const Region* region = region_by_id(document(), done.region);
     if (!region) return;
-    keep_matte(done.matte.get(), done.region, done.frame,
+    keep_matte(done.matte.get(), done.region, done.layer, done.frame,
                done.label + " on frame " + std::to_string(done.frame), done.extra);
 }
 
 void Session::paint_instead() {
     const Region* region = region_by_id(document(), selected_);
-    if (!region || region->matte->files.empty() || !reader_) return;
-    const RegionMatteView shown = matte_of(*region, frame_);
+    if (!region || !reader_ ||
+        (layer_source(*region, layer_).files.empty() &&
+         layer_source(*region, layer_).select.crypto.empty()))
+        return;
+    const RegionMatteView shown = matte_of(*region, layer_, frame_);
     if (!shown.keep) {
         notify(NoticeKind::kWarning, "The matte of this frame is still being read.");
         return;
@@ -222,20 +242,23 @@ void Session::paint_instead() {
     shelf_.write(path, shown.keep);
     MatteSource painted;
     painted.keyframes[frame_] = {beside_project(path), {}};
-    edit(SetMatte{{region->id, {}}, painted}, true);
-    notify(NoticeKind::kInfo, "The matte of '" + region->name + "' is painted now: frame " +
+    const std::string name = layer_name(*region, layer_);
+    edit(set_layer(*region, layer_, painted), true);
+    notify(NoticeKind::kInfo, "The matte of '" + name + "' is painted now: frame " +
                                   std::to_string(frame_) +
                                   " is its keyframe, the other frames follow from it.");
 }
 
 void Session::copy_keyframe(int from, int to) {
     const Region* region = region_by_id(document(), selected_);
-    if (!region || !region->matte->keyframes.contains(from)) {
+    if (!region || !layer_source(*region, layer_).keyframes.contains(from)) {
         notify(NoticeKind::kWarning, "There is no painted keyframe to copy.");
         return;
     }
     // Files are never changed once written, so both may name the same one.
-    edit(SetMatteKeyframe{{region->id, {}}, to, region->matte->keyframes.at(from).path}, true);
+    MatteSource source = layer_source(*region, layer_);
+    source.keyframes[to] = {source.keyframes.at(from).path, {}};
+    edit(set_layer(*region, layer_, source), true);
 }
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 
 #include "app/project/project_file.h"
 #include "app/session/background.h"
+#include "app/session/matte_layer.h"
 #include "app/session/session.h"
 #include "engine/media/frame_writer.h"
 
@@ -55,6 +56,7 @@ void Session::set_shape(const RotoShape& shape) {
     if (!open_ || !may_paint()) return;
     changing_.emplace();
     changing_->region = selected_;
+    changing_->layer = layer_;
     changing_->frame = frame_;
     changing_->label = "Shape";
     changing_->extra[kShapeKey] = shape_text(shape);
@@ -67,7 +69,7 @@ void Session::fill_between_shapes() {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !reader_ || !may_paint()) return;
     std::map<int, RotoShape> keys;
-    for (const auto& [frame, key] : region->matte->keyframes)
+    for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)
         if (auto shape = shape_of(key); shape && !is_between(key)) keys[frame] = std::move(*shape);
     struct Made {
         int frame = 0;
@@ -97,7 +99,7 @@ void Session::fill_between_shapes() {
         return;
     }
     chores_.push_back(in_background([this, list = std::move(list), size = reader_->size(),
-                                     id = region->id]() -> Finish {
+                                     id = region->id, layer = layer_]() -> Finish {
         Status written;
         for (const Made& one : list) {
             std::error_code error;
@@ -105,19 +107,19 @@ void Session::fill_between_shapes() {
                                                 error);
             if (written) written = write_matte(one.path, matte_of_shape(one.shape, size));
         }
-        return [this, list, id, written] {
+        return [this, list, id, layer, written] {
             if (!written) return notify(NoticeKind::kError, written.error().text());
             const Region* now = region_by_id(document(), id);
             if (!now) return;
-            MatteSource matte = *now->matte;
+            MatteSource matte = layer_source(*now, layer);
             std::erase_if(matte.keyframes, [](const auto& key) { return is_between(key.second); });
             for (const Made& one : list)
                 matte.keyframes[one.frame] = {
                     beside_project(one.path),
                     {{kShapeKey, shape_text(one.shape)}, {kBetweenKey, "true"}}};
-            auto changed = apply_edit(history_.current(), SetMatte{{id, {}}, matte});
+            auto changed = apply_edit(history_.current(), set_layer(*now, layer, matte));
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
-            commit(std::move(*changed), "Fill between the shapes of " + now->name);
+            commit(std::move(*changed), "Fill between the shapes of " + layer_name(*now, layer));
         };
     }));
 }
@@ -127,15 +129,16 @@ void Session::show_shape() {
     view_.shape_frames.clear();
     const Region* region = region_by_id(document(), selected_);
     if (!region) return;
-    for (const auto& [frame, key] : region->matte->keyframes) {
+    const MatteSource& source = layer_source(*region, layer_);
+    for (const auto& [frame, key] : source.keyframes) {
         if (!key.extra.contains(kShapeKey)) continue;
         if (!is_between(key)) view_.shape_frames.push_back(frame);
         if (frame == frame_) view_.shape = shape_of(key);
     }
     // A shape of the frame before is where one begins on this one.
-    if (view_.shape || region->matte->keyframes.contains(frame_)) return;
+    if (view_.shape || source.keyframes.contains(frame_)) return;
     for (const int frame : view_.shape_frames)
-        if (frame < frame_) view_.shape = shape_of(region->matte->keyframes.at(frame));
+        if (frame < frame_) view_.shape = shape_of(source.keyframes.at(frame));
 }
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/project/project_file.h"
+#include "app/session/matte_layer.h"
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
 #include "engine/media/frame_reader.h"
@@ -102,13 +103,23 @@ void Session::show_mattes() {
     view_.mattes.clear();
     view_.painting = painting_.has_value();
     view_.matte_busy = changing_.has_value();
-    if (!open_) return;
+    view_.matte_layer = 0;
+    if (!open_) return view_.holdouts.clear();
     for (const Leaf<Region>& region : document().regions)
-        view_.mattes.push_back(matte_of(*region, frame_));
+        view_.mattes.push_back(matte_of(*region, 0, frame_));
+    view_.holdouts.clear();
+    const Region* region = painted_region();
+    // An undo may have taken the layer away.
+    const int most = region ? static_cast<int>(region->holdouts->size()) : 0;
+    if (layer_ > most + 1) layer_ = most;
+    view_.matte_layer = layer_;
+    for (int layer = 1; layer <= std::max(most, layer_); ++layer)
+        view_.holdouts.push_back(matte_of(*region, layer, frame_));
 }
 
 void Session::show_result() {
-    if (!preview_.try_read(frame_, selected_, preview_reading_) && view_.frame != read_frame_)
+    if (!preview_.try_read(frame_, selected_, layer_, preview_reading_) &&
+        view_.frame != read_frame_)
         preview_reading_.frame = {};
     read_frame_ = view_.frame;
     view_.preview = preview_reading_.view;
@@ -116,6 +127,7 @@ void Session::show_result() {
     view_.preview_quality = preview_quality_;
     view_.overlay = overlay_;
     view_.stages_shown = stages_;
+    view_.layer = layer_name_;
     view_.stages = preview_reading_.frame;
     const PicturePtr& final = view_.stages.stages[static_cast<std::size_t>(Stage::kFinal)];
     view_.result_current = final != nullptr;
@@ -138,9 +150,11 @@ void Session::show_result() {
 void Session::show_marks() {
     const auto& frames = view_.plate.frames;
     view_.marks.assign(reader_ ? frames.size() : 0, {});
+    view_.to_correct.clear();
     if (!reader_) return;
     const Region* region = region_by_id(document(), selected_);
     const std::map<int, float>& confidence = preview_reading_.confidence;
+    const std::map<int, FrameHealth>& health = preview_reading_.health;
     for (const int frame : preview_reading_.there)
         if (const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
             at != frames.end())
@@ -152,12 +166,26 @@ void Session::show_marks() {
             mark.failed = plate_reading_.states[k] == PlatePlayer::State::kFailed;
         }
         if (!region) continue;
-        mark.matte_key = region->matte->keyframes.contains(frames[k]);
+        mark.matte_key = layer_source(*region, layer_).keyframes.contains(frames[k]);
         mark.reference = std::find(region->reference_frames.begin(), region->reference_frames.end(),
                                    frames[k]) != region->reference_frames.end();
         if (const auto found = confidence.find(frames[k]); found != confidence.end())
             mark.confidence = found->second;
+        if (const auto found = health.find(frames[k]); found != health.end()) {
+            mark.drift = found->second.drift;
+            mark.stretch = found->second.stretch;
+            mark.seam = found->second.seam;
+        }
     }
+    if (!region) return;
+    std::vector<int> painted, anchored = region->reference_frames;
+    for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)
+        painted.push_back(frame);
+    for (const auto& [frame, pins] : region->corrections)
+        anchored.push_back(frame);
+    if (anchored.empty()) anchored.push_back(painted.empty() ? frames.front() : painted.front());
+    std::sort(anchored.begin(), anchored.end());
+    view_.to_correct = where_to_correct(frames, view_.marks, painted, anchored);
 }
 
 }  // namespace weft

@@ -16,6 +16,7 @@
 #include "app/session/picture.h"
 #include "app/session/preview.h"
 #include "app/session/roto_shape.h"
+#include "app/session/where_to_correct.h"
 
 namespace weft {
 
@@ -45,11 +46,16 @@ struct FrameMarks {
     bool plate = false, result = false, failed = false;
     bool matte_key = false, reference = false;  ///< Of the selected region.
     float confidence = -1;                      ///< Of its matte; below 0: not known.
+    // Below 0: not known.
+    float drift = -1;    ///< How far the surface looks different from the reference, 0–1.
+    float stretch = -1;  ///< How far the texture is drawn out or squeezed: 1 not at all.
+    float seam = -1;     ///< How much the seams stand out, 0–1.
 };
 
 /// A region's matte on the current frame.
 struct RegionMatteView {
     RegionId region = 0;
+    int layer = 0;  ///< As SelectMatteLayer::layer.
     enum class Kind : std::uint8_t { kNone, kLoading, kPainted, kPropagated, kFile, kFailed };
     Kind kind = Kind::kNone;
     ViewU8x1 pixels;            ///< Valid until the next update().
@@ -99,9 +105,13 @@ struct SessionView {
     std::optional<int> mark_in, mark_out;
     std::vector<FrameMarks> marks;  ///< By index into plate.frames.
 
+    std::vector<CorrectionHint> to_correct;  ///< Of the selected region, ascending frames.
+
     RegionId selected = 0, solo = 0;
     std::vector<RegionId> locked;
-    std::vector<RegionMatteView> mattes;  ///< Of all regions, bottom up.
+    std::vector<RegionMatteView> mattes;    ///< Of all regions, bottom up.
+    std::vector<RegionMatteView> holdouts;  ///< Of the selected region.
+    int matte_layer = 0;                    ///< As SelectMatteLayer::layer.
     bool painting = false, matte_busy = false;
     std::optional<RotoShape> shape;  ///< Of the selected region here, or the last one before.
     std::vector<int> shape_frames;   ///< Frames on which it was drawn.
@@ -115,6 +125,7 @@ struct SessionView {
     PreviewView preview;
     bool analysis_paused = false;
     Quality preview_quality = Quality::kDraft;
+    std::string layer;  ///< As ShowLayer::name.
     Overlay overlay = Overlay::kNone;
     std::shared_ptr<const OverlayPicture> overlay_picture;
     bool stages_shown = false;
@@ -133,6 +144,14 @@ struct SessionView {
     std::string backend = "CPU";
 
     [[nodiscard]] const Region* selected_region() const { return region_by_id(project, selected); }
+    /// What is being painted: a matte or a holdout; empty for a holdout that is to be begun.
+    [[nodiscard]] MatteSource painted_source() const {
+        const Region* region = selected_region();
+        if (!region) return {};
+        if (matte_layer == 0) return *region->matte;
+        const auto at = static_cast<std::size_t>(matte_layer) - 1;
+        return at < region->holdouts->size() ? (*region->holdouts)[at] : MatteSource{};
+    }
     [[nodiscard]] bool is_locked(RegionId id) const {
         return std::find(locked.begin(), locked.end(), id) != locked.end();
     }

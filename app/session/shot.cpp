@@ -154,6 +154,35 @@ class ShotOpener {
         return {};
     }
 
+    static MatteReach reach_of(const MatteSource& matte) {
+        MatteReach reach;
+        reach.direction = matte.carry;
+        if (matte.carry_from) reach.first = *matte.carry_from;
+        if (matte.carry_to) reach.last = *matte.carry_to;
+        return reach;
+    }
+
+    // Painted ones in their order among the painted, which names them in the analysis.
+    static Status add_holdouts(const Region& region, RegionPlan& plan) {
+        for (const MatteSource& holdout : *region.holdouts) {
+            if (!holdout.files.empty()) {
+                plan.has_holdout = true;
+                continue;
+            }
+            if (holdout.keyframes.empty())
+                return fail(ErrorCode::kUsage,
+                            "A holdout has no matte. Give files or painted keyframes (--holdout), "
+                            "or remove it.");
+            PaintedHoldout painted;
+            for (const auto& [frame, key] : holdout.keyframes)
+                painted.keys.push_back(frame);
+            painted.steadiness = static_cast<float>(holdout.steadiness);
+            painted.reach = reach_of(holdout);
+            plan.painted_holdouts.push_back(std::move(painted));
+        }
+        return {};
+    }
+
     Status add_region(const Region& region) {
         RegionPlan plan;
         plan.random_key = region.id;
@@ -164,14 +193,8 @@ class ShotOpener {
         for (const auto& [frame, key] : region.matte->keyframes)
             plan.matte_keys.push_back(frame);
         plan.matte_steadiness = static_cast<float>(region.matte->steadiness);
-        plan.has_holdout = !region.holdouts->empty();
-        for (const MatteSource& holdout : *region.holdouts) {
-            if (holdout.files.empty()) {
-                return fail(ErrorCode::kUsage,
-                            "A holdout needs a file for every frame: propagate its painted frames "
-                            "with 'weft matte' and give the result.");
-            }
-        }
+        plan.matte_reach = reach_of(*region.matte);
+        WEFT_CHECK_OK(add_holdouts(region, plan));
         plan.reference_frames = region.reference_frames;
         if (plan.reference_frames.empty()) {
             WEFT_TRY(first, default_reference(region, plan));
@@ -204,6 +227,7 @@ class ShotOpener {
         plan.refine_passes = region.synthesis.refine;
         plan.orientations = {region.synthesis.rotations, region.synthesis.mirror};
         plan.align = region.synthesis.align;
+        plan.amendments = *region.amendments;
         plan.temporal = region.temporal.mode;
         plan.blend = static_cast<float>(region.temporal.blend);
         plan.weight = static_cast<float>(region.temporal.weight);

@@ -14,14 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string readable(std::string name) {
-    std::replace(name.begin(), name.end(), '_', ' ');
-    std::replace(name.begin(), name.end(), '-', ' ');
-    if (!name.empty())
-        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-    return name;
-}
-
 // The statistics that suggestions go by, over the pixels where `inside` says so.
 template <class Inside>
 void statistics(ViewU8x3 picture, Inside&& inside, float mean[3], float& contrast, float& grain) {
@@ -54,21 +46,24 @@ void statistics(ViewU8x3 picture, Inside&& inside, float mean[3], float& contras
     grain = step_count ? static_cast<float>(steps / static_cast<double>(step_count)) : 0;
 }
 
-std::vector<TextureCount> counts_of(const std::vector<FacetCount>& facets) {
-    std::vector<TextureCount> out;
-    for (const FacetCount& facet : facets)
-        out.push_back({facet.value, facet.count});
-    return out;
-}
-
 }  // namespace
 
 std::string library_name_of(const std::string& path) {
     if (path.starts_with("db:")) return path;
     const std::string stem = fs::path(path).stem().string();
+    // "db_ID", or "db_ID_larger" of its original.
     constexpr std::size_t kIdDigits = 32;
-    return stem.starts_with("db_") && stem.size() == kIdDigits + 3 ? "db:" + stem.substr(3)
-                                                                   : std::string();
+    const bool named = stem.starts_with("db_") && stem.size() >= kIdDigits + 3 &&
+                       (stem.size() == kIdDigits + 3 || stem[kIdDigits + 3] == '_');
+    return named ? "db:" + stem.substr(3, kIdDigits) : std::string();
+}
+
+std::string shown_name(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    std::replace(name.begin(), name.end(), '-', ' ');
+    if (!name.empty())
+        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    return name;
 }
 
 TextureShelf::TextureShelf(std::size_t budget_bytes)
@@ -120,16 +115,12 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
     return nullptr;
 }
 
-void TextureShelf::suggest_for(const std::string& key, PicturePtr plate,
-                               std::shared_ptr<const Matte> matte,
-                               const std::string& excluded_licences) {
+void TextureShelf::suggest_for(const std::string& key, SurfaceToSuit surface) {
     {
         const std::lock_guard lock(mutex_);
         if (key == ranked_key_ || key == rank_due_) return;
         rank_due_ = key;
-        rank_plate_ = std::move(plate);
-        rank_matte_ = std::move(matte);
-        rank_excluded_ = excluded_licences;
+        rank_surface_ = std::move(surface);
     }
     wake_.notify_all();
 }
@@ -158,10 +149,10 @@ void TextureShelf::scan(const std::vector<std::string>& folders) {
             if (!it->is_regular_file(error) || !has_picture_extension(path)) continue;
             TextureCard card;
             card.path = path;
-            card.name = readable(it->path().stem().string());
+            card.name = shown_name(it->path().stem().string());
             const fs::path parent = it->path().parent_path();
             card.material =
-                parent == fs::path(folder) ? "Unsorted" : readable(parent.filename().string());
+                parent == fs::path(folder) ? "Unsorted" : shown_name(parent.filename().string());
             card.source = folder;
             cards->push_back(std::move(card));
         }
@@ -179,202 +170,6 @@ void TextureShelf::publish() {
     std::shared_ptr<const std::vector<TextureCard>> old;  // freed after the lock is
     const std::lock_guard lock(mutex_);
     old = std::exchange(cards_, std::move(cards));
-    ++arrivals_;
-}
-
-// ---- the library -----------------------------------------------------------------------------
-
-void TextureShelf::open_library(const std::string& path) {
-    const std::lock_guard lock(mutex_);
-    if (threads_.size() > 1) return;
-    threads_.emplace_back([this, path] { fill_library(path); });
-}
-
-std::string TextureShelf::activity() const {
-    const std::lock_guard lock(mutex_);
-    return activity_;
-}
-
-void TextureShelf::fill_library(const std::string& path) {
-    lower_thread_priority();
-    auto opened = TextureLibrary::open(path);
-    const auto say = [&](std::string text) {
-        const std::lock_guard lock(mutex_);
-        activity_ = std::move(text);
-        ++arrivals_;
-    };
-    if (!opened) return say(opened.error().text());
-    {
-        const std::lock_guard lock(mutex_);
-        library_ = *opened;
-        library_due_ = true;
-    }
-    wake_.notify_all();
-    const auto progress = [&](const ProgressEvent& event) {
-        const std::lock_guard lock(mutex_);
-        activity_ = "Making the starter textures, " + std::to_string(event.done) + " of " +
-                    std::to_string(event.total);
-        library_due_ |= event.done % 200 == 0;
-        ++arrivals_;
-        wake_.notify_all();
-    };
-    const Status filled = add_starter_textures(**opened, cancel_, progress);
-    say(filled || cancel_.cancelled() ? std::string() : filled.error().text());
-    const std::lock_guard lock(mutex_);
-    library_due_ = true;
-    wake_.notify_all();
-}
-
-void TextureShelf::take_library() {
-    SearchQuery all;
-    all.sort = TextureSort::kMaterial;
-    all.limit = 100'000;
-    const auto found = library_->search(all);
-    if (!found) return;
-    library_cards_.clear();
-    for (const SearchHit& hit : found->hits) {
-        TextureCard card;
-        card.path = "db:" + hit.id;
-        card.name = readable(hit.name);
-        card.material = readable(hit.material);
-        library_cards_.push_back(std::move(card));
-    }
-    auto counts = std::make_shared<TextureAnswer>();
-    counts->origins = counts_of(found->origins);
-    counts->licences = counts_of(found->licences);
-    {
-        const std::lock_guard lock(mutex_);
-        everything_ = std::move(counts);
-        searched_.reset();
-    }
-    publish();
-}
-
-TextureCard TextureShelf::details(const TextureCard& card) {
-    if (!card.path.starts_with("db:")) return card;
-    const std::lock_guard lock(mutex_);
-    if (const auto found = details_.find(card.path); found != details_.end()) return found->second;
-    details_due_ = card.path;
-    wake_.notify_all();
-    return card;
-}
-
-std::string TextureShelf::name_of_texture(const std::string& path) {
-    TextureCard card;
-    card.path = library_name_of(path);
-    if (!card.path.empty()) card = details(card);
-    return card.name.empty() ? fs::path(path).filename().string() : card.name;
-}
-
-void TextureShelf::look_up(const std::string& path) {
-    const auto info = library_->info(path.substr(3));
-    if (!info) return;
-    TextureCard card;
-    card.path = path;
-    card.name = readable(info->name);
-    card.material = readable(info->material);
-    card.tags = info->tags;
-    card.author = info->author;
-    card.licence = info->licence;
-    card.source = info->package.empty() ? info->source : info->package;
-    card.size = info->original_size;
-    const std::lock_guard lock(mutex_);
-    details_[path] = std::move(card);
-    ++arrivals_;
-}
-
-std::shared_ptr<const TextureAnswer> TextureShelf::search(const TextureQuestion& question) {
-    const std::lock_guard lock(mutex_);
-    if (!library_ || question.empty()) return nullptr;
-    if (searched_ == question) return search_result_;
-    search_due_ = question;
-    wake_.notify_all();
-    return nullptr;
-}
-
-std::shared_ptr<const TextureAnswer> TextureShelf::everything() const {
-    const std::lock_guard lock(mutex_);
-    return everything_;
-}
-
-void TextureShelf::search_library(const TextureQuestion& question) {
-    SearchQuery query;
-    query.text = question.words;
-    for (const TextureOrigin origin :
-         {TextureOrigin::kProcedural, TextureOrigin::kPackage, TextureOrigin::kFile})
-        if (question.origin == name_of(origin)) query.origins.push_back(origin);
-    if (!question.licence.empty()) query.licences.push_back(question.licence);
-    query.limit = question.words.empty() ? 100'000 : 2000;
-    if (question.words.empty()) query.sort = TextureSort::kMaterial;
-    const auto found = library_->search(query);
-    auto answer = std::make_shared<TextureAnswer>();
-    if (found) {
-        for (const SearchHit& hit : found->hits)
-            answer->paths.push_back("db:" + hit.id);
-        answer->origins = counts_of(found->origins);
-        answer->licences = counts_of(found->licences);
-    }
-    const std::lock_guard lock(mutex_);
-    searched_ = question;
-    search_result_ = std::move(answer);
-    ++arrivals_;
-}
-
-void TextureShelf::find_similar(const std::string& key, PicturePtr picture, Recti part) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (key == similar_key_) return;
-        similar_due_ = key;
-        similar_picture_ = std::move(picture);
-        similar_part_ = part;
-    }
-    wake_.notify_all();
-}
-
-std::shared_ptr<const std::vector<std::string>> TextureShelf::similar(
-    const std::string& key) const {
-    const std::lock_guard lock(mutex_);
-    return key == similar_key_ ? similar_result_ : nullptr;
-}
-
-void TextureShelf::look_for_similar(const std::string& key, const Picture& picture,
-                                    const Recti& part) {
-    auto paths = std::make_shared<std::vector<std::string>>();
-    std::shared_ptr<TextureLibrary> library;
-    {
-        const std::lock_guard lock(mutex_);
-        library = library_;
-    }
-    if (library) {
-        const ImageU8x3 whole = shrink(picture, 1 << 20);
-        constexpr int kCount = 120;
-        if (const auto found = library->similar(whole.view().crop(part), kCount))
-            for (const SearchHit& hit : *found)
-                paths->push_back("db:" + hit.id);
-    }
-    const std::lock_guard lock(mutex_);
-    similar_key_ = key;
-    similar_result_ = std::move(paths);
-    ++arrivals_;
-}
-
-void TextureShelf::recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
-                             const std::string& excluded_licences) {
-    RecommendRequest request;
-    request.excluded_licences = licence_list(excluded_licences);
-    request.plate = plate;
-    request.regions.push_back({"region", matte.view(), {}, {}});
-    const auto found = library_->recommend(request);
-    std::vector<TextureSuggestion> out;
-    if (found && !found->regions.empty()) {
-        for (const auto& one : found->regions[0].suggestions)
-            out.push_back({"db:" + one.id,
-                           one.reasons.empty() ? std::string() : readable(one.reasons[0]),
-                           one.score});
-    }
-    const std::lock_guard lock(mutex_);
-    ranked_key_ = key;
-    ranked_ = std::move(out);
     ++arrivals_;
 }
 
@@ -441,11 +236,11 @@ const TextureShelf::Look* TextureShelf::look_of(const std::string& path) {
     return &(looks_[path] = look);
 }
 
-void TextureShelf::rank(const std::string& key, const Picture& plate, const Matte& matte,
-                        const std::string& excluded_licences) {
-    const ImageU8x3 whole = shrink(plate, 1 << 20);
+void TextureShelf::rank(const std::string& key, const SurfaceToSuit& asked) {
+    const ImageU8x3 whole = shrink(*asked.plate, 1 << 20);
+    const Matte& matte = *asked.matte;
     if (!library_cards_.empty() && whole.size() == matte.size())
-        return recommend(key, whole, matte, excluded_licences);
+        return recommend(key, whole, asked);
     Look surface;
     if (whole.size() == matte.size()) {
         statistics(
@@ -491,7 +286,7 @@ void TextureShelf::work() {
     for (;;) {
         wake_.wait(lock, [&] {
             return stop_ || scan_due_ || library_due_ || !wishes_.empty() || !rank_due_.empty() ||
-                   search_due_ || !details_due_.empty() || !similar_due_.empty();
+                   search_due_ || !details_due_.empty() || !similar_due_.empty() || together_due_;
         });
         if (stop_) return;
         if (scan_due_) {
@@ -517,6 +312,11 @@ void TextureShelf::work() {
             lock.unlock();
             if (picture) look_for_similar(key, *picture, part);
             lock.lock();
+        } else if (together_due_) {
+            const Together asked = *std::exchange(together_due_, {});
+            lock.unlock();
+            recommend_together(asked);
+            lock.lock();
         } else if (!details_due_.empty()) {
             const std::string path = std::exchange(details_due_, {});
             lock.unlock();
@@ -530,11 +330,9 @@ void TextureShelf::work() {
             lock.lock();
         } else {
             const std::string key = std::exchange(rank_due_, {});
-            const PicturePtr plate = std::exchange(rank_plate_, nullptr);
-            const auto matte = std::exchange(rank_matte_, nullptr);
-            const std::string excluded = rank_excluded_;
+            const SurfaceToSuit surface = std::exchange(rank_surface_, {});
             lock.unlock();
-            if (plate && matte) rank(key, *plate, *matte, excluded);
+            if (surface.plate && surface.matte) rank(key, surface);
             lock.lock();
         }
     }

@@ -26,16 +26,38 @@ struct TextureCard {
     std::vector<std::string> tags;
     std::string author, licence, source;
     Size size;  ///< 0 while unknown.
+    /// Pixels of the picture that a library's sample was cut from, for one of the sample: above 1
+    /// the larger picture shows more. 1 where there is none.
+    float original_scale = 1;
 };
 
 /// "db:ID" of a texture that came from a library and was kept as a file (db_ID.png), else empty.
 [[nodiscard]] std::string library_name_of(const std::string& path);
+
+/// A file's or a library's name as it is shown: "Wall bricks 005".
+[[nodiscard]] std::string shown_name(std::string name);
 
 /// A texture that suits a region, and why.
 struct TextureSuggestion {
     std::string path;
     std::string reason;  ///< "Same colour, finer grain"
     float score = 0;     ///< 0–1, higher suits better.
+};
+
+/// A region that wants a texture that goes with those of the others.
+struct TogetherRegion {
+    std::uint32_t region = 0;
+    std::string name;
+    std::shared_ptr<const Matte> matte;
+    std::string keep;  ///< "db:ID" to be kept; empty: to be changed.
+};
+
+/// One texture for each region, chosen to go with each other.
+struct TogetherSuggestion {
+    std::vector<std::string> paths;    ///< In the order asked; empty for a region that has none.
+    std::vector<std::string> reasons;  ///< Likewise.
+    std::string why;
+    float score = 0;
 };
 
 /// What the drawer asks of the library; all conditions hold together.
@@ -55,6 +77,14 @@ struct TextureCount {
 struct TextureAnswer {
     std::vector<std::string> paths;               ///< The best first.
     std::vector<TextureCount> origins, licences;  ///< Over all of them, most frequent first.
+};
+
+/// A region that wants a texture.
+struct SurfaceToSuit {
+    std::string region;  ///< Its name, which may say what it is.
+    PicturePtr plate;
+    std::shared_ptr<const Matte> matte;  ///< Of the plate's size.
+    std::string excluded_licences;
 };
 
 /// Thread-safe; nothing blocks.
@@ -87,10 +117,16 @@ class TextureShelf {
     /// Null while it is being made: asked for again every frame by what is visible. The newest wish
     /// comes first.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
-    /// Ranks the cards for a surface that looks like this, those under the excluded licences left
-    /// out; empty while it is being worked out.
-    void suggest_for(const std::string& key, PicturePtr plate, std::shared_ptr<const Matte> matte,
-                     const std::string& excluded_licences = {});
+    /// Ranks the cards for a surface; `key` stands for all that it depends on.
+    void suggest_for(const std::string& key, SurfaceToSuit surface);
+    /// The same for all regions together, from the library; `key` stands for all that it depends
+    /// on.
+    void suggest_together(const std::string& key, PicturePtr plate,
+                          std::vector<TogetherRegion> regions,
+                          const std::string& excluded_licences);
+    /// What was found, the best first; null while it is worked out.
+    [[nodiscard]] std::shared_ptr<const std::vector<TogetherSuggestion>> together(
+        const std::string& key) const;
     [[nodiscard]] std::vector<TextureSuggestion> suggestions(const std::string& key) const;
     /// Whether they were worked out.
     [[nodiscard]] bool suggested(const std::string& key) const;
@@ -102,6 +138,12 @@ class TextureShelf {
         std::string path;
         int longest_px = 0;
     };
+    struct Together {
+        std::string key;
+        PicturePtr plate;
+        std::vector<TogetherRegion> regions;
+        std::string excluded;
+    };
     struct Look {
         float mean[3] = {0, 0, 0};  ///< sRGB codes.
         float contrast = 0, grain = 0;
@@ -111,15 +153,14 @@ class TextureShelf {
     void take_library();
     void look_up(const std::string& path);
     void search_library(const TextureQuestion& question);
+    void recommend_together(const Together& asked);
     void look_for_similar(const std::string& key, const Picture& picture, const Recti& part);
-    void recommend(const std::string& key, const ImageU8x3& plate, const Matte& matte,
-                   const std::string& excluded_licences);
+    void recommend(const std::string& key, const ImageU8x3& plate, const SurfaceToSuit& surface);
     void publish();
     void scan(const std::vector<std::string>& folders);
     void make_thumbnail(const Wish& wish);
     [[nodiscard]] std::vector<PicturePtr> trim();
-    void rank(const std::string& key, const Picture& plate, const Matte& matte,
-              const std::string& excluded_licences);
+    void rank(const std::string& key, const SurfaceToSuit& surface);
     [[nodiscard]] const Look* look_of(const std::string& path);
 
     const std::size_t budget_bytes_;
@@ -139,9 +180,7 @@ class TextureShelf {
     std::uint64_t clock_ = 0;
     std::atomic<std::uint64_t> arrivals_ = 0;
     std::string ranked_key_, rank_due_;
-    PicturePtr rank_plate_;
-    std::shared_ptr<const Matte> rank_matte_;
-    std::string rank_excluded_;
+    SurfaceToSuit rank_surface_;
     std::vector<TextureSuggestion> ranked_;
     std::map<std::string, Look> looks_;  // of the working thread alone
     std::shared_ptr<TextureLibrary> library_;
@@ -153,6 +192,10 @@ class TextureShelf {
     PicturePtr similar_picture_;
     Recti similar_part_;
     std::shared_ptr<const std::vector<std::string>> similar_result_;
+    std::optional<Together> together_due_;
+    std::string together_key_;
+    std::shared_ptr<const std::vector<TogetherSuggestion>> together_;
+    std::string library_path_;
     std::map<std::string, TextureCard> details_;
     std::string details_due_;
     std::vector<TextureCard> folder_cards_, library_cards_;  // of the working thread alone

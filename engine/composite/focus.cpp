@@ -13,7 +13,7 @@ namespace {
 constexpr float kKnownBlur = 1.0f;       // px
 constexpr float kLeastGradient = 0.03f;  // of the display range per px: below, it may be grain
 constexpr float kStrongShare = 0.85f;    // quantile of gradients from which edges are strong
-constexpr float kSharper = 0.33f;        // quantile of the edges' blur
+constexpr float kMiddle = 0.5f;          // quantile of the edges' blur
 constexpr float kOfMeasuring = 0.66f;    // px²: central differences, and edges between pixels
 constexpr std::size_t kFewestEdges = 60;
 constexpr std::size_t kFewestOfPlace = 12;
@@ -118,14 +118,14 @@ std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, floa
     return edges;
 }
 
-// The lower third of the blurs.
-float sharper_of(const std::vector<EdgeBlur>& edges) {
+// The median of the blurs.
+float median_of(const std::vector<EdgeBlur>& edges) {
     std::vector<float> blurs;
     blurs.reserve(edges.size());
     for (const EdgeBlur& e : edges)
         blurs.push_back(e.blur_px);
-    const auto at = blurs.begin() +
-                    static_cast<std::ptrdiff_t>(kSharper * static_cast<float>(blurs.size() - 1));
+    const auto at =
+        blurs.begin() + static_cast<std::ptrdiff_t>(kMiddle * static_cast<float>(blurs.size() - 1));
     std::nth_element(blurs.begin(), at, blurs.end());
     return std::clamp(*at, kSharpest, kMostBlurred);
 }
@@ -146,7 +146,7 @@ float sharper_blur_px(std::vector<EdgeBlur> edges) {
         return a.y != b.y ? a.y < b.y : a.x < b.x;
     });
     edges.erase(third, edges.end());
-    return sharper_of(edges);
+    return median_of(edges);
 }
 
 float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
@@ -165,7 +165,7 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
         static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
     std::nth_element(lengths.begin(), strong, lengths.end());
     const std::vector<EdgeBlur> edges = edges_of(sharp, length, std::max(kLeastGradient, *strong));
-    return edges.size() < kFewestEdges ? 0.0f : sharper_of(edges);
+    return edges.size() < kFewestEdges ? 0.0f : median_of(edges);
 }
 
 float blur_between(float from_px, float to_px) {

@@ -21,12 +21,12 @@ struct EdgeBlur {
 [[nodiscard]] std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte,
                                                float least_gradient = 0.03f);
 
-/// Of a place's edges the third that is strongest, and of their blurs the lower third: what the
-/// sharpest detail there shows. 0 for fewer than a dozen edges.
+/// Of a place's edges the third that is strongest, and of their blurs the median: how sharp detail
+/// is there. 0 for fewer than a dozen edges.
 [[nodiscard]] float sharper_blur_px(std::vector<EdgeBlur> edges);
 
-/// Deviation in pixels of the Gaussian that would blur ideal steps to the picture's sharper edges
-/// inside the matte (lower third of its strong edges). 0 where there are too few edges to tell.
+/// Deviation in pixels of the Gaussian that would blur ideal steps to the picture's strong edges
+/// inside the matte (their median). 0 where there are too few edges to tell.
 [[nodiscard]] float edge_blur_px(ViewF3 linear, ViewU8x1 matte);
 
 /// The blur that takes edges of `from_px` to `to_px`; 0 where they are no sharper than by a tenth.

@@ -6,7 +6,7 @@
 namespace weft {
 namespace {
 
-constexpr std::size_t kMaxFrames = 1'000'000;
+constexpr long long kMaxFrames = 1'000'000;
 
 // Reads an integer at the front of `text` and removes it.
 bool take_int(std::string_view& text, int& value) {
@@ -39,6 +39,7 @@ bool parse_span(std::string_view text, Span& span) {
 Expected<std::vector<int>> parse_frame_list(std::string_view text) {
     const std::string whole(text);
     std::set<int> frames;
+    long long named = 0;  // repeats counted, which take as long
     while (true) {
         const std::size_t comma = text.find(',');
         Span span{};
@@ -48,7 +49,8 @@ Expected<std::vector<int>> parse_frame_list(std::string_view text) {
                             "'. Write them like 1-40, 1-100x2, -5--1 or 1,4,9-12.");
         }
         const auto count = (static_cast<long long>(span.last) - span.first) / span.step + 1;
-        if (count + static_cast<long long>(frames.size()) > static_cast<long long>(kMaxFrames)) {
+        named += count;
+        if (named > kMaxFrames) {
             return fail(ErrorCode::kUsage, "The frames '" + whole + "' are more than a million.");
         }
         for (long long f = span.first; f <= span.last; f += span.step) {

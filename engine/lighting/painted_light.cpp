@@ -131,7 +131,9 @@ float gain_at(LampKind kind, const std::vector<float>& n, float x, float y, Size
             const float angle = n[0] * std::numbers::pi_v<float> / 180.0f;
             const float half_w = 0.5f * static_cast<float>(full.width);
             const float half_h = 0.5f * static_cast<float>(full.height);
-            const float c = std::cos(angle), s = -std::sin(angle);  // y points down
+            // Long double: see docs/decisions/0002-determinism.md. y points down.
+            const auto c = static_cast<float>(std::cos(static_cast<long double>(angle))),
+                       s = static_cast<float>(-std::sin(static_cast<long double>(angle)));
             const float reach = std::abs(c) * half_w + std::abs(s) * half_h;
             const float t = ((x - half_w) * c + (y - half_h) * s) / std::max(1e-6f, reach);
             return std::exp(t * std::log(held(n[1])));

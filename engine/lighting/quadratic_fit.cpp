@@ -108,14 +108,26 @@ PolynomialFit::PolynomialFit(const ImageF1& plane, const ImageF1& weight, int de
     }
 }
 
+// Along a row it is a polynomial in u alone, whose coefficients are gathered once.
 ImageF1 PolynomialFit::surface() const {
     ImageF1 out(size_);
     parallel_rows(size_.height, 16, [&](int y0, int y1) {
-        Terms t{};
         for (int y = y0; y < y1; ++y) {
+            const double v = (y - centre_y_) * scale_;
+            std::array<double, kMostDegree + 1> along{};
+            std::size_t term = 0;
+            for (int d = 0; d <= degree_; ++d) {
+                double power = 1;
+                for (int k = 0; k <= d; ++k, ++term, power *= v)
+                    along[static_cast<std::size_t>(d - k)] += power * coefficients_[term];
+            }
+            float* row = out.row(y);
             for (int x = 0; x < size_.width; ++x) {
-                fill_terms(degree_, (x - centre_x_) * scale_, (y - centre_y_) * scale_, t);
-                out.row(y)[x] = static_cast<float>(value_of(coefficients_, t));
+                const double u = (x - centre_x_) * scale_;
+                double sum = 0;
+                for (auto d = static_cast<std::size_t>(degree_) + 1; d-- > 0;)
+                    sum = sum * u + along[d];
+                row[x] = static_cast<float>(sum);
             }
         }
     });

@@ -29,7 +29,8 @@ float looks_like_shade(float luma, float red_green, float blue_green) {
         return smooth_step(slope, kFaintestSky, kSky) *
                (1.0f - smooth_step(slope, kBluestSky, kBluerThanSky));
     };
-    return seen * bluish(red_green / luma) * bluish(-blue_green / luma);
+    const float red = bluish(red_green / luma);
+    return red == 0 ? 0.0f : seen * red * bluish(-blue_green / luma);
 }
 
 struct Sums {

@@ -76,14 +76,16 @@ void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
             for (int fy = top; fy < std::min(linear.height(), top + d); ++fy) {
                 trust_of_row(visible, fy, full_x0, full_x1, column_min, trust.data());
                 const float* p = linear.pixel(full_x0, fy);
-                for (int x = 0; x < full_x1 - full_x0; ++x, p += 3) {
-                    const float t = trust[static_cast<std::size_t>(x)];
-                    if (t == 0 || !std::isfinite(p[0] + p[1] + p[2])) continue;
-                    const int i = x / d;
-                    w[i] += t;
-                    r[i] += t * std::max(0.0f, p[0]);
-                    g[i] += t * std::max(0.0f, p[1]);
-                    b[i] += t * std::max(0.0f, p[2]);
+                const float* t = trust.data();
+                const float* end = t + (full_x1 - full_x0);
+                for (int i = 0; t < end; ++i) {
+                    for (const float* last = std::min(end, t + d); t < last; ++t, p += 3) {
+                        if (*t == 0 || !std::isfinite(p[0] + p[1] + p[2])) continue;
+                        w[i] += *t;
+                        r[i] += *t * std::max(0.0f, p[0]);
+                        g[i] += *t * std::max(0.0f, p[1]);
+                        b[i] += *t * std::max(0.0f, p[2]);
+                    }
                 }
             }
             for (int x = 0; x < s.box.width(); ++x) {

@@ -116,7 +116,9 @@ BoundaryEvidence weigh(ViewF1 expected, ViewF1 found, const Evidence& e, float b
     }
     if (beside_found > 0) result.certainty = static_cast<float>(certainty / beside_found);
     // Pixels that changed sides per pixel of boundary: the mean displacement.
-    result.steadiness = static_cast<float>(std::exp(-moved / std::max(1.0, 1.5 * contour)));
+    // Long double: see docs/decisions/0002-determinism.md.
+    const long double slip = moved / std::max(1.0, 1.5 * contour);
+    result.steadiness = static_cast<float>(std::exp(-slip));
     return result;
 }
 

@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/media/exr_header.h"
 #include "engine/media/raster_errors.h"
 
 namespace weft {
@@ -192,6 +193,7 @@ class CryptoFile {
         }
         CryptoFile file;
         file.path_ = path;
+        WEFT_CHECK_OK(check_exr_header(path));
         file.input_ = OIIO::ImageInput::open(path);
         if (!file.input_) return tl::unexpected(damaged(path, OIIO::geterror()));
         for (int k = 0; file.input_->seek_subimage(k, 0); ++k)

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "engine/media/atomic_file.h"
+#include "engine/media/exr_header.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
 
@@ -58,6 +59,7 @@ bool loses_nothing(const std::string& compression) {
 }
 
 Expected<std::vector<Part>> read_parts(const std::string& path) {
+    WEFT_CHECK_OK(check_exr_header(path));
     const auto input = ImageInput::open(path);
     if (!input) return tl::unexpected(damaged(path, OIIO::geterror()));
     std::vector<Part> parts;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "engine/media/exr_header.h"
+
 namespace weft {
 namespace {
 
@@ -34,6 +36,7 @@ std::string copyright_text(const NamedTexts& metadata) {
 
 std::map<std::string, std::string> read_recipe_metadata(const std::string& path) {
     std::map<std::string, std::string> out;
+    if (!check_exr_header(path)) return out;
     const auto input = OIIO::ImageInput::open(path);
     if (!input) {
         static_cast<void>(OIIO::geterror());

@@ -47,6 +47,13 @@ class PngHandle {
 
     [[nodiscard]] png_structp png() const { return png_; }
     [[nodiscard]] png_infop info() const { return info_; }
+    /// Width of a pixel over its height; 1 where the file does not say.
+    [[nodiscard]] double pixel_aspect() const {
+        png_uint_32 x = 0, y = 0;
+        int unit = 0;
+        if (!png_get_pHYs(png_, info_, &x, &y, &unit) || x == 0) return 1;
+        return sane_pixel_aspect(static_cast<double>(y) / static_cast<double>(x));
+    }
     [[nodiscard]] Size size() const {
         return {static_cast<int>(png_get_image_width(png_, info_)),
                 static_cast<int>(png_get_image_height(png_, info_))};
@@ -92,7 +99,7 @@ Expected<Raster> read_open(std::FILE* file, const std::string& path, bool raw_co
     png_read_info(handle.png(), handle.info());
     WEFT_CHECK_OK(check_memory(path, handle.size(), 4));
     Raster raster;
-    raster.info = {handle.size(), handle.kind(), 0.0};
+    raster.info = {handle.size(), handle.kind(), 0.0, handle.pixel_aspect()};
     raster.palette_indices =
         raw_codes && png_get_color_type(handle.png(), handle.info()) == PNG_COLOR_TYPE_PALETTE;
     set_transforms(handle, raw_codes);
@@ -135,7 +142,7 @@ Expected<RasterInfo> probe_png(const std::string& path) {
     return with_file(path, [](std::FILE* file) -> Expected<RasterInfo> {
         const PngHandle handle(file);
         png_read_info(handle.png(), handle.info());
-        return RasterInfo{handle.size(), handle.kind(), 0.0};
+        return RasterInfo{handle.size(), handle.kind(), 0.0, handle.pixel_aspect()};
     });
 }
 

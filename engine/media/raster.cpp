@@ -13,6 +13,7 @@
 #include <set>
 #include <string_view>
 
+#include "engine/media/exr_header.h"
 #include "engine/media/png_reader.h"
 #include "engine/media/raster_errors.h"
 
@@ -53,6 +54,7 @@ Expected<std::unique_ptr<ImageInput>> open_input(const std::string& path) {
     if (status.st_size == 0) {
         return tl::unexpected(unreadable(path, "it is empty (0 bytes)", "Write or copy it again."));
     }
+    WEFT_CHECK_OK(check_exr_header(path));
     ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);  // the samples as they stand in the file
     auto input = ImageInput::open(path, &config);
@@ -309,6 +311,14 @@ double fps_of(const ImageSpec& spec) {
     return 0;
 }
 
+double pixel_aspect_of(const ImageInput& input) {
+    const ImageSpec& spec = input.spec();
+    const double aspect = spec.get_float_attribute("PixelAspectRatio", 1.0f);
+    // OpenImageIO 2.4 takes a JPEG's densities (dots a unit of length) the wrong way round.
+    const bool inverse = std::string_view(input.format_name()) == "jpeg" && aspect > 0;
+    return sane_pixel_aspect(inverse ? 1 / aspect : aspect);
+}
+
 Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, const Pick& pick) {
     const ImageSpec& spec = input.spec();
     const Size size = display_window(input, spec).size();
@@ -316,9 +326,7 @@ Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, c
         return tl::unexpected(damaged(path, "it has no pixels"));
     }
     if (spec.depth > 1) return tl::unexpected(damaged(path, "it is a volume, not a picture"));
-    const double aspect = spec.get_float_attribute("PixelAspectRatio", 1.0f);
-    return RasterInfo{size, kind_of(spec, pick), fps_of(spec),
-                      aspect > 0.05 && aspect < 20 ? aspect : 1.0};
+    return RasterInfo{size, kind_of(spec, pick), fps_of(spec), pixel_aspect_of(input)};
 }
 
 Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request) {

@@ -23,6 +23,11 @@ struct RasterInfo {
     double pixel_aspect = 1;            ///< Width of a pixel over its height.
 };
 
+/// 1 where a file states what no lens has.
+inline double sane_pixel_aspect(double aspect) {
+    return aspect > 0.05 && aspect < 20 ? aspect : 1.0;
+}
+
 /// Interleaved samples, `channels` per pixel, row by row without gaps. Half, float and other kinds
 /// are held as float, integers as their own codes.
 struct Raster {

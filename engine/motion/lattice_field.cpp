@@ -4,6 +4,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -42,6 +46,71 @@ Vec2 interpolate(const ImageF2& nodes, const Tap& tx, const Tap& ty) {
         sum += ty.weight[static_cast<std::size_t>(r)] * line;
     }
     return sum;
+}
+
+constexpr float kSettledPx = 0.01f;
+
+// p -> linear * p + offset.
+struct Affine {
+    glm::mat2 linear{1};
+    Vec2 offset{0};
+};
+
+// What the whole field does to places, by least squares over its nodes.
+Affine mean_affine(const LatticeField& field) {
+    const ImageF2& nodes = field.nodes();
+    const Vec2 middle = 0.5f * (field.node_position(0, 0) +
+                                field.node_position(nodes.width() - 1, nodes.height() - 1));
+    // The nodes lie symmetrically about their middle, so that the sums over x, y and 1 are apart.
+    Vec2 mean(0), along_x(0), along_y(0);
+    float xx = 0, yy = 0;
+    for (int j = 0; j < nodes.height(); ++j) {
+        for (int i = 0; i < nodes.width(); ++i) {
+            const Vec2 p = field.node_position(i, j) - middle, d = field.node(i, j);
+            mean += d;
+            along_x += p.x * d;
+            along_y += p.y * d;
+            xx += p.x * p.x;
+            yy += p.y * p.y;
+        }
+    }
+    mean /= static_cast<float>(nodes.width() * nodes.height());
+    Affine out;
+    out.linear = glm::mat2(1) + glm::mat2(along_x / xx, along_y / yy);
+    out.offset = middle + mean - out.linear * middle;
+    return out;
+}
+
+// Where p + field(p) is `target`: Newton's steps from where `whole` has it. Of all places that are
+// passed, `start` among them, the one that comes nearest, for a field that folds over has no root
+// everywhere.
+Vec2 newton_root(const LatticeField& field, Vec2 target, Vec2 start, const Affine& whole) {
+    const auto residual = [&](Vec2 p) { return target - (p + field.at(p)); };
+    constexpr float kFlat = 1e-3f;
+    Vec2 best = start;
+    float least = glm::length(residual(start));
+    Vec2 p = std::abs(glm::determinant(whole.linear)) > kFlat
+                 ? glm::inverse(whole.linear) * (target - whole.offset)
+                 : start;
+    const float h = 0.25f * static_cast<float>(field.spacing());
+    const float longest = 8.0f * static_cast<float>(field.spacing());
+    for (int k = 0; k < 16; ++k) {
+        const Vec2 r = residual(p);
+        const float miss = glm::length(r);
+        // Also where it is not a number.
+        if (!(miss < 1e6f)) break;
+        if (miss < least) {
+            least = miss;
+            best = p;
+        }
+        if (miss < 0.1f * kSettledPx) break;
+        const glm::mat2 slope((r - residual(p + Vec2(h, 0))) / h,
+                              (r - residual(p + Vec2(0, h))) / h);
+        if (std::abs(glm::determinant(slope)) < kFlat) break;
+        const Vec2 step = glm::inverse(slope) * r;
+        p += step * std::min(1.0f, longest / std::max(glm::length(step), 1e-6f));
+    }
+    return best;
 }
 
 int node_count(int extent, int spacing) {
@@ -138,12 +207,18 @@ LatticeField compose(const LatticeField& inner, const LatticeField& outer) {
 
 LatticeField inverse(const LatticeField& field) {
     LatticeField out(field.full_size(), field.spacing());
+    std::optional<Affine> whole;
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 target = out.node_position(i, j);
             Vec2 p = target - field.at(target);
             for (int k = 0; k < 12; ++k)
                 p += 0.8f * (target - (p + field.at(p)));
+            // A turn by more than 60 degrees is no contraction.
+            if (!(glm::length(target - (p + field.at(p))) < kSettledPx)) {
+                if (!whole) whole = mean_affine(field);
+                p = newton_root(field, target, p, *whole);
+            }
             out.set_node(i, j, p - target);
         }
     }

@@ -56,8 +56,8 @@ class LatticeField {
 /// result has `inner`'s spacing.
 [[nodiscard]] LatticeField compose(const LatticeField& inner, const LatticeField& outer);
 
-/// The field the other way: from a_from_b, b_from_a (by fixed-point iteration, which wants a field
-/// that nowhere folds over). Same frame size and spacing.
+/// The field the other way: from a_from_b, b_from_a. Any turn and scale; where the field folds
+/// over, the place that comes nearest. Same frame size and spacing.
 [[nodiscard]] LatticeField inverse(const LatticeField& field);
 
 /// a + weight · (b − a), node by node; both of the same frame size and spacing.

@@ -98,8 +98,13 @@ FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
 
 void check_consistency(FlowField& target_from_source, FlowField& source_from_target,
                        float tolerance_px) {
-    check_one_way(target_from_source, source_from_target.d, tolerance_px, target_from_source.valid);
-    check_one_way(source_from_target, target_from_source.d, tolerance_px, source_from_target.valid);
+    check_consistency(target_from_source, source_from_target.d, tolerance_px);
+    check_consistency(source_from_target, target_from_source.d, tolerance_px);
+}
+
+void check_consistency(FlowField& target_from_source, const ImageF2& source_from_target,
+                       float tolerance_px) {
+    check_one_way(target_from_source, source_from_target, tolerance_px, target_from_source.valid);
 }
 
 FlowField invert_flow(const FlowField& target_from_source) {

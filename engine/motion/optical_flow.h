@@ -16,6 +16,9 @@ enum class FlowQuality { kDraft, kFinal };
 /// way, or leaves the frame (Sundaram et al. 2010). Both fields change only in `valid`.
 void check_consistency(FlowField& target_from_source, FlowField& source_from_target,
                        float tolerance_px = 0.7f);
+/// The same of the first field alone.
+void check_consistency(FlowField& target_from_source, const ImageF2& source_from_target,
+                       float tolerance_px = 0.7f);
 
 /// Inverts a motion field by splatting; where nothing lands, or something nearer overwrote,
 /// invalid.

@@ -164,7 +164,9 @@ void blur(Moments& m) {
     constexpr int kRadius = 6;
     std::array<double, 2 * kRadius + 1> g{};
     for (int k = -kRadius; k <= kRadius; ++k) {
-        g[static_cast<std::size_t>(k + kRadius)] = std::exp(-0.5 * k * k / 4.0);
+        // Long double: see docs/decisions/0002-determinism.md.
+        g[static_cast<std::size_t>(k + kRadius)] =
+            static_cast<double>(std::exp(-0.5L * k * k / 4.0L));
     }
     Moments t(m.size());
     for (int y = 0; y < m.height(); ++y) {

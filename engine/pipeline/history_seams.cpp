@@ -123,7 +123,7 @@ class SeamMaker {
         WEFT_TRY(after, stored(frame, AnalysisKind::kHistoryAfter));
         WEFT_TRY(place, stored(frame, AnalysisKind::kCoords));
         WEFT_TRY(extent, extent_matte(source_, plan_, store_, index_, frame));
-        WEFT_TRY(holdout, holdout_matte(source_, plan_, index_, frame));
+        WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index_, frame));
         out.before = std::move(before);
         out.after = std::move(after);
         out.place = std::move(place);

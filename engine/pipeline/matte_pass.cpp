@@ -10,10 +10,11 @@
 namespace weft {
 namespace {
 
-// A region to propagate, with its walker on the present sweep.
+// A painted matte to propagate, a region's or a holdout's, with its walker on the present sweep.
 struct Job {
-    int region = 0;
+    int region = 0, layer = 0;  // as in AnalysisKey
     std::vector<int> keys;
+    MatteReach reach;
     FrameSpan span;
     MatteOptions options;
     std::optional<MatteWalker> walker;
@@ -24,75 +25,99 @@ struct Job {
     [[nodiscard]] bool between_keys(int frame) const {
         return frame > keys.front() && frame < keys.back();
     }
+    // Both ways there is a second opinion between two keys.
+    [[nodiscard]] bool merged(int frame) const {
+        return reach.direction == CarryDirection::kBoth && between_keys(frame) && !is_key(frame);
+    }
+    // The frames that the walk passes in each direction.
+    [[nodiscard]] FrameSpan forward() const {
+        return {keys.front(), reach.forward()
+                                  ? std::max(keys.back(), std::min(span.last, reach.last))
+                                  : keys.back()};
+    }
+    [[nodiscard]] FrameSpan backward() const {
+        return {reach.backward() ? std::min(keys.front(), std::max(span.first, reach.first))
+                                 : keys.front(),
+                keys.back()};
+    }
 };
 
 std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
     std::vector<Job> jobs;
+    const auto add = [&](Job job) {
+        bool complete = true;
+        for (int f = job.span.first; f <= job.span.last && complete; ++f)
+            complete = store.has({job.region, f, AnalysisKind::kMatte, job.layer});
+        if (!complete) jobs.push_back(std::move(job));
+    };
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
         const RegionPlan& region = plan.regions[k];
-        if (!region.propagated()) continue;
-        Job job{static_cast<int>(k),
-                region.matte_keys,
-                analysed_span(plan, region),
-                {region.matte_steadiness, false},
-                {}};
-        bool complete = true;
-        for (int f = job.span.first; f <= job.span.last && complete; ++f) {
-            complete = store.has({job.region, f, AnalysisKind::kMatte});
-        }
-        if (!complete) jobs.push_back(std::move(job));
+        const FrameSpan span = analysed_span(plan, region);
+        const int index = static_cast<int>(k);
+        if (region.propagated())
+            add({index,
+                 0,
+                 region.matte_keys,
+                 region.matte_reach,
+                 span,
+                 {region.matte_steadiness, false},
+                 {}});
+        int layer = 0;
+        for (const PaintedHoldout& holdout : region.painted_holdouts)
+            add({index,
+                 ++layer,
+                 holdout.keys,
+                 holdout.reach,
+                 span,
+                 {holdout.steadiness, false},
+                 {}});
     }
     return jobs;
 }
 
-// Over all jobs: from the first key to the end of the span, and from the last key to its begin.
-FrameSpan forward_span(const std::vector<Job>& jobs) {
-    FrameSpan all{jobs[0].keys.front(), jobs[0].span.last};
+// Over all jobs.
+FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
+    FrameSpan all = (jobs[0].*of)();
     for (const Job& job : jobs) {
-        all.first = std::min(all.first, job.keys.front());
-        all.last = std::max(all.last, job.span.last);
-    }
-    return all;
-}
-
-FrameSpan backward_span(const std::vector<Job>& jobs) {
-    FrameSpan all{jobs[0].span.first, jobs[0].keys.back()};
-    for (const Job& job : jobs) {
-        all.first = std::min(all.first, job.span.first);
-        all.last = std::max(all.last, job.keys.back());
+        const FrameSpan own = (job.*of)();
+        all.first = std::min(all.first, own.first);
+        all.last = std::max(all.last, own.last);
     }
     return all;
 }
 
 // Moves a job's walker to this frame; the estimate is the painted matte itself on a keyframe.
-Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job,
+Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job, FrameSpan within,
                                             const SweepFrame& at) {
     if (job.is_key(at.frame)) {
-        WEFT_TRY(key, context.source.matte_key(job.region, at.frame));
-        job.walker.emplace(at.views->display, key, job.options);
+        auto key = job.layer == 0 ? context.source.matte_key(job.region, at.frame)
+                                  : context.source.holdout_key(job.region, job.layer - 1, at.frame);
+        if (!key) return tl::unexpected<Error>(std::move(key).error());
+        job.walker.emplace(at.views->display, *key, job.options);
         job.options.soft_edges |= job.walker->has_soft_edges();
-        return std::optional<MatteEstimate>(MatteEstimate{std::move(key), 1.0f});
+        return std::optional<MatteEstimate>(MatteEstimate{std::move(*key), 1.0f});
     }
-    if (!job.walker || at.frame < job.span.first || at.frame > job.span.last || !at.prev_from_cur) {
+    if (!job.walker || at.frame < within.first || at.frame > within.last || !at.prev_from_cur) {
         return std::optional<MatteEstimate>();
     }
     return std::optional<MatteEstimate>(job.walker->advance(at.views->display, *at.prev_from_cur));
 }
 
-Status put(AnalysisStore& store, int region, int frame, AnalysisKind kind, MatteEstimate estimate) {
-    return store.put({region, frame, kind},
+Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
+           MatteEstimate estimate) {
+    return store.put({job.region, frame, kind, job.layer},
                      encode(StoredMatte{std::move(estimate.matte), estimate.confidence}));
 }
 
 Status visit_forward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                      const SweepFrame& at) {
     for (Job& job : jobs) {
-        WEFT_TRY(estimate, walk(context, job, at));
-        if (!estimate) continue;
-        const auto kind = job.between_keys(at.frame) && !job.is_key(at.frame)
-                              ? AnalysisKind::kMatteForward
-                              : AnalysisKind::kMatte;
-        WEFT_CHECK_OK(put(store, job.region, at.frame, kind, std::move(*estimate)));
+        const bool walks = job.reach.forward() || job.is_key(at.frame);
+        if (!walks) continue;
+        WEFT_TRY(estimate, walk(context, job, job.forward(), at));
+        if (!estimate || !job.reach.covers(at.frame, job.keys)) continue;
+        const auto kind = job.merged(at.frame) ? AnalysisKind::kMatteForward : AnalysisKind::kMatte;
+        WEFT_CHECK_OK(put(store, job, at.frame, kind, std::move(*estimate)));
     }
     return {};
 }
@@ -100,23 +125,37 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                       const SweepFrame& at) {
     for (Job& job : jobs) {
-        WEFT_TRY(estimate, walk(context, job, at));
-        if (!estimate || job.is_key(at.frame)) continue;
-        if (!job.between_keys(at.frame)) {
-            if (at.frame < job.keys.front()) {
+        if (!job.reach.backward()) continue;
+        WEFT_TRY(estimate, walk(context, job, job.backward(), at));
+        if (!estimate || job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
+        if (!job.merged(at.frame)) {
+            if (at.frame < job.keys.back()) {
                 WEFT_CHECK_OK(
-                    put(store, job.region, at.frame, AnalysisKind::kMatte, std::move(*estimate)));
+                    put(store, job, at.frame, AnalysisKind::kMatte, std::move(*estimate)));
             }
             continue;
         }
-        WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward}));
+        WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward, job.layer}));
         WEFT_TRY(forward, decode_matte(bytes));
         const auto after = std::lower_bound(job.keys.begin(), job.keys.end(), at.frame);
         const float position =
             static_cast<float>(at.frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
-        WEFT_CHECK_OK(put(store, job.region, at.frame, AnalysisKind::kMatte,
+        WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
                           merge_estimates({std::move(forward.matte), forward.confidence}, *estimate,
                                           position, at.views->display, job.options)));
+    }
+    return {};
+}
+
+// Where a matte is not carried to, it is empty.
+Status fill_the_rest(const PassContext& context, AnalysisStore& store,
+                     const std::vector<Job>& jobs) {
+    for (const Job& job : jobs) {
+        for (int frame = job.span.first; frame <= job.span.last; ++frame) {
+            if (job.reach.covers(frame, job.keys)) continue;
+            WEFT_CHECK_OK(
+                put(store, job, frame, AnalysisKind::kMatte, {Matte(context.source.size()), 1.0f}));
+        }
     }
     return {};
 }
@@ -126,21 +165,23 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
 int count_matte_steps(const ShotPlan& plan, const AnalysisStore& store) {
     const std::vector<Job> jobs = jobs_of(plan, store);
     if (jobs.empty()) return 0;
-    const FrameSpan there = forward_span(jobs), back = backward_span(jobs);
+    const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
     return there.last - there.first + 1 + back.last - back.first + 1;
 }
 
 Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
     std::vector<Job> jobs = jobs_of(context.plan, store);
     if (jobs.empty()) return {};
-    const FrameSpan there = forward_span(jobs), back = backward_span(jobs);
+    const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
     WEFT_CHECK_OK(sweep(context, {there.first, there.last, true}, [&](const SweepFrame& at) {
         return visit_forward(context, store, jobs, at);
     }));
     for (Job& job : jobs)
         job.walker.reset();
-    return sweep(context, {back.last, back.first, true},
-                 [&](const SweepFrame& at) { return visit_backward(context, store, jobs, at); });
+    WEFT_CHECK_OK(sweep(context, {back.last, back.first, true}, [&](const SweepFrame& at) {
+        return visit_backward(context, store, jobs, at);
+    }));
+    return fill_the_rest(context, store, jobs);
 }
 
 }  // namespace weft

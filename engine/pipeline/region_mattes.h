@@ -8,9 +8,10 @@ namespace weft {
 /// A region's extent on a frame: from its files, or as it was propagated (which must be done).
 [[nodiscard]] Expected<Matte> extent_matte(const ShotSource& source, const ShotPlan& plan,
                                            const AnalysisStore& store, int region, int frame);
-/// The region's holdout on a frame; an empty image when it has none.
+/// The region's holdout on a frame, the maximum of those from files and those that were propagated
+/// (which must be done); an empty image when it has none.
 [[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
-                                            int region, int frame);
+                                            const AnalysisStore& store, int region, int frame);
 
 /// The frames that a region's analysis spans: its frames to render, references, matte keyframes
 /// and the evidence of light and grain.

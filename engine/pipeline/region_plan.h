@@ -14,11 +14,13 @@
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/painted_light.h"
 #include "engine/lighting/shading.h"
+#include "engine/mask/matte_reach.h"
 #include "engine/motion/corner_track.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/pipeline/stage_store.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
+#include "engine/synthesis/plane_amendment.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
@@ -34,13 +36,22 @@ struct TexturePicture {
     WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
 };
 
+/// What passes in front of a region, painted on a few frames.
+struct PaintedHoldout {
+    std::vector<int> keys;  ///< Ascending, at least one.
+    float steadiness = 0.5f;
+    MatteReach reach;
+};
+
 struct RegionPlan {
     std::uint64_t random_key = 0;  ///< Stable id of the region; enters the keys of random numbers.
     // Mattes: frame by frame, or painted on these frames (ascending) and propagated.
     std::vector<int> matte_keys;
     [[nodiscard]] bool propagated() const { return !matte_keys.empty(); }
     float matte_steadiness = 0.5f;  ///< Of propagated mattes, 0–1.
-    bool has_holdout = false;
+    MatteReach matte_reach;
+    bool has_holdout = false;  ///< In files.
+    std::vector<PaintedHoldout> painted_holdouts;
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
     std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.
@@ -72,6 +83,7 @@ struct RegionPlan {
     int refine_passes = 2;
     Orientations orientations;
     bool align = true;
+    std::vector<PlaneAmendment> amendments;  ///< Of the grown plane.
     // Time.
     TemporalMode temporal = TemporalMode::kLocked;
     float blend = 0.2f;   ///< α of the paper mode.

@@ -34,23 +34,6 @@ Expected<TexturePlane> kept_texture(const ShotPlan& plan, const RegionPlan& regi
     return plane;
 }
 
-Expected<PlanePyramid> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
-                                  RegionScene& scene, const CancelToken& cancel,
-                                  const ProgressFn& progress, const Backend* backend) {
-    const TexturePicture& texture = *region.texture;
-    if (texture.is_plane) {
-        return PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
-                            texture.wrap);
-    }
-    PlaneOptions options =
-        plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
-    options.tileable = true;
-    WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
-    scene.stats = plane.stats;
-    if (plan.layers) scene.plane_seams = seam_texels(plane);
-    return PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat);
-}
-
 // S₀, the plate's median shading inside the matte on the reference frame, and the light's colour
 // there. Painted light is relative to 1.
 Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
@@ -64,7 +47,7 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     const ImageF3 working = transformed(*plate, *plan.working_from_plate);
     WEFT_TRY(shading, region_shading(source, region, store, index, frame, working));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
-    WEFT_TRY(holdout, holdout_matte(source, plan, index, frame));
+    WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
     if (region.cast > 0) scene.reference_colour = light_colour(working, visible, *shading);
@@ -72,6 +55,29 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
 }
 
 }  // namespace
+
+bool has_plane(const RegionPlan& region) {
+    return region.temporal == TemporalMode::kLocked || region.texture->is_plane;
+}
+
+Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region, Size plate,
+                                 const CancelToken& cancel, const ProgressFn& progress,
+                                 const Backend* backend) {
+    const TexturePicture& texture = *region.texture;
+    if (texture.is_plane) {
+        return RegionPlane{
+            PlanePyramid(transformed(texture.pixels, *region.working_from_texture), texture.wrap),
+            std::nullopt,
+            {}};
+    }
+    PlaneOptions options =
+        plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
+    options.tileable = true;
+    options.amendments = region.amendments;
+    WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
+    return RegionPlane{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat),
+                       plane.stats, plan.layers ? seam_texels(plane) : Matte()};
+}
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
     return {plane_side(plate.width, placement.scale), plane_side(plate.height, placement.scale)};
@@ -116,14 +122,19 @@ ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& pla
 Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                  const AnalysisStore& store, int region_index,
                                  const CancelToken& cancel, const ProgressFn& progress,
-                                 const Backend* backend) {
+                                 const Backend* backend, std::optional<RegionPlane> made) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
     WEFT_TRY(plane_from, plane_from_plate(region.placement));
     scene.plane_from_plate = plane_from;
-    if (region.temporal == TemporalMode::kLocked || region.texture->is_plane) {
-        WEFT_TRY(plane, make_plane(plan, region, source.size(), scene, cancel, progress, backend));
-        scene.plane = std::move(plane);
+    if (has_plane(region)) {
+        if (!made) {
+            WEFT_TRY(plane, make_plane(plan, region, source.size(), cancel, progress, backend));
+            made = std::move(plane);
+        }
+        scene.plane = std::move(made->pyramid);
+        scene.stats = made->stats;
+        scene.plane_seams = std::move(made->seams);
         WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
         scene.seams = std::move(seams);
     }

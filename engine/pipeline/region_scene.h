@@ -34,13 +34,30 @@ struct RegionScene {
 /// depends on the plate and the placement only, so that every part of a shot gets the same plane.
 [[nodiscard]] Size plane_size(const PlanePlacement& placement, Size plate);
 
-/// Grows a region's plane, with the backend's search if it has one, and takes S₀ from the analysis
-/// of its (first) reference frame.
+/// A region's texture, ready to be looked up.
+struct RegionPlane {
+    PlanePyramid pyramid;
+    std::optional<PlaneStats> stats;  ///< If it was grown.
+    Matte seams;                      ///< As RegionScene::plane_seams.
+};
+
+/// Whether a region has one plane for the whole shot.
+[[nodiscard]] bool has_plane(const RegionPlan& region);
+/// Grows it, with the backend's search if it has one, or takes the one that is given. Needs nothing
+/// of the analysis, so it may go on beside that.
+[[nodiscard]] Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
+                                               Size plate, const CancelToken& cancel,
+                                               const ProgressFn& progress,
+                                               const Backend* backend = nullptr);
+
+/// Makes the region's plane unless it is handed in as `made`, and takes S₀ from the analysis of its
+/// (first) reference frame.
 [[nodiscard]] Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                                const AnalysisStore& store, int region,
                                                const CancelToken& cancel,
                                                const ProgressFn& progress,
-                                               const Backend* backend = nullptr);
+                                               const Backend* backend = nullptr,
+                                               std::optional<RegionPlane> made = std::nullopt);
 
 /// A plane's pixels in the working space: each texel takes the sample's pixel that its source map
 /// names, at the sample's full precision; what feathering changed in 8 bit is added.

@@ -120,7 +120,7 @@ bool fits_device(const RegionPlan& region, const RegionScene& scene) {
 
 Expected<Matte> FrameRenderer::composite_matte(int index) {
     WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame_));
-    WEFT_TRY(holdout, holdout_matte(source_, plan_, index, frame_));
+    WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame_));
     if (is_hard(extent)) {
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
         extent = soften_hard_edge(views_->display, extent);

@@ -22,7 +22,11 @@ class ShotSource {
     [[nodiscard]] virtual Expected<Matte> matte(int region, int frame) const = 0;
     /// A painted matte keyframe (RegionPlan::matte_keys names the frames).
     [[nodiscard]] virtual Expected<Matte> matte_key(int region, int frame) const = 0;
-    /// What passes in front of the region: the maximum of its holdouts; nothing when it has none.
+    /// A painted key of what passes in front (RegionPlan::painted_holdouts). A source that has none
+    /// need not override it.
+    [[nodiscard]] virtual Expected<Matte> holdout_key(int region, int painted, int frame) const;
+    /// What passes in front of the region frame by frame: the maximum of those of its holdouts that
+    /// come from files; nothing when it has none.
     [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
     /// The ink's coverage from the region's line pass (RegionPlan::has_lines); empty without one.
     [[nodiscard]] virtual Expected<Matte> lines(int /*region*/, int /*frame*/) const {

@@ -19,6 +19,18 @@ Hash128 plane_key(const std::vector<ImageU8x3>& samples, const PlaneOptions& opt
     hasher.value(options.region).value(options.frame).value(options.tileable);
     hasher.value(options.refine_passes).value(options.align);
     hasher.value(options.orientations.rotations).value(options.orientations.mirror);
+    for (const PlaneAmendment& amendment : options.amendments) {
+        hasher.value(static_cast<int>(amendment.kind)).value(amendment.seed);
+        hasher.value(static_cast<std::uint64_t>(amendment.runs.size()));
+        for (const TexelRun& run : amendment.runs)
+            hasher.value(run.x)
+                .value(run.y)
+                .value(run.count)
+                .value(run.from_x)
+                .value(run.from_y)
+                .value(run.sample)
+                .value(run.orientation);
+    }
     return hasher.finish();
 }
 

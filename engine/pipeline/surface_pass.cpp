@@ -138,7 +138,7 @@ class Follower {
         WEFT_TRY(visible, visible_at(job, at));
         WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
                                               : advance(job, at, visible));
-        WEFT_CHECK_OK(measure_grain(job, at, visible));
+        WEFT_CHECK_OK(measure_grain(job, at));
         WEFT_CHECK_OK(measure_shutter(job, at, visible));
         return keep_all(job, at, visible);
     }
@@ -176,7 +176,8 @@ class Follower {
     [[nodiscard]] Expected<Matte> visible_at(Job& job, const SweepFrame& at) const {
         WEFT_TRY(extent,
                  extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
-        WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, at.frame));
+        WEFT_TRY(holdout,
+                 holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
         job.held_now = job.held.advance({at.views->display, extent, holdout});
         if (job.held_now) job.held_frames.insert(walking_back_ ? at.frame + 1 : at.frame);
         Matte visible = without_holdout(extent, holdout);
@@ -270,7 +271,8 @@ class Follower {
             }
             WEFT_TRY(extent,
                      extent_matte(context_.source, context_.plan, store_, job.region, frame));
-            WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, job.region, frame));
+            WEFT_TRY(holdout,
+                     holdout_matte(context_.source, context_.plan, store_, job.region, frame));
             WEFT_CHECK_OK(blend(job, frame, without_holdout(extent, holdout), ref_from_frame));
         }
         return {};
@@ -335,17 +337,20 @@ class Follower {
         return {};
     }
 
-    Status measure_grain(Job& job, const SweepFrame& at, const Matte& visible) {
+    // Grain is the camera's: all of the plate shows it.
+    Status measure_grain(Job& job, const SweepFrame& at) {
         if (!job.grain || at.frame > job.plan->grain_frames.back()) return {};
         ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
+        Matte metered(display.size(), 255);
+        drop_nonfinite(metered, at.views->finite);
         if (at.frame == job.primary) {
             job.meter.emplace(context_.plan.plate_quantum);
         } else {
-            job.meter->add(display, job.last_display, visible, job.last_metered,
+            job.meter->add(display, job.last_display, metered, job.last_metered,
                            job.walker->prev_from_cur().dense(rect_of(display.size())));
         }
         job.last_display = std::move(display);
-        job.last_metered = visible;
+        job.last_metered = std::move(metered);
         if (at.frame < job.plan->grain_frames.back()) return {};
         const GrainModel grain = job.meter->model();
         job.meter.reset();

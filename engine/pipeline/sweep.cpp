@@ -5,17 +5,21 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/parallel.h"
+
 namespace weft {
 namespace {
 
 struct Loaded {
+    int frame = 0;
     std::shared_ptr<const ImageF3> plate;
     PlateViews views;
+    FlowField motion;  // to the frame before, once it is estimated
 };
 
 Expected<Loaded> load(const PassContext& context, int frame) {
     WEFT_TRY(plate, context.source.plate(frame));
-    Loaded loaded{plate, make_views(*plate, *context.plan.display_from_plate)};
+    Loaded loaded{frame, plate, make_views(*plate, *context.plan.display_from_plate), {}};
     return loaded;
 }
 
@@ -36,8 +40,8 @@ FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& curr
         if (auto kept = plan.stages->motion(frame, previous)) return std::move(*kept);
     }
     FlowField motion = estimate_flow(current.luma, previous_views.luma, plan.quality);
-    FlowField back = estimate_flow(previous_views.luma, current.luma, plan.quality);
-    check_consistency(motion, back);
+    const FlowField back = estimate_flow(previous_views.luma, current.luma, plan.quality);
+    check_consistency(motion, back.d);
     return motion;
 }
 
@@ -61,11 +65,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
                 // One estimate each way serves both directions of a sweep.
                 FlowField down = estimate_flow(here.views.luma, before.luma, plan.quality);
                 FlowField up = estimate_flow(before.luma, here.views.luma, plan.quality);
-                const FlowField plain_down = down, plain_up = up;
-                FlowField other = plain_up;
-                check_consistency(down, other);
-                other = plain_down;
-                check_consistency(up, other);
+                check_consistency(down, up);
                 plan.stages->keep_motion(frame, frame - 1, down);
                 plan.stages->keep_motion(frame - 1, frame, up);
             }
@@ -81,26 +81,35 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
 
 Status sweep(const PassContext& context, const SweepOptions& options, const SweepVisitor& visit) {
     const int step = options.last >= options.first ? 1 : -1;
-    auto next = std::async(std::launch::async, [&] { return load(context, options.first); });
-    Loaded previous;
+    // With one thread only reading goes on beside the visitor.
+    const bool ahead = thread_count() > 1;
+    const auto motion_from = [&](const Loaded& current, const Loaded& previous) {
+        return options.motion ? motion_between(context.plan, current.frame, current.views,
+                                               previous.frame, previous.views)
+                              : FlowField{};
+    };
+    const auto load_next = [&](int frame, const Loaded* previous) -> Expected<Loaded> {
+        WEFT_TRY(loaded, load(context, frame));
+        if (ahead && previous && !context.cancel.cancelled())
+            loaded.motion = motion_from(loaded, *previous);
+        return loaded;
+    };
+    Loaded previous, current;
+    auto next = std::async(std::launch::async, load_next, options.first, nullptr);
     for (int frame = options.first;; frame += step) {
         const auto start = std::chrono::steady_clock::now();
-        WEFT_TRY(current, next.get());
+        WEFT_TRY(here, next.get());
+        current = std::move(here);
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        if (frame != options.last) {
-            next = std::async(std::launch::async,
-                              [&context, frame, step] { return load(context, frame + step); });
-        }
-        FlowField motion;
-        if (options.motion && previous.plate) {
-            motion =
-                motion_between(context.plan, frame, current.views, frame - step, previous.views);
-        }
-        WEFT_CHECK_OK(
-            visit({frame, current.plate, &current.views, motion.empty() ? nullptr : &motion}));
+        // `current` stays where it is until that has been waited for.
+        if (frame != options.last)
+            next = std::async(std::launch::async, load_next, frame + step, &current);
+        if (!ahead && previous.plate) current.motion = motion_from(current, previous);
+        WEFT_CHECK_OK(visit({frame, current.plate, &current.views,
+                             current.motion.empty() ? nullptr : &current.motion}));
         if (context.step) context.step(frame, seconds_since(start));
-        previous = std::move(current);
         if (frame == options.last) return {};
+        if (!ahead) previous = std::move(current);
     }
 }
 

@@ -40,8 +40,9 @@ struct PassContext {
 
 using SweepVisitor = std::function<Status(const SweepFrame&)>;
 
-/// Visits the frames in order; the next plate is read while the present one is worked on. Errors:
-/// those of the source and of the visitor, and cancellation.
+/// Visits the frames in order; while the present one is worked on, the next plate is read and, with
+/// more than one thread, its motion estimated. What is found depends on neither. Errors: those of
+/// the source and of the visitor, and cancellation.
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
                            const SweepVisitor& visit);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "engine/synthesis/amend_canvas.h"
 #include "engine/synthesis/canvas.h"
 #include "engine/synthesis/feather.h"
 #include "engine/synthesis/grow_canvas.h"
@@ -72,7 +73,9 @@ Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, const PlaneOpt
         const StageTimer total(stats.total_s);
         const SampleAtlas atlas(samples, options.orientations);
         Canvas canvas(options.size, options.tileable);
-        if (!grow_canvas(atlas, options, canvas, stats, cancel, progress)) return stopped(cancel);
+        if (!grow_canvas(atlas, options, canvas, stats, cancel, progress) ||
+            !amend_canvas(atlas, options, canvas, stats, cancel))
+            return stopped(cancel);
         const PlaneEnergy energy = recount_energy(atlas, canvas.source(), options.tileable);
         stats.seam_energy = energy.energy;
         stats.seam_length_px = energy.length_px;

@@ -14,6 +14,7 @@
 #include "engine/core/progress.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
+#include "engine/synthesis/plane_amendment.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_period.h"
 
@@ -49,8 +50,9 @@ struct PlaneOptions {
     bool tileable = false;                ///< Opposite borders join along cut seams.
     std::optional<PlaneGuide> guide;
     int refine_passes = kDefaultRefinePasses;  ///< Rounds of blocks over the worst seams, 0 is off.
-    Orientations orientations;  ///< Turned and mirrored samples besides upright ones.
-    bool align = true;          ///< Keep a texture that repeats by itself (bricks, tiles) in step.
+    Orientations orientations;               ///< Turned and mirrored samples besides upright ones.
+    std::vector<PlaneAmendment> amendments;  ///< Carried out in this order once it is grown.
+    bool align = true;  ///< Keep a texture that repeats by itself (bricks, tiles) in step.
     /// Searches for placements if it can do so faster than the CPU; the plane is the same.
     const Backend* backend = nullptr;
     /// Searches by direct sums and cuts by max-flow alone, as the paper does, to compare times. The

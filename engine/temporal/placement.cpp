@@ -23,8 +23,9 @@ Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
         return fail(ErrorCode::kUsage, "The scale must be above 0.");
     }
     // Counter-clockwise on a screen whose y points down.
-    const float angle = glm::radians(p.rotate_deg);
-    const float c = std::cos(angle), s = std::sin(angle);
+    // Long double: see docs/decisions/0002-determinism.md.
+    const long double angle = glm::radians(p.rotate_deg);
+    const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
     if (!p.corners) {
         return glm::inverse(
             affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px));

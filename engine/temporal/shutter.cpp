@@ -1,7 +1,6 @@
 #include "engine/temporal/shutter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace weft {
@@ -23,15 +22,15 @@ bool inside(ViewU8x1 visible, Vec2 p) {
     return rect_of(visible.size()).grown(-2).contains(x, y) && visible.at(x, y) >= 250;
 }
 
-constexpr int kLags = 64;  // px
-using Variogram = std::array<double, kLags + 1>;
+constexpr int kMostLags = 64;           // px
+using Variogram = std::vector<double>;  // at 0, 1, 2 … px
 
 // What a box of `length` along the way makes of a picture's variogram (Journel & Huijbregts 1978):
 // the mean of γ(t + u) − γ(u) under the triangle of u from −length to length.
 double regularised(const Variogram& sharp, int t, double length) {
     if (length < 1e-3) return sharp[static_cast<std::size_t>(t)];
     const auto gamma = [&](double x) {
-        x = std::min(std::abs(x), kLags - 1e-6);
+        x = std::min(std::abs(x), static_cast<double>(sharp.size() - 1) - 1e-6);
         const auto k = static_cast<std::size_t>(x);
         return sharp[k] + (x - static_cast<double>(k)) * (sharp[k + 1] - sharp[k]);
     };
@@ -51,19 +50,26 @@ double misfit(const Variogram& along, const Variogram& across, double length, in
     double sum = 0, squares = 0;
     for (int t = 1; t <= reach; ++t) {
         const double blurred = regularised(across, t, length);
-        const double d = std::log(along[static_cast<std::size_t>(t)] / std::max(blurred, 1e-9));
+        // Long double: see docs/decisions/0002-determinism.md.
+        const long double ratio = along[static_cast<std::size_t>(t)] / std::max(blurred, 1e-9);
+        const auto d = static_cast<double>(std::log(ratio));
         sum += d;
         squares += d * d;
     }
     return squares / reach - (sum / reach) * (sum / reach);
 }
 
+// Over how many pixels the variograms are compared, at a speed of px a frame.
+int reach_at(double speed) {
+    return std::clamp(static_cast<int>(speed), 4, kMostLags / 2);
+}
+
 // The share of a frame that the shutter is open; 0 where a sharp picture explains as much.
 double open_share(const Variogram& along, const Variogram& across, double speed) {
-    const int reach = std::clamp(static_cast<int>(speed), 4, kLags / 2);
+    const int reach = reach_at(speed);
     const double sharp = misfit(along, across, 0, reach);
     double best = 0, least = sharp;
-    for (double length = 0.5; length <= speed && length < kLags / 2; length += 0.25) {
+    for (double length = 0.5; length <= speed && length < kMostLags / 2; length += 0.25) {
         const double d = misfit(along, across, length, reach);
         if (d < least) {
             least = d;
@@ -81,38 +87,48 @@ double open_share(const Variogram& along, const Variogram& across, double speed)
 void ShutterMeter::add(ViewU8x1 luma, ViewU8x1 visible, const LatticeField& prev_from_cur) {
     constexpr float kSlowest = 4.0f;  // px a frame
     constexpr int kStride = 2, kFewest = 400;
-    Variogram along{}, across{}, count{};
-    double speed_sum = 0;
-    int places = 0;
+    struct Place {
+        Vec2 p, ahead;
+    };
+    std::vector<Place> places;
+    double speed = 0;
     for (int y = 2; y < visible.height() - 2; y += kStride) {
         for (int x = 2; x < visible.width() - 2; x += kStride) {
             if (visible.at(x, y) < 250) continue;
             const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
             const Vec2 v = -prev_from_cur.at(p);
-            const float speed = std::hypot(v.x, v.y);
-            if (speed < kSlowest) continue;
-            const Vec2 ahead = v / speed, aside(-ahead.y, ahead.x);
-            speed_sum += speed;
-            ++places;
-            const float here = luma_at(luma, p);
-            for (int t = 1; t <= kLags; ++t) {
-                const Vec2 a = p + static_cast<float>(t) * ahead;
-                const Vec2 b = p + static_cast<float>(t) * aside;
-                if (!inside(visible, a) || !inside(visible, b)) break;
-                const double da = luma_at(luma, a) - here, db = luma_at(luma, b) - here;
-                const auto at = static_cast<std::size_t>(t);
-                along[at] += da * da;
-                across[at] += db * db;
-                count[at] += 1;
-            }
+            const float here = std::hypot(v.x, v.y);
+            if (here < kSlowest) continue;
+            speed += here;
+            places.push_back({p, v / here});
         }
     }
-    if (places < kFewest || count[kLags] < kFewest) return;
-    for (std::size_t t = 1; t <= kLags; ++t) {
+    if (places.size() < kFewest) return;
+    speed /= static_cast<double>(places.size());
+    // A blur of up to the whole way is averaged over as much beyond what is compared. No more than
+    // that is asked of a small region.
+    const int lags = std::min(kMostLags, 2 * reach_at(speed) + 2);
+    Variogram along(static_cast<std::size_t>(lags) + 1), across = along, count = along;
+    for (const Place& place : places) {
+        const Vec2 aside(-place.ahead.y, place.ahead.x);
+        const float here = luma_at(luma, place.p);
+        for (int t = 1; t <= lags; ++t) {
+            const Vec2 a = place.p + static_cast<float>(t) * place.ahead;
+            const Vec2 b = place.p + static_cast<float>(t) * aside;
+            if (!inside(visible, a) || !inside(visible, b)) break;
+            const double da = luma_at(luma, a) - here, db = luma_at(luma, b) - here;
+            const auto at = static_cast<std::size_t>(t);
+            along[at] += da * da;
+            across[at] += db * db;
+            count[at] += 1;
+        }
+    }
+    if (count.back() < kFewest) return;
+    for (std::size_t t = 1; t < count.size(); ++t) {
         along[t] = std::max(along[t] / count[t], 1e-3);
         across[t] = std::max(across[t] / count[t], 1e-3);
     }
-    open_.push_back(static_cast<float>(open_share(along, across, speed_sum / places)));
+    open_.push_back(static_cast<float>(open_share(along, across, speed)));
 }
 
 float ShutterMeter::degrees() const {

@@ -51,7 +51,8 @@ const std::vector<Floor> kFloors{
     // function that writes a file whole
     {"app/project",
      {"engine/core", "engine/compute/wrap_mode.h", "engine/lighting/light_source.h",
-      "engine/lighting/shading.h", "engine/seam/seam.h", "engine/seam/seam_cost.h",
+      "engine/lighting/shading.h", "engine/mask/matte_reach.h", "engine/seam/seam.h",
+      "engine/seam/seam_cost.h", "engine/synthesis/plane_amendment.h",
       "engine/temporal/temporal_mode.h", "engine/media/image_files.h",
       "engine/media/atomic_file.h"}},
     // 5
@@ -91,6 +92,7 @@ const std::vector<Library> kLibraries{
     {"SQLite", {"sqlite3"}, {"texture_db"}},
     {"Dear ImGui", {"imgui", "backends/imgui"}, {"ui", "app/editor"}, true},
     {"GLFW and OpenGL", {"GLFW/", "GL/", "EGL/", "glad/", "epoxy/"}, {"app/editor"}, true},
+    {"X11", {"X11/"}, {"app/editor"}, true},
 };
 
 constexpr std::size_t kLongFileLines = 500;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/openjd_schema.h"
 
 namespace weft::test {
 namespace {
@@ -81,10 +82,12 @@ TEST_F(Farm, OpenJdTemplatesHaveTheFormOfTheSpecification) {
     EXPECT_EQ(action["command"], "{{Param.Weft}}");
     EXPECT_EQ(action["args"][3], "{{Task.Param.Index}}");
     EXPECT_EQ(action["cancelation"]["mode"], "NOTIFY_THEN_TERMINATE");
-    for (const auto& [key, value] : job.items())
-        EXPECT_TRUE(key == "specificationVersion" || key == "name" || key == "steps" ||
-                    key == "parameterDefinitions")
-            << key;
+    EXPECT_EQ(openjd_violations(job), Words());
+    Json bad = job;
+    bad["steps"][0]["script"]["actions"]["onRun"]["args"][1] = "{{Param.Jbo}}";
+    bad["steps"][1]["dependencies"][0]["dependsOn"] = "frames";
+    bad["owner"] = "me";
+    EXPECT_EQ(openjd_violations(bad).size(), 3u);
     ASSERT_EQ(task("motion", 0), 0);
     const Outcome told = run({"task", "farm/job.json", "analyse", "0", "--progress", "openjd"});
     EXPECT_THAT(told.out, HasSubstr("openjd_progress: 100.0\n"));
@@ -92,6 +95,19 @@ TEST_F(Farm, OpenJdTemplatesHaveTheFormOfTheSpecification) {
     fs::remove(folder_ / "frames/0003.png");
     EXPECT_THAT(run({"task", "farm/job.json", "frames", "0", "--progress", "openjd"}).out,
                 HasSubstr("openjd_fail: "));
+}
+
+// The schema allows 1024 tasks a step.
+TEST_F(Farm, OpenJdRefusesMoreTasksThanTheSchemaAllows) {
+    make_project();
+    Json shot = Json::parse(bytes("shot.weft"));
+    shot["plate"]["missing"] = "hold";
+    shot["settings"]["frames"] = "1-1500";
+    put("shot.weft", shot.dump());
+    expect_failure(run({"submit", "shot.weft", "--to", "openjd", "-o", "farm_1", "--chunk", "1"}),
+                   2, {"1024", "--chunk 2"});
+    expect_success(run({"submit", "shot.weft", "--to", "openjd", "-o", "farm_2", "--chunk", "2"}));
+    EXPECT_EQ(openjd_violations(Json::parse(bytes("farm_2/template.json"))), Words());
 }
 
 TEST_F(Farm, NoScriptHoldsAName) {

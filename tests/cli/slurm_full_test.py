@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-# Debian's Slurm on loopback, two nodes of one CPU each: the demo shot rendered on it, a node killed in the middle, equals the
-# local render bit for bit. Skips aloud without Slurm or without root. usage: slurm_full_test.py WEFT SOURCE
+# Debian's Slurm on loopback, two nodes of one CPU each: the demo shot rendered on it equals the local render bit for bit, also
+# with a node killed in the middle, and two nodes are faster than one where tasks run in parallel. Skips aloud without Slurm or
+# without root. usage: slurm_full_test.py WEFT SOURCE
 import filecmp
 import json
 import os
@@ -13,6 +14,7 @@ import tempfile
 import time
 
 SKIP = 77
+PARALLEL = ("weft-motion", "weft-frames")
 
 
 def skip(why):
@@ -67,9 +69,11 @@ SlurmdTimeout=10
 KillWait=5
 JobAcctGatherType=jobacct_gather/none
 MpiDefault=none
+SchedulerParameters=sched_interval=1,sched_min_interval=0,batch_sched_delay=0
 NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={first} CPUs=1
 NodeName=n2 NodeHostname={host} NodeAddr=127.0.0.1 Port={second} CPUs=1
 PartitionName=all Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
+PartitionName=one Nodes=n1 MaxTime=INFINITE State=UP
 """
         self.conf = folder + "/slurm.conf"
         with open(self.conf, "w") as file:
@@ -100,19 +104,27 @@ PartitionName=all Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
         skip("the nodes do not come up on this machine: " + self.call("sinfo"))
 
     def run(self, submit, env, disturb=None):
+        """Seconds that tasks of each stage were in work, from the first one's start to the last one's end."""
         env = dict(self.env, **env)
         begun = time.time()
         subprocess.run(submit, env=env, check=True)
+        seconds, before, held = {}, time.time(), set()
         while True:
             queue = self.call("squeue", "-h", "-o", "%j %T")
+            now = time.time()
+            stages = {line.split()[0] for line in queue.splitlines()}
+            started = {line.split()[0] for line in queue.splitlines() if " RUNNING" in line}
+            for stage in held & stages:
+                seconds[stage] = seconds.get(stage, 0) + now - before
+            before, held = now, (held | started) & stages
             if disturb and disturb(queue):
                 disturb = None
             if not queue:
-                return time.time() - begun
-            if time.time() - begun > 1800:
+                return seconds
+            if now - begun > 1800:
                 print(queue)
                 sys.exit("the job does not end")
-            time.sleep(0.3)
+            time.sleep(0.1)
 
     def stop(self):
         for process in [*self.nodes.values(), self.ctld, self.munge]:
@@ -178,11 +190,29 @@ def main():
             cluster.call("scontrol", "update", "nodename=n2", "state=down", "reason=killed")
             return True
 
-        took = cluster.run(prepared("farm", 4), env, lose_a_node)
+        def rendered(name, chunk, partition, disturb=None):
+            shutil.rmtree(out, ignore_errors=True)
+            if os.path.exists(folder + "/demo/demo.mkv"):
+                os.remove(folder + "/demo/demo.mkv")
+            took = cluster.run(prepared(name, chunk), dict(env, WEFT_SBATCH="--partition=" + partition), disturb)
+            same(folder + "/local", out)
+            assert filecmp.cmp(folder + "/local.mkv", folder + "/demo/demo.mkv", shallow=False), "the movie"
+            print(f"{name}: the bytes of the local render;", {k: round(v, 1) for k, v in took.items()}, flush=True)
+            return took
+
+        # Other work on the machine disturbs a comparison, so the best of three counts.
+        best = 0
+        for turn in range(3 if os.cpu_count() > 1 else 0):
+            one = rendered(f"one_{turn}", 3, "one")
+            two = rendered(f"two_{turn}", 3, "all")
+            best = max(best, sum(one[s] for s in PARALLEL) / sum(two[s] for s in PARALLEL))
+            print(f"two nodes: {best:.2f} times as fast as one", flush=True)
+            if best >= 1.5:
+                break
+        assert best >= 1.5 or os.cpu_count() < 2, "two nodes gain too little"
+
+        rendered("lost", 4, "all", lose_a_node)
         assert lost, "no node was lost while frames were rendered"
-        same(folder + "/local", out)
-        assert filecmp.cmp(folder + "/local.mkv", folder + "/demo/demo.mkv", shallow=False), "the movie"
-        print(f"the bytes are those of the local render, with a node lost ({took:.0f} s)")
     finally:
         if cluster:
             cluster.stop()

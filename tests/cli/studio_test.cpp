@@ -154,7 +154,7 @@ TEST_F(Studio, APlatesPixelAspectIsKept) {
         const std::string name = "wide.000" + std::to_string(frame) + ".exr";
         ASSERT_TRUE(write_image(in(name), card_plate(frame - 1), {}, options));
     }
-    for (const char* extension : {".exr", ".tif"}) {
+    for (const char* extension : {".exr", ".tif", ".png", ".dpx", ".jpg"}) {
         const std::string pattern = std::string("out/####") + extension;
         expect_success(run_replace({"--plate", "wide.####.exr", "-o", pattern, "--movie",
                                     std::string("m") + extension + ".mkv"}));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 
 #include "engine/media/image_files.h"
 #include "tests/cli/cli_fixture.h"
@@ -16,6 +17,17 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 using Tools = CliTest;
+
+TEST_F(Tools, ThePublishedSchemasAreThoseOfTheProgram) {
+    for (const char* name : {"project", "actions", "report"}) {
+        const Outcome outcome = run({"schema", name});
+        expect_success(outcome);
+        std::ifstream file(std::string(WEFT_SOURCE_DIR "/docs/schemas/") + name + ".schema.json");
+        const std::string published{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_EQ(Json::parse(outcome.out, nullptr, false), Json::parse(published, nullptr, false))
+            << name << ": weft schema " << name << " > docs/schemas/" << name << ".schema.json";
+    }
+}
 
 TEST_F(Tools, PartsOfAPlaneWithoutEndFitTogether) {
     expect_success(run({"synth", "sample.png", "-o", "a.png", "--endless", "--size", "150x120",

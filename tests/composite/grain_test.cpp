@@ -173,6 +173,51 @@ TEST(Grain, IsMeasuredBesideAMovingShadowAndUnderADimmingLight) {
     EXPECT_NEAR(model.deviation[1][2], 4.0f / 255.0f, 0.6f / 255.0f);
 }
 
+// Detail of many frequencies up to a sixth of a cycle a pixel, seen through a camera that moves.
+ImageF3 detailed(float move) {
+    ImageF3 out(kWidth, kHeight, 0.4f);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const float u = static_cast<float>(x) + move, v = static_cast<float>(y) - 0.6f * move;
+            float value = 0;
+            for (int k = 1; k <= 4; ++k) {
+                const auto f = static_cast<float>(k);
+                value += std::sin(0.28f * f * u + 0.11f * f * f) * std::cos(0.23f * f * v + f);
+            }
+            for (int c = 0; c < 3; ++c)
+                out.at(x, y, c) += 0.08f * value;
+        }
+    }
+    return out;
+}
+
+TEST(Grain, IsToldFromDetailThatMovesByPartsOfAPixel) {
+    const GrainModel model = measured(grainy(detailed(0), 11), grainy(detailed(3.4f), 12));
+    EXPECT_NEAR(model.deviation[1][2] * 255, 4.0f, 0.6f);
+    // One step of luma holds both deviations that grainy() makes; further up it is the greater.
+    EXPECT_GT(model.deviation[1][5], model.deviation[1][2]);
+    EXPECT_FALSE(measured(detailed(0), detailed(3.4f)).present());
+}
+
+// What is fresh in every frame in two thirds of the picture is more than grain; the rest of the
+// plate tells.
+TEST(Grain, IsTheLeastThatAnyPartOfThePlateShows) {
+    const auto plate = [](std::uint64_t seed) {
+        ImageF3 out = grainy(ImageF3(kWidth, kHeight, 0.3f), seed);
+        Rng rng(seed + 100);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = kWidth / 3; x < kWidth; ++x) {
+                const float sparkle = 0.15f * static_cast<float>(rng.uniform() - 0.5);
+                for (int c = 0; c < 3; ++c)
+                    out.at(x, y, c) += sparkle;
+            }
+        }
+        return out;
+    };
+    const GrainModel model = measured(plate(1), plate(2));
+    EXPECT_NEAR(model.deviation[1][2] * 255, 4.0f, 0.6f);
+}
+
 TEST(Grain, APatternThatIsFollowedBadlyIsNotTakenForGrain) {
     ImageF3 a(kWidth, kHeight), b(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y) {

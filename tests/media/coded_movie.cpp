@@ -78,6 +78,7 @@ void write_bars(const std::string& path, const CodedMovie& movie, const std::vec
     frame->width = movie.size.width;
     frame->height = movie.size.height;
     frame->pts = 0;
+    frame->interlaced_frame = frame->top_field_first = movie.interlaced ? 1 : 0;
     need(av_frame_get_buffer(frame, 0) >= 0, "frame");
     fill_bars(*frame, bars);
     AVPacket* packet = av_packet_alloc();

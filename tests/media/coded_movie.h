@@ -21,6 +21,7 @@ struct CodedMovie {
     AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
     AVColorTransferCharacteristic transfer = AVCOL_TRC_UNSPECIFIED;
     int rotation_deg = 0;  ///< Clockwise; QuickTime (.mov) only.
+    bool interlaced = false;
 };
 
 /// Codes of the components in the order of the format's description: Y, Cb, Cr or R, G, B, A.

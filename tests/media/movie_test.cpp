@@ -7,6 +7,7 @@
 
 #include "engine/media/frame_reader.h"
 #include "engine/media/frame_writer.h"
+#include "tests/media/coded_movie.h"
 #include "tests/media/media_fixture.h"
 
 namespace weft {
@@ -37,6 +38,20 @@ double mean_difference(const ImageF3& a, const ImageF3& b, Size size) {
         }
     }
     return sum / (3.0 * size.width * size.height);
+}
+
+TEST_F(Movie, InterlacedIsRefusedAndSaysWhatToDo) {
+    const std::vector<Codes> bars{{50, 128, 128, 0}, {200, 128, 128, 0}};
+    CodedMovie movie;
+    write_bars(in("progressive.mkv"), movie, bars);
+    EXPECT_TRUE(open_plate(in("progressive.mkv"), {}));
+    movie.interlaced = true;
+    write_bars(in("interlaced.mkv"), movie, bars);
+    const auto plate = open_plate(in("interlaced.mkv"), {});
+    ASSERT_FALSE(plate);
+    EXPECT_EQ(plate.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(plate.error().message, HasSubstr("interlaced.mkv"));
+    EXPECT_THAT(plate.error().message, HasSubstr("Deinterlace it first"));
 }
 
 TEST_F(Movie, LosslessComesBackBitForBit) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "engine/media/image_files.h"
 #include "tests/media/media_fixture.h"
 
@@ -46,6 +48,19 @@ TEST_F(Truncation, Jpeg) {
 }
 TEST_F(Truncation, ExrHalf) {
     expect_never_read("a.exr", PixelDepth::kHalf);
+}
+// OpenEXR would allocate two gigabytes before it finds that they are not there.
+TEST_F(Truncation, ExrAttributeBeyondTheFile) {
+    put_frame(in("whole.exr"), picture({160, 120}, 3), PixelDepth::kHalf);
+    auto bytes = bytes_of(in("whole.exr"));
+    const std::string name("compression\0compression\0", 24);
+    const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    ASSERT_NE(at, bytes.end());
+    at[24 + 3] = 0x7f;
+    put_bytes(in("claims.exr"), bytes, bytes.size());
+    const auto frame = read_image(in("claims.exr"));
+    ASSERT_FALSE(frame);
+    EXPECT_THAT(frame.error().message, HasSubstr("bytes for the attribute 'compression'"));
 }
 TEST_F(Truncation, ExrFloat) {
     expect_never_read("b.exr", PixelDepth::kFloat);

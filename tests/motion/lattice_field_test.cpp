@@ -161,6 +161,27 @@ TEST(LatticeField, HoldsTheSmallestFrames) {
     }
 }
 
+// A wheel turns by more than what a fixed-point iteration takes (60 degrees).
+TEST(LatticeField, AnInverseOfAWholeTurnLeadsBackToo) {
+    for (const float degrees : {50.0f, 75.0f, 110.0f, 180.0f, 250.0f}) {
+        const float a = degrees * 3.14159265f / 180.0f, c = std::cos(a), s = std::sin(a);
+        const LatticeField field = field_of({80, 60}, 8, [&](Vec2 p) {
+            const Vec2 q = p - Vec2(40, 30);
+            const Vec2 bent(0.8f * std::sin(p.y / 9), 0.6f * std::sin(p.x / 11));
+            return Vec2(40, 30) + 1.1f * Vec2(c * q.x - s * q.y, s * q.x + c * q.y) - p + bent;
+        });
+        const LatticeField back = inverse(field);
+        float worst = 0;
+        for (int y = 14; y < 46; ++y) {
+            for (int x = 24; x < 56; ++x) {
+                const Vec2 p = centre_of(x, y), there = p + field.at(p);
+                worst = std::max(worst, glm::length(there + back.at(there) - p));
+            }
+        }
+        EXPECT_LT(worst, 0.2f) << degrees;
+    }
+}
+
 TEST(LatticeField, AnInverseLeadsBack) {
     LatticeField field({320, 200}, 8);
     for (int j = 0; j < field.nodes().height(); ++j) {

@@ -13,7 +13,7 @@
 
 namespace weft {
 
-class MemoryShot final : public ShotSource {
+class MemoryShot : public ShotSource {
   public:
     using Key = std::pair<int, int>;  // region, frame
 

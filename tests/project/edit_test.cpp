@@ -32,7 +32,33 @@ std::vector<Edit> every_edit() {
             RemoveMatteKeyframe{{7, {}}, 1},
             SetHoldouts{{7, {}}, {painted}},
             SetTexture{{7, {}}, region.texture},
-            SetCorrection{{7, {}}, 12, {{{1, 2}, {3, 4.5}}}}};
+            SetCorrection{{7, {}}, 12, {{{1, 2}, {3, 4.5}}}},
+            SetAmendments{{7, {}}, {{PlaneAmendment::Kind::kAgain, 3, {{1, 2, 40, 5, 6, 0, 0}}}}}};
+}
+
+TEST(Edits, OtherSamplesDropWhatWasKept) {
+    const Project before = test::full_project();
+    ASSERT_FALSE(before.regions[0]->amendments->empty());
+    TextureSource texture = before.regions[0]->texture;
+    texture.space = "srgb";
+    auto same = apply_edit(before, SetTexture{{7, {}}, texture});
+    ASSERT_TRUE(same) << same.error().text();
+    EXPECT_EQ(same->regions[0]->amendments, before.regions[0]->amendments);
+    texture.sample = "other.jpg";
+    const auto other = apply_edit(before, SetTexture{{7, {}}, texture});
+    ASSERT_TRUE(other);
+    EXPECT_TRUE(other->regions[0]->amendments->empty());
+    const auto key =
+        apply_edit(before, SetRegionParameter{{7, {}}, "texture.sample", std::string("x.jpg")});
+    ASSERT_TRUE(key);
+    EXPECT_TRUE(key->regions[0]->amendments->empty());
+    // Edits that make one region of another keep what the other has kept.
+    const auto there = apply_edits(*other, region_edits(*other->regions[0], *before.regions[0]));
+    ASSERT_TRUE(there) << there.error().text();
+    EXPECT_EQ(there->regions[0]->amendments, before.regions[0]->amendments);
+    EXPECT_FALSE(apply_edit(
+        before,
+        SetAmendments{{7, {}}, {{PlaneAmendment::Kind::kKeep, 0, {{0, 0, 0, 0, 0, 0, 0}}}}}));
 }
 
 TEST(Edits, EachSurvivesJson) {

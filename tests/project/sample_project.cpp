@@ -16,10 +16,16 @@ Region full_region() {
     matte.steadiness = 0.75;
     matte.frozen = {10, 11};
     matte.frozen_files = "final/####.png";
+    matte.carry = CarryDirection::kBackward;
+    matte.carry_from = -5;
+    matte.carry_to = 100;
     r.matte = matte;
     MatteSource holdout;
     holdout.files = "hold/####.png";
-    r.holdouts = std::vector<MatteSource>{holdout};
+    MatteSource painted;
+    painted.keyframes = {{12, {"mattes/hand.png", {}}}};
+    painted.carry = CarryDirection::kForward;
+    r.holdouts = std::vector<MatteSource>{holdout, painted};
     r.texture = {
         "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};
     r.placement.scale = 0.1;
@@ -32,6 +38,9 @@ Region full_region() {
     r.placement.offset_keys = "1:0,0 24:10,5";
     r.reference_frames = {12, 40};
     r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
+    r.amendments = std::vector<PlaneAmendment>{
+        {PlaneAmendment::Kind::kKeep, 0, {{10, 20, 30, 1, 2, 0, 0}, {10, 21, 1, 3, 4, 2, 5}}},
+        {PlaneAmendment::Kind::kAgain, 4000000000u, {{-3, 7, 12, 0, 0, 0, 0}}}};
     r.placement.uv = "uv/####.exr";
     r.placement.uv_layer = "shot.UV";
     r.motion = {"flow/####.flo",

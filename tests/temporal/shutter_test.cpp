@@ -60,6 +60,18 @@ TEST(Shutter, ASharpPictureHasNone) {
     EXPECT_EQ(measured({{9, 0}, {4.5f, 0}}, 0), 0) << "steps of the texture's own tiles";
 }
 
+// In a board of 90 px hardly any two places are 64 px apart both ways.
+TEST(Shutter, IsFoundOnASmallRegion) {
+    Matte small(kSize);
+    for (int y = 35; y < 125; ++y)
+        std::fill(small.row(y) + 55, small.row(y) + 145, 255);
+    ShutterMeter meter;
+    int frame = 0;
+    for (const Vec2 v : {Vec2(12, 3), Vec2(9, -5), Vec2(14, 4)})
+        meter.add(blurred(v, 180, ++frame), small, steady(-v));
+    EXPECT_NEAR(meter.degrees(), 180, 60);
+}
+
 TEST(Shutter, WithoutMotionNothingIsSaid) {
     EXPECT_EQ(measured({{1, 0.5f}, {0, 0}}, 180), 0);
 }

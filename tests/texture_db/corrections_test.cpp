@@ -31,9 +31,8 @@ TEST(PictureCorrections, AreWellFormedAndOfKnownMaterials) {
         EXPECT_EQ(std::count(line.begin(), line.end(), '\t'), 2) << line;
         const std::string material = line.substr(line.rfind('\t') + 1);
         const auto& table = material_table();
-        const bool known = std::any_of(table.begin(), table.end(), [&](const MaterialEntry& m) {
-            return m.name == material;
-        });
+        const bool known = std::any_of(table.begin(), table.end(),
+                                       [&](const MaterialEntry& m) { return m.name == material; });
         EXPECT_TRUE(known || material == "-") << line;
         EXPECT_LT(before, line) << "sorted, so that each is there once";
         before = line;

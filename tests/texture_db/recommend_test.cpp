@@ -69,6 +69,22 @@ TEST(Recommend, SeesTheMaterialAndGivesReasons) {
     EXPECT_GE(bricks, 4) << "'keep the material' keeps it";
 }
 
+TEST(Recommend, OffersWhatServesAsTheRegion) {
+    const Frame frame;
+    RecommendRequest request = request_for(frame);
+    const auto share_of = [&](const char* name, const std::set<std::string>& materials) {
+        request.regions[0].name = name;
+        const auto advice = small_library()->recommend(request);
+        int fit = 0;
+        for (const Suggestion& s : advice->regions[0].suggestions)
+            fit += materials.contains(s.material) ? 1 : 0;
+        return fit;
+    };
+    const std::set<std::string> worn{"fabric", "knit", "leather", "fur", "carpet"};
+    EXPECT_GE(share_of("sleeve", worn), 5) << "of eight; one keeps the brick";
+    EXPECT_LE(share_of("wall", worn), 1);
+}
+
 TEST(Recommend, IsDiverseOnlyWhenAsked) {
     const Frame frame;
     RecommendRequest request = request_for(frame);

@@ -169,7 +169,8 @@ TEST_F(EditorSession, AFailedJobSaysWhy) {
     open();
     paint();
     session->act(ApplyTexture{(folder / "tile.png").string(), 0});
-    session->act(SubmitJob{"1-2", (folder / "out" / "####.png").string(), "", false, false});
+    session->act(
+        SubmitJob{"1-2", (folder / "out" / "####.png").string(), "", false, false, "", ""});
     ASSERT_TRUE(wait([&] {
         return !session->view().jobs.empty() && session->view().jobs[0].state == JobState::kFailed;
     }));

@@ -199,12 +199,13 @@ void SessionTest::SetUp() {
     robot = std::make_unique<Robot>(*shell, [this] { frame(); });
 }
 
-void SessionTest::restart_session() {
+void SessionTest::restart_session(const std::string& texture_library) {
     session.reset();
     SessionOptions options;
     options.program = "/bin/false";
     options.state_folder = (folder / "state").string();
     options.cache.folder = (folder / "cache").string();
+    options.texture_library = texture_library;
     session = std::make_unique<Session>(options, &settings);
 }
 

@@ -79,7 +79,7 @@ class SessionTest : public ::testing::Test {
         }
         return done();
     }
-    void restart_session();
+    void restart_session(const std::string& texture_library = {});
     /// Middle of a plate pixel on the screen.
     [[nodiscard]] ImVec2 at(float x, float y) const;
 

@@ -1,0 +1,63 @@
+#include "app/session/where_to_correct.h"
+
+#include <algorithm>
+#include <map>
+
+#include "app/session/session_view.h"
+#include "engine/mask/keyframe_advice.h"
+
+namespace weft {
+namespace {
+
+// How bad a hint is, 0 – 1, to choose between two of one frame.
+float badness(CorrectionHint::Kind kind, const FrameMarks& mark) {
+    switch (kind) {
+        case CorrectionHint::Kind::kMatte:
+            return mark.confidence < 0 ? 0.0f : 1.0f - mark.confidence;
+        case CorrectionHint::Kind::kDrift:
+            return std::clamp(mark.drift, 0.0f, 1.0f);
+        case CorrectionHint::Kind::kStretch:
+            // Three times is where the engine itself lets go (stretch_limit.h).
+            return std::clamp((mark.stretch - 1.0f) / 2.0f, 0.0f, 1.0f);
+    }
+    return 0;
+}
+
+float value_of(CorrectionHint::Kind kind, const FrameMarks& mark) {
+    return kind == CorrectionHint::Kind::kMatte   ? mark.confidence
+           : kind == CorrectionHint::Kind::kDrift ? mark.drift
+                                                  : mark.stretch;
+}
+
+}  // namespace
+
+std::vector<CorrectionHint> where_to_correct(const std::vector<int>& frames,
+                                             const std::vector<FrameMarks>& marks,
+                                             const std::vector<int>& painted,
+                                             const std::vector<int>& anchored) {
+    using Kind = CorrectionHint::Kind;
+    std::map<int, CorrectionHint> worst;
+    for (const Kind kind : {Kind::kMatte, Kind::kDrift, Kind::kStretch}) {
+        std::vector<FrameConfidence> list;
+        for (std::size_t k = 0; k < std::min(frames.size(), marks.size()); ++k)
+            if (value_of(kind, marks[k]) >= 0)
+                list.push_back({frames[k], 1.0f - badness(kind, marks[k])});
+        const std::vector<int>& done = kind == Kind::kMatte ? painted : anchored;
+        if (list.empty() || done.empty()) continue;
+        for (const int frame : suggest_keyframes(list, done)) {
+            const auto at = static_cast<std::size_t>(
+                std::lower_bound(frames.begin(), frames.end(), frame) - frames.begin());
+            const auto found = worst.find(frame);
+            if (found != worst.end() &&
+                badness(found->second.kind, marks[at]) >= badness(kind, marks[at]))
+                continue;
+            worst[frame] = {frame, kind, value_of(kind, marks[at])};
+        }
+    }
+    std::vector<CorrectionHint> out;
+    for (const auto& [frame, hint] : worst)
+        out.push_back(hint);
+    return out;
+}
+
+}  // namespace weft

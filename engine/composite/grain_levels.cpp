@@ -1,0 +1,132 @@
+#include "engine/composite/grain_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace weft {
+namespace {
+
+constexpr std::size_t kBins = GrainModel::kBins;
+constexpr std::size_t kTerms = kBins + 1;  // variances and the share of detail
+constexpr int kRounds = 24;
+constexpr double kFirst = 0.15;  // share of the places below where the fit begins
+// Spreads from the fit at which a place counts half: above, what is more than chance is not grain;
+// below, a place that has been denoised or compressed flat says nothing either.
+constexpr double kAbove = 0.6, kBelow = 4;
+constexpr double kLeastOfUsual = 0.02;  // of the first guess: a prediction is not below
+// The line over luma is stiff: how much its bends and slopes weigh beside all places.
+constexpr double kBend = 0.3, kSlope = 0.0005;
+
+using Row = std::array<double, kTerms>;
+
+Row row_of(const GrainPlace& p) {
+    Row row{};
+    const double at = std::clamp(static_cast<double>(p.luma) * kBins - 0.5, 0.0, kBins - 1.0);
+    const auto below = std::min<std::size_t>(static_cast<std::size_t>(at), kBins - 2);
+    const double t = at - static_cast<double>(below);
+    row[below] = 1 - t, row[below + 1] = t;
+    row[kBins] = std::max(0.0f, p.detail);
+    return row;
+}
+
+double dot(const Row& a, const Row& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < kTerms; ++k)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+// Normal equations under a penalty for bends and slopes; without detail where `flat`.
+struct Equations {
+    std::array<std::array<double, kTerms + 1>, kTerms> m{};
+
+    void add(const Row& row, double value, double weight) {
+        for (std::size_t i = 0; i < kTerms; ++i) {
+            if (row[i] == 0) continue;
+            for (std::size_t j = 0; j < kTerms; ++j)
+                m[i][j] += weight * row[i] * row[j];
+            m[i][kTerms] += weight * row[i] * value;
+        }
+    }
+
+    [[nodiscard]] Row solved() {
+        for (std::size_t k = 0; k < kTerms; ++k) {
+            for (std::size_t i = k + 1; i < kTerms; ++i) {
+                const double f = m[i][k] / m[k][k];
+                for (std::size_t j = k; j <= kTerms; ++j)
+                    m[i][j] -= f * m[k][j];
+            }
+        }
+        Row x{};
+        for (std::size_t k = kTerms; k-- > 0;) {
+            double rest = m[k][kTerms];
+            for (std::size_t j = k + 1; j < kTerms; ++j)
+                rest -= m[k][j] * x[j];
+            x[k] = rest / m[k][k];
+        }
+        return x;
+    }
+};
+
+Row fitted(const std::vector<GrainPlace>& places, const std::vector<double>& weights, bool detail) {
+    Equations e;
+    double total = 0, energy = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Row row = row_of(places[i]);
+        energy += weights[i] * row[kBins] * row[kBins];
+        if (!detail) row[kBins] = 0;
+        e.add(row, places[i].variance, weights[i]);
+        total += weights[i];
+    }
+    for (std::size_t k = 0; k + 1 < kBins; ++k) {
+        Row row{};
+        row[k] = -1, row[k + 1] = 1;
+        e.add(row, 0, kSlope * total);
+        if (k + 2 == kBins) continue;
+        row[k] = 1, row[k + 1] = -2, row[k + 2] = 1;
+        e.add(row, 0, kBend * total);
+    }
+    e.m[kBins][kBins] += 1e-6 * energy + 1e-30;
+    for (std::size_t k = 0; k < kBins; ++k)
+        e.m[k][k] += 1e-9 * total;
+    return e.solved();
+}
+
+}  // namespace
+
+GrainLevels grain_levels(const std::vector<GrainPlace>& places) {
+    GrainLevels out;
+    out.trust.assign(places.size(), 0.0f);
+    if (places.empty()) return out;
+    std::vector<float> sorted;
+    for (const GrainPlace& p : places)
+        sorted.push_back(p.variance);
+    const auto first =
+        sorted.begin() + static_cast<std::ptrdiff_t>(kFirst * static_cast<double>(sorted.size()));
+    std::nth_element(sorted.begin(), first, sorted.end());
+    const double usual = std::max(1e-12, static_cast<double>(*first));
+
+    std::vector<double> expected(places.size(), usual), weights(places.size());
+    Row fit{};
+    for (int round = 0; round < kRounds; ++round) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const double spread = places[i].spread * expected[i];
+            const double away = (places[i].variance - expected[i]) / spread;
+            const double limit = away > 0 ? kAbove : kBelow;
+            const double trust = 1 / (1 + away * away / (limit * limit));
+            out.trust[i] = static_cast<float>(trust);
+            weights[i] = trust / (spread * spread);
+        }
+        fit = fitted(places, weights, true);
+        if (fit[kBins] < 0) fit = fitted(places, weights, false), fit[kBins] = 0;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            expected[i] = std::max(kLeastOfUsual * usual, dot(fit, row_of(places[i])));
+    }
+    for (std::size_t k = 0; k < kBins; ++k)
+        out.variance[k] = std::max(0.0, fit[k]);
+    out.of_detail = fit[kBins];
+    return out;
+}
+
+}  // namespace weft

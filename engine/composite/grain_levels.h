@@ -1,0 +1,30 @@
+#pragma once
+// Grain's variance by luma from places that also show other things.
+
+#include <array>
+#include <vector>
+
+#include "engine/composite/grain.h"
+
+namespace weft {
+
+/// What was measured at a place. Variances in squared display units.
+struct GrainPlace {
+    float luma = 0;
+    float variance = 0;
+    float detail = 0;  ///< Energy of the picture's own fine detail there, without the grain.
+    float spread = 1;  ///< Deviation of `variance` from chance alone, as a share of it.
+};
+
+struct GrainLevels {
+    std::array<double, GrainModel::kBins> variance{};  ///< At the middle of each step of luma, ≥ 0.
+    double of_detail = 0;                              ///< Variance for each unit of detail, ≥ 0.
+    std::vector<float> trust;  ///< Of each place, 0 to 1: how much it says of grain alone.
+};
+
+/// The lower edge of the places' variance as a line between the steps of luma plus a share of
+/// their detail: grain is everywhere, aliasing, errors of the motion and light that moves only add
+/// to it. No places: all 0.
+[[nodiscard]] GrainLevels grain_levels(const std::vector<GrainPlace>& places);
+
+}  // namespace weft

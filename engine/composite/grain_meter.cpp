@@ -1,0 +1,305 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "engine/composite/grain.h"
+#include "engine/composite/grain_levels.h"
+#include "engine/composite/grain_spectrum.h"
+#include "engine/composite/registered_block.h"
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+constexpr int kReach = GrainModel::kRadius, kBins = GrainModel::kBins;
+constexpr int kSide = RegisteredBlock::kSide;
+constexpr int kInner = kSide - 2 * kReach;  // whose neighbours within the reach are in the block
+constexpr double kMostBlocks = 600;         // of a frame: more say nothing new
+constexpr float kFewestInCell = 60;         // pixels
+constexpr double kFewest = 400;             // pixels in all
+// How many pixels of grain, whose neighbours hang together, say as much as one that is alone.
+constexpr double kPixelsOfOne = 2.5;
+constexpr double kLeastDeviation = 0.35 / 255;  // less is not seen
+constexpr double kMostDeviation = 0.1;          // more is no grain
+constexpr double kMostOfUsual = 2.5;            // deviation of one luma beside that of all
+// Squares of 10 px whose means hold more than this share of a block's variance: light that moves,
+// not grain. White noise leaves a hundredth, grain of a correlation of 1.2 px an eighth.
+constexpr int kSquare = 10;
+constexpr double kMostWide = 0.3;
+// Smooth terms that registering a block takes out: brightness, its two slopes, gain.
+constexpr double kTaken = 4;
+// Two codes from black and white nothing is cut off.
+constexpr float kClippedCodes = 2;
+
+float luma_of(const float* p) {
+    return 0.299f * p[0] + 0.587f * p[1] + 0.114f * p[2];
+}
+
+double rounding_variance(float quantum) {
+    return static_cast<double>(quantum) * quantum / 12;
+}
+
+bool moving_light(const RegisteredBlock& block) {
+    double wide = 0, all = 0;
+    for (int y = 0; y < kSide; y += kSquare) {
+        for (int x = 0; x < kSide; x += kSquare) {
+            std::array<double, 3> sum{};
+            for (int v = y; v < y + kSquare; ++v) {
+                for (int u = x; u < x + kSquare; ++u) {
+                    const float* r = block.residual.pixel(u, v);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum[c] += r[c], all += static_cast<double>(r[c]) * r[c];
+                }
+            }
+            for (const double s : sum)
+                wide += s * s / (kSquare * kSquare);
+        }
+    }
+    return wide > kMostWide * all;
+}
+
+// 5×5 mean, so that hardly any grain is in it.
+float smooth_luma(const ImageF3& mean, int x, int y) {
+    float sum = 0;
+    for (int v = y - 2; v <= y + 2; ++v) {
+        for (int u = x - 2; u <= x + 2; ++u)
+            sum += luma_of(mean.pixel(std::clamp(u, 0, kSide - 1), std::clamp(v, 0, kSide - 1)));
+    }
+    return sum / 25.0f;
+}
+
+GrainLags lags_of(const std::array<std::array<float, 4>, 2>& lookup) {
+    GrainLags out{};
+    for (int y = -kReach; y <= kReach; ++y) {
+        for (int x = -kReach; x <= kReach; ++x) {
+            out[static_cast<std::size_t>((y + kReach) * GrainModel::kSide + x + kReach)] =
+                static_cast<double>(lookup[0][static_cast<std::size_t>(std::abs(x))]) *
+                lookup[1][static_cast<std::size_t>(std::abs(y))];
+        }
+    }
+    return out;
+}
+
+std::array<float, 6> cholesky(double gr, double br, double bg) {
+    const double g1 = std::sqrt(1 - gr * gr);
+    const double b1 = (bg - br * gr) / g1;
+    const double b2 = std::sqrt(std::max(0.0, 1 - br * br - b1 * b1));
+    return {1,
+            static_cast<float>(gr),
+            static_cast<float>(g1),
+            static_cast<float>(br),
+            static_cast<float>(b1),
+            static_cast<float>(b2)};
+}
+
+}  // namespace
+
+// Over all blocks, as far as they show grain alone.
+struct GrainMeter::Sums {
+    std::array<Lags, 3> products{};
+    std::array<double, 3> together{};
+    Lags lookup{};
+};
+
+namespace {
+
+// A block's lumas, each with what differs there.
+template <class Cell>
+std::vector<Cell> cells_of(const RegisteredBlock& block, float clipped) {
+    std::array<Cell, kBins> cells{};
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const float luma = smooth_luma(block.mean, x, y);
+            const float* m = block.mean.pixel(x, y);
+            if (clipped > 0 && (std::min({m[0], m[1], m[2]}) < clipped ||
+                                std::max({m[0], m[1], m[2]}) > 1 - clipped))
+                continue;
+            Cell& cell = cells[static_cast<std::size_t>(
+                std::clamp(static_cast<int>(luma * kBins), 0, kBins - 1))];
+            cell.count += 1, cell.luma += luma;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float r = block.residual.pixel(x, y)[c];
+                cell.variance[c] += r * r, cell.detail[c] += block.detail.pixel(x, y)[c];
+            }
+        }
+    }
+    std::vector<Cell> out;
+    for (Cell& cell : cells) {
+        if (cell.count < kFewestInCell) continue;
+        cell.luma /= cell.count;
+        for (std::size_t c = 0; c < 3; ++c) {
+            cell.variance[c] /= cell.count, cell.detail[c] /= cell.count;
+            // Less than three deviations of what chance makes of grain is no detail.
+            cell.detail[c] -= std::min(cell.detail[c], cell.variance[c] / std::sqrt(cell.count));
+        }
+        out.push_back(cell);
+    }
+    return out;
+}
+
+template <class Block>
+Block products_of(const RegisteredBlock& block) {
+    Block out{};
+    out.lookup = block.lookup;
+    out.count = kSide * kSide;
+    for (int y = kReach; y < kSide - kReach; ++y) {
+        for (int x = kReach; x < kSide - kReach; ++x) {
+            const float* r = block.residual.pixel(x, y);
+            out.together[0] += static_cast<double>(r[1]) * r[0];
+            out.together[1] += static_cast<double>(r[2]) * r[0];
+            out.together[2] += static_cast<double>(r[2]) * r[1];
+            std::size_t k = 0;
+            for (int v = -kReach; v <= kReach; ++v) {
+                for (int u = -kReach; u <= kReach; ++u, ++k) {
+                    const float* o = block.residual.pixel(x + u, y + v);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        out.products[c][k] += static_cast<double>(r[c]) * o[c];
+                }
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1 previous_visible,
+                     ViewF2 prev_from_cur) {
+    const Size size = current.size();
+    if (size.width < 2 * kSide || size.height < 2 * kSide) return;
+    const BlockPair pair(current, previous, visible, previous_visible);
+    const double area = static_cast<double>(size.width) * size.height;
+    const int step = std::max(kSide, static_cast<int>(std::sqrt(area / kMostBlocks)));
+    constexpr int kBorder = 2 * RegisteredBlock::kBorder;
+    const int columns = (size.width - 2 * kBorder - kSide) / step + 1;
+    const int rows = (size.height - 2 * kBorder - kSide) / step + 1;
+    struct Found {
+        Block block;
+        std::vector<Cell> cells;
+    };
+    std::vector<std::optional<Found>> found(static_cast<std::size_t>(columns) *
+                                            static_cast<std::size_t>(rows));
+    parallel_rows(rows, 1, [&](int r0, int r1) {
+        for (int r = r0; r < r1; ++r) {
+            for (int k = 0; k < columns; ++k) {
+                const Vec2i corner{kBorder + k * step, kBorder + r * step};
+                const float* d = prev_from_cur.pixel(corner.x + kSide / 2, corner.y + kSide / 2);
+                const auto block = register_block(pair, corner, {d[0], d[1]});
+                if (!block || moving_light(*block)) continue;
+                Found f{products_of<Block>(*block),
+                        cells_of<Cell>(*block, kClippedCodes * quantum_)};
+                if (!f.cells.empty())
+                    found[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
+                          static_cast<std::size_t>(k)] = std::move(f);
+            }
+        }
+    });
+    for (auto& f : found) {
+        if (!f) continue;
+        for (Cell& cell : f->cells) {
+            cell.block = blocks_.size();
+            cells_.push_back(cell);
+        }
+        blocks_.push_back(f->block);
+    }
+}
+
+GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& trust) const {
+    std::vector<double> of_block(blocks_.size(), 0.0);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        of_block[cells_[i].block] += static_cast<double>(trust[i]) * trust[i] * cells_[i].count;
+    Sums sums;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const Block& block = blocks_[b];
+        // A block counts by what it says of the spectrum, not by how strong its grain is.
+        const double energy = block.products[0][kLags / 2] + block.products[1][kLags / 2] +
+                              block.products[2][kLags / 2];
+        if (!(energy > 0)) continue;
+        const double share = of_block[b] / energy;
+        const Lags lookup = lags_of(block.lookup);
+        const double rounding = 2 * rounding_variance(quantum_) * kInner * kInner;
+        for (std::size_t c = 0; c < 3; ++c) {
+            sums.together[c] += share * block.together[c];
+            for (std::size_t k = 0; k < kLags; ++k)
+                sums.products[c][k] += share * (block.products[c][k] - rounding * lookup[k]);
+        }
+        for (std::size_t k = 0; k < kLags; ++k)
+            sums.lookup[k] += of_block[b] * lookup[k];
+    }
+    for (Lags& products : sums.products) {
+        // Registering takes the widest part of the grain with it, alike at all lags.
+        const double whole = std::accumulate(products.begin(), products.end(), 0.0);
+        for (double& p : products)
+            p += kTaken / (kSide * kSide) * whole;
+    }
+    return sums;
+}
+
+GrainModel GrainMeter::model() const {
+    GrainModel model;
+    double pixels = 0;
+    for (const Cell& cell : cells_)
+        pixels += cell.count;
+    if (pixels < kFewest) return model;
+
+    // First as if the lookup had taken nothing of the grain, to know which places show it and its
+    // spectrum; then with what it takes of such grain.
+    std::array<GrainSpectrum, 3> spectra;
+    std::array<GrainLevels, 3> levels;
+    for (int pass = 0; pass < 2; ++pass) {
+        std::vector<float> trust(cells_.size(), 1.0f);
+        for (std::size_t c = 0; c < 3; ++c) {
+            std::vector<GrainPlace> places;
+            for (const Cell& cell : cells_) {
+                double kept = 0;
+                const Lags lookup = lags_of(blocks_[cell.block].lookup);
+                for (std::size_t k = 0; k < kLags; ++k)
+                    kept += lookup[k] *
+                            (pass == 0 ? (k == kLags / 2 ? 1.0 : 0.0) : spectra[c].correlation[k]);
+                places.push_back(
+                    {cell.luma, static_cast<float>(cell.variance[c] / (2 * std::max(0.1, kept))),
+                     cell.detail[c], static_cast<float>(std::sqrt(2 * kPixelsOfOne / cell.count))});
+            }
+            levels[c] = grain_levels(places);
+            for (std::size_t i = 0; i < trust.size(); ++i)
+                trust[i] = std::min(trust[i], levels[c].trust[i]);
+        }
+        const Sums sums = sums_of(trust);
+        for (std::size_t c = 0; c < 3; ++c)
+            spectra[c] = grain_spectrum(sums.products[c], sums.lookup);
+        const auto correlation = [&](std::size_t k, std::size_t a, std::size_t b) {
+            const double both = sums.products[a][kLags / 2] * sums.products[b][kLags / 2];
+            // Kernels that differ have less in common than the noise under them.
+            double alike = 0;
+            for (std::size_t i = 0; i < kLags; ++i)
+                alike += static_cast<double>(spectra[a].kernel[i]) * spectra[b].kernel[i];
+            const double seen = sums.together[k] / std::sqrt(std::max(1e-30, both));
+            return std::clamp(seen / std::max(0.1, alike), -0.99, 0.99);
+        };
+        model.mix = cholesky(correlation(0, 1, 0), correlation(1, 2, 0), correlation(2, 2, 1));
+    }
+
+    const double rounding = rounding_variance(quantum_);
+    std::array<double, kBins> share{};
+    for (const Cell& cell : cells_)
+        share[static_cast<std::size_t>(
+            std::clamp(static_cast<int>(cell.luma * kBins), 0, kBins - 1))] += cell.count / pixels;
+    std::array<double, 3> usual{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t b = 0; b < kBins; ++b)
+            usual[c] += share[b] * std::max(0.0, levels[c].variance[b] - rounding);
+    }
+    const double most = std::max({usual[0], usual[1], usual[2]});
+    if (!(most > kLeastDeviation * kLeastDeviation && most < kMostDeviation * kMostDeviation))
+        return model;
+    for (std::size_t c = 0; c < 3; ++c) {
+        model.kernel[c] = spectra[c].kernel;
+        for (std::size_t b = 0; b < kBins; ++b)
+            model.deviation[c][b] = static_cast<float>(std::sqrt(std::clamp(
+                levels[c].variance[b] - rounding, 0.0, kMostOfUsual * kMostOfUsual * usual[c])));
+    }
+    return model;
+}
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+#pragma once
+// Where painted mattes are carried to.
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace weft {
+
+/// Which way a painted matte is carried through the shot.
+enum class CarryDirection { kBoth, kForward, kBackward };
+
+/// Beyond its reach a matte is empty; painted keyframes hold on their own frames in any case.
+struct MatteReach {
+    CarryDirection direction = CarryDirection::kBoth;
+    int first = std::numeric_limits<int>::min(), last = std::numeric_limits<int>::max();
+
+    [[nodiscard]] bool forward() const { return direction != CarryDirection::kBackward; }
+    [[nodiscard]] bool backward() const { return direction != CarryDirection::kForward; }
+    /// Whether a frame gets a matte that was painted on `keys` (ascending, at least one).
+    [[nodiscard]] bool covers(int frame, const std::vector<int>& keys) const {
+        if (std::binary_search(keys.begin(), keys.end(), frame)) return true;
+        if (frame < first || frame > last) return false;
+        return (forward() && frame > keys.front()) || (backward() && frame < keys.back());
+    }
+    bool operator==(const MatteReach&) const = default;
+};
+
+}  // namespace weft

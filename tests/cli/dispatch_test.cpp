@@ -1,0 +1,41 @@
+// The same bytes whatever instructions our own loops and the libraries choose.
+#include "tests/cli/cli_fixture.h"
+
+namespace weft::test {
+namespace {
+
+class Dispatch : public CliTest {
+  protected:
+    // Motion, a grown texture that is turned, light, grain and focus: all that computes with
+    // floats.
+    std::map<std::string, std::string> rendered_with(const std::string& variable,
+                                                     const std::string& value) {
+        options_.environment[variable] = value;
+        const std::string out = "out_" + std::to_string(runs_++);
+        expect_success(run({"replace", "--plate", "frames/####.exr", "--matte", "masks/####.png",
+                            "--texture", "sample.png", "--rotate", "17", "-o", out + "/####.exr",
+                            "--layers", "all", "--backend", "cpu", "--no-cache"}));
+        options_.environment.erase(variable);
+        return contents(out);
+    }
+    int runs_ = 0;
+};
+
+TEST_F(Dispatch, OfInstructionsDoesNotShow) {
+    make_shot(3, 1, ".exr", PixelDepth::kFloat);
+    const auto plain = rendered_with("UNSET", "");
+    ASSERT_EQ(plain.size(), 3u);
+    EXPECT_EQ(rendered_with("WEFT_ISA", "scalar"), plain);
+    if (__builtin_cpu_supports("avx2")) {
+        EXPECT_EQ(rendered_with("WEFT_ISA", "avx2"), plain);
+    }
+    EXPECT_EQ(rendered_with("OPENCV_CPU_DISABLE", "AVX512-SKX,AVX2,FMA3,AVX,SSE4.2,SSE4.1,SSSE3"),
+              plain);
+    EXPECT_EQ(rendered_with("OPENCV_CPU_DISABLE", "AVX2"), plain);
+    EXPECT_EQ(rendered_with("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA,-FMA4"), plain);
+    EXPECT_EQ(rendered_with("OPENBLAS_CORETYPE", "Prescott"), plain);
+    EXPECT_EQ(rendered_with("JSIMD_FORCENONE", "1"), plain);
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,134 @@
+// Painted holdouts, and mattes that are carried one way or between two frames.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "engine/compute/backend_registry.h"
+#include "engine/pipeline/matte_pass.h"
+#include "engine/pipeline/render_frame.h"
+#include "tests/pipeline/memory_shot.h"
+
+namespace weft {
+namespace {
+
+void expect_ok(const Status& status) {
+    EXPECT_TRUE(status) << (status ? "" : status.error().text());
+}
+
+// The wall with a disc in front whose matte is painted on some frames only.
+class PaintedDisc : public MemoryShot {
+  public:
+    PaintedDisc() : MemoryShot(make_wall(true)) { holdouts.clear(); }
+    [[nodiscard]] Expected<Matte> holdout_key(int, int painted, int frame) const override {
+        EXPECT_EQ(painted, 0);
+        return disc_matte(frame);
+    }
+};
+
+RegionPlan painted_region(std::vector<int> keys) {
+    RegionPlan region = make_region(flat_texture({1, 0, 0}));
+    region.painted_holdouts.push_back({std::move(keys), 0.5f, {}});
+    return region;
+}
+
+Matte stored_matte(const AnalysisStore& store, int frame, int layer) {
+    const auto bytes = store.get({0, frame, AnalysisKind::kMatte, layer});
+    if (!bytes) return {};
+    return decode_matte(*bytes)->matte;
+}
+
+bool any(const Matte& matte) {
+    return std::any_of(matte.data(), matte.data() + matte.size_bytes(),
+                       [](std::uint8_t v) { return v > 0; });
+}
+
+TEST(PaintedHoldouts, AreCarriedAndCutOut) {
+    const PaintedDisc shot;
+    const ShotPlan plan = make_plan(painted_region({4, 5, 6}));
+    MemoryAnalysisStore store;
+    expect_ok(analyse_shot(shot, plan, store, {}, {}));
+    EXPECT_EQ(stored_matte(store, 5, 1), disc_matte(5)) << "as painted";
+    auto scene = make_scene(shot, plan, store, 0, {}, {});
+    ASSERT_TRUE(scene) << scene.error().text();
+    const std::vector<RegionScene> scenes{std::move(*scene)};
+    const auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), 5);
+    ASSERT_TRUE(frame) << frame.error().text();
+    const auto plate = shot.plate(5);
+    // The disc's middle is the plate's, the wall beside it has the new colour.
+    EXPECT_NEAR(frame->pixels.pixel(80, 56)[0], (*plate)->pixel(80, 56)[0], 2e-2f);
+    EXPECT_GT(frame->pixels.pixel(40, 56)[0], 0.9f);
+}
+
+TEST(PaintedHoldouts, HaveAKeyOfTheirOwnInTheStore) {
+    const PaintedDisc shot;
+    RegionPlan region = painted_region({5});
+    const ShotPlan plan = make_plan(region);
+    MemoryAnalysisStore store;
+    EXPECT_GT(count_matte_steps(plan, store), 0);
+    expect_ok(propagate_mattes({shot, plan, {}, [](int, double) {}}, store));
+    EXPECT_EQ(count_matte_steps(plan, store), 0);
+    for (int frame = kFirst; frame <= kLast; ++frame) {
+        EXPECT_TRUE(store.has({0, frame, AnalysisKind::kMatte, 1})) << frame;
+        EXPECT_FALSE(store.has({0, frame, AnalysisKind::kMatte})) << frame;
+    }
+}
+
+struct Way {
+    CarryDirection direction;
+    int first, last;
+    std::vector<int> filled;
+};
+
+TEST(MatteReach, BeyondItThereIsNoMatte) {
+    MemoryShot shot = make_wall();
+    for (const int key : {4, 7})
+        shot.keys[{0, key}] = box_matte(kRegionBox);
+    const int none = std::numeric_limits<int>::min(), all = std::numeric_limits<int>::max();
+    const std::vector<Way> ways{
+        {CarryDirection::kForward, none, all, {4, 5, 6, 7, 8, 9, 10}},
+        {CarryDirection::kBackward, none, all, {1, 2, 3, 4, 5, 6, 7}},
+        {CarryDirection::kBoth, 3, 5, {3, 4, 5, 7}},
+        {CarryDirection::kForward, 8, 9, {4, 7, 8, 9}},
+    };
+    for (const Way& way : ways) {
+        RegionPlan region = make_region(flat_texture({1, 0, 0}));
+        region.reference_frames = {4};
+        region.matte_keys = {4, 7};
+        region.matte_reach = {way.direction, way.first, way.last};
+        const ShotPlan plan = make_plan(region);
+        MemoryAnalysisStore store;
+        expect_ok(propagate_mattes({shot, plan, {}, [](int, double) {}}, store));
+        EXPECT_EQ(count_matte_steps(plan, store), 0);
+        std::vector<int> filled;
+        for (int frame = kFirst; frame <= kLast; ++frame) {
+            ASSERT_TRUE(store.has({0, frame, AnalysisKind::kMatte})) << frame;
+            if (any(stored_matte(store, frame, 0))) filled.push_back(frame);
+        }
+        EXPECT_EQ(filled, way.filled) << static_cast<int>(way.direction);
+    }
+}
+
+TEST(MatteReach, OneWayTheMatteComesFromOneSideOnly) {
+    // The key of frame 8 is elsewhere; forwards, frame 7 knows nothing of it.
+    MemoryShot shot = make_wall();
+    shot.keys[{0, 3}] = box_matte({20, 16, 60, 96});
+    shot.keys[{0, 8}] = box_matte({100, 16, 150, 96});
+    const auto matte_of_7 = [&](CarryDirection direction) {
+        RegionPlan region = make_region(flat_texture({1, 0, 0}));
+        region.matte_keys = {3, 8};
+        region.matte_reach.direction = direction;
+        MemoryAnalysisStore store;
+        const ShotPlan plan = make_plan(region);
+        expect_ok(propagate_mattes({shot, plan, {}, [](int, double) {}}, store));
+        return stored_matte(store, 7, 0);
+    };
+    const Matte forward = matte_of_7(CarryDirection::kForward);
+    const Matte backward = matte_of_7(CarryDirection::kBackward);
+    EXPECT_GT(forward.at(45, 50), 200);
+    EXPECT_LT(forward.at(125, 50), 50);
+    EXPECT_LT(backward.at(45, 50), 50);
+    EXPECT_GT(backward.at(125, 50), 200);
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,132 @@
+// What is in front of a surface, painted by hand, and which way mattes are carried.
+#include "app/session/matte_layer.h"
+#include "engine/media/image_files.h"
+#include "tests/ui/ui_harness.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class PaintedLayers : public SessionTest {
+  protected:
+    void open() {
+        session->act(OpenAny{(folder / "frames").string()});
+        ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }));
+        robot->frames(3);
+        robot->key("Ctrl+Shift+N");
+        robot->key("B");
+        robot->frames(3);
+        robot->stroke({at(20, 30), at(50, 32), at(80, 34)});
+        robot->frames(3);
+    }
+    [[nodiscard]] const Region& region() const { return *session->view().project.regions.back(); }
+    void paint_holdout() {
+        ASSERT_TRUE(robot->click("In front of it"));
+        robot->wheel(-30);
+        robot->frames(3);
+        ASSERT_TRUE(robot->click("Holdouts/Paint what is in front"));
+        robot->frames(3);
+        EXPECT_EQ(session->view().matte_layer, 1);
+        EXPECT_THAT(*region().holdouts, IsEmpty());
+        robot->stroke({at(50, 20), at(50, 44)});
+        robot->frames(3);
+    }
+};
+
+TEST_F(PaintedLayers, AHoldoutIsPaintedLikeAMatteAndCutOutOfTheResult) {
+    open();
+    const MatteSource before = *region().matte;
+    paint_holdout();
+    ASSERT_THAT(*region().holdouts, SizeIs(1));
+    EXPECT_EQ(*region().matte, before) << "the region's own matte stays";
+    const MatteSource holdout = region().holdouts->front();
+    ASSERT_TRUE(holdout.keyframes.contains(1));
+    session->flush();
+    const auto written = read_matte(holdout.keyframes.at(1).path, {}, {96, 64});
+    ASSERT_TRUE(written) << written.error().text();
+    EXPECT_GT(written->at(50, 30), 200);
+    EXPECT_EQ(written->at(20, 30), 0);
+
+    // It is carried to the other frames and the texture does not cover it there.
+    session->act(SetPreviewQuality{Quality::kDraft});
+    session->act(ApplyTexture{(folder / "tile.png").string(), region().id});
+    session->act(GoToFrame{3});
+    ASSERT_TRUE(wait([&] {
+        const auto& h = session->view().holdouts;
+        return session->view().result_current && h.size() == 1 && h[0].keep;
+    })) << session->view().preview.error;
+    const SessionView& v = session->view();
+    EXPECT_EQ(v.holdouts[0].kind, RegionMatteView::Kind::kPropagated);
+    int covered = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 96; ++x)
+            covered += v.holdouts[0].pixels.at(x, y) > 127 ? 1 : 0;
+    EXPECT_GT(covered, 50);
+
+    // Undo takes the layer away again.
+    for (int k = 0; k < 2; ++k) {
+        robot->key("Ctrl+Z");
+        robot->frames(2);
+    }
+    EXPECT_THAT(*region().holdouts, IsEmpty());
+}
+
+TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
+    open();
+    paint_holdout();
+    ASSERT_THAT(*region().holdouts, SizeIs(1));
+    session->act(GoToFrame{2});
+    robot->frames(2);
+    robot->stroke({at(52, 20), at(52, 44)});
+    robot->frames(3);
+    ASSERT_THAT(region().holdouts->front().keyframes, SizeIs(2));
+    EXPECT_TRUE(session->view().marks[1].matte_key);
+    ASSERT_TRUE(robot->click("Matte/Remove key"));
+    robot->frames(2);
+    EXPECT_THAT(region().holdouts->front().keyframes, SizeIs(1));
+    EXPECT_THAT(region().matte->keyframes, SizeIs(1));
+    ASSERT_TRUE(robot->click("Holdouts/Remove layer 1"));
+    robot->frames(2);
+    EXPECT_THAT(*region().holdouts, IsEmpty());
+    EXPECT_EQ(session->view().matte_layer, 0);
+}
+
+TEST_F(PaintedLayers, DirectionAndRangeAreChosenInTheInspector) {
+    open();
+    ASSERT_TRUE(robot->click("Propagation/Forwards"));
+    robot->frames(2);
+    EXPECT_EQ(region().matte->carry, CarryDirection::kForward);
+    session->act(MarkRange{2, 3});
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Propagation/Marked range"));
+    robot->frames(2);
+    EXPECT_EQ(region().matte->carry_from, 2);
+    EXPECT_EQ(region().matte->carry_to, 3);
+    ASSERT_TRUE(robot->click("Propagation/Whole shot"));
+    robot->frames(2);
+    EXPECT_FALSE(region().matte->carry_from || region().matte->carry_to);
+    robot->key("Ctrl+Z");
+    robot->frames(2);
+    EXPECT_EQ(region().matte->carry_to, 3);
+}
+
+TEST(MatteLayer, TheLastKeyOfAHoldoutTakesItWithIt) {
+    Region region;
+    region.id = 4;
+    MatteSource painted;
+    painted.keyframes[7] = {"a.png", {}};
+    MatteSource files;
+    files.files = "h/####.png";
+    region.holdouts = std::vector<MatteSource>{files, painted};
+    const Edit edit = without_layer_key(region, 2, 7);
+    ASSERT_TRUE(std::holds_alternative<SetHoldouts>(edit));
+    EXPECT_EQ(std::get<SetHoldouts>(edit).holdouts, (std::vector<MatteSource>{files}));
+    EXPECT_EQ(layer_source(region, 2), painted);
+    EXPECT_TRUE(layer_source(region, 3).empty());
+    EXPECT_EQ(std::get<SetHoldouts>(set_layer(region, 3, painted)).holdouts.size(), 3u);
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,174 @@
+#include "texture_db/library_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "texture_db/library_state.h"
+#include "texture_db/sample_codec.h"
+
+namespace weft {
+namespace {
+
+constexpr std::size_t kBatch = 64;
+constexpr const char* kNamed = "image_text_model";       // note: the folder
+constexpr const char* kIdentity = "image_text_seen_by";  // note: whose vectors are stored
+
+// Looks at the next samples that were not yet looked at; returns how many. `after` is the last of
+// them.
+Expected<std::int64_t> see_batch(Database& database, ImageTextModel& model,
+                                 const std::string& unseen, std::int64_t& after) {
+    std::vector<std::pair<std::int64_t, std::vector<std::byte>>> batch;
+    {
+        WEFT_TRY(rows, database.query("SELECT p.sample, p.png " + unseen +
+                                      " AND p.sample > ? ORDER BY p.sample LIMIT ?"));
+        rows.bind(after).bind(static_cast<std::int64_t>(kBatch));
+        for (;;) {
+            WEFT_TRY(more, rows.step());
+            if (!more) break;
+            const auto png = rows.blob(1);
+            batch.emplace_back(rows.integer(0), std::vector<std::byte>(png.begin(), png.end()));
+        }
+    }
+    WEFT_TRY(transaction, Transaction::begin(database));
+    {
+        WEFT_TRY(store, database.query("INSERT OR REPLACE INTO sight VALUES(?, ?)"));
+        for (const auto& [key, png] : batch) {
+            after = key;
+            const auto pixels = decode_picture(png);
+            if (!pixels) continue;  // damaged: verify tells of it
+            WEFT_TRY(seen, model.see(*pixels));
+            const std::vector<std::int8_t> bytes = bytes_of_sight(seen);
+            store.bind(key).bind(std::as_bytes(std::span(bytes)));
+            WEFT_CHECK_OK(store.run());
+        }
+    }
+    WEFT_CHECK_OK(transaction.commit());
+    return static_cast<std::int64_t>(batch.size());
+}
+
+}  // namespace
+
+std::vector<std::int8_t> bytes_of_sight(std::span<const float> unit) {
+    std::vector<std::int8_t> out;
+    for (const float x : unit)
+        out.push_back(static_cast<std::int8_t>(std::lround(127 * std::clamp(x, -1.0f, 1.0f))));
+    return out;
+}
+
+Expected<SampleSight> load_sight(Database& database, const SampleIndex& index, int dimensions) {
+    SampleSight out;
+    out.dimensions = dimensions;
+    const auto width = static_cast<std::size_t>(dimensions);
+    out.vectors.resize(index.samples.size() * width);
+    WEFT_TRY(rows, database.query("SELECT sample, data FROM sight"));
+    for (;;) {
+        WEFT_TRY(more, rows.step());
+        if (!more) return out;
+        const auto at = index.find_key(rows.integer(0));
+        const auto blob = rows.blob(1);
+        if (at < 0 || blob.size() != width) continue;
+        std::memcpy(out.vectors.data() + static_cast<std::size_t>(at) * width, blob.data(), width);
+    }
+}
+
+std::vector<float> likeness_to_words(const SampleSight& sight, std::span<const float> words) {
+    const auto width = static_cast<std::size_t>(sight.dimensions);
+    if (words.size() != width || width == 0) return {};
+    const std::size_t count = sight.vectors.size() / width;
+    std::vector<float> out(count);
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::int8_t* v = sight.vectors.data() + i * width;
+        float dot = 0;
+        for (std::size_t k = 0; k < width; ++k)
+            dot += static_cast<float>(v[k]) * words[k];
+        out[i] = dot / 127;
+        sum += out[i];
+        squares += static_cast<double>(out[i]) * out[i];
+    }
+    const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
+    const double mean = sum / n;
+    const double deviation = std::sqrt(std::max(squares / n - mean * mean, 1e-12));
+    for (float& value : out)
+        value = static_cast<float>((value - mean) / deviation);
+    return out;
+}
+
+Status TextureLibrary::State::open_sight() {
+    if (sight_tried && sight_changes == loaded_changes) return {};
+    sight_tried = true;
+    sight_changes = loaded_changes;
+    sight.reset();
+    sight_fault.clear();
+    WEFT_TRY(folder, text_note(*database, kNamed));
+    if (folder.empty()) {
+        sight_model.reset();
+        return {};
+    }
+    if (!sight_model) {
+        auto opened = ImageTextModel::open(folder);
+        if (!opened) {
+            sight_fault = opened.error().message;
+            return {};
+        }
+        sight_model = std::move(*opened);
+    }
+    WEFT_TRY(identity, text_note(*database, kIdentity));
+    if (identity != sight_model->identity()) {
+        sight_fault = "The image–text model " + folder +
+                      " has changed since the library was looked at with it. Name it again with "
+                      "'weft texture model " +
+                      folder + "'.";
+        return {};
+    }
+    WEFT_TRY(loaded, load_sight(*database, *index, sight_model->dimensions()));
+    sight = std::move(loaded);
+    return {};
+}
+
+Expected<std::string> TextureLibrary::image_text_model() {
+    return note(kNamed);
+}
+
+Status TextureLibrary::use_image_text_model(const std::string& folder, const CancelToken& cancel,
+                                            const ProgressFn& progress) {
+    std::optional<ImageTextModel> model;
+    if (!folder.empty()) {
+        WEFT_TRY(opened, ImageTextModel::open(folder));
+        model = std::move(opened);
+    }
+    const std::scoped_lock lock(state_->mutex);
+    Database& database = *state_->database;
+    const std::string identity = model ? model->identity() : "";
+    WEFT_TRY(before, text_note(database, kIdentity));
+    if (identity != before) {
+        WEFT_TRY(transaction, Transaction::begin(database));
+        WEFT_CHECK_OK(database.execute("DELETE FROM sight"));
+        WEFT_CHECK_OK(set_text_note(database, kIdentity, identity));
+        WEFT_CHECK_OK(transaction.commit());
+    }
+    WEFT_CHECK_OK(set_text_note(database, kNamed, folder));
+    const std::string unseen =
+        "FROM pixels p LEFT JOIN sight s ON s.sample = p.sample WHERE "
+        "s.sample IS NULL";
+    std::int64_t done = 0, total = 0, after = -1;
+    if (model) {
+        WEFT_TRY(count, database.number("SELECT count(*) " + unseen));
+        total = count;
+    }
+    while (done < total) {
+        if (cancel.cancelled())
+            return fail(static_cast<ErrorCode>(cancel.reason()),
+                        "Looking at the library was stopped. The same command goes on.");
+        WEFT_TRY(seen, see_batch(database, *model, unseen, after));
+        if (seen == 0) break;
+        done += seen;
+        if (progress) progress({"look", done, total, 0, 0});
+    }
+    state_->sight_tried = false;
+    state_->sight_model.reset();
+    return state_->count_change();
+}
+
+}  // namespace weft

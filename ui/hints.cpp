@@ -1,0 +1,75 @@
+// Where a correction would help most: a list whose entries go there.
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+std::string percent(float part) {
+    return number_text(100.0 * static_cast<double>(part), 0) + "%";
+}
+
+std::string text_of(const CorrectionHint& hint) {
+    const std::string frame = "Frame " + std::to_string(hint.frame) + ": ";
+    switch (hint.kind) {
+        case CorrectionHint::Kind::kMatte:
+            return frame + "matte " + percent(hint.value) + " sure";
+        case CorrectionHint::Kind::kDrift:
+            return frame + "looks " + percent(hint.value) + " different";
+        case CorrectionHint::Kind::kStretch:
+            return frame + "stretched × " + number_text(static_cast<double>(hint.value), 1);
+    }
+    return frame;
+}
+
+const char* tip_of(CorrectionHint::Kind kind) {
+    switch (kind) {
+        case CorrectionHint::Kind::kMatte:
+            return "Go there and paint the matte: it helps this frame and its neighbours";
+        case CorrectionHint::Kind::kDrift:
+            return "Go there and see whether the texture has slid; pin it, or add a reference "
+                   "frame";
+        case CorrectionHint::Kind::kStretch:
+            return "Go there; another reference frame lets the texture have its shape again";
+    }
+    return "";
+}
+
+}  // namespace
+
+void hints_section(Ctx& c, bool mattes_only) {
+    const SessionView& v = c.view;
+    std::vector<CorrectionHint> shown;
+    for (const CorrectionHint& hint : v.to_correct)
+        if (!mattes_only || hint.kind == CorrectionHint::Kind::kMatte) shown.push_back(hint);
+    if (mattes_only && shown.empty()) return;
+    if (!section(c, "Where to correct", true)) return;
+    const PanelName panel(c, "Hints");
+    if (shown.empty()) {
+        bool known = false;
+        for (const FrameMarks& mark : v.marks)
+            known |= mark.confidence >= 0 || mark.drift >= 0;
+        wrapped(c,
+                known ? "No frame stands out."
+                      : "Once the shot is analysed, the frames that need a look are listed here.",
+                c.theme.quiet);
+    }
+    for (const CorrectionHint& hint : shown) {
+        ImGui::PushID(hint.frame);
+        const std::string label = text_of(hint) + "##hint" + std::to_string(hint.frame);
+        if (button(c, label.c_str(),
+                   {.icon = hint.kind == CorrectionHint::Kind::kMatte   ? icons::kBrush
+                            : hint.kind == CorrectionHint::Kind::kDrift ? icons::kPin
+                                                                        : icons::kReference,
+                    .look = hint.frame == v.frame ? Look::kNormal : Look::kQuiet,
+                    .tip = tip_of(hint.kind),
+                    .width = -1}))
+            c.emit(GoToFrame{hint.frame});
+        c.note("Hint " + std::to_string(hint.frame));
+        ImGui::PopID();
+    }
+    section_gap(c);
+}
+
+}  // namespace weft::ui
