@@ -112,14 +112,14 @@ TEST(Library, MovesAnOldFileUpAndKeepsItsSamples) {
     // Version 1 had no tables for what the artist keeps.
     run_sql(path,
             "DROP TABLE favourite; DROP TABLE rating; DROP TABLE recent; DROP TABLE collection; "
-            "DROP TABLE saved_search; PRAGMA user_version = 1");
+            "DROP TABLE saved_search; DROP TABLE sight; PRAGMA user_version = 1");
     LibraryOptions reading;
     reading.read_only = true;
     EXPECT_FALSE(TextureLibrary::open(path, reading)) << "a reader may not change the file";
     const auto library = open_or_die(path);
     ASSERT_TRUE(library);
     EXPECT_EQ(library->size(), 1);
-    EXPECT_EQ(library->stats()->schema_version, 3);
+    EXPECT_EQ(library->stats()->schema_version, 4);
     EXPECT_TRUE(library->set_favourite(library->search({})->hits[0].id, true));
 }
 
