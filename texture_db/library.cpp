@@ -185,6 +185,20 @@ Expected<TextureInfo> TextureLibrary::info(const std::string& given) {
     return info;
 }
 
+Expected<std::vector<StoredPixels>> pixels_behind(Database& database, const std::string& from_where,
+                                                  std::int64_t after, std::size_t count) {
+    std::vector<StoredPixels> out;
+    WEFT_TRY(rows, database.query("SELECT p.sample, p.png " + from_where +
+                                  " AND p.sample > ? ORDER BY p.sample LIMIT ?"));
+    rows.bind(after).bind(static_cast<std::int64_t>(count));
+    for (;;) {
+        WEFT_TRY(more, rows.step());
+        if (!more) return out;
+        const auto png = rows.blob(1);
+        out.push_back({rows.integer(0), {png.begin(), png.end()}});
+    }
+}
+
 Expected<std::string> text_note(Database& database, const std::string& key) {
     WEFT_TRY(query, database.query("SELECT value FROM note WHERE key = ?"));
     query.bind(key);

@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::size_t kBatch = 256;
 
-struct Renewed {
-    std::int64_t key = 0;
-    std::vector<std::byte> png;
-    std::vector<float> features;  // empty: the pixels are damaged
-};
-
 // Features of samples that an earlier version of weft took in, from their pixels; a batch at a
 // time, so that what is done stays done.
 Status renew_features(Database& database, const CancelToken& cancel, const ProgressFn& progress) {
@@ -28,29 +22,19 @@ Status renew_features(Database& database, const CancelToken& cancel, const Progr
     while (done < total) {
         if (cancel.cancelled())
             return fail(static_cast<ErrorCode>(cancel.reason()), "Learning was stopped.");
-        std::vector<Renewed> batch;
-        {
-            WEFT_TRY(rows, database.query("SELECT p.sample, p.png " + old +
-                                          " AND p.sample > ? ORDER BY p.sample LIMIT ?"));
-            rows.bind(after).bind(static_cast<std::int64_t>(kBatch));
-            for (;;) {
-                WEFT_TRY(more, rows.step());
-                if (!more) break;
-                const auto png = rows.blob(1);
-                batch.push_back({rows.integer(0), {png.begin(), png.end()}, {}});
-            }
-        }
+        WEFT_TRY(batch, pixels_behind(database, old, after, kBatch));
         if (batch.empty()) break;
+        std::vector<std::vector<float>> features(batch.size());  // empty: the pixels are damaged
         parallel_for(batch.size(), [&](std::size_t i) {
             if (const auto pixels = decode_picture(batch[i].png))
-                batch[i].features = texture_features(middle_sample(*pixels));
+                features[i] = texture_features(middle_sample(*pixels));
         });
         WEFT_TRY(transaction, Transaction::begin(database));
         {
             WEFT_TRY(store, database.query("INSERT OR REPLACE INTO features VALUES(?, ?, ?)"));
-            for (const Renewed& r : batch) {
-                if (r.features.empty()) continue;
-                store.bind(r.key).bind(kFeatureVersion).bind(bytes_of(r.features));
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                if (features[i].empty()) continue;
+                store.bind(batch[i].key).bind(kFeatureVersion).bind(bytes_of(features[i]));
                 WEFT_CHECK_OK(store.run());
             }
         }

@@ -18,18 +18,7 @@ constexpr const char* kIdentity = "image_text_seen_by";  // note: whose vectors 
 // them.
 Expected<std::int64_t> see_batch(Database& database, ImageTextModel& model,
                                  const std::string& unseen, std::int64_t& after) {
-    std::vector<std::pair<std::int64_t, std::vector<std::byte>>> batch;
-    {
-        WEFT_TRY(rows, database.query("SELECT p.sample, p.png " + unseen +
-                                      " AND p.sample > ? ORDER BY p.sample LIMIT ?"));
-        rows.bind(after).bind(static_cast<std::int64_t>(kBatch));
-        for (;;) {
-            WEFT_TRY(more, rows.step());
-            if (!more) break;
-            const auto png = rows.blob(1);
-            batch.emplace_back(rows.integer(0), std::vector<std::byte>(png.begin(), png.end()));
-        }
-    }
+    WEFT_TRY(batch, pixels_behind(database, unseen, after, kBatch));
     WEFT_TRY(transaction, Transaction::begin(database));
     {
         WEFT_TRY(store, database.query("INSERT OR REPLACE INTO sight VALUES(?, ?)"));

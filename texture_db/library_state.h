@@ -59,6 +59,16 @@ struct PreparedPicture {
     std::string hash;
     std::vector<std::byte> bytes;
 };
+/// A sample's pixels as they are stored.
+struct StoredPixels {
+    std::int64_t key = 0;
+    std::vector<std::byte> png;
+};
+/// The next `count` samples behind key `after`, by key; `from_where`: "FROM pixels p … WHERE …".
+[[nodiscard]] Expected<std::vector<StoredPixels>> pixels_behind(Database& database,
+                                                                const std::string& from_where,
+                                                                std::int64_t after,
+                                                                std::size_t count);
 /// A note's text; empty for one that is not there.
 [[nodiscard]] Expected<std::string> text_note(Database& database, const std::string& key);
 [[nodiscard]] Status set_text_note(Database& database, const std::string& key,

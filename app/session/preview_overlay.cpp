@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "app/session/preview_health.h"
 #include "engine/core/parallel.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -152,21 +153,6 @@ void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const Pla
     }
 }
 
-// Luma over its surroundings: what light does not change much.
-ImageF1 pattern_of(const ImageF3& plate, const ColorTransform& display_from_plate) {
-    const Matte luma = make_views(plate, display_from_plate).luma;
-    const cv::Mat codes(luma.height(), luma.width(), CV_8UC1,
-                        const_cast<std::uint8_t*>(luma.data()));
-    cv::Mat value, around;
-    codes.convertTo(value, CV_32F);
-    cv::boxFilter(value, around, CV_32F, {17, 17});
-    ImageF1 out(luma.size());
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = value.at<float>(y, x) / (around.at<float>(y, x) + 6.0f);
-    return out;
-}
-
 // How far the surface looks different from what it was on the reference frame: where motion has
 // lost it, or something else is seen.
 Status draw_trust(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
@@ -176,8 +162,8 @@ Status draw_trust(const Shot& shot, const LatticeField& ref_from_cur, int refere
     out.high = 1;
     WEFT_TRY(here, shot.source->plate(frame));
     WEFT_TRY(there, shot.source->plate(reference));
-    const ImageF1 now = pattern_of(*here, *shot.plan.display_from_plate);
-    const ImageF1 before = pattern_of(*there, *shot.plan.display_from_plate);
+    const ImageF1 now = small_pattern(*here, *shot.plan.display_from_plate, 1);
+    const ImageF1 before = small_pattern(*there, *shot.plan.display_from_plate, 1);
     cv::Mat difference(now.height(), now.width(), CV_32FC1, cv::Scalar(0));
     parallel_rows(now.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {

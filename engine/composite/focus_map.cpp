@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/core/blur_inside.h"
+#include "engine/core/linear_system.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -31,7 +32,7 @@ struct Sample {
 // variables: 1, u, v, or 1, u, u².
 template <std::size_t N, class Terms>
 std::array<double, N> least_squares(const std::vector<Sample>& samples, const Terms& terms) {
-    std::array<std::array<double, N + 1>, N> m{};
+    LinearSystem<N> m{};
     for (const Sample& s : samples) {
         const std::array<double, N> t = terms(s);
         for (std::size_t i = 0; i < N; ++i) {
@@ -42,21 +43,7 @@ std::array<double, N> least_squares(const std::vector<Sample>& samples, const Te
     }
     for (std::size_t i = 0; i < N; ++i)
         m[i][i] += 1e-9 * (1 + m[i][i]);
-    for (std::size_t k = 0; k < N; ++k) {
-        for (std::size_t i = k + 1; i < N; ++i) {
-            const double f = m[i][k] / m[k][k];
-            for (std::size_t j = k; j <= N; ++j)
-                m[i][j] -= f * m[k][j];
-        }
-    }
-    std::array<double, N> x{};
-    for (std::size_t k = N; k-- > 0;) {
-        double rest = m[k][N];
-        for (std::size_t j = k + 1; j < N; ++j)
-            rest -= m[k][j] * x[j];
-        x[k] = rest / m[k][k];
-    }
-    return x;
+    return solve(m);
 }
 
 // Relative errors count: a tenth of a pixel is much of a sharp edge and nothing of a soft one.

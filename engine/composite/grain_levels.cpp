@@ -1,5 +1,7 @@
 #include "engine/composite/grain_levels.h"
 
+#include "engine/core/linear_system.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -39,7 +41,7 @@ double dot(const Row& a, const Row& b) {
 
 // Normal equations under a penalty for bends and slopes; without detail where `flat`.
 struct Equations {
-    std::array<std::array<double, kTerms + 1>, kTerms> m{};
+    LinearSystem<kTerms> m{};
 
     void add(const Row& row, double value, double weight) {
         for (std::size_t i = 0; i < kTerms; ++i) {
@@ -48,24 +50,6 @@ struct Equations {
                 m[i][j] += weight * row[i] * row[j];
             m[i][kTerms] += weight * row[i] * value;
         }
-    }
-
-    [[nodiscard]] Row solved() {
-        for (std::size_t k = 0; k < kTerms; ++k) {
-            for (std::size_t i = k + 1; i < kTerms; ++i) {
-                const double f = m[i][k] / m[k][k];
-                for (std::size_t j = k; j <= kTerms; ++j)
-                    m[i][j] -= f * m[k][j];
-            }
-        }
-        Row x{};
-        for (std::size_t k = kTerms; k-- > 0;) {
-            double rest = m[k][kTerms];
-            for (std::size_t j = k + 1; j < kTerms; ++j)
-                rest -= m[k][j] * x[j];
-            x[k] = rest / m[k][k];
-        }
-        return x;
     }
 };
 
@@ -90,7 +74,7 @@ Row fitted(const std::vector<GrainPlace>& places, const std::vector<double>& wei
     e.m[kBins][kBins] += 1e-6 * energy + 1e-30;
     for (std::size_t k = 0; k < kBins; ++k)
         e.m[k][k] += 1e-9 * total;
-    return e.solved();
+    return solve(e.m);
 }
 
 }  // namespace

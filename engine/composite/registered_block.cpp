@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/core/linear_system.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -138,7 +139,7 @@ Terms terms_at(const ImageF1& plane, float middle, int x, int y) {
 
 // Least squares of `difference` on the terms of `plane`, inside of the border.
 Terms fitted(const ImageF1& plane, float middle, const ImageF1& difference) {
-    std::array<std::array<double, kTerms + 1>, kTerms> m{};
+    LinearSystem<kTerms> m{};
     for (int y = 1; y <= kSide; ++y) {
         for (int x = 1; x <= kSide; ++x) {
             const Terms t = terms_at(plane, middle, x, y);
@@ -157,20 +158,10 @@ Terms fitted(const ImageF1& plane, float middle, const ImageF1& difference) {
     constexpr double kRidge = 1.5e-11 * kSide * kSide;
     for (std::size_t i = 0; i < kTerms; ++i)
         m[i][i] = m[i][i] * (1 + 1e-6) + kRidge;
-    for (std::size_t k = 0; k < kTerms; ++k) {
-        for (std::size_t i = k + 1; i < kTerms; ++i) {
-            const double f = m[i][k] / m[k][k];
-            for (std::size_t j = k; j <= kTerms; ++j)
-                m[i][j] -= f * m[k][j];
-        }
-    }
     Terms out{};
-    for (std::size_t k = kTerms; k-- > 0;) {
-        double rest = m[k][kTerms];
-        for (std::size_t j = k + 1; j < kTerms; ++j)
-            rest -= m[k][j] * static_cast<double>(out[j]);
-        out[k] = static_cast<float>(rest / m[k][k]);
-    }
+    const std::array<double, kTerms> solution = solve(m);
+    std::transform(solution.begin(), solution.end(), out.begin(),
+                   [](double v) { return static_cast<float>(v); });
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/linear_system.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/masked_filters.h"
@@ -88,7 +89,7 @@ Terms terms_of(const SurfaceSample& s, const SkyShade& shade) {
     return terms;
 }
 
-using Normal = std::array<std::array<double, kTerms + 1>, kTerms>;
+using Normal = LinearSystem<kTerms>;
 
 Normal normal_equations(const Terms& terms, const ImageF1& target, const ImageF1& weight) {
     std::vector<Normal> rows(static_cast<std::size_t>(target.height()), Normal{});
@@ -128,25 +129,6 @@ Normal normal_equations(const Terms& terms, const ImageF1& target, const ImageF1
         all[i][i] += kRidge * std::max(total, 1.0);
     }
     return all;
-}
-
-// Gaussian elimination; the ridge keeps the matrix positive definite, so no pivot is needed.
-std::array<double, kTerms> solve(Normal m) {
-    for (std::size_t k = 0; k < kTerms; ++k) {
-        for (std::size_t i = k + 1; i < kTerms; ++i) {
-            const double f = m[i][k] / m[k][k];
-            for (std::size_t j = k; j <= kTerms; ++j)
-                m[i][j] -= f * m[k][j];
-        }
-    }
-    std::array<double, kTerms> x{};
-    for (std::size_t k = kTerms; k-- > 0;) {
-        double rest = m[k][kTerms];
-        for (std::size_t j = k + 1; j < kTerms; ++j)
-            rest -= m[k][j] * x[j];
-        x[k] = rest / m[k][k];
-    }
-    return x;
 }
 
 double energy(const ImageF1& plane, const ImageF1& weight) {

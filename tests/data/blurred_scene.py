@@ -4,33 +4,23 @@
 #   blender -b -P blurred_scene.py -- OUT_DIR TEXTURES_DIR PICTURE FRAMES WIDTH HEIGHT SAMPLES DEGREES
 # OUT_DIR/old, OUT_DIR/new and OUT_DIR/mattes/####.png are written. DEGREES of 360 a frame; 0: sharp.
 import math
+import os
 import sys
 import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from scene_setup import sharp_scene
 
 out, textures, picture, frames, width, height, samples, degrees = sys.argv[sys.argv.index("--") + 1:][:8]
 frames, width, height, samples, degrees = int(frames), int(width), int(height), int(samples), float(degrees)
 
-bpy.ops.wm.read_factory_settings(use_empty=True)
-scene = bpy.context.scene
-scene.render.engine = "CYCLES"
-scene.cycles.device = "CPU"
-scene.cycles.samples = samples
-scene.cycles.use_denoising = False
-scene.cycles.use_adaptive_sampling = False
-scene.cycles.max_bounces = 0
-scene.cycles.seed = 7
-scene.render.threads_mode = "FIXED"
-scene.render.threads = 2
-scene.render.resolution_x, scene.render.resolution_y = width, height
-scene.render.resolution_percentage = 100
+scene = sharp_scene(frames, width, height, samples)
 scene.render.image_settings.file_format = "PNG"
 scene.render.image_settings.color_mode = "RGB"
 scene.render.dither_intensity = 0  # a matte must be 0 outside
 scene.render.use_motion_blur = degrees > 0
 scene.render.motion_blur_shutter = max(degrees, 1) / 360
 scene.cycles.motion_blur_position = "CENTER"
-scene.view_settings.view_transform = "Standard"
-scene.frame_start, scene.frame_end = 1, frames
 
 
 def unlit(name, source=None, scale=1.0, colour=(0, 0, 0)):

@@ -8,32 +8,22 @@
 # every frame, pixels, for the two flat surfaces, and for the cloth on the first frame.
 import json
 import math
+import os
 import sys
 import bpy
 from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from scene_setup import sharp_scene
 
 arguments = sys.argv[sys.argv.index("--") + 1:]
 out, textures, picture, frames, width, height, samples = arguments[:7]
 step = int(arguments[7]) if len(arguments) > 7 else 1
 frames, width, height, samples = int(frames), int(width), int(height), int(samples)
 
-bpy.ops.wm.read_factory_settings(use_empty=True)
-scene = bpy.context.scene
-scene.render.engine = "CYCLES"
-scene.cycles.device = "CPU"
-scene.cycles.samples = samples
-scene.cycles.use_denoising = False
-scene.cycles.use_adaptive_sampling = False
-scene.cycles.max_bounces = 0
-scene.cycles.seed = 7
-scene.render.threads_mode = "FIXED"
-scene.render.threads = 2
-scene.render.resolution_x, scene.render.resolution_y = width, height
-scene.render.resolution_percentage = 100
+scene = sharp_scene(frames, width, height, samples)
 scene.render.use_persistent_data = True
-scene.view_settings.view_transform = "Standard"
-scene.frame_start, scene.frame_end = 1, frames
 world = bpy.data.worlds.new("world")
 scene.world = world
 world.use_nodes = True

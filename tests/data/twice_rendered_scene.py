@@ -5,9 +5,13 @@
 # WHAT: some of old, grey_wall, grey_ball, new_wall, new_ball, matte_wall, matte_ball, by commas [all].
 # AT: frames of the truths (grey_…, new_…), by commas [all]. OUT_DIR/WHAT/####.png is written.
 import math
+import os
 import sys
 import bpy
 from mathutils import Vector
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from scene_setup import sharp_scene
 
 arguments = sys.argv[sys.argv.index("--") + 1:]
 out, textures, frames, width, height, samples = arguments[:6]
@@ -15,25 +19,11 @@ names = ("old", "grey_wall", "grey_ball", "new_wall", "new_ball", "matte_wall", 
 wanted = arguments[6].split(",") if len(arguments) > 6 else names
 frames, width, height, samples = int(frames), int(width), int(height), int(samples)
 
-bpy.ops.wm.read_factory_settings(use_empty=True)
-scene = bpy.context.scene
-scene.render.engine = "CYCLES"
-scene.cycles.device = "CPU"
-scene.cycles.samples = samples
-scene.cycles.use_denoising = False
-scene.cycles.use_adaptive_sampling = False
-scene.cycles.max_bounces = 0
-scene.cycles.seed = 7
-scene.render.threads_mode = "FIXED"
-scene.render.threads = 2
-scene.render.resolution_x, scene.render.resolution_y = width, height
-scene.render.resolution_percentage = 100
+scene = sharp_scene(frames, width, height, samples)
 scene.render.image_settings.file_format = "PNG"
 scene.render.image_settings.color_mode = "RGB"
 scene.render.use_persistent_data = True
 scene.render.dither_intensity = 0  # a matte must be 0 outside
-scene.view_settings.view_transform = "Standard"
-scene.frame_start, scene.frame_end = 1, frames
 world = bpy.data.worlds.new("world")
 scene.world = world
 world.use_nodes = True
