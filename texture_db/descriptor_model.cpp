@@ -172,7 +172,7 @@ bool take(std::span<const std::byte>& in, std::vector<T>& values) {
     in = in.subspan(sizeof count);
     if (in.size() / sizeof(T) < count) return false;
     values.resize(count);
-    std::memcpy(values.data(), in.data(), count * sizeof(T));
+    if (count > 0) std::memcpy(values.data(), in.data(), count * sizeof(T));
     in = in.subspan(count * sizeof(T));
     return true;
 }

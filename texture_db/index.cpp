@@ -194,7 +194,7 @@ bool read_measured(std::span<const std::byte> bytes, MeasuredTexture& measured) 
 
 std::vector<float> floats_of(std::span<const std::byte> bytes) {
     std::vector<float> out(bytes.size() / sizeof(float));
-    std::memcpy(out.data(), bytes.data(), out.size() * sizeof(float));
+    if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(float));
     return out;
 }
 
