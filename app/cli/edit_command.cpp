@@ -9,7 +9,7 @@ namespace weft {
 void add_edit_command(CLI::App& app, int& exit, const EditCommand& edit) {
     CLI::App* command = app.add_subcommand("edit", "Open the editor");
     const auto given = std::make_shared<EditArguments>();
-    given->assets = WEFT_ASSETS_DIR;
+    given->assets = assets_folder();
     command->add_option("project", given->project, "Project file (.weft), frames or a movie")
         ->type_name("PATH");
     command->add_flag("--demo", given->demo, "Open the demo shot");
