@@ -1,4 +1,4 @@
-// Pictures by their bytes: EXR, PNG, TIFF, DPX, JPEG. The first byte chooses the name's extension.
+// Pictures by their bytes, EXR and PNG: the first byte chooses which.
 #include "engine/media/cryptomatte.h"
 #include "engine/media/frame_reader.h"
 #include "engine/media/image_files.h"

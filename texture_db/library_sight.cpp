@@ -19,15 +19,19 @@ constexpr const char* kIdentity = "image_text_seen_by";  // note: whose vectors 
 Expected<std::int64_t> see_batch(Database& database, ImageTextModel& model,
                                  const std::string& unseen, std::int64_t& after) {
     WEFT_TRY(batch, pixels_behind(database, unseen, after, kBatch));
+    // The network takes its time: others may write meanwhile.
+    std::vector<std::pair<std::int64_t, std::vector<std::int8_t>>> vectors;
+    for (const auto& [key, png] : batch) {
+        after = key;
+        const auto pixels = decode_picture(png);
+        if (!pixels) continue;  // damaged: verify tells of it
+        WEFT_TRY(seen, model.see(*pixels));
+        vectors.emplace_back(key, bytes_of_sight(seen));
+    }
     WEFT_TRY(transaction, Transaction::begin(database));
     {
         WEFT_TRY(store, database.query("INSERT OR REPLACE INTO sight VALUES(?, ?)"));
-        for (const auto& [key, png] : batch) {
-            after = key;
-            const auto pixels = decode_picture(png);
-            if (!pixels) continue;  // damaged: verify tells of it
-            WEFT_TRY(seen, model.see(*pixels));
-            const std::vector<std::int8_t> bytes = bytes_of_sight(seen);
+        for (const auto& [key, bytes] : vectors) {
             store.bind(key).bind(std::as_bytes(std::span(bytes)));
             WEFT_CHECK_OK(store.run());
         }
@@ -95,6 +99,9 @@ Status TextureLibrary::State::open_sight() {
         sight_model.reset();
         return {};
     }
+    // Another process may have named another one, or looked again with changed files.
+    WEFT_TRY(identity, text_note(*database, kIdentity));
+    if (sight_model && sight_model->identity() != identity) sight_model.reset();
     if (!sight_model) {
         auto opened = ImageTextModel::open(folder);
         if (!opened) {
@@ -103,7 +110,6 @@ Status TextureLibrary::State::open_sight() {
         }
         sight_model = std::move(*opened);
     }
-    WEFT_TRY(identity, text_note(*database, kIdentity));
     if (identity != sight_model->identity()) {
         sight_fault = "The image–text model " + folder +
                       " has changed since the library was looked at with it. Name it again with "

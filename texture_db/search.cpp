@@ -105,7 +105,7 @@ class Filter {
 };
 
 // How surely the image–text model sees the words in a sample: 0 … 1 from its likeness in standard
-// deviations. Nine tenths of a library are below kSeen.
+// deviations. Where likeness spreads normally, 2 % of a library lie above kSeen.
 constexpr float kSeen = 2;
 float seen_in(float deviations) {
     return 1 / (1 + std::exp(-2 * (deviations - kSeen)));
@@ -128,7 +128,11 @@ std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
             sum += std::max(v, 0.0f);
         }
         if (terms.empty()) {
-            out.push_back({i, 1});
+            // With what the model thinks: of words that the library itself does not know.
+            if (seen.empty())
+                out.push_back({i, 1});
+            else if (seen[i] > kSeen)
+                out.push_back({i, seen_in(seen[i])});
         } else if (all_words && every) {
             const float words = std::pow(product, 1.0f / static_cast<float>(terms.size()));
             out.push_back({i, seen.empty() ? words : 0.7f * words + 0.3f * seen_in(seen[i])});

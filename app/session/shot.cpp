@@ -11,7 +11,6 @@
 #include "app/session/track_file.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
-#include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/synthesis/texture_plane.h"
 #include "texture_db/library.h"
@@ -466,43 +465,9 @@ class ShotOpener {
 
 }  // namespace
 
-PixelDepth output_depth(const Output& output, PixelDepth plate) {
-    switch (output.depth) {
-        case OutputDepth::k8:
-            return PixelDepth::kU8;
-        case OutputDepth::k16:
-            return PixelDepth::kU16;
-        case OutputDepth::kHalf:
-            return PixelDepth::kHalf;
-        case OutputDepth::kFloat:
-            return PixelDepth::kFloat;
-        case OutputDepth::kAuto:
-            break;
-    }
-    return output.path.empty() ? plate : default_depth(output.path, plate);
-}
-
 Expected<std::shared_ptr<const Shot>> open_shot(const Project& project,
                                                 const OpenShotOptions& options) {
     return ShotOpener(project, options).open();
-}
-
-Status check_texture_licences(const Shot& shot) {
-    std::vector<TextureCredit> credits;
-    const auto add = [&](const std::string& region, const ShotTexture& t) {
-        TextureCredit credit;
-        credit.region = region;
-        credit.name = t.path;
-        credit.author = t.author;
-        credit.licence = t.licence;
-        credits.push_back(std::move(credit));
-    };
-    for (const ShotTexture& t : shot.textures) {
-        add(t.region, t);
-        for (const ShotTexture& further : t.also)
-            add(t.region, further);
-    }
-    return check_licences(credits, licence_list(shot.project.settings.excluded_licences));
 }
 
 }  // namespace weft

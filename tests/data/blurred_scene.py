@@ -9,7 +9,7 @@ import sys
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from scene_setup import sharp_scene
+from scene_setup import picture_into, sharp_scene
 
 out, textures, picture, frames, width, height, samples, degrees = sys.argv[sys.argv.index("--") + 1:][:8]
 frames, width, height, samples, degrees = int(frames), int(width), int(height), int(samples), float(degrees)
@@ -32,14 +32,7 @@ def unlit(name, source=None, scale=1.0, colour=(0, 0, 0)):
     shader = nodes.new("ShaderNodeEmission")
     shader.inputs[0].default_value = (*colour, 1)
     if source:
-        image = nodes.new("ShaderNodeTexImage")
-        image.image = bpy.data.images.load(source)
-        coords = nodes.new("ShaderNodeTexCoord")
-        mapping = nodes.new("ShaderNodeMapping")
-        mapping.inputs["Scale"].default_value = (scale, scale, scale)
-        links.new(coords.outputs["UV"], mapping.inputs[0])
-        links.new(mapping.outputs[0], image.inputs[0])
-        links.new(image.outputs[0], shader.inputs[0])
+        picture_into(m, shader, source, scale)
     links.new(shader.outputs[0], output.inputs[0])
     return m
 

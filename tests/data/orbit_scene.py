@@ -15,7 +15,7 @@ from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from scene_setup import sharp_scene
+from scene_setup import picture_into, sharp_scene
 
 arguments = sys.argv[sys.argv.index("--") + 1:]
 out, textures, picture, frames, width, height, samples = arguments[:7]
@@ -38,15 +38,8 @@ def material(name, file, scale=1.0, lit=True, coverage=(0, 0, 0)):
     nodes.clear()
     output = nodes.new("ShaderNodeOutputMaterial")
     shader = nodes.new("ShaderNodeBsdfDiffuse" if lit else "ShaderNodeEmission")
-    image = nodes.new("ShaderNodeTexImage")
-    image.image = bpy.data.images.load(file, check_existing=True)
+    image = picture_into(m, shader, file, scale)
     image.extension = "REPEAT" if scale != 1 else "EXTEND"
-    coords = nodes.new("ShaderNodeTexCoord")
-    mapping = nodes.new("ShaderNodeMapping")
-    mapping.inputs["Scale"].default_value = (scale, scale, scale)
-    links.new(coords.outputs["UV"], mapping.inputs[0])
-    links.new(mapping.outputs[0], image.inputs[0])
-    links.new(image.outputs[0], shader.inputs[0])
     links.new(shader.outputs[0], output.inputs[0])
     aov = nodes.new("ShaderNodeOutputAOV")
     aov.name = "coverage"

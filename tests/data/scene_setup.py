@@ -20,3 +20,17 @@ def sharp_scene(frames, width, height, samples):
     scene.view_settings.view_transform = "Standard"
     scene.frame_start, scene.frame_end = 1, frames
     return scene
+
+
+def picture_into(material, shader, path, scale=1.0):
+    """Puts a picture, repeated `scale` times over the UVs, into a shader's colour; returns its node."""
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    image = nodes.new("ShaderNodeTexImage")
+    image.image = bpy.data.images.load(path, check_existing=True)
+    coords = nodes.new("ShaderNodeTexCoord")
+    mapping = nodes.new("ShaderNodeMapping")
+    mapping.inputs["Scale"].default_value = (scale, scale, scale)
+    links.new(coords.outputs["UV"], mapping.inputs[0])
+    links.new(mapping.outputs[0], image.inputs[0])
+    links.new(image.outputs[0], shader.inputs[0])
+    return image

@@ -11,7 +11,7 @@ import bpy
 from mathutils import Vector
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from scene_setup import sharp_scene
+from scene_setup import picture_into, sharp_scene
 
 arguments = sys.argv[sys.argv.index("--") + 1:]
 out, textures, frames, width, height, samples = arguments[:6]
@@ -43,14 +43,7 @@ def material(name, picture=None, colour=(0.8, 0.8, 0.8), scale=1.0, emission=Non
         shader = nodes.new("ShaderNodeBsdfDiffuse")
         shader.inputs[0].default_value = (*colour, 1)
     if picture:
-        image = nodes.new("ShaderNodeTexImage")
-        image.image = bpy.data.images.load(textures + "/" + picture)
-        coords = nodes.new("ShaderNodeTexCoord")
-        mapping = nodes.new("ShaderNodeMapping")
-        mapping.inputs["Scale"].default_value = (scale, scale, scale)
-        links.new(coords.outputs["UV"], mapping.inputs[0])
-        links.new(mapping.outputs[0], image.inputs[0])
-        links.new(image.outputs[0], shader.inputs[0])
+        picture_into(m, shader, textures + "/" + picture, scale)
     links.new(shader.outputs[0], output.inputs[0])
     return m
 

@@ -14,7 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kWords = R"({"crimson": [1, -1, -1], "lawn": [-1, 1, -1],
+constexpr const char* kWords =
+    R"({"crimson": [1, -1, -1], "zorblax": [1, -1, -1], "lawn": [-1, 1, -1],
                                    "grass": [-1, 1, -1], "stone": [1, -1, -1]})";
 constexpr const char* kModel = R"({"name": "tiny", "image": "image.onnx", "words": "words.json",
     "size": 16, "mean": [0.5, 0.5, 0.5], "deviation": [0.25, 0.25, 0.25], "scale": 10})";
@@ -98,7 +99,6 @@ TEST(ImageTextModel, IsAskedBySearchesOfALibraryThatNamesIt) {
     }
     ASSERT_EQ(library->add(textures), 20);
     SearchQuery query;
-    query.text = "crimson wood";
     const std::string model = model_in(scratch.at("tiny"));
     int looked_at = 0;
     ASSERT_TRUE(library->use_image_text_model(
@@ -113,6 +113,21 @@ TEST(ImageTextModel, IsAskedBySearchesOfALibraryThatNamesIt) {
     ASSERT_TRUE(red);
     EXPECT_GT(red->at(0, 0, 0), 200);
     EXPECT_THAT(found->hits[0].reasons, testing::Contains("looks like it to tiny"));
+
+    query.text = "zorblax";  // a word of the model alone
+    const auto by_sight = library->search(query);
+    ASSERT_TRUE(by_sight);
+    ASSERT_EQ(by_sight->total, 1);
+    EXPECT_EQ(by_sight->hits[0].id, found->hits[0].id);
+
+    // Another connection names another one: the first goes over to it.
+    const std::string other = model_in(scratch.at("other"), R"({"name": "other",
+        "image": "image.onnx", "words": "words.json", "size": 16})");
+    ASSERT_TRUE(open_or_die(scratch.at("a.db"))->use_image_text_model(other));
+    const auto went_over = library->search(query);
+    ASSERT_TRUE(went_over);
+    EXPECT_THAT(went_over->understood, testing::Not(testing::Contains(HasSubstr("changed"))));
+    ASSERT_TRUE(library->use_image_text_model(model));
 
     looked_at = 0;
     ASSERT_TRUE(library->use_image_text_model(

@@ -2,9 +2,8 @@
 #include "app/session/paint.h"
 #include "app/session/piece_pick.h"
 #include "app/session/where_to_correct.h"
-#include "tests/ui/ui_harness.h"
+#include "tests/ui/canvas_fixture.h"
 #include "ui/pen.h"
-#include "ui/view_map.h"
 
 namespace weft::test {
 namespace {
@@ -32,34 +31,8 @@ std::shared_ptr<const Provenance> two_pieces() {
     return out;
 }
 
-class Choices : public PanelTest {
+class Choices : public CanvasTest {
   protected:
-    ImVec2 on(float x, float y) const {
-        const DrawnItem* canvas = robot->find("Viewer/Canvas");
-        if (!canvas) return {0, 0};
-        const ViewerState& s = shell->state().viewer;
-        return ViewMap{canvas->min, canvas->max, s.center, s.zoom}.to_screen({x, y});
-    }
-    template <class T>
-    std::vector<T> edits() const {
-        std::vector<T> out;
-        for (const DoEdit& one : emitted<DoEdit>())
-            if (const T* edit = std::get_if<T>(&one.edit)) out.push_back(*edit);
-        return out;
-    }
-    void click_at(ImVec2 at) {
-        robot->move(at);
-        robot->press();
-        robot->release();
-        robot->frames();
-    }
-    void go(const char* workspace, Tool tool) {
-        robot->frames(2);
-        ASSERT_TRUE(robot->click(std::string("Top/") + workspace));
-        shell->state().tool = tool;
-        robot->frames(2);
-        clear();
-    }
     void show_pieces() {
         auto picture = std::make_shared<OverlayPicture>();
         picture->kind = Overlay::kPieces;

@@ -1,7 +1,6 @@
 // The tools on the canvas, and the panels that belong to them: what they emit.
 #include "app/session/lamp_edit.h"
-#include "tests/ui/ui_harness.h"
-#include "ui/view_map.h"
+#include "tests/ui/canvas_fixture.h"
 
 namespace weft::test {
 namespace {
@@ -9,36 +8,10 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-class Tools : public PanelTest {
+class Tools : public CanvasTest {
   protected:
-    ImVec2 on(float x, float y) const {
-        const DrawnItem* canvas = robot->find("Viewer/Canvas");
-        if (!canvas) return {0, 0};
-        const ViewerState& s = shell->state().viewer;
-        return ViewMap{canvas->min, canvas->max, s.center, s.zoom}.to_screen({x, y});
-    }
-    void go(const char* workspace, Tool tool) {
-        robot->frames(2);
-        ASSERT_TRUE(robot->click(std::string("Top/") + workspace));
-        shell->state().tool = tool;
-        robot->frames(2);
-        clear();
-    }
-    template <class T>
-    std::vector<T> edits() const {
-        std::vector<T> out;
-        for (const DoEdit& one : emitted<DoEdit>())
-            if (const T* edit = std::get_if<T>(&one.edit)) out.push_back(*edit);
-        return out;
-    }
     void change(std::function<void(Region&)> what) {
         view.project.regions[0] = view.project.regions[0].with(what);
-    }
-    void click_at(ImVec2 at) {
-        robot->move(at);
-        robot->press();
-        robot->release();
-        robot->frames();
     }
 };
 
