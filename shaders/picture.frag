@@ -1,5 +1,6 @@
 #version 330 core
-// The view transform: linear light, exposure, gamma, sRGB. For the screen only.
+// The view transform: linear light, exposure, the screen's curve, gamma. For the screen only.
+// WEFT_SCREEN: OpenColorIO's function stands before this text and takes the curve's place.
 in vec2 uv;
 out vec4 color;
 uniform sampler2D picture_a;
@@ -14,10 +15,14 @@ uniform ivec2 taps;       // under one pixel of the screen, when the picture is 
 uniform vec2 footprint;   // of one pixel of the screen, in the picture's own 0..1
 
 vec3 encode(vec3 v) {
+#ifdef WEFT_SCREEN
+    return max(weft_screen(vec4(v, 1.0)).rgb, vec3(0.0));
+#else
     v = max(v, vec3(0.0));
     if (curve == 1) return pow(v, vec3(1.0 / 2.4));
     if (curve == 2) return v;
     return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), v));
+#endif
 }
 
 vec3 light(sampler2D picture) {

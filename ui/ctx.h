@@ -40,9 +40,16 @@ struct Ctx {
     std::vector<DrawnItem>* items = nullptr;  ///< Null: nobody looks for widgets.
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;
+    /// Does actions at once and brings the view up to date with them; null: like emit().
+    std::function<void(const std::vector<Action>&)> act_now;
     std::string panel;  ///< Prefix of the items' names.
 
     void emit(Action action) { actions.push_back(std::move(action)); }
+    /// For what this very frame is to show: a stroke under the brush.
+    void emit_now(std::vector<Action> all) {
+        if (act_now) return act_now(all);
+        actions.insert(actions.end(), all.begin(), all.end());
+    }
     void edit(Edit what) { emit(DoEdit{std::move(what)}); }
     /// Notes the last ImGui item under a name.
     void note(std::string_view name, bool enabled = true);

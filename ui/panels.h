@@ -57,6 +57,8 @@ void region_parameter(Ctx& c, const Region& region, std::string_view key,
 /// The same for one that may change over time: `keys` is the key of its text of keys.
 void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::string_view keys,
                      const char* label = nullptr);
+/// A colour space: built in, or one of the OpenColorIO config's. `usual`: what an empty one means.
+void space_parameter(Ctx& c, std::string_view key, const char* label, const char* usual);
 void project_parameter(Ctx& c, std::string_view key, const char* label = nullptr);
 
 }  // namespace weft::ui

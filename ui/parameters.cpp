@@ -64,6 +64,11 @@ constexpr Word kWords[] = {
     {"texture.wrap", "clamp", "Stretch the edge"},
     {"motion.direction", "forward", "To the next frame"},
     {"motion.direction", "backward", "To the previous frame"},
+    {"output.depth", "auto", "As the plate"},
+    {"output.depth", "8", "8 bit"},
+    {"output.depth", "16", "16 bit"},
+    {"output.depth", "half", "Half float"},
+    {"output.depth", "float", "Float"},
     {"settings.quality", "draft", "Draft"},
     {"settings.quality", "final", "Final"},
 };
@@ -285,6 +290,24 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
         else
             c.emit(TryEdit{edit});
     });
+}
+
+void space_parameter(Ctx& c, std::string_view key, const char* label, const char* usual) {
+    const auto found = find_parameter(project_parameters(), key);
+    if (!found) return;
+    const ParameterValue now = (*found)->read(c.view.project);
+    const auto* text = std::get_if<std::string>(&now);
+    std::vector<std::string> values{"", "srgb", "linear"};
+    values.insert(values.end(), c.view.color_spaces.begin(), c.view.color_spaces.end());
+    const std::string chosen = text ? *text : std::string();
+    auto at = std::find(values.begin(), values.end(), chosen);
+    if (at == values.end()) at = values.insert(values.end(), chosen);
+    int value = static_cast<int>(at - values.begin());
+    std::vector<std::string> names = values;
+    names[0] = usual;
+    const std::string help((*found)->help);
+    if (choice(c, label, names, value, help.c_str(), 0))
+        c.edit(SetProjectParameter{std::string(key), values[static_cast<std::size_t>(value)]});
 }
 
 void project_parameter(Ctx& c, std::string_view key, const char* label) {

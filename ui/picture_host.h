@@ -15,8 +15,18 @@ struct DisplaySettings {
     Channel channel = Channel::kColor;
     enum class Curve : int { kSrgb, kVideo, kRaw };
     Curve curve = Curve::kSrgb;  ///< From linear light to the screen; kVideo: BT.1886.
+    std::shared_ptr<const ScreenView> screen;  ///< In place of `curve`, unless it is null.
     bool operator==(const DisplaySettings&) const = default;
 };
+
+/// As the artist set it, through the screen's view that the session has ready.
+[[nodiscard]] inline DisplaySettings on_screen(DisplaySettings display, const SessionView& view) {
+    display.screen = view.screen;
+    display.curve = view.screen_name.view == kScreenVideo ? DisplaySettings::Curve::kVideo
+                    : view.screen_name.view == kScreenRaw ? DisplaySettings::Curve::kRaw
+                                                          : DisplaySettings::Curve::kSrgb;
+    return display;
+}
 
 /// A picture, or a comparison of two, to be drawn at a place on the screen.
 struct PictureDraw {

@@ -66,6 +66,78 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
     tooltip(c, "Blue: the result. Grey: the plate itself, over the same pixels. Drag to go there");
 }
 
+// A value of a frame as a heat strip shows it; below 0: not known.
+struct Heat {
+    const char* name;
+    const char* tip;
+    std::vector<float> values;  // by index into the plate's frames
+};
+
+std::vector<Heat> heats_of(const Ctx& c) {
+    const SessionView& v = c.view;
+    Heat flicker{"Flicker", "How much more the result changes from frame to frame than the plate",
+                 std::vector<float>(v.marks.size(), -1.0f)};
+    Heat seams{"Seams", "How much steeper the picture is at seams than beside them", {}};
+    Heat drift{"Drift", "How different the surface looks from its reference frame", {}};
+    for (const FrameMarks& mark : v.marks) {
+        seams.values.push_back(mark.seam);
+        drift.values.push_back(mark.drift);
+    }
+    if (v.report.state == QualityReport::State::kDone) {
+        for (const Row& row : v.report.rows) {
+            const auto at =
+                std::lower_bound(v.plate.frames.begin(), v.plate.frames.end(), row.frame);
+            const auto k = static_cast<std::size_t>(at - v.plate.frames.begin());
+            if (k < flicker.values.size())
+                flicker.values[k] = 0.15f + std::max(0.0f, row.flicker - row.flicker_plate) / 8.0f;
+        }
+    }
+    return {flicker, seams, drift};
+}
+
+// One strip a figure, as wide as the panel; dark where all is well. A click goes to the frame.
+void heat_strips(Ctx& c) {
+    const Theme& t = c.theme;
+    const SessionView& v = c.view;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float row = t.px(14), gap = t.px(3), x0 = at.x + t.px(62), x1 = at.x + width;
+    const std::vector<Heat> heats = heats_of(c);
+    const float height = static_cast<float>(heats.size()) * (row + gap) - gap;
+    const float step = (x1 - x0) / static_cast<float>(std::max<std::size_t>(1, v.marks.size()));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImGui::InvisibleButton("##strips", {width, height});
+    c.note("Heat strips");
+    const float mouse = ImGui::GetIO().MousePos.x;
+    if (ImGui::IsItemActive() && !v.plate.frames.empty()) {
+        const auto k = static_cast<std::size_t>(
+            std::clamp((mouse - x0) / step, 0.0f, static_cast<float>(v.plate.frames.size() - 1)));
+        if (v.plate.frames[k] != v.frame) c.emit(GoToFrame{v.plate.frames[k]});
+    }
+    float y = at.y;
+    for (const Heat& heat : heats) {
+        const bool known = std::any_of(heat.values.begin(), heat.values.end(),
+                                       [](float value) { return value >= 0; });
+        text_in(list, t.small, {at.x, y}, {x0, y + row}, known ? t.text : t.off, heat.name, 0);
+        list.AddRectFilled({x0, y}, {x1, y + row}, t.field, t.px(2));
+        for (std::size_t k = 0; k < heat.values.size(); ++k) {
+            if (heat.values[k] < 0) continue;
+            const float left = x0 + step * static_cast<float>(k);
+            list.AddRectFilled({left, y}, {left + step, y + row},
+                               heat_color(std::clamp(heat.values[k], 0.0f, 1.0f)));
+        }
+        if (ImGui::IsMouseHoveringRect({at.x, y}, {x1, y + row}) && ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s. Dark: all is well. Click to go there", heat.tip);
+        y += row + gap;
+    }
+    for (std::size_t k = 0; k < v.plate.frames.size(); ++k) {
+        if (v.plate.frames[k] != v.frame) continue;
+        const float x = x0 + step * (static_cast<float>(k) + 0.5f);
+        list.AddLine({x, at.y - t.px(2)}, {x, at.y + height + t.px(2)}, t.text, t.px(1.5f));
+    }
+    ImGui::Dummy({0, t.px(2)});
+}
+
 // A frame and how bad it is, in figures.
 struct Worst {
     int frame = 0;
@@ -98,6 +170,56 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
     return out;
 }
 
+// The file of a frame of the measured render.
+std::string frame_path(std::string pattern, int frame) {
+    const std::size_t first = pattern.rfind('#');
+    if (first == std::string::npos) return pattern;
+    std::size_t begin = first;
+    while (begin > 0 && pattern[begin - 1] == '#')
+        --begin;
+    std::string digits = std::to_string(frame);
+    const std::size_t width = first - begin + 1;
+    if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+    return pattern.replace(begin, width, digits);
+}
+
+// The worst frames of the render, two in a row.
+void worst_pictures(Ctx& c, const std::vector<Worst>& worst) {
+    const Theme& t = c.theme;
+    const float width = std::floor((ImGui::GetContentRegionAvail().x - t.gap) / 2);
+    const Size plate = c.view.plate.size;
+    const float picture_h = std::floor(
+        plate.empty() ? width * 0.5625f
+                      : width * std::clamp(static_cast<float>(plate.height) /
+                                               static_cast<float>(std::max(1, plate.width)),
+                                           0.3f, 1.0f));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (std::size_t k = 0; k < worst.size(); ++k) {
+        const Worst& one = worst[k];
+        if (k % 2 == 1) ImGui::SameLine(0, t.gap);
+        ImGui::PushID(one.frame);
+        if (ImGui::InvisibleButton("##worst", {width, picture_h + t.px(34)}))
+            c.emit(GoToFrame{one.frame});
+        ImGui::PopID();
+        c.note("Worst " + std::to_string(one.frame));
+        const ImVec2 at = ImGui::GetItemRectMin();
+        const ImVec2 end(at.x + width, at.y + picture_h);
+        const bool here = one.frame == c.view.frame, over = ImGui::IsItemHovered();
+        list.AddRectFilled(at, end, t.field, t.radius);
+        const PicturePtr picture = c.textures.thumbnail(
+            frame_path(c.view.report.pattern, one.frame), static_cast<int>(width));
+        if (const ImTextureID texture = c.pictures.texture(picture))
+            list.AddImageRounded(texture, at, end, {0, 0}, {1, 1}, IM_COL32_WHITE, t.radius);
+        if (here || over) list.AddRect(at, end, here ? t.accent : t.quiet, t.radius, 0, t.px(2));
+        text_in(list, t.small, {at.x, end.y + t.px(1)}, {end.x, end.y + t.px(17)}, t.text,
+                ("Frame " + std::to_string(one.frame)).c_str(), 0);
+        ImGui::PushFont(t.small);
+        text_in(list, t.small, {at.x, end.y + t.px(15)}, {end.x, end.y + t.px(31)}, t.quiet,
+                fitted(one.text, width).c_str(), 0);
+        ImGui::PopFont();
+    }
+}
+
 void worst_frames(Ctx& c) {
     if (!section(c, "Worst frames")) return;
     const PanelName panel(c, "Worst");
@@ -109,6 +231,11 @@ void worst_frames(Ctx& c) {
             "Seams are looked at as the preview fills its frames.",
             "Drift is looked at once the shot is analysed."};
         wrapped(c, kMissing[c.state.worst_by], c.theme.quiet);
+    }
+    if (c.view.report.state == QualityReport::State::kDone) {
+        worst_pictures(c, worst);
+        section_gap(c);
+        return;
     }
     for (const Worst& one : worst) {
         const std::string label = "Frame " + std::to_string(one.frame) + ":  " + one.text;
@@ -128,6 +255,7 @@ void review_panel(Ctx& c, ImVec2 size) {
     const QualityReport& report = c.view.report;
     const ImVec2 origin = ImGui::GetWindowPos();
     ImGui::GetWindowDrawList()->AddLine(origin, {origin.x + size.x, origin.y}, t.line);
+    if (!c.view.marks.empty()) heat_strips(c);
     switch (report.state) {
         case QualityReport::State::kNone:
             empty_state(c, icons::kReview, "Not measured yet",

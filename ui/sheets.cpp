@@ -23,7 +23,9 @@ bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::SetNextWindowFocus();
+    // In front of everything but the choices that were opened from it.
+    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+        ImGui::SetNextWindowFocus();
     ImGui::Begin(
         title, nullptr,
         ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
@@ -147,7 +149,7 @@ void shot_window(Ctx& c) {
     heading(c, "Plate");
     project_parameter(c, "plate.path", "Frames");
     project_parameter(c, "plate.layer", "Layer");
-    project_parameter(c, "plate.space", "Colour space");
+    space_parameter(c, "plate.space", "Colour space", "As the kind of file says");
     project_parameter(c, "plate.fps", "Frame rate");
     double aspect = static_cast<double>(c.state.viewer.aspect);
     if (slider(c,
@@ -162,9 +164,9 @@ void shot_window(Ctx& c) {
         c.state.viewer.aspect = static_cast<float>(aspect);
     ImGui::Dummy({0, t.px(8)});
     heading(c, "Colour");
-    project_parameter(c, "color.working_space", "Working space");
-    project_parameter(c, "color.texture_space", "Textures");
-    project_parameter(c, "color.out_space", "Result");
+    space_parameter(c, "color.working_space", "Working space", "Linear");
+    space_parameter(c, "color.texture_space", "Textures", "As the kind of file says");
+    space_parameter(c, "color.out_space", "Result", "As the kind of file says");
     ImGui::Dummy({0, t.px(8)});
     heading(c, "Render");
     project_parameter(c, "settings.seed", "Variation");

@@ -60,7 +60,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     state_.status.clear();
     Ctx c{view,      state_,         settings_, theme_,   pictures_,
           textures_, folders_,       commands_, actions_, recording_ ? &items_ : nullptr,
-          job_log,   dismiss_notice, {}};
+          job_log,   dismiss_notice, act_now,   {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");
@@ -172,7 +172,7 @@ void Shell::layout(Ctx& c) {
     const float least_view = t.px(120);
     float extra_h =
         drawer   ? t.px(state_.drawer_h)
-        : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 150)
+        : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 196)
         : strip  ? t.px(state_.strip_h)
                  : 0;
     // Unless the artist has drawn it larger, the picture keeps more than half.

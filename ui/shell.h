@@ -36,6 +36,7 @@ class Shell {
 
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;
+    std::function<void(const std::vector<Action>&)> act_now;  ///< As Ctx::act_now.
 
   private:
     void part(const char* name) {

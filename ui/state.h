@@ -52,6 +52,7 @@ struct ViewerState {
     DisplaySettings display;
     std::optional<Vec2i> pixel;  ///< Under the mouse.
     Vec3 value{0, 0, 0};
+    std::vector<std::string> provenance;  ///< Of that pixel, as it is read out; empty: not asked.
     bool dragging_wipe = false;
 };
 

@@ -352,9 +352,11 @@ void texture_drawer(Ctx& c, ImVec2 size) {
                           : (narrowed ? std::to_string(c.state.drawer.cache.shown.size()) + " of "
                                       : std::string()) +
                                 std::to_string(cards->size()) + " textures";
+    ImGui::PushFont(t.small);
     text_in(list, t.small, {origin.x + size.x - count_w, origin.y},
             {origin.x + size.x - t.px(12), origin.y + head}, t.quiet,
-            fitted(count, count_w - t.px(20)).c_str(), 1);
+            fitted(count, count_w - t.px(14)).c_str(), 1);
+    ImGui::PopFont();
     ImGui::SetCursorScreenPos({origin.x, origin.y + head});
     materials(c, *cards, {left, body});
     ImGui::SetCursorScreenPos({origin.x + left, origin.y + head});

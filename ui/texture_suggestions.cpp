@@ -129,10 +129,12 @@ std::vector<TogetherRegion> regions_together(const Ctx& c) {
 // "Keep this, change those": a lock for each region that has a texture of the library.
 void keep_chips(Ctx& c, const std::vector<TogetherRegion>& regions) {
     std::vector<RegionId>& kept = c.state.drawer.kept;
-    quiet(c, "Keep:");
+    bool any = false;
     for (const TogetherRegion& one : regions) {
         const Region* region = region_by_id(c.view.project, one.region);
         if (!region || library_name_of(region->texture.sample).empty()) continue;
+        if (!any) quiet(c, "Keep:");
+        any = true;
         ImGui::SameLine();
         const auto at = std::find(kept.begin(), kept.end(), one.region);
         const bool on = at != kept.end();

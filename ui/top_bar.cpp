@@ -184,7 +184,11 @@ void status_bar(Ctx& c, ImVec2 size) {
         cell(std::to_string(v.plate.size.width) + " × " + std::to_string(v.plate.size.height) +
                  ", " + v.plate.depth,
              t.px(140), t.quiet);
-        cell(v.plate.space + " → sRGB", t.px(104), t.quiet);
+        ImGui::PushFont(t.small);
+        const std::string spaces = fitted(v.plate.space + " → " + v.screen_name.view, t.px(144));
+        const float spaces_w = std::max(t.px(104), ImGui::CalcTextSize(spaces.c_str()).x + t.px(8));
+        ImGui::PopFont();
+        cell(spaces, spaces_w, t.quiet);
         int cached = 0;
         for (const FrameMarks& mark : v.marks)
             cached += mark.plate;

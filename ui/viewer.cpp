@@ -71,11 +71,59 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
     return {{whole, shown_result(c), nullptr, {}, "", true}};
 }
 
+// What the screen is taken for: a built-in curve, or a view of the OpenColorIO config.
+void screen_choice(Ctx& c) {
+    const Theme& t = c.theme;
+    const ScreenName& now = c.view.screen_name;
+    const float width = t.px(104);
+    ImGui::InvisibleButton("##Screen", {width, t.px(26)});
+    c.note("Screen");
+    ImGui::PushFont(t.small);
+    const std::string text = fitted(now.view, width - t.px(12));
+    ImGui::PopFont();
+    text_in(*ImGui::GetWindowDrawList(), t.small, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+            t.text, text.c_str());
+    const std::string tip =
+        now.display.empty()
+            ? "What the screen is taken for" +
+                  std::string(c.view.screens.empty()
+                                  ? ". Set $OCIO to an OpenColorIO config for its views"
+                                  : "")
+            : "Shown through " + now.view + " of " + now.display;
+    tooltip(c, tip.c_str());
+    if (ImGui::IsItemClicked()) ImGui::OpenPopup("##screens");
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(8), t.px(6)});
+    if (ImGui::BeginPopup("##screens")) {
+        const auto item = [&](const ScreenName& name, const char* shown) {
+            if (ImGui::MenuItem(shown, nullptr, name == now)) c.emit(ChooseScreen{name});
+            c.note("Screen " + (name.display.empty() ? "" : name.display + " ") + name.view);
+        };
+        item({"", kScreenSrgb}, "sRGB");
+        item({"", kScreenVideo}, "Video (BT.1886)");
+        item({"", kScreenRaw}, "Raw, linear light as it is");
+        std::vector<std::string> displays;
+        for (const ScreenName& name : c.view.screens)
+            if (std::find(displays.begin(), displays.end(), name.display) == displays.end())
+                displays.push_back(name.display);
+        for (const std::string& display : displays) {
+            ImGui::Separator();
+            quiet(c, display.c_str());
+            ImGui::PushID(display.c_str());
+            for (const ScreenName& name : c.view.screens)
+                if (name.display == display) item(name, name.view.c_str());
+            ImGui::PopID();
+        }
+        ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar(2);
+}
+
 // Zoom, exposure, gamma, channels and comparisons, at the foot of the picture.
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     ViewerState& s = c.state.viewer;
-    const float bar_w = t.px(600);
+    const float bar_w = t.px(658);
     if (max.x - min.x < bar_w + t.px(20)) return;
     const ImVec2 at(std::floor(max.x - bar_w - t.px(4)), min.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -130,12 +178,7 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     }
     ImGui::PopStyleVar(2);
     ImGui::SameLine();
-    constexpr const char* kCurves[] = {"sRGB", "Video", "Raw"};
-    value("##Curve", kCurves[static_cast<int>(s.display.curve)], t.px(46),
-          "What the screen is taken for: sRGB, video (BT.1886), or linear light as it is", nullptr);
-    if (ImGui::IsItemClicked())
-        s.display.curve =
-            static_cast<DisplaySettings::Curve>((static_cast<int>(s.display.curve) + 1) % 3);
+    screen_choice(c);
     ImGui::SameLine(0, t.px(10));
     const auto tool = [&](const char* id) {
         const Command* command = c.commands.find(id);
@@ -186,7 +229,7 @@ void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     }
 }
 
-// The line of the wipe can be taken and moved.
+// The line of the wipe can be taken and moved; true while the mouse is on it.
 bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
     ViewerState& s = c.state.viewer;
     if (s.compare != Compare::kWipe || s.hold_original) return false;
@@ -198,14 +241,19 @@ bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
     if (s.dragging_wipe)
         s.wipe = std::clamp(map.to_plate(ImGui::GetIO().MousePos).x / width, 0.0f, 1.0f);
     if (near || s.dragging_wipe) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
+    return near || s.dragging_wipe;
+}
+
+void draw_wipe(Ctx& c, ImDrawList& list, const ViewMap& map) {
+    const ViewerState& s = c.state.viewer;
+    if (s.compare != Compare::kWipe || s.hold_original) return;
+    const float x = map.to_screen({s.wipe * static_cast<float>(c.view.plate.size.width), 0}).x;
     list.AddLine({x, map.min.y}, {x, map.max.y}, IM_COL32(0, 0, 0, 140), c.theme.px(3));
     list.AddLine({x, map.min.y}, {x, map.max.y}, c.theme.accent_hover, c.theme.px(1));
     const float y = map.max.y - c.theme.px(64);
     list.AddCircleFilled({x, y}, c.theme.px(9), c.theme.accent, 24);
     icon_in(c, list, {x - c.theme.px(9), y - c.theme.px(9)}, {x + c.theme.px(9), y + c.theme.px(9)},
             c.theme.on_accent, icons::kCompare);
-    return near || s.dragging_wipe;
 }
 
 // The way out of frames that are not where they were.
@@ -303,6 +351,12 @@ void viewer(Ctx& c, ImVec2 size) {
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const std::vector<Pane> panes = panes_of(c, min, max);
+    // The pane under the mouse is the one that is worked in; all share zoom and centre.
+    ViewMap map = panes.front().map;
+    for (const Pane& pane : panes)
+        if (pane.map.contains(ImGui::GetIO().MousePos)) map = pane.map;
+    const bool wiping = panes.size() == 1 && move_wipe(c, map, hovered);
+    if (!wiping) brush_input(c, map, active);
     const Vec2 corner(static_cast<float>(plate.width), static_cast<float>(plate.height));
     for (const Pane& pane : panes) {
         if (pane.a || pane.b) {
@@ -317,7 +371,7 @@ void viewer(Ctx& c, ImVec2 size) {
             draw.wipe = s.wipe;
             draw.pane = static_cast<int>(&pane - panes.data());
             draw.smooth = s.zoom < 4;
-            draw.display = s.display;
+            draw.display = on_screen(s.display, c.view);
             c.pictures.draw(list, draw);
         } else if (c.view.plate_picture) {
             text_in(list, t.regular, pane.map.min, pane.map.max, t.off,
@@ -331,16 +385,12 @@ void viewer(Ctx& c, ImVec2 size) {
                          pane.label, t.text);
         }
     }
-    // The pane under the mouse is the one that is worked in; all share zoom and centre.
-    ViewMap map = panes.front().map;
-    for (const Pane& pane : panes)
-        if (pane.map.contains(ImGui::GetIO().MousePos)) map = pane.map;
     read_pixel(c, map,
                c.view.result_picture && s.compare != Compare::kPlate ? c.view.result_picture
                                                                      : c.view.plate_picture,
                hovered);
     navigate(c, map, hovered, active);
-    const bool wiping = panes.size() == 1 && move_wipe(c, map, hovered);
+    if (panes.size() == 1) draw_wipe(c, list, map);
     if (!wiping) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);
     draw_provenance(c, list, map, hovered);

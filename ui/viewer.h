@@ -9,6 +9,8 @@
 namespace weft::ui {
 
 /// Painting, shapes and placing with the mouse on the canvas.
+/// What the brush does goes before the picture, so that this frame's picture has it.
+void brush_input(Ctx& c, const ViewMap& map, bool active);
 void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// Applies a texture to the region under the mouse, or to the selected one.

@@ -45,6 +45,8 @@ static void draw_holdouts(Ctx& c, ImDrawList& list, const ViewMap& map) {
 
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
+    // A line around the surface would be judged with it.
+    if (c.state.workspace == Workspace::kReview) return;
     const bool in_mask = c.state.workspace == Workspace::kMask;
     const ImVec2 min = map.to_screen({0, 0});
     const ImVec2 max = map.to_screen(
@@ -241,6 +243,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
 
 // Where the pixel under the mouse comes from.
 void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered) {
+    c.state.viewer.provenance.clear();
     const auto& over = c.view.overlay_picture;
     if (!hovered || !over || !over->provenance || !c.state.viewer.pixel) return;
     const Vec2i at = *c.state.viewer.pixel;
@@ -250,11 +253,14 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
     const Vec2 p(static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f);
     const Provenance::Answer found = from.at(p);
     const auto pair = [](double x, double y) {
-        return number_text(x, 0) + ", " + number_text(y, 0);
+        return number_text(std::floor(x), 0) + ", " + number_text(std::floor(y), 0);
     };
     std::vector<std::string> lines{found.sample};
+    if (!found.sample_id.empty()) lines.push_back("Texture " + found.sample_id);
     if (found.in_sample)
-        lines.push_back("Sample " + pair(found.in_sample->x, found.in_sample->y));
+        lines.push_back((found.patch ? "Patch " + std::to_string(*found.patch) + ", sample at "
+                                     : std::string("Sample at ")) +
+                        pair(found.in_sample->x, found.in_sample->y));
     else
         lines.push_back("Texel " + pair(static_cast<double>(found.texel.x),
                                         static_cast<double>(found.texel.y)));
@@ -268,6 +274,13 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
         "From " +
         pair(static_cast<double>(found.on_reference.x), static_cast<double>(found.on_reference.y)) +
         " on frame " + std::to_string(from.reference_frame));
+    for (const Provenance::Answer::Share& share : found.histories)
+        lines.push_back("History of frame " + std::to_string(share.frame) + ", weight " +
+                        number_text(static_cast<double>(share.weight), 2));
+    if (found.made_anew > 0)
+        lines.push_back("Made anew here, weight " +
+                        number_text(static_cast<double>(found.made_anew), 2));
+    c.state.viewer.provenance = lines;
     const Theme& t = c.theme;
     float w = 0;
     for (const std::string& line : lines)

@@ -36,33 +36,14 @@ void brush_ring(Ctx& c, const ViewMap& map) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);
 }
 
-void paint(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+void paint(Ctx& c, const ViewMap& map, bool hovered) {
     BrushState& b = c.state.brush;
     const ImGuiIO& io = ImGui::GetIO();
-    const Vec2 at = map.to_plate(io.MousePos);
-    const float pressure = c.state.pen_pressure.value_or(1.0f);
     if (hovered || b.painting) brush_ring(c, map);
     // Ctrl and the right button drag the size, as other painters do.
     if (hovered && io.KeyCtrl && ImGui::IsMouseDragging(1, 0))
         b.brush.radius_px =
             std::clamp(b.brush.radius_px + io.MouseDelta.x / map.zoom, 0.5f, 2000.0f);
-    if (!b.painting && active && ImGui::IsMouseClicked(0)) {
-        b.painting = true;
-        if (io.KeyShift && b.line_from) {
-            c.emit(BeginStroke{brush_now(c), *b.line_from, pressure});
-            c.emit(ContinueStroke{at, pressure});
-        } else {
-            c.emit(BeginStroke{brush_now(c), at, pressure});
-        }
-    } else if (b.painting) {
-        for (const Vec2 point : path_on_plate(c, map))
-            c.emit(ContinueStroke{point, pressure});
-    }
-    if (b.painting && !ImGui::IsMouseDown(0)) {
-        b.painting = false;
-        b.line_from = at;
-        c.emit(EndStroke{});
-    }
 }
 
 void draw_outline(Ctx& c, const ViewMap& map, const Vec2* rubber) {
@@ -254,6 +235,34 @@ std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
     return out;
 }
 
+void brush_input(Ctx& c, const ViewMap& map, bool active) {
+    if (c.view.plate.size.empty()) return;
+    if (c.state.tool != Tool::kBrush && c.state.tool != Tool::kEraser) return;
+    BrushState& b = c.state.brush;
+    const ImGuiIO& io = ImGui::GetIO();
+    const Vec2 at = map.to_plate(io.MousePos);
+    const float pressure = c.state.pen_pressure.value_or(1.0f);
+    std::vector<Action> strokes;
+    if (!b.painting && active && ImGui::IsMouseClicked(0)) {
+        b.painting = true;
+        if (io.KeyShift && b.line_from) {
+            strokes.emplace_back(BeginStroke{brush_now(c), *b.line_from, pressure});
+            strokes.emplace_back(ContinueStroke{at, pressure});
+        } else {
+            strokes.emplace_back(BeginStroke{brush_now(c), at, pressure});
+        }
+    } else if (b.painting) {
+        for (const Vec2 point : path_on_plate(c, map))
+            strokes.emplace_back(ContinueStroke{point, pressure});
+    }
+    if (!strokes.empty()) c.emit_now(std::move(strokes));
+    if (b.painting && !ImGui::IsMouseDown(0)) {
+        b.painting = false;
+        b.line_from = at;
+        c.emit(EndStroke{});
+    }
+}
+
 void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (c.view.plate.size.empty()) return;
     if (c.state.keep_overlay && c.state.tool != Tool::kKeep) {
@@ -265,7 +274,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return;
         case Tool::kBrush:
         case Tool::kEraser:
-            return paint(c, map, hovered, active);
+            return paint(c, map, hovered);
         case Tool::kLasso:
             return lasso(c, map, active);
         case Tool::kPolygon:

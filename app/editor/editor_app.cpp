@@ -44,10 +44,14 @@ EditorApp::EditorApp(const EditorOptions& options)
     saved_settings_ = settings_;
     session_ = std::make_unique<Session>(session_options(options_), &settings_);
     shell_ = std::make_unique<Shell>(settings_, pictures_);
+    pictures_.on_problem = [this](std::string words) {
+        session_->notify(NoticeKind::kWarning, std::move(words));
+    };
     session_->set_clock(&clock_);
     shell_->set_clock(&clock_);
     shell_->textures().open_library(options_.texture_library.empty() ? default_library_path()
                                                                      : options_.texture_library);
+    shell_->act_now = [this](const std::vector<Action>& all) { session_->act_now(all); };
     shell_->job_log = [this](int id) { return session_->job_log(id); };
     shell_->dismiss_notice = [this](int id) { session_->dismiss(id); };
 }

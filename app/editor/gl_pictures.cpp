@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/editor/gl_program.h"
 #include "app/editor/shader_sources.h"
 
 extern char** environ;
@@ -18,34 +19,6 @@ namespace weft {
 namespace {
 
 constexpr int kSecondWindow = 1000;  // its place; the panes have small numbers
-
-GLuint compile(GLenum kind, const char* source, std::string& log) {
-    const GLuint shader = glCreateShader(kind);
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    GLint good = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    if (good) return shader;
-    char text[1024] = "";
-    glGetShaderInfoLog(shader, sizeof text, nullptr, text);
-    log += text;
-    return 0;
-}
-
-GLuint link(const char* vertex, const char* fragment, std::string& log) {
-    const GLuint v = compile(GL_VERTEX_SHADER, vertex, log);
-    const GLuint f = compile(GL_FRAGMENT_SHADER, fragment, log);
-    if (!v || !f) return 0;
-    const GLuint program = glCreateProgram();
-    glAttachShader(program, v);
-    glAttachShader(program, f);
-    glLinkProgram(program);
-    glDeleteShader(v);
-    glDeleteShader(f);
-    GLint good = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &good);
-    return good ? program : 0;
-}
 
 GLint at(GLuint program, const char* name) {
     return glGetUniformLocation(program, name);
@@ -74,8 +47,8 @@ GlPictures::~GlPictures() {
 
 Status GlPictures::make_shaders() {
     std::string log;
-    picture_program_ = link(shaders::kViewerVert, shaders::kPictureFrag, log);
-    matte_program_ = link(shaders::kViewerVert, shaders::kMatteFrag, log);
+    picture_program_ = link_program(shaders::kViewerVert, shaders::kPictureFrag, log);
+    matte_program_ = link_program(shaders::kViewerVert, shaders::kMatteFrag, log);
     if (!picture_program_ || !matte_program_) {
         return fail(ErrorCode::kRenderFailed,
                     "The display needs OpenGL 3.3, which this driver does not give. " + log);
@@ -143,6 +116,10 @@ unsigned GlPictures::matte_texture(std::uint64_t key, const MatteDraw& draw, Vie
 }
 
 void GlPictures::draw(ImDrawList& list, const PictureDraw& draw) {
+    if (const std::string words = screen_.prepare(draw.display.screen);
+        !words.empty() && on_problem)
+        on_problem("This graphics driver does not take the view " + draw.display.screen->name.view +
+                   "; sRGB is shown instead. " + words);
     Order& order = orders_.emplace_back();
     order.host = this;
     order.picture = draw;
@@ -206,45 +183,50 @@ void GlPictures::execute(const Order& order) const {
     } else {
         const PictureDraw& p = order.picture;
         clip(p.clip_min, p.clip_max);
-        place(picture_program_, p.min, p.max);
-        bind_picture(1, order.b ? order.b : order.a, "picture_b", p.smooth);
-        bind_picture(0, order.a, "picture_a", p.smooth);
-        set_footprint(p.a->size, (p.max.x - p.min.x) * sx, (p.max.y - p.min.y) * sy);
-        glUniform1i(at(picture_program_, "mode"), static_cast<GLint>(p.mode));
-        glUniform1f(at(picture_program_, "wipe"), p.wipe);
-        set_display(p.display);
+        const GLuint program = program_for(p.display);
+        place(program, p.min, p.max);
+        bind_picture(program, 1, order.b ? order.b : order.a, "picture_b", p.smooth);
+        bind_picture(program, 0, order.a, "picture_a", p.smooth);
+        set_footprint(program, p.a->size, (p.max.x - p.min.x) * sx, (p.max.y - p.min.y) * sy);
+        glUniform1i(at(program, "mode"), static_cast<GLint>(p.mode));
+        glUniform1f(at(program, "wipe"), p.wipe);
+        set_display(program, p.display);
         glDisable(GL_BLEND);
     }
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glActiveTexture(GL_TEXTURE0);
 }
 
-void GlPictures::bind_picture(unsigned unit, unsigned texture, const char* name,
+void GlPictures::bind_picture(unsigned program, unsigned unit, unsigned texture, const char* name,
                               bool smooth) const {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
-    glUniform1i(at(picture_program_, name), static_cast<GLint>(unit));
+    glUniform1i(at(program, name), static_cast<GLint>(unit));
 }
 
 // A picture shown smaller than it is: the shader takes the mean under each pixel of the screen,
 // by taps that lie at most two texels apart, which is as far as one of them sees.
-void GlPictures::set_footprint(Size picture, float width, float height) const {
+void GlPictures::set_footprint(unsigned program, Size picture, float width, float height) const {
     const float across = static_cast<float>(picture.width) / std::max(1.0f, width);
     const float down = static_cast<float>(picture.height) / std::max(1.0f, height);
     const auto taps = [](float texels) {
         return texels <= 1.05f ? 1 : std::clamp(static_cast<int>(std::ceil(texels / 2)), 2, 8);
     };
-    glUniform2i(at(picture_program_, "taps"), taps(across), taps(down));
-    glUniform2f(at(picture_program_, "footprint"), 1 / std::max(1.0f, width),
-                1 / std::max(1.0f, height));
+    glUniform2i(at(program, "taps"), taps(across), taps(down));
+    glUniform2f(at(program, "footprint"), 1 / std::max(1.0f, width), 1 / std::max(1.0f, height));
 }
 
-void GlPictures::set_display(const DisplaySettings& display) const {
-    glUniform1f(at(picture_program_, "gain"), std::exp2(display.exposure));
-    glUniform1f(at(picture_program_, "inverse_gamma"), 1.0f / std::max(0.01f, display.gamma));
-    glUniform1i(at(picture_program_, "channel"), static_cast<GLint>(display.channel));
-    glUniform1i(at(picture_program_, "curve"), static_cast<GLint>(display.curve));
+unsigned GlPictures::program_for(const DisplaySettings& display) const {
+    return display.screen && screen_.program() ? screen_.program() : picture_program_;
+}
+
+void GlPictures::set_display(unsigned program, const DisplaySettings& display) const {
+    glUniform1f(at(program, "gain"), std::exp2(display.exposure));
+    glUniform1f(at(program, "inverse_gamma"), 1.0f / std::max(0.01f, display.gamma));
+    glUniform1i(at(program, "channel"), static_cast<GLint>(display.channel));
+    glUniform1i(at(program, "curve"), static_cast<GLint>(display.curve));
+    if (program != picture_program_) screen_.bind();
 }
 
 void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& display, float aspect,
@@ -271,14 +253,15 @@ void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& di
     const float zoom = std::min(w / pw, h / ph);
     const ImVec2 shown(zoom * pw, zoom * ph);
     const float x = (w - shown.x) / 2, y = (h - shown.y) / 2;
-    glUseProgram(picture_program_);
-    glUniform4f(at(picture_program_, "place"), x, y, x + shown.x, y + shown.y);
-    glUniform2f(at(picture_program_, "screen"), w, h);
-    bind_picture(1, id, "picture_b", true);
-    bind_picture(0, id, "picture_a", true);
-    set_footprint(picture->size, shown.x, shown.y);
-    glUniform1i(at(picture_program_, "mode"), 0);
-    set_display(display);
+    const GLuint program = program_for(display);
+    glUseProgram(program);
+    glUniform4f(at(program, "place"), x, y, x + shown.x, y + shown.y);
+    glUniform2f(at(program, "screen"), w, h);
+    bind_picture(program, 1, id, "picture_b", true);
+    bind_picture(program, 0, id, "picture_a", true);
+    set_footprint(program, picture->size, shown.x, shown.y);
+    glUniform1i(at(program, "mode"), 0);
+    set_display(program, display);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glBindVertexArray(0);
 }

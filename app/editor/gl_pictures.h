@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "app/editor/gl_screen.h"
 #include "app/editor/gl_textures.h"
 #include "ui/picture_host.h"
 
@@ -41,6 +42,7 @@ class GlPictures final : public PictureHost {
     /// Whether a picture of the last frame is still on its way to the screen.
     [[nodiscard]] bool pending() const { return textures_.pending(); }
     std::function<void()> on_fullscreen, on_second_window;
+    std::function<void(std::string)> on_problem;  ///< Words for the artist.
 
   private:
     struct Order;
@@ -57,11 +59,14 @@ class GlPictures final : public PictureHost {
     [[nodiscard]] unsigned matte_texture(std::uint64_t key, const MatteDraw& draw, ViewU8x1 pixels);
     static void run(const ImDrawList* list, const ImDrawCmd* command);
     void execute(const Order& order) const;
-    void set_display(const DisplaySettings& display) const;
-    void bind_picture(unsigned unit, unsigned texture, const char* name, bool smooth) const;
-    void set_footprint(Size picture, float width, float height) const;
+    [[nodiscard]] unsigned program_for(const DisplaySettings& display) const;
+    void set_display(unsigned program, const DisplaySettings& display) const;
+    void bind_picture(unsigned program, unsigned unit, unsigned texture, const char* name,
+                      bool smooth) const;
+    void set_footprint(unsigned program, Size picture, float width, float height) const;
 
     GlTextures textures_;
+    GlScreen screen_;
     std::map<int, Place> places_;
     std::map<std::uint64_t, Matte> mattes_;
     std::list<Order> orders_;  // stable addresses: draw lists point to them until the frame is over

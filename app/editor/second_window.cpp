@@ -82,7 +82,8 @@ void SecondWindow::draw(EditorApp& app) {
     int width = 0, height = 0;
     glfwMakeContextCurrent(window_);
     glfwGetFramebufferSize(window_, &width, &height);
-    app.pictures().show_alone(shown, viewer.display, viewer.aspect, width, height, fresh_);
+    app.pictures().show_alone(shown, on_screen(viewer.display, view), viewer.aspect, width, height,
+                              fresh_);
     fresh_ = false;
     glfwSwapBuffers(window_);
     glfwMakeContextCurrent(main_);

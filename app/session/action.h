@@ -12,6 +12,7 @@
 #include "app/session/paint.h"
 #include "app/session/preview.h"
 #include "app/session/roto_shape.h"
+#include "engine/color/screen_view.h"
 
 namespace weft {
 
@@ -257,6 +258,15 @@ struct ShowLayer {
     std::string name;
     bool operator==(const ShowLayer&) const = default;
 };
+/// What the screen is shown through: a view of the OpenColorIO config, or with an empty display one
+/// of the built-in ones, kScreenSrgb and so on.
+struct ChooseScreen {
+    ScreenName name;
+    bool operator==(const ChooseScreen&) const = default;
+};
+inline constexpr const char* kScreenSrgb = "sRGB";
+inline constexpr const char* kScreenVideo = "Video";  ///< BT.1886.
+inline constexpr const char* kScreenRaw = "Raw";      ///< Linear light as it is.
 struct SetPreviewQuality {
     Quality quality = Quality::kDraft;
     bool operator==(const SetPreviewQuality&) const = default;
@@ -290,7 +300,7 @@ using Action =
                  FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte,
                  KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine,
                  PauseAnalysis, ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte,
-                 ShowLayer, ShowOverlay, ShowStages, SetPreviewQuality, SubmitJob, CommandJob,
-                 MeasureResult>;
+                 ShowLayer, ShowOverlay, ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob,
+                 CommandJob, MeasureResult>;
 
 }  // namespace weft

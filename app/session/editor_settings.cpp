@@ -56,6 +56,8 @@ EditorSettings load_editor_settings(const std::string& path) {
     take(json, "collections", out.collections);
     take(json, "texture_folders", out.texture_folders);
     take(json, "tour_seen", out.tour_seen);
+    take(json, "screen_display", out.screen_display);
+    take(json, "screen_view", out.screen_view);
     return out;
 }
 
@@ -72,7 +74,9 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"recent_textures", s.recent_textures},
                     {"collections", s.collections},
                     {"texture_folders", s.texture_folders},
-                    {"tour_seen", s.tour_seen}};
+                    {"tour_seen", s.tour_seen},
+                    {"screen_display", s.screen_display},
+                    {"screen_view", s.screen_view}};
     return write_file_atomically(path,
                                  json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -8,6 +8,7 @@ namespace weft {
 namespace {
 
 constexpr std::size_t kMostTexels = 1 << 18;
+constexpr std::array<Vec2i, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 int wrapped(int v, int n) {
     v %= n;
@@ -67,7 +68,7 @@ class Texels {
 };
 
 Vec2 texel_of(const Provenance& from, Vec2 p) {
-    return project(from.plane_from_plate, p + from.ref_from_cur.at(p));
+    return from.texel_at(p);
 }
 
 std::optional<Vec2i> stored_texel(const Provenance& from, Vec2 p) {
@@ -112,7 +113,7 @@ std::optional<PlaneAmendment> piece_at(const Provenance& from, Vec2 plate_pixel)
     std::vector<Vec2i> stored{*start};
     seen.at(start->x, start->y) = 1;
     for (std::size_t k = 0; k < stored.size() && stored.size() < kMostTexels; ++k) {
-        for (const Vec2i step : std::array<Vec2i, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
+        for (const Vec2i step : kSteps) {
             const Vec2i next = texels.at(stored[k] + step);
             if (seen.at(next.x, next.y) || !texels.joined(stored[k], step)) continue;
             seen.at(next.x, next.y) = 1;
@@ -120,6 +121,31 @@ std::optional<PlaneAmendment> piece_at(const Provenance& from, Vec2 plate_pixel)
         }
     }
     return runs_of(*from.plane, std::move(stored));
+}
+
+Image<std::int32_t, 1> number_patches(const PlaneMap& map) {
+    const Texels texels(map);
+    Image<std::int32_t, 1> out(map.source.size(), 0);
+    std::int32_t last = 0;
+    std::vector<Vec2i> open;
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            if (out.at(x, y) != 0) continue;
+            out.at(x, y) = ++last;
+            open.assign(1, {x, y});
+            while (!open.empty()) {
+                const Vec2i p = open.back();
+                open.pop_back();
+                for (const Vec2i step : kSteps) {
+                    const Vec2i next = texels.at(p + step);
+                    if (out.at(next.x, next.y) != 0 || !texels.joined(p, step)) continue;
+                    out.at(next.x, next.y) = last;
+                    open.push_back(next);
+                }
+            }
+        }
+    }
+    return out;
 }
 
 std::optional<PlaneAmendment> seam_at(const Provenance& from, Vec2 plate_pixel, int reach) {

@@ -19,6 +19,10 @@ namespace weft {
 [[nodiscard]] std::optional<PlaneAmendment> seam_at(const Provenance& from, Vec2 plate_pixel,
                                                     int reach = 24);
 
+/// Numbers the patches of a grown plane, from 1 in the order in which rows meet them: texels that
+/// show neighbours of one sample belong together. As large as the plane.
+[[nodiscard]] Image<std::int32_t, 1> number_patches(const PlaneMap& map);
+
 /// All texels that lie in a rectangle of the plate, at most 512 × 512 around its middle.
 [[nodiscard]] std::optional<PlaneAmendment> places_in(const Provenance& from, Vec2 a, Vec2 b);
 

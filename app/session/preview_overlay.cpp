@@ -6,12 +6,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "app/session/piece_pick.h"
 #include "app/session/preview_health.h"
 #include "engine/core/parallel.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
 #include "engine/synthesis/plane_energy.h"
+#include "engine/temporal/placement.h"
 
 namespace weft {
 namespace {
@@ -209,6 +211,81 @@ Expected<std::shared_ptr<const TexturePlane>> grown_plane(const Shot& shot, cons
     return std::make_shared<const TexturePlane>(std::move(plane));
 }
 
+std::string id_of(const ShotTexture& texture) {
+    return texture.library_id.empty() ? texture.id.substr(0, 12) : "db:" + texture.library_id;
+}
+
+// As RegionSurface places it.
+Expected<Mat3> placement_on(const RegionPlan& plan, const RegionScene& scene, int frame) {
+    if (!plan.placement_moves()) return scene.plane_from_plate;
+    return plane_from_plate(plan.placement_at(frame));
+}
+
+// Which references a frame of a locked texture was followed from, and how they share it
+// (SurfacePass::blend; a held drawing's own position in time is left out).
+Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
+                        const RegionScene& scene, int region, Provenance& out) {
+    std::vector<int> references = plan.reference_frames;
+    std::sort(references.begin(), references.end());
+    const auto next = std::upper_bound(references.begin(), references.end(), out.frame);
+    out.history_frame = next == references.begin() ? references.front() : *(next - 1);
+    if (plan.temporal != TemporalMode::kLocked) return {};
+    const bool between =
+        next != references.begin() && next != references.end() && *(next - 1) != out.frame;
+    if (between) {
+        const float s =
+            static_cast<float>(out.frame - *(next - 1)) / static_cast<float>(*next - *(next - 1));
+        out.two = TwoHistories{*(next - 1), *next, s * s * (3 - 2 * s), {}};
+    }
+    for (const HistorySeam& seam : scene.seams) {
+        if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kHistoryAfter}))
+            continue;
+        if (!out.two) out.two = TwoHistories{out.history_frame, out.history_frame, 0, {}};
+        TwoHistories::Seam one;
+        one.labels = {out.frame - 1,
+                      out.frame + 1,
+                      seam.cell_px,
+                      seam.origin,
+                      {seam.after[static_cast<std::size_t>(out.frame - seam.first - 1)]}};
+        WEFT_TRY(before, store.get({region, out.frame, AnalysisKind::kHistoryBefore}));
+        WEFT_TRY(after, store.get({region, out.frame, AnalysisKind::kHistoryAfter}));
+        WEFT_TRY(from_before, decode_lattice(before));
+        WEFT_TRY(from_after, decode_lattice(after));
+        one.before = std::move(from_before);
+        one.after = std::move(from_after);
+        out.two->seam = std::move(one);
+        break;
+    }
+    return {};
+}
+
+// All but the plane.
+Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
+                                   const RegionScene& scene, int region, int frame) {
+    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
+    const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
+    Provenance out;
+    WEFT_TRY(coords, store.get({region, frame, AnalysisKind::kCoords}));
+    WEFT_TRY(ref_from_cur, decode_lattice(coords));
+    out.ref_from_cur = std::move(ref_from_cur);
+    WEFT_TRY(plane_from, placement_on(plan, scene, frame));
+    out.plane_from_plate = plane_from;
+    out.texture = std::filesystem::path(texture.path).filename().string();
+    out.texture_id = id_of(texture);
+    out.reference_frame = plan.reference_frames.front();
+    out.frame = frame;
+    out.temporal = plan.temporal;
+    out.fresh = plan.blend;
+    out.reference_shading = scene.reference_shading;
+    WEFT_CHECK_OK(follow_histories(plan, store, scene, region, out));
+    if (store.has({region, frame, AnalysisKind::kShading})) {
+        WEFT_TRY(light, store.get({region, frame, AnalysisKind::kShading}));
+        WEFT_TRY(shading, decode_shading(light));
+        out.shading = std::move(shading);
+    }
+    return out;
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& shot, int region,
@@ -246,7 +323,12 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
     map->samples.push_back(std::filesystem::path(from.sample).filename().string());
     for (const std::string& further : from.also)
         map->samples.push_back(std::filesystem::path(further).filename().string());
+    const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
+    map->ids.push_back(id_of(texture));
+    for (const ShotTexture& further : texture.also)
+        map->ids.push_back(id_of(further));
     map->source = plane.source;
+    map->patch = number_patches(*map);
     map_ = std::move(map);
     map_of_ = scene.plane.identity();
     return map_;
@@ -271,8 +353,8 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     }
     WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-    const TextureCoords coords =
-        texture_coords(ref_from_cur, scene.plane_from_plate, rect_of(size));
+    WEFT_TRY(plane_from, placement_on(plan, scene, frame));
+    const TextureCoords coords = texture_coords(ref_from_cur, plane_from, rect_of(size));
     std::shared_ptr<const PlaneMap> plane;
     if (kind == Overlay::kSeams || kind == Overlay::kPieces) {
         WEFT_TRY(map, plane_map(shot, region, scene, cancel));
@@ -298,20 +380,9 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
         case Overlay::kPieces: {
             if (plane) draw_pieces(coords, *plane, out);
             if (plane && !plan.amendments.empty()) draw_amended(coords, plan, *plane, out);
-            auto asked = std::make_shared<Provenance>();
-            asked->ref_from_cur = std::move(ref_from_cur);
-            asked->plane_from_plate = scene.plane_from_plate;
-            asked->plane = plane;
-            const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
-            asked->texture = std::filesystem::path(texture.path).filename().string();
-            asked->reference_frame = plan.reference_frames.front();
-            asked->reference_shading = scene.reference_shading;
-            if (store.has({region, frame, AnalysisKind::kShading})) {
-                WEFT_TRY(light, store.get({region, frame, AnalysisKind::kShading}));
-                WEFT_TRY(shading, decode_shading(light));
-                asked->shading = std::move(shading);
-            }
-            out.provenance = std::move(asked);
+            WEFT_TRY(asked, provenance_of(shot, store, scene, region, frame));
+            asked.plane = plane;
+            out.provenance = std::make_shared<const Provenance>(std::move(asked));
             break;
         }
         case Overlay::kLight:

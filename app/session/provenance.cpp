@@ -13,11 +13,40 @@ int wrapped(float v, int n) {
 
 }  // namespace
 
+std::optional<float> Provenance::share_after(Vec2 p) const {
+    if (!two) return std::nullopt;
+    if (!two->seam) return two->share_after;
+    return two->seam->labels.share_after(frame, p + ref_from_cur.at(p));
+}
+
+Vec2 Provenance::on_reference(Vec2 p) const {
+    if (!two || !two->seam) return p + ref_from_cur.at(p);
+    return p + (*share_after(p) > 0.5f ? two->seam->after : two->seam->before).at(p);
+}
+
+Vec2 Provenance::texel_at(Vec2 p) const {
+    return project(plane_from_plate, on_reference(p));
+}
+
 Provenance::Answer Provenance::at(Vec2 p) const {
     Answer out;
-    out.on_reference = p + ref_from_cur.at(p);
-    out.texel = project(plane_from_plate, out.on_reference);
+    out.on_reference = on_reference(p);
+    out.texel = texel_at(p);
     out.sample = texture;
+    out.sample_id = texture_id;
+    const bool carried = temporal == TemporalMode::kLocked ||
+                         (temporal == TemporalMode::kPaper && frame != history_frame);
+    if (!carried) {
+        out.made_anew = 1;
+    } else if (temporal == TemporalMode::kPaper) {
+        out.made_anew = fresh;
+        out.histories = {{frame + (frame < history_frame ? 1 : -1), 1 - fresh}};
+    } else if (const auto after = share_after(p)) {
+        if (*after < 1) out.histories.push_back({two->before, 1 - *after});
+        if (*after > 0) out.histories.push_back({two->after, *after});
+    } else {
+        out.histories = {{history_frame, 1}};
+    }
     if (plane && std::isfinite(out.texel.x) && std::isfinite(out.texel.y)) {
         const int u = wrapped(out.texel.x, plane->source.width());
         const int v = wrapped(out.texel.y, plane->source.height());
@@ -25,9 +54,13 @@ Provenance::Answer Provenance::at(Vec2 p) const {
         out.in_sample = Vec2i(from[0], from[1]);
         constexpr int kSeam = 48;
         if (const int cost = plane->energy.at(u, v); cost > 0) out.seam = std::max(0, cost - kSeam);
-        if (!plane->which.empty())
-            out.sample = plane->samples[std::min<std::size_t>(plane->which.at(u, v),
-                                                              plane->samples.size() - 1)];
+        if (!plane->which.empty()) {
+            const std::size_t which =
+                std::min<std::size_t>(plane->which.at(u, v), plane->samples.size() - 1);
+            out.sample = plane->samples[which];
+            if (which < plane->ids.size()) out.sample_id = plane->ids[which];
+        }
+        if (!plane->patch.empty()) out.patch = plane->patch.at(u, v);
     }
     if (shading && !shading->value.empty()) {
         const int x =

@@ -37,6 +37,7 @@ Session::Session(SessionOptions options, EditorSettings* settings)
       jobs_(options_.program, (fs::path(options_.state_folder) / "jobs").string()) {
     if (options_.offer_recovery)
         recoverable_ = find_recoverable((fs::path(options_.state_folder) / "recovery").string());
+    look_for_screens();
 }
 
 Session::~Session() {
@@ -204,6 +205,7 @@ void Session::act(const Action& action) {
                 stages_ = a.shown;
                 request_due_ = true;
             },
+            [&](const ChooseScreen& a) { choose_screen(a.name, true); },
             [&](const SetPreviewQuality& a) {
                 preview_quality_ = a.quality;
                 request_due_ = true;

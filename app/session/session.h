@@ -39,6 +39,9 @@ class Session {
     ~Session();
 
     void act(const Action& action);
+    /// The same for strokes within a frame: the mattes of view() are as they are then, the rest
+    /// follows with update().
+    void act_now(const std::vector<Action>& actions);
     /// Takes in what the workers have done and moves time on. `now_s`: a clock that never goes
     /// back.
     void update(double now_s);
@@ -118,6 +121,10 @@ class Session {
     void export_mattes(const std::string& pattern);
     void freeze_mattes(bool frozen);
     void scale_by_line(const ScaleByLine& action);
+
+    // ---- what the screen is shown through (session_color.cpp) ----
+    void look_for_screens();
+    void choose_screen(const ScreenName& name, bool remember);
 
     // ---- the strip (session_strip.cpp) ----
     void show_strip();
@@ -235,6 +242,7 @@ class Session {
     std::vector<std::function<void()>> strip_choices_;
     bool stages_ = false;
     std::string layer_name_;
+    ScreenName wanted_screen_;  // being made, or shown
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;
     bool request_due_ = false;

@@ -117,6 +117,13 @@ void Session::show_mattes() {
         view_.holdouts.push_back(matte_of(*region, layer, frame_));
 }
 
+void Session::act_now(const std::vector<Action>& actions) {
+    for (const Action& action : actions)
+        act(action);
+    show_mattes();
+    if (painting_) painting_->changed = {};
+}
+
 void Session::show_result() {
     if (!preview_.try_read(frame_, selected_, layer_, preview_reading_) &&
         view_.frame != read_frame_)

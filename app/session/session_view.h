@@ -130,6 +130,11 @@ struct SessionView {
     std::shared_ptr<const OverlayPicture> overlay_picture;
     bool stages_shown = false;
 
+    std::vector<ScreenName> screens;           ///< Of the OpenColorIO config; its default first.
+    std::vector<std::string> color_spaces;     ///< … and its spaces.
+    ScreenName screen_name{"", kScreenSrgb};   ///< As ChooseScreen::name.
+    std::shared_ptr<const ScreenView> screen;  ///< Null: a built-in one.
+
     std::vector<std::string> history;
     std::size_t history_position = 0;
     std::string undo_label, redo_label;

@@ -74,19 +74,21 @@ Curve curve_between(bool from_encoded, bool to_encoded) {
     return from_encoded ? Curve::kDecode : Curve::kEncode;
 }
 
+Error no_meeting_place(const std::string& from, const std::string& to) {
+    return {ErrorCode::kUsage,
+            "The config of $OCIO has no linear Rec.709 space under a usual name such as "
+            "'Linear Rec.709 (sRGB)' or 'lin_srgb', so '" +
+                from + "' cannot become '" + to + "'. Name spaces of the config for both.",
+            {}};
+}
+
 Expected<std::shared_ptr<const ColorTransform>> through_config(const OcioConfig& config,
                                                                const ColorSpace& from,
                                                                const ColorSpace& to) {
     if (!is_built_in(from.name) && !is_built_in(to.name))
         return config.transform(from.name, to.name);
     const auto meeting = config.rec709();
-    if (!meeting) {
-        return fail(ErrorCode::kUsage,
-                    "The config of $OCIO has no linear Rec.709 space under a usual name such as "
-                    "'Linear Rec.709 (sRGB)' or 'lin_srgb', so '" +
-                        from.name + "' cannot become '" + to.name +
-                        "'. Name spaces of the config for both.");
-    }
+    if (!meeting) return tl::unexpected(no_meeting_place(from.name, to.name));
     if (is_built_in(from.name)) {
         WEFT_TRY(rest, config.transform(meeting->space, to.name));
         const Curve curve = curve_between(from.name == "srgb", meeting->encoded);
@@ -120,6 +122,32 @@ Expected<std::shared_ptr<const ColorTransform>> make_color_transform(const Color
         }
     }
     return through_config(*config, from, to);
+}
+
+Expected<std::vector<ScreenName>> list_screens() {
+    WEFT_TRY(config, load_ocio_config());
+    return config ? config->screens() : std::vector<ScreenName>{};
+}
+
+Expected<std::vector<std::string>> list_color_spaces() {
+    WEFT_TRY(config, load_ocio_config());
+    return config ? config->spaces() : std::vector<std::string>{};
+}
+
+Expected<std::shared_ptr<const ScreenView>> make_screen_view(const ScreenName& name) {
+    WEFT_TRY(config, load_ocio_config());
+    if (!config) {
+        return fail(ErrorCode::kUsage, "There is no view '" + name.view +
+                                           "': set $OCIO to an OpenColorIO config that has it.");
+    }
+    const auto meeting = config->rec709();
+    if (!meeting) return tl::unexpected(no_meeting_place("linear", name.view));
+    WEFT_TRY(view, config->screen(name, *meeting));
+    if (!meeting->encoded) return view;
+    auto encoded = std::make_shared<ScreenView>(*view);
+    encoded->pixels =
+        std::make_shared<Chain>(std::make_shared<CurveTransform>(Curve::kEncode), view->pixels);
+    return std::shared_ptr<const ScreenView>(encoded);
 }
 
 }  // namespace weft

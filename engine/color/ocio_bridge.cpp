@@ -92,6 +92,79 @@ class OcioTransform final : public ColorTransform {
     bool identity_;
 };
 
+// The sRGB curve continued as color_space.cpp does it: above 1, and mirrored below 0.
+constexpr const char* kEncode = R"(
+vec3 weft_srgb(vec3 linear) {
+    vec3 v = abs(linear);
+    vec3 high = 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055;
+    return sign(linear) * mix(12.92 * v, high, step(vec3(0.0031308), v));
+}
+)";
+
+ScreenShader::Table flat_table(const ocio::ConstGpuShaderDescRcPtr& shader, unsigned index) {
+    const char *name = nullptr, *sampler = nullptr;
+    unsigned width = 0, height = 0;
+    ocio::GpuShaderDesc::TextureType channel{};
+    ocio::Interpolation interpolation{};
+    ScreenShader::Table out;
+#if OCIO_VERSION_HEX >= 0x02030000
+    ocio::GpuShaderDesc::TextureDimensions dimensions{};
+    shader->getTexture(index, name, sampler, width, height, channel, dimensions, interpolation);
+    out.dimensions = dimensions == ocio::GpuShaderDesc::TEXTURE_1D ? 1 : 2;
+#else
+    shader->getTexture(index, name, sampler, width, height, channel, interpolation);
+    out.dimensions = height > 1 ? 2 : 1;
+#endif
+    out.sampler = sampler;
+    out.width = static_cast<int>(width);
+    out.height = static_cast<int>(height);
+    out.channels = channel == ocio::GpuShaderDesc::TEXTURE_RED_CHANNEL ? 1 : 3;
+    out.nearest = interpolation == ocio::INTERP_NEAREST;
+    const float* values = nullptr;
+    shader->getTextureValues(index, values);
+    out.values.assign(
+        values, values + std::size_t{width} * height * static_cast<std::size_t>(out.channels));
+    return out;
+}
+
+ScreenShader::Table cube_table(const ocio::ConstGpuShaderDescRcPtr& shader, unsigned index) {
+    const char *name = nullptr, *sampler = nullptr;
+    unsigned edge = 0;
+    ocio::Interpolation interpolation{};
+    shader->get3DTexture(index, name, sampler, edge, interpolation);
+    ScreenShader::Table out;
+    out.sampler = sampler;
+    out.dimensions = 3;
+    out.width = out.height = out.depth = static_cast<int>(edge);
+    // The source interpolates tetrahedrally by itself then, from exact texels.
+    out.nearest =
+        interpolation == ocio::INTERP_NEAREST || interpolation == ocio::INTERP_TETRAHEDRAL;
+    const float* values = nullptr;
+    shader->get3DTextureValues(index, values);
+    out.values.assign(values, values + std::size_t{3} * edge * edge * edge);
+    return out;
+}
+
+// `encoded`: what comes in is to be encoded by the sRGB curve first.
+ScreenShader shader_of(const ocio::ConstProcessorRcPtr& processor, bool encoded) {
+    ocio::GpuShaderDescRcPtr shader = ocio::GpuShaderDesc::CreateShaderDesc();
+    shader->setLanguage(ocio::GPU_LANGUAGE_GLSL_1_3);
+    shader->setFunctionName("weft_ocio");
+    shader->setResourcePrefix("weft_");
+    processor->getDefaultGPUProcessor()->extractGpuShaderInfo(shader);
+    ScreenShader out;
+    out.source = kEncode;
+    out.source += shader->getShaderText();
+    out.source += encoded ? "\nvec4 weft_screen(vec4 v) { return weft_ocio(vec4(weft_srgb(v.rgb), "
+                            "v.a)); }\n"
+                          : "\nvec4 weft_screen(vec4 v) { return weft_ocio(v); }\n";
+    for (unsigned k = 0; k < shader->getNumTextures(); ++k)
+        out.tables.push_back(flat_table(shader, k));
+    for (unsigned k = 0; k < shader->getNum3DTextures(); ++k)
+        out.tables.push_back(cube_table(shader, k));
+    return out;
+}
+
 class Config final : public OcioConfig {
   public:
     explicit Config(ocio::ConstConfigRcPtr config) : config_(std::move(config)) {}
@@ -135,6 +208,50 @@ class Config final : public OcioConfig {
         } catch (const ocio::Exception& e) {
             return fail(ErrorCode::kUsage, "OpenColorIO cannot convert '" + from + "' to '" + to +
                                                "': " + e.what() + " Choose other spaces.");
+        }
+    }
+
+    std::vector<ScreenName> screens() const override {
+        std::vector<ScreenName> out;
+        const char* const usual = config_->getDefaultDisplay();
+        if (!usual || !*usual) return out;
+        out.push_back({usual, config_->getDefaultView(usual)});
+        for (int d = 0; d < config_->getNumDisplays(); ++d) {
+            const char* const display = config_->getDisplay(d);
+            for (int v = 0; v < config_->getNumViews(display); ++v) {
+                ScreenName name{display, config_->getView(display, v)};
+                if (!(name == out.front())) out.push_back(std::move(name));
+            }
+        }
+        return out;
+    }
+
+    std::vector<std::string> spaces() const override {
+        std::vector<std::string> out;
+        for (int k = 0; k < config_->getNumColorSpaces(); ++k)
+            out.emplace_back(config_->getColorSpaceNameByIndex(k));
+        return out;
+    }
+
+    Expected<std::shared_ptr<const ScreenView>> screen(const ScreenName& name,
+                                                       const Meeting& meeting) const override {
+        try {
+            const auto transform = ocio::DisplayViewTransform::Create();
+            transform->setSrc(meeting.space.c_str());
+            transform->setDisplay(name.display.c_str());
+            transform->setView(name.view.c_str());
+            const auto processor = config_->getProcessor(transform);
+            const auto cpu = processor->getOptimizedCPUProcessor(
+                ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_LOSSLESS);
+            auto out = std::make_shared<ScreenView>();
+            out->name = name;
+            out->pixels = std::make_shared<OcioTransform>(cpu, cpu->isNoOp());
+            out->shader = shader_of(processor, meeting.encoded);
+            return out;
+        } catch (const ocio::Exception& e) {
+            return fail(ErrorCode::kUsage, "OpenColorIO cannot show '" + name.view + "' of '" +
+                                               name.display + "': " + e.what() +
+                                               " Choose another view.");
         }
     }
 

@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/color/color_space.h"
+#include "engine/color/screen_view.h"
 #include "engine/core/error.h"
 
 namespace weft {
@@ -28,6 +30,12 @@ class OcioConfig {
     [[nodiscard]] virtual std::optional<Meeting> rec709() const = 0;
     [[nodiscard]] virtual Expected<std::shared_ptr<const ColorTransform>> transform(
         const std::string& from, const std::string& to) const = 0;
+    /// As list_screens() and list_color_spaces().
+    [[nodiscard]] virtual std::vector<ScreenName> screens() const = 0;
+    [[nodiscard]] virtual std::vector<std::string> spaces() const = 0;
+    /// As make_screen_view(). `meeting`: where Rec. 709 meets the config.
+    [[nodiscard]] virtual Expected<std::shared_ptr<const ScreenView>> screen(
+        const ScreenName& name, const Meeting& meeting) const = 0;
 };
 
 /// Null when $OCIO is not set. Errors: Unreadable, with the path and OpenColorIO's reason.

@@ -9,10 +9,12 @@
 #include <fstream>
 
 #include "engine/color/color_space.h"
+#include "engine/color/screen_view.h"
 
 namespace weft {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr const char* kHead = R"(ocio_profile_version: 2
@@ -24,9 +26,12 @@ roles:
 file_rules:
   - !<Rule> {name: Default, colorspace: default}
 displays:
+  wall:
+    - !<View> {name: Raw, colorspace: raw}
+    - !<View> {name: Bright, colorspace: doubled}
   screen:
     - !<View> {name: Raw, colorspace: raw}
-active_displays: []
+active_displays: [screen, wall]
 active_views: []
 colorspaces:
   - !<ColorSpace>
@@ -157,6 +162,52 @@ TEST_F(Ocio, SixteenBitCodesSurviveTheConfigsCurve) {
     make_color_transform({"linear"}, {"sRGB - Texture"}).value()->apply(image);
     for (int i = 0; i < 65536; ++i)
         ASSERT_EQ(std::floor(image.data()[3 * i] * 65535.0f + 0.5f), i);
+}
+
+TEST_F(Ocio, ViewsOfAllDisplaysTheDefaultFirst) {
+    EXPECT_TRUE(list_screens().value().empty());
+    EXPECT_TRUE(list_color_spaces().value().empty());
+    use("lin_rec709_srgb", std::string(kLinear) + kOthers);
+    const auto screens = list_screens();
+    ASSERT_TRUE(screens) << screens.error().text();
+    EXPECT_EQ(*screens,
+              (std::vector<ScreenName>{{"screen", "Raw"}, {"wall", "Raw"}, {"wall", "Bright"}}));
+    EXPECT_THAT(list_color_spaces().value(),
+                ElementsAre("raw", "Linear Rec.709 (sRGB)", "doubled", "swapped"));
+}
+
+TEST_F(Ocio, AViewTakesLinearLightToTheDisplayUnclamped) {
+    use("lin_rec709_srgb", std::string(kLinear) + kOthers);
+    const auto view = make_screen_view({"wall", "Bright"});
+    ASSERT_TRUE(view) << view.error().text();
+    ImageF3 pixel(1, 1);
+    pixel.pixel(0, 0)[0] = 0.25f, pixel.pixel(0, 0)[1] = -0.5f, pixel.pixel(0, 0)[2] = 6;
+    (*view)->pixels->apply(pixel);
+    expect_near({pixel.at(0, 0, 0), pixel.at(0, 0, 1), pixel.at(0, 0, 2)}, {0.5f, -1, 12});
+    EXPECT_THAT((*view)->shader.source, HasSubstr("weft_screen"));
+}
+
+TEST_F(Ocio, AViewBehindTheTextureSpaceEncodesFirst) {
+    use("doubled", std::string(kOthers) + kTexture);
+    const auto view = make_screen_view({"wall", "Bright"});
+    ASSERT_TRUE(view) << view.error().text();
+    ImageF3 pixel(1, 1);
+    pixel.pixel(0, 0)[0] = 0.1f, pixel.pixel(0, 0)[1] = 0.2f, pixel.pixel(0, 0)[2] = 2;
+    (*view)->pixels->apply(pixel);
+    expect_near({pixel.at(0, 0, 0), pixel.at(0, 0, 1), pixel.at(0, 0, 2)}, {0.2f, 0.4f, 4});
+}
+
+TEST_F(Ocio, AViewThatCannotBeSaysWhy) {
+    EXPECT_EQ(make_screen_view({"wall", "Bright"}).error().code, ErrorCode::kUsage);
+    use("lin_rec709_srgb", std::string(kLinear) + kOthers);
+    const auto none = make_screen_view({"wall", "Dim"});
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("'Dim'"));
+}
+
+TEST_F(Ocio, AViewWithoutAMeetingPlaceSaysSo) {
+    use("doubled", kOthers);
+    EXPECT_THAT(make_screen_view({"wall", "Bright"}).error().message, HasSubstr("Rec.709"));
 }
 
 TEST_F(Ocio, BrokenConfigIsUnreadable) {

@@ -223,6 +223,45 @@ INSTANTIATE_TEST_SUITE_P(States, EveryState,
                                          Look{"Huge", huge_view}),
                          [](const auto& state) { return state.param.name; });
 
+TEST_F(PanelTest, TheScreensViewsAreOfferedAndOneIsChosen) {
+    view.screens = {{"monitor", "Film"}, {"monitor", "Raw"}, {"projector", "Film"}};
+    robot->frames(3);
+    ASSERT_TRUE(robot->click("View/Screen"));
+    for (const char* name : {"View/Screen sRGB", "View/Screen Video", "View/Screen Raw",
+                             "View/Screen monitor Film", "View/Screen monitor Raw"})
+        EXPECT_NE(robot->find(name), nullptr) << name;
+    ASSERT_TRUE(robot->click("View/Screen projector Film"));
+    ASSERT_THAT(emitted<ChooseScreen>(), SizeIs(1));
+    EXPECT_EQ(emitted<ChooseScreen>()[0].name, (ScreenName{"projector", "Film"}));
+    // What the session has ready is what the pictures are drawn through.
+    auto screen = std::make_shared<ScreenView>();
+    view.screen_name = screen->name = {"projector", "Film"};
+    view.screen = screen;
+    pictures.pictures.clear();
+    robot->frames(2);
+    ASSERT_FALSE(pictures.pictures.empty());
+    EXPECT_EQ(pictures.pictures.back().display.screen, view.screen);
+    view.screen_name = {"", kScreenVideo};
+    view.screen.reset();
+    robot->frames(2);
+    EXPECT_EQ(pictures.pictures.back().display.curve, DisplaySettings::Curve::kVideo);
+    EXPECT_EQ(pictures.pictures.back().display.screen, nullptr);
+}
+
+TEST_F(PanelTest, ThePlatesSpaceIsOneOfTheConfigs) {
+    view.color_spaces = {"raw", "ACEScg"};
+    shell->state().shot_open = true;
+    robot->frames(3);
+    ASSERT_TRUE(robot->click("Colour space"));
+    ASSERT_TRUE(robot->click("Choices/ACEScg"));
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto* set = std::get_if<SetProjectParameter>(&edits[0].edit);
+    ASSERT_NE(set, nullptr);
+    EXPECT_EQ(set->key, "plate.space");
+    EXPECT_EQ(std::get<std::string>(set->value), "ACEScg");
+}
+
 TEST_F(PanelTest, LeavingWaitsForTheSaveAndStaysWhenItFails) {
     view.modified = true;
     shell->ask_to_leave();

@@ -50,6 +50,51 @@ TEST_F(EditorSession, AStrokeBecomesAKeyframeWithItsFile) {
     EXPECT_EQ(written->at(2, 2), 0);
 }
 
+// A frame of the screen is all that lies between the pen and its trace: what the pointer did before
+// a frame is in the picture of that very frame.
+TEST_F(EditorSession, TheStrokeIsInTheFrameThatSeesThePointerMove) {
+    open();
+    robot->key("Ctrl+Shift+N");
+    robot->key("B");
+    shell->state().brush.brush.radius_px = 3;
+    shell->state().brush.brush.hardness = 1;
+    robot->frames(3);
+    struct Drawn {
+        int frame = 0, coverage = -1;
+        Recti changed;
+    };
+    int frame_number = 0;
+    std::vector<Drawn> drawn;
+    Vec2i probe;
+    pictures.on_matte = [&](const MatteDraw& draw) {
+        drawn.push_back({frame_number, draw.pixels.at(probe.x, probe.y), draw.changed});
+    };
+    const std::vector<Vec2i> way{{20, 20}, {30, 22}, {40, 30}, {50, 28}, {60, 40}, {70, 44}};
+    robot->move(at(20.5f, 20.5f));
+    for (std::size_t k = 0; k < way.size(); ++k) {
+        // The input of this frame …
+        ++frame_number;
+        ImGuiIO& io = ImGui::GetIO();
+        io.MousePos = at(static_cast<float>(way[k].x) + 0.5f, static_cast<float>(way[k].y) + 0.5f);
+        io.MouseDown[0] = true;
+        probe = way[k];
+        drawn.clear();
+        frame();
+        // … is in what this frame draws, and uploads no more than it must.
+        ASSERT_FALSE(drawn.empty()) << k;
+        EXPECT_EQ(drawn.back().frame, frame_number);
+        EXPECT_EQ(drawn.back().coverage, 255) << "point " << k << " came late";
+        EXPECT_TRUE(drawn.back().changed.contains(probe.x, probe.y)) << k;
+        if (k > 0) {
+            EXPECT_LT(drawn.back().changed.width(), 30) << k;
+        }
+    }
+    robot->release();
+    robot->frames(2);
+    pictures.on_matte = nullptr;
+    EXPECT_EQ(matte().keyframes.size(), 1u);
+}
+
 TEST_F(EditorSession, OneStrokeIsOneStepOfTheHistory) {
     open();
     paint();

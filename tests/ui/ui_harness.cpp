@@ -196,6 +196,7 @@ void SessionTest::SetUp() {
     shell->set_look(true, false, 1);
     make_fonts();
     restart_session();
+    shell->act_now = [this](const std::vector<Action>& all) { session->act_now(all); };
     robot = std::make_unique<Robot>(*shell, [this] { frame(); });
 }
 

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,12 +22,16 @@ class NoPictures final : public PictureHost {
   public:
     [[nodiscard]] ImTextureID texture(const PicturePtr&) override { return nullptr; }
     void draw(ImDrawList&, const PictureDraw& draw) override { pictures.push_back(draw); }
-    void draw(ImDrawList&, const MatteDraw&) override { ++mattes; }
+    void draw(ImDrawList&, const MatteDraw& draw) override {
+        ++mattes;
+        if (on_matte) on_matte(draw);
+    }
     void set_clipboard(const std::string& text) override { clipboard = text; }
     void reveal(const std::string& path) override { revealed = path; }
     void toggle_fullscreen() override {}
     std::vector<PictureDraw> pictures;
     int mattes = 0;
+    std::function<void(const MatteDraw&)> on_matte;  ///< Its pixels hold during the call.
     std::string clipboard, revealed;
 };
 

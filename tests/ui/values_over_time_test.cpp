@@ -1,8 +1,10 @@
 // Values over time, smaller pictures of a shot, and where a pixel comes from.
 #include "app/session/keyed_text.h"
+#include "app/session/piece_pick.h"
 #include "app/session/provenance.h"
 #include "app/session/proxy_shot.h"
 #include "tests/ui/ui_harness.h"
+#include "ui/view_map.h"
 
 namespace weft::test {
 namespace {
@@ -77,6 +79,116 @@ TEST(Provenance, NamesThePlaceInTheSampleTheSeamAndTheLight) {
     EXPECT_EQ(found.seam, 12);
     EXPECT_FLOAT_EQ(found.light.value_or(0), 2);
     EXPECT_FALSE(from.at({12.5f, 19.5f}).seam);
+}
+
+// A plane of 8 × 8 texels: the left half shows one place of the sample, the right half another.
+std::shared_ptr<PlaneMap> two_patches() {
+    auto plane = std::make_shared<PlaneMap>();
+    plane->source = Image<std::int32_t, 2>(8, 8);
+    plane->energy = Matte(8, 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+            plane->source.pixel(x, y)[0] = x < 4 ? x : 100 + x;
+            plane->source.pixel(x, y)[1] = x < 4 ? y : 40 + y;
+        }
+    return plane;
+}
+
+TEST(Provenance, PatchesAreNumberedInTheOrderOfTheRows) {
+    const auto plane = two_patches();
+    const auto patch = number_patches(*plane);
+    EXPECT_EQ(patch.at(0, 0), 1);
+    EXPECT_EQ(patch.at(3, 7), 1);
+    EXPECT_EQ(patch.at(4, 0), 2);
+    EXPECT_EQ(patch.at(7, 7), 2);
+}
+
+TEST(Provenance, TwoHistoriesShareAPixelAsTheSeamSays) {
+    Provenance from;
+    from.ref_from_cur = LatticeField({32, 32}, 8);
+    from.plane = two_patches();
+    from.frame = 5;
+    from.two = TwoHistories{1, 9, 0.25f, {}};
+    auto found = from.at({1.5f, 1.5f});
+    ASSERT_THAT(found.histories, SizeIs(2));
+    EXPECT_EQ(found.histories[0].frame, 1);
+    EXPECT_FLOAT_EQ(found.histories[0].weight, 0.75f);
+    EXPECT_EQ(found.histories[1].frame, 9);
+    EXPECT_FLOAT_EQ(found.histories[1].weight, 0.25f);
+    // With a seam, what shows is where the history on this side of it has been.
+    TwoHistories::Seam seam;
+    seam.before = LatticeField({32, 32}, 8);
+    seam.after = LatticeField({32, 32}, 8);
+    for (int j = 0; j < seam.after.nodes().height(); ++j)
+        for (int i = 0; i < seam.after.nodes().width(); ++i)
+            seam.after.set_node(i, j, {4, 0});
+    Image<std::uint8_t, 1> after(8, 8, 0);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 4; x < 8; ++x)
+            after.at(x, y) = 1;
+    seam.labels = {4, 6, 4, {0, 0}, {after}};
+    from.two->seam = std::move(seam);
+    found = from.at({2.5f, 16.5f});
+    ASSERT_THAT(found.histories, SizeIs(1));
+    EXPECT_EQ(found.histories[0].frame, 1);
+    EXPECT_EQ(found.in_sample->x, 2);
+    found = from.at({26.5f, 16.5f});
+    ASSERT_THAT(found.histories, SizeIs(1));
+    EXPECT_EQ(found.histories[0].frame, 9);
+    EXPECT_EQ(found.in_sample->x, 106);
+}
+
+TEST(Provenance, ThePapersModeCarriesWhatIsNotFresh) {
+    Provenance from;
+    from.ref_from_cur = LatticeField({32, 32}, 8);
+    from.temporal = TemporalMode::kPaper;
+    from.fresh = 0.25f;
+    from.frame = 5;
+    from.history_frame = 9;
+    auto found = from.at({1.5f, 1.5f});
+    ASSERT_THAT(found.histories, SizeIs(1));
+    EXPECT_EQ(found.histories[0].frame, 6);
+    EXPECT_FLOAT_EQ(found.histories[0].weight, 0.75f);
+    EXPECT_FLOAT_EQ(found.made_anew, 0.25f);
+    from.frame = 9;
+    found = from.at({1.5f, 1.5f});
+    EXPECT_THAT(found.histories, SizeIs(0));
+    EXPECT_FLOAT_EQ(found.made_anew, 1);
+}
+
+TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
+    auto from = std::make_shared<Provenance>();
+    from->ref_from_cur = LatticeField({320, 180}, 8);
+    auto plane = two_patches();
+    plane->patch = number_patches(*plane);
+    from->plane = plane;
+    from->texture = "brick.png";
+    from->texture_id = "0123456789ab";
+    from->reference_frame = from->history_frame = 1001;
+    from->frame = 1003;
+    auto over = std::make_shared<OverlayPicture>();
+    over->kind = Overlay::kPieces;
+    over->frame = 1003;
+    over->value = Matte(view.plate.size);
+    over->where = Matte(view.plate.size, 255);
+    over->provenance = from;
+    view.overlay = Overlay::kPieces;
+    view.overlay_picture = over;
+    robot->frames(3);
+    const DrawnItem* canvas = robot->find("Viewer/Canvas");
+    ASSERT_NE(canvas, nullptr);
+    const ViewerState& viewer = shell->state().viewer;
+    const ViewMap map{canvas->min, canvas->max, viewer.center, viewer.zoom};
+    robot->move(map.to_screen({46.5f, 35.5f}));  // 46 % 8 = 6, 35 % 8 = 3
+    robot->frames(2);
+    EXPECT_THAT(viewer.provenance,
+                ElementsAre("brick.png", "Texture 0123456789ab", "Patch 2, sample at 106, 43",
+                            "Inside a piece", "From 46, 35 on frame 1001",
+                            "History of frame 1001, weight 1.00"));
+    // Beside the surface there is nothing to say.
+    robot->move({canvas->min.x + 2, canvas->min.y + 2});
+    robot->frames(2);
+    EXPECT_THAT(viewer.provenance, SizeIs(0));
 }
 
 TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
