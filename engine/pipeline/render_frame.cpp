@@ -12,6 +12,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 #include "engine/lighting/exact_light.h"
+#include "engine/lighting/plate_tint.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
 #include "engine/pipeline/plate_views.h"
@@ -162,6 +163,7 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
     apply_light(texture, origin, matte, *shading, scene.reference_shading, options);
     if (scene.picture_light) return {};
     if (region.cast > 0) {
+        apply_tint(texture, matte, scene.tint, region.cast);
         WEFT_TRY(whole, composite_matte(index));
         apply_cast(texture, origin, matte, *shading, scene.reference_shading,
                    light_colour(working_, whole, *shading), scene.reference_colour, region.cast);
