@@ -10,15 +10,18 @@
 namespace weft {
 namespace {
 
-constexpr float kKnownBlur = 1.0f;       // px
 constexpr float kLeastGradient = 0.03f;  // of the display range per px: below, it may be grain
-constexpr float kStrongShare = 0.85f;    // quantile of gradients from which edges are strong
+constexpr float kStrongShare = 0.7f;     // quantile of gradients from which edges are strong
 constexpr float kMiddle = 0.5f;          // quantile of the edges' blur
-constexpr float kOfMeasuring = 0.66f;    // px²: central differences, and edges between pixels
+constexpr float kEdgeEnds = 0.15f;       // of its slope
+constexpr int kFarthest = 12;            // steps
 constexpr std::size_t kFewestEdges = 60;
 constexpr std::size_t kFewestOfPlace = 12;
-constexpr float kSharpest = 0.3f, kMostBlurred = 6.0f;
+constexpr float kNoBlur = 0.3f;  // less makes no step wider
+// As sharp as pixels allow, be the edge along the grid or diagonal to it.
+constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;
 constexpr float kAlike = 1.1f;
+constexpr float kMostAgain = 1.5f;  // times the first trial
 
 // Lightness as an eye weighs it, nearly: the square root.
 ImageF1 lightness(ViewF3 linear) {
@@ -29,34 +32,6 @@ ImageF1 lightness(ViewF3 linear) {
                 const float* p = linear.pixel(x, y);
                 const float v = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
                 out.row(y)[x] = v > 0 ? std::sqrt(std::min(v, 1.0f)) : 0.0f;  // NaN: 0
-            }
-        }
-    });
-    return out;
-}
-
-ImageF1 blurred(const ImageF1& plane, float sigma) {
-    const std::vector<float> kernel = gaussian_kernel(sigma);
-    const int r = static_cast<int>(kernel.size() / 2);
-    ImageF1 rows(plane.size()), out(plane.size());
-    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < plane.width(); ++x) {
-                float sum = 0;
-                for (int k = -r; k <= r; ++k)
-                    sum += kernel[static_cast<std::size_t>(k + r)] *
-                           plane.row(y)[std::clamp(x + k, 0, plane.width() - 1)];
-                rows.row(y)[x] = sum;
-            }
-        }
-    });
-    parallel_rows(plane.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int k = -r; k <= r; ++k) {
-                const float w = kernel[static_cast<std::size_t>(k + r)];
-                const float* from = rows.row(std::clamp(y + k, 0, plane.height() - 1));
-                for (int x = 0; x < plane.width(); ++x)
-                    out.row(y)[x] += w * from[x];
             }
         }
     });
@@ -93,8 +68,38 @@ ImageF1 gradient_lengths(const ImageF1& sharp, ViewU8x1 matte) {
     return length;
 }
 
+// The deviation of the Gaussian that makes an ideal step as wide as `width`, its height over the
+// slope of a central difference, both in steps of the pixel grid: 2 / erf(1 / (√2 σ)).
+float blur_of_width(float width) {
+    constexpr int kHalvings = 16;
+    constexpr float kRootTwo = 1.41421356f;
+    float low = kNoBlur, high = kMostBlurred;  // the width grows with the blur
+    for (int i = 0; i < kHalvings; ++i) {
+        const float middle = 0.5f * (low + high);
+        (2.0f / std::erf(1.0f / (middle * kRootTwo)) < width ? low : high) = middle;
+    }
+    return 0.5f * (low + high);
+}
+
+// How wide the edge through a pixel is: from there to either side as far as it goes on rising by
+// more than kEdgeEnds of its slope, within the matte. u, v: the step across it. 0: no edge.
+float edge_width(const ImageF1& sharp, const ImageF1& length, int x, int y, int u, int v) {
+    const auto at = [&](int k) { return sharp.row(y + k * v)[x + k * u]; };
+    const auto known = [&](int k) {
+        const int p = x + k * u, q = y + k * v;
+        return p >= 0 && q >= 0 && p < sharp.width() && q < sharp.height() && length.row(q)[p] > 0;
+    };
+    const float slope = 0.5f * (at(1) - at(-1));
+    if (!(slope > 0)) return 0;
+    int up = 0, down = 0;
+    while (up < kFarthest && known(up + 1) && at(up + 1) - at(up) > kEdgeEnds * slope)
+        ++up;
+    while (down < kFarthest && known(-down - 1) && at(-down) - at(-down - 1) > kEdgeEnds * slope)
+        ++down;
+    return (at(up) - at(-down)) / slope;
+}
+
 std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, float least) {
-    const ImageF1 soft = blurred(sharp, kKnownBlur);
     const int w = sharp.width(), h = sharp.height();
     std::vector<EdgeBlur> edges;
     for (int y = 4; y < h - 4; ++y) {
@@ -108,11 +113,10 @@ std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, floa
             if (gradient(sharp, x + u, y + v).length() > here ||
                 gradient(sharp, x - u, y - v).length() > here)
                 continue;
-            const float ratio = here / std::max(1e-6f, gradient(soft, x, y).length());
-            const float variance = kKnownBlur * kKnownBlur / (ratio * ratio - 1.0f);
-            const float blur =
-                ratio > 1.0138f ? std::sqrt(std::max(0.0f, variance - kOfMeasuring)) : kMostBlurred;
-            edges.push_back({x, y, here, blur});
+            const float width = edge_width(sharp, length, x, y, u, v);
+            if (!(width > 0)) continue;
+            const float step_px = u != 0 && v != 0 ? 1.41421356f : 1.0f;
+            edges.push_back({x, y, here, std::max(kSharpest, step_px * blur_of_width(width))});
         }
     }
     return edges;
@@ -140,12 +144,12 @@ std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte, float least_grad
 
 float sharper_blur_px(std::vector<EdgeBlur> edges) {
     if (edges.size() < kFewestOfPlace) return 0;
-    const auto third = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 3);
-    std::nth_element(edges.begin(), third, edges.end(), [](const EdgeBlur& a, const EdgeBlur& b) {
+    const auto rest = edges.begin() + static_cast<std::ptrdiff_t>(2 * edges.size() / 3);
+    std::nth_element(edges.begin(), rest, edges.end(), [](const EdgeBlur& a, const EdgeBlur& b) {
         if (a.strength != b.strength) return a.strength > b.strength;
         return a.y != b.y ? a.y < b.y : a.x < b.x;
     });
-    edges.erase(third, edges.end());
+    edges.erase(rest, edges.end());
     return median_of(edges);
 }
 
@@ -171,6 +175,19 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
 float blur_between(float from_px, float to_px) {
     if (!(from_px > 0) || !(to_px > kAlike * from_px)) return 0;
     return std::sqrt(to_px * to_px - from_px * from_px);
+}
+
+float blur_to_match(ViewF3 texture, ViewU8x1 matte, float plate_px) {
+    const float first = blur_between(edge_blur_px(texture, matte), plate_px);
+    if (!(first > 0)) return 0;
+    ImageF3 tried(texture.size());
+    for (int y = 0; y < texture.height(); ++y)
+        std::copy(texture.row(y), texture.row(y) + 3 * texture.width(), tried.row(y));
+    blur_inside(tried, matte, first);
+    const float got_px = edge_blur_px(tried, matte);
+    if (!(got_px > 0)) return first;
+    const float variance = first * first + plate_px * plate_px - got_px * got_px;
+    return std::clamp(std::sqrt(std::max(0.0f, variance)), first / kMostAgain, first * kMostAgain);
 }
 
 }  // namespace weft

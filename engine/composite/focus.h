@@ -15,14 +15,14 @@ struct EdgeBlur {
     float blur_px = 0;   ///< Deviation of the Gaussian that would blur an ideal step to it.
 };
 
-/// The edges inside the matte whose gradient is at least `least_gradient`, at their middles, by the
-/// ratio of gradients before and after a known blur (Zhuo & Sim 2011, eq. 5); row by row. Linear
-/// light; values above 1 count as 1.
+/// The edges inside the matte whose gradient is at least `least_gradient`, at their middles, by
+/// their width, the step over its steepest slope; row by row. Linear light; values above 1 count as
+/// 1.
 [[nodiscard]] std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte,
                                                float least_gradient = 0.03f);
 
-/// Of a place's edges the third that is strongest, and of their blurs the median: how sharp detail
-/// is there. 0 for fewer than a dozen edges.
+/// Of a place's edges the two thirds that are strongest, and of their blurs the median: how sharp
+/// detail is there. 0 for fewer than a dozen edges.
 [[nodiscard]] float sharper_blur_px(std::vector<EdgeBlur> edges);
 
 /// Deviation in pixels of the Gaussian that would blur ideal steps to the picture's strong edges
@@ -31,5 +31,10 @@ struct EdgeBlur {
 
 /// The blur that takes edges of `from_px` to `to_px`; 0 where they are no sharper than by a tenth.
 [[nodiscard]] float blur_between(float from_px, float to_px);
+
+/// The blur, in pixels, after which the texture's strong edges are those of `plate_px`, found by
+/// trying blur_between() and correcting by what it gave: a lens blurs light, and of two edges
+/// under one blur the one of more contrast looks the sharper. 0 where they are no sharper.
+[[nodiscard]] float blur_to_match(ViewF3 texture, ViewU8x1 matte, float plate_px);
 
 }  // namespace weft

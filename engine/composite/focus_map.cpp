@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-constexpr float kSharpest = 0.3f, kMostBlurred = 6.0f;  // as edge_blur_px()
+constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;  // as edge_blur_px()
 
 // Of the fit along depth.
 constexpr std::size_t kBins = 12, kFewestInBin = 40;

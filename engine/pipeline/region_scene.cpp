@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/lighting/plate_tint.h"
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
@@ -50,7 +51,10 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
-    if (region.cast > 0) scene.reference_colour = light_colour(working, visible, *shading);
+    if (region.cast > 0) {
+        scene.reference_colour = light_colour(working, visible, *shading);
+        scene.tint = plate_tint(working);
+    }
     return {};
 }
 

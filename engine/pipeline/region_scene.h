@@ -2,6 +2,7 @@
 // A region made ready to be rendered: its texture plane, its placement, the light it is relative
 // to.
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -23,6 +24,7 @@ struct RegionScene {
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
+    std::array<float, 3> tint{};   ///< plate_tint() of the reference frame.
     GrainModel grain;
     float shutter_deg = 0;
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.

@@ -12,6 +12,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 #include "engine/lighting/exact_light.h"
+#include "engine/lighting/plate_tint.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
 #include "engine/pipeline/plate_views.h"
@@ -162,6 +163,7 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
     apply_light(texture, origin, matte, *shading, scene.reference_shading, options);
     if (scene.picture_light) return {};
     if (region.cast > 0) {
+        apply_tint(texture, matte, scene.tint, region.cast);
         WEFT_TRY(whole, composite_matte(index));
         apply_cast(texture, origin, matte, *shading, scene.reference_shading,
                    light_colour(working_, whole, *shading), scene.reference_colour, region.cast);
@@ -196,19 +198,22 @@ Status FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
     if (!(strength > 0)) return {};
     const float own_px = edge_blur_px(texture, matte);
     if (!(own_px > 0)) return {};
+    const float plate_px = edge_blur_px(working_.view().crop(box), matte);
+    const float needed_px = blur_to_match(texture, matte, plate_px);
     WEFT_TRY(local, local_blur(index, box, matte));
     if (local) {
+        const float even_px = blur_between(own_px, plate_px);
+        const float again = even_px > 0 ? needed_px / even_px : 1.0f;
         for (int y = 0; y < local->height(); ++y) {
             for (int x = 0; x < local->width(); ++x) {
                 float& blur = local->row(y)[x];
-                blur = strength * blur_between(own_px, blur);
+                blur = strength * again * blur_between(own_px, blur);
             }
         }
         blur_by_map(texture, matte, *local);
         return {};
     }
-    const float plate_px = edge_blur_px(working_.view().crop(box), matte);
-    if (plate_px > 0) blur_inside(texture, matte, strength * blur_between(own_px, plate_px));
+    if (needed_px > 0) blur_inside(texture, matte, strength * needed_px);
     return {};
 }
 

@@ -37,12 +37,42 @@ TEST(Focus, TheBlurOfEdgesIsFound) {
     }
 }
 
+TEST(Focus, ThinBarsAreAsSoftAsWideOnes) {
+    // 4 px each: what detail of a surface consists of.
+    ImageF3 picture(240, 160);
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const float v = x / 4 % 2 == 0 ? 0.3f : 0.7f;
+            for (int c = 0; c < 3; ++c)
+                picture.at(x, y, c) = v * v;
+        }
+    }
+    const Matte all(picture.size(), 255);
+    EXPECT_LT(edge_blur_px(picture, all), 0.5f);
+    blur_inside(picture, all, 1.2f);
+    EXPECT_NEAR(edge_blur_px(picture, all), 1.2f, 0.4f);
+}
+
 TEST(Focus, ASharpTextureGetsThePlatesEdgeWidth) {
     ImageF3 texture = squares(0.6f);
     const Matte all(texture.size(), 255);
     const float plate_px = edge_blur_px(squares(2.0f), all);
     blur_inside(texture, all, blur_between(edge_blur_px(texture, all), plate_px));
     EXPECT_NEAR(edge_blur_px(texture, all), plate_px, 0.2f * plate_px);
+}
+
+TEST(Focus, AStrongContrastIsBlurredAsFarAsTheFaintOnesOfThePlate) {
+    // Black and white under a blur of light: not as wide as greys under the same.
+    ImageF3 texture = squares(0.3f);
+    for (int y = 0; y < texture.height(); ++y) {
+        for (int i = 0; i < 3 * texture.width(); ++i)
+            texture.row(y)[i] = texture.row(y)[i] > 0.25f ? 0.9f : 0.001f;
+    }
+    const Matte all(texture.size(), 255);
+    const float plate_px = edge_blur_px(squares(1.5f), all);
+    const float blur_px = blur_to_match(texture, all, plate_px);
+    blur_inside(texture, all, blur_px);
+    EXPECT_NEAR(edge_blur_px(texture, all), plate_px, 0.1f * plate_px);
 }
 
 TEST(Focus, ASoftTextureInASharpPlateStaysAsItIs) {
