@@ -1,6 +1,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "app/cli/cli.h"
 #include "app/cli/console.h"
 #include "app/editor/editor.h"
@@ -36,6 +40,12 @@ int edit(const EditArguments& given) {
 }  // namespace weft
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+    // Pictures are made in one thread and let go in another. With a heap for each thread, which is
+    // glibc's way, what is let go is not found again, and the peak grows with the shot: 1.76 GB in
+    // place of 1.54 for six 4K frames.
+    mallopt(M_ARENA_MAX, 1);
+#endif
     // Without a command it opens the editor, where there is a display to open it on.
     char command[] = "edit";
     char* with_edit[] = {argv[0], command, nullptr};

@@ -1,5 +1,6 @@
 // Pictures by their bytes, EXR and PNG: the first byte chooses which.
 #include "engine/media/cryptomatte.h"
+#include "engine/media/decode_limit.h"
 #include "engine/media/frame_reader.h"
 #include "engine/media/image_files.h"
 #include "engine/media/metadata.h"
@@ -7,6 +8,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long size) {
     if (size < 2) return 0;
+    // What a header may claim: a run must not be killed for memory that a user's machine has.
+    constexpr std::int64_t kMost_bytes = 64 << 20;
+    weft::set_decode_limit_bytes(kMost_bytes);
     static const char* const kExtensions[] = {".exr", ".png"};
     const std::string path = weft::fuzz::put_file(data + 1, size - 1, kExtensions[data[0] % 2]);
     static_cast<void>(weft::read_image(path));

@@ -18,6 +18,10 @@
 namespace weft {
 namespace {
 
+// Of light on a display-referred plate: where a body turns away from the sun, a hundredth of its
+// light is left.
+constexpr float kLeastGain = 1.0f / 64;
+
 constexpr const char* kSrgb = "srgb";
 constexpr const char* kLinear = "linear";
 
@@ -232,6 +236,7 @@ class ShotOpener {
         plan.weight = static_cast<float>(region.temporal.weight);
         plan.light_source = region.light.source;
         plan.light = {region.light.form, static_cast<float>(region.light.strength)};
+        plan.light.least_gain = kLeastGain;
         if (!shot_.plan.display_referred)
             plan.light.least_gain = 0, plan.light.most_gain = std::numeric_limits<float>::max();
         WEFT_CHECK_OK(add_light(region.light, plan));

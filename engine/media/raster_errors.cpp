@@ -1,8 +1,8 @@
 #include "engine/media/raster_errors.h"
 
-#include <unistd.h>
-
 #include <algorithm>
+
+#include "engine/media/decode_limit.h"
 
 namespace weft {
 
@@ -22,9 +22,7 @@ Error damaged(const std::string& path, const std::string& reason) {
 
 Status check_memory(const std::string& path, Size size, int channels) {
     const double bytes = static_cast<double>(size.width) * size.height * channels * sizeof(float);
-    const double memory =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-    if (bytes <= 0.75 * memory) return {};
+    if (bytes <= static_cast<double>(decode_limit_bytes())) return {};
     return fail(ErrorCode::kNoSpace, path + " does not fit into memory: it has " +
                                          std::to_string(size.width) + "x" +
                                          std::to_string(size.height) + " pixels. Scale it down.");

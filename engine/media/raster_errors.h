@@ -16,8 +16,8 @@ namespace weft {
                                const std::string& advice);
 [[nodiscard]] Error damaged(const std::string& path, const std::string& reason);
 
-/// Errors: NoSpace when a picture of this size cannot be held by this machine: better said than
-/// killed by the system half way.
+/// Errors: NoSpace when a picture of this size takes more than decode_limit_bytes(): better said
+/// than killed by the system half way.
 [[nodiscard]] Status check_memory(const std::string& path, Size size, int channels);
 
 /// `body()`, with what the libraries below OpenImageIO throw as errors about the file.

@@ -76,6 +76,50 @@ Matte shade_of(const ImageF3& truth, ViewU8x1 matte) {
     return spread(spread(dark, true), false);
 }
 
+// The new material's own colour at a soft pixel: that of the pixels inside near by, which are not
+// mixed with anything. False where there are none.
+bool colour_near(const ImageF3& linear, ViewU8x1 matte, int x, int y, double* colour) {
+    constexpr int kReach = 4;                // px
+    constexpr double kVariance = 1.5 * 1.5;  // px²
+    double sum[3] = {0, 0, 0}, weight = 0;
+    for (int v = std::max(0, y - kReach); v <= std::min(matte.height() - 1, y + kReach); ++v) {
+        for (int u = std::max(0, x - kReach); u <= std::min(matte.width() - 1, x + kReach); ++u) {
+            const float* p = linear.pixel(u, v);
+            if (matte.row(v)[u] < kInsideCoverage || !std::isfinite(p[0] + p[1] + p[2])) continue;
+            const double far = (u - x) * (u - x) + (v - y) * (v - y);
+            const double w = std::exp(-0.5 * far / kVariance);
+            for (int c = 0; c < 3; ++c)
+                sum[c] += w * static_cast<double>(p[c]);
+            weight += w;
+        }
+    }
+    if (!(weight > 0)) return false;
+    for (int c = 0; c < 3; ++c)
+        colour[c] = sum[c] / weight;
+    return true;
+}
+
+// The picture as it would be with the new material brighter by `gain`: of a soft pixel M T + (1 −
+// M) G it is T alone that the gain is for, not the background.
+void brighten_material(ImageF3& linear, ViewU8x1 matte, const double (&gain)[3]) {
+    const ImageF3 before = linear;
+    parallel_rows(linear.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < linear.width(); ++x) {
+                const int m = matte.row(y)[x];
+                if (m == 0) continue;
+                float* p = linear.pixel(x, y);
+                double material[3] = {p[0], p[1], p[2]};
+                if (m < kInsideCoverage) colour_near(before, matte, x, y, material);
+                for (int c = 0; c < 3; ++c) {
+                    const double more = m / 255.0 * (gain[c] - 1.0) * material[c];
+                    p[c] = static_cast<float>(std::max(0.0, static_cast<double>(p[c]) + more));
+                }
+            }
+        }
+    });
+}
+
 struct Mean {
     double sum = 0;
     std::int64_t count = 0;
@@ -111,6 +155,7 @@ TruthComparison::Frame TruthComparison::compare(ViewF3 result, ViewF3 truth, Vie
     if (!(first_ > 0)) first_ = bright, first_true_ = true_bright;
     if (first_ > 0 && first_true_ > 0)
         out.brightness = bright / first_, out.true_brightness = true_bright / first_true_;
+    brighten_material(r, matte, gain_);
     if (blur_px_ > 0) blur_inside(r, matte, blur_px_), blur_inside(t, matte, blur_px_);
     const Matte shade = shade_of(t, matte);
     Mean inside, soft, shadow;
@@ -119,14 +164,10 @@ TruthComparison::Frame TruthComparison::compare(ViewF3 result, ViewF3 truth, Vie
             const int m = matte.row(y)[x];
             if (m == 0) continue;
             double error = 0;
-            for (int c = 0; c < 3; ++c) {
-                // What shows through a soft pixel has no gain.
-                const double share = m / 255.0, gain = 1.0 + share * (gain_[c] - 1.0);
-                const auto mine = static_cast<float>(gain * static_cast<double>(r.pixel(x, y)[c]));
+            for (int c = 0; c < 3; ++c)
                 error += 255.0 / 3 *
-                         std::abs(static_cast<double>(linear_to_srgb(mine)) -
+                         std::abs(static_cast<double>(linear_to_srgb(r.pixel(x, y)[c])) -
                                   static_cast<double>(linear_to_srgb(t.pixel(x, y)[c])));
-            }
             if (!std::isfinite(error)) continue;
             if (m >= kInsideCoverage)
                 inside.add(error);

@@ -51,8 +51,8 @@ CornerDistances distances_by_heap(const CornerGrid& grid, const CornerGroup& sta
             for (const std::int32_t c : groups[static_cast<std::size_t>(group_of[i])])
                 relax(c, d);
         }
-        const auto step = [&](std::uint32_t cost, std::int32_t to) {
-            if (cost != CornerGrid::kWall) relax(to, d + cost);
+        const auto step = [&, here = d](std::uint32_t cost, std::int32_t to) {
+            if (cost != CornerGrid::kWall) relax(to, here + cost);
         };
         step(grid.right[i], corner + 1);
         step(grid.right[i - 1], corner - 1);

@@ -29,6 +29,9 @@ TEST_F(Dispatch, OfInstructionsDoesNotShow) {
     if (__builtin_cpu_supports("avx2")) {
         EXPECT_EQ(rendered_with("WEFT_ISA", "avx2"), plain);
     }
+    if (__builtin_cpu_supports("avx512bw")) {
+        EXPECT_EQ(rendered_with("WEFT_ISA", "avx512"), plain);
+    }
     EXPECT_EQ(rendered_with("OPENCV_CPU_DISABLE", "AVX512-SKX,AVX2,FMA3,AVX,SSE4.2,SSE4.1,SSSE3"),
               plain);
     EXPECT_EQ(rendered_with("OPENCV_CPU_DISABLE", "AVX2"), plain);

@@ -36,14 +36,14 @@ class Memory : public CliTest {
         put_matte("big.png", matte);
     }
 
-    double peak_bytes(const std::string& frames, const std::string& quality) const {
-        const Outcome outcome = run({"replace",    "--plate",    "big/####.jpg",
-                                     "--matte",    "big.png",    "--texture",
-                                     "sample.png", "--frames",   frames,
-                                     "--quality",  quality,      "--threads",
-                                     "2",          "--no-cache", "--backend",
-                                     "cpu",        "-o",         "out_" + frames + "/####.jpg",
-                                     "--json",     "--progress", "none"});
+    double peak_bytes(const std::string& frames, const std::string& quality,
+                      const std::string& threads = "2", const std::string& memory = "0") const {
+        const Outcome outcome = run(
+            {"replace",    "--plate",    "big/####.jpg", "--matte",  "big.png",
+             "--texture",  "sample.png", "--frames",     frames,     "--quality",
+             quality,      "--threads",  threads,        "--memory", memory,
+             "--no-cache", "--backend",  "cpu",          "-o",       "out_" + frames + "/####.jpg",
+             "--json",     "--progress", "none"});
         expect_success(outcome);
         fs::remove_all(folder_ / ("out_" + frames));
         return outcome.exit == 0
@@ -61,6 +61,13 @@ TEST_F(Memory, AHundredFramesNeedWhatTwentyNeed) {
     const double best = peak_bytes("1-6", "final");
     std::printf("final: 6 frames %.0f MB\n", best / 1e6);
     EXPECT_LT(best, 3e9);
+}
+
+TEST_F(Memory, AJobKeepsToTheMemoryThatItIsGiven) {
+    make_4k(8);
+    const double kept = peak_bytes("1-8", "final", "4", "2G");
+    std::printf("final, 8 frames, four threads, --memory 2G: %.0f MB\n", kept / 1e6);
+    EXPECT_LT(kept, 2.0 * (1u << 30));
 }
 
 }  // namespace

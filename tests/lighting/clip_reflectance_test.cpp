@@ -129,13 +129,10 @@ TEST(ClipReflectance, ShadowsAsFineAsBricksAreLightIfTheyMove) {
     EXPECT_NEAR((shaded / shaded_count) / (lit / lit_count), 0.33, 0.06);
 }
 
-TEST(ClipReflectance, FormIsNoPatternHoweverItRepeats) {
-    // Bricks on a column, dark towards both sides.
+// The shading of bricks on a column whose light along x is `form`, five times the same frame.
+template <class Form>
+Shading shading_of_column(const Form& form) {
     const Matte matte = scene::box_matte({10, 10, 310, 230});
-    const auto form = [](int x) {
-        const float u = (static_cast<float>(x) - 160.0f) / 160.0f;
-        return 1.0f - 0.7f * u * u;
-    };
     ReflectanceGatherer gatherer({});
     SurfaceSample sample;
     for (int f = 0; f < 5; ++f) {
@@ -149,9 +146,31 @@ TEST(ClipReflectance, FormIsNoPatternHoweverItRepeats) {
         sample = light_sample(plate, matte, {});
         gatherer.add(sample, ImageF2(sample.box.size()));
     }
-    const Shading s = shading_with(sample, gatherer.finish(), ImageF2(sample.box.size()), {});
+    return shading_with(sample, gatherer.finish(), ImageF2(sample.box.size()), {});
+}
+
+TEST(ClipReflectance, FormIsNoPatternHoweverItRepeats) {
+    // Dark towards both sides.
+    const auto form = [](int x) {
+        const float u = (static_cast<float>(x) - 160.0f) / 160.0f;
+        return 1.0f - 0.7f * u * u;
+    };
+    const Shading s = shading_of_column(form);
     EXPECT_NEAR(s.value.at(20, 60) / s.value.at(80, 60), form(40), 0.06f);
     EXPECT_NEAR(s.value.at(140, 60) / s.value.at(80, 60), form(280), 0.06f);
+}
+
+TEST(ClipReflectance, WhereABodyTurnsAwayFromTheLightItIsDark) {
+    // A cylinder lit from the left: the light falls to next to nothing at its right.
+    const auto form = [](int x) {
+        const float u = (static_cast<float>(x) - 160.0f) / 160.0f;
+        const float away = 0.5f * std::sqrt(std::max(0.0f, 1 - u * u)) - 0.866f * u;
+        return 0.03f + std::max(0.0f, away);
+    };
+    const Shading s = shading_of_column(form);
+    for (const int x : {30, 60, 100, 120})
+        EXPECT_NEAR(s.value.at(x, 60) / s.value.at(80, 60), form(2 * x) / form(160), 0.15f) << x;
+    EXPECT_LT(s.value.at(140, 60) / s.value.at(80, 60), 0.2f);
 }
 
 TEST(ClipReflectance, ALightThatDimsIsFollowed) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/media/decode_limit.h"
 #include "engine/media/image_files.h"
 #include "tests/media/media_fixture.h"
 
@@ -125,6 +126,21 @@ TEST_F(Truncation, AbsurdSizeIsRefusedBeforeMemoryIsTaken) {
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ErrorCode::kNoSpace) << frame.error().text();
     EXPECT_THAT(frame.error().message, HasSubstr("1000000x1000000"));
+}
+
+TEST_F(Truncation, APictureOverTheLimitOfOneIsRefused) {
+    constexpr std::int64_t kLimit_bytes = 64 * 64 * 4 * sizeof(float);
+    const std::int64_t usual = decode_limit_bytes();
+    for (const char* name : {"a.png", "a.tif"}) {
+        put_frame(in(name), picture({65, 64}, 3));
+        set_decode_limit_bytes(kLimit_bytes);
+        const auto refused = read_image(in(name));
+        set_decode_limit_bytes(0);
+        ASSERT_FALSE(refused) << name;
+        EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace) << refused.error().text();
+        EXPECT_TRUE(read_image(in(name))) << name;
+    }
+    EXPECT_EQ(decode_limit_bytes(), usual);
 }
 
 }  // namespace

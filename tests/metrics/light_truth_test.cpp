@@ -115,6 +115,26 @@ TEST(TruthComparison, ForgivesOneGainAndSeesWhereAResultIsWrong) {
     EXPECT_GT(*found.soft_edge, 8);
 }
 
+TEST(TruthComparison, TheGainIsTheMaterialsNotTheBackgrounds) {
+    const Matte matte = disc_with_soft_edge();
+    // The same disc before a bright background, half as bright as the true one.
+    const auto before_background = [&](float reflectance) {
+        ImageF3 out(kSize);
+        for (int y = 0; y < kSize.height; ++y) {
+            for (int x = 0; x < kSize.width; ++x) {
+                const float m = matte.at(x, y) / 255.0f;
+                for (int c = 0; c < 3; ++c)
+                    out.at(x, y, c) = linear_to_srgb(m * reflectance + (1 - m) * 0.8f);
+            }
+        }
+        return out;
+    };
+    const ImageF3 truth = before_background(0.4f), darker = before_background(0.2f);
+    TruthComparison comparison;
+    comparison.gather(darker, truth, matte);
+    EXPECT_LT(*comparison.compare(darker, truth, matte).soft_edge, 0.1);
+}
+
 TEST(TruthComparison, FollowsADimmingLight) {
     const Matte matte = disc_with_soft_edge();
     TruthComparison comparison;
