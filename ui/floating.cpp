@@ -341,9 +341,16 @@ void tour(Ctx& c) {
     const float width = t.px(380);
     const ImVec2 text = ImGui::CalcTextSize(now.text, nullptr, false, width - t.px(32));
     const float h = text.y + t.px(104);
-    ImGui::SetNextWindowPos(
-        {t.px(64), screen.y - h - t.px(26) - t.px(c.state.timeline_h) - t.px(24) -
-                       (c.state.workspace == Workspace::kTexture ? t.px(c.state.drawer_h) : 0)});
+    // Over the picture, above whatever lies below it; the page of jobs has its room on the right.
+    const float body = screen.y - t.px(66);
+    const float panel_h = c.state.workspace == Workspace::kTexture ? t.px(c.state.drawer_h)
+                          : c.state.workspace == Workspace::kLight ? t.px(c.state.strip_h)
+                                                                   : 0;
+    const float most = (screen.y / t.scale < 800 ? 0.34f : 0.36f) * body;
+    const bool jobs = c.state.workspace == Workspace::kJobs;
+    const float foot = jobs ? t.px(26) : t.px(26 + 34) + t.px(c.state.timeline_h);
+    ImGui::SetNextWindowPos({jobs ? screen.x - width - t.px(24) : t.px(64),
+                             screen.y - h - foot - t.px(16) - std::min(panel_h, most)});
     ImGui::SetNextWindowSize({width, h});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});

@@ -19,7 +19,9 @@ const JobView* newest_render(const Ctx& c) {
     return found;
 }
 
-void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row::*plate) {
+// `from`: the first row that has the value.
+void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row::*plate,
+           std::size_t from = 0) {
     const Theme& t = c.theme;
     const auto& rows = c.view.report.rows;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -44,7 +46,7 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
     }
     const auto line = [&](float Row::*which, ImU32 color, float width) {
         std::vector<ImVec2> points;
-        for (std::size_t k = 0; k < rows.size(); ++k)
+        for (std::size_t k = from; k < rows.size(); ++k)
             points.push_back({x_of(k), y_of(rows[k].*which)});
         list.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, width);
     };
@@ -84,7 +86,8 @@ std::vector<Heat> heats_of(const Ctx& c) {
         drift.values.push_back(mark.drift);
     }
     if (v.report.state == QualityReport::State::kDone) {
-        for (const Row& row : v.report.rows) {
+        for (std::size_t r = 1; r < v.report.rows.size(); ++r) {
+            const Row& row = v.report.rows[r];
             const auto at =
                 std::lower_bound(v.plate.frames.begin(), v.plate.frames.end(), row.frame);
             const auto k = static_cast<std::size_t>(at - v.plate.frames.begin());
@@ -151,10 +154,13 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
         return number_text(100.0 * static_cast<double>(part), 0) + "%";
     };
     if (by == 0 && c.view.report.state == QualityReport::State::kDone) {
-        for (const Row& row : c.view.report.rows)
+        // The first frame has none before it to differ from.
+        for (std::size_t k = 1; k < c.view.report.rows.size(); ++k) {
+            const Row& row = c.view.report.rows[k];
             out.push_back({row.frame, row.flicker - row.flicker_plate,
                            number_text(static_cast<double>(row.flicker), 2) + " against " +
                                number_text(static_cast<double>(row.flicker_plate), 2)});
+        }
     }
     for (std::size_t k = 0; by > 0 && k < c.view.marks.size(); ++k) {
         const float value = by == 1 ? c.view.marks[k].seam : c.view.marks[k].drift;
@@ -277,7 +283,7 @@ void review_panel(Ctx& c, ImVec2 size) {
             const ImVec2 room = ImGui::GetContentRegionAvail();
             const float third = std::floor((room.x - 2 * t.gap) / 3);
             graph(c, {third, room.y}, "Flicker, 8-bit steps a frame", &Row::flicker,
-                  &Row::flicker_plate);
+                  &Row::flicker_plate, 1);
             ImGui::SameLine(0, t.gap);
             graph(c, {third, room.y}, "Brightness, 8-bit steps", &Row::brightness,
                   &Row::brightness_plate);

@@ -104,9 +104,9 @@ Theme make_theme(bool dark, bool grey_surround, float scale) {
         t.accent_hover = rgb(0x3B7FC6);
         t.accent_press = rgb(0x22588F);
         t.on_accent = rgb(0xFFFFFF);
-        t.good = rgb(0x2F7D43);
-        t.warn = rgb(0x96690F);
-        t.bad = rgb(0xB53A34);
+        t.good = rgb(0x19522A);
+        t.warn = rgb(0x6B4400);
+        t.bad = rgb(0x8E231E);
         t.hover = IM_COL32(0, 0, 0, 18);
         t.scrim = IM_COL32(244, 244, 244, 230);
     }

@@ -202,6 +202,57 @@ TEST(Screenshots, AFailingShotSaysWhyInEveryWorkspace) {
                         "failing_");
 }
 
+// A surface that moves, its mattes, and a project that puts bricks on it.
+void write_moving_shot(const Sandbox& sandbox) {
+    for (const char* name : {"shot", "mattes"})
+        std::filesystem::create_directories(sandbox.in(name));
+    for (int k = 1; k <= 12; ++k) {
+        ImageF3 frame(320, 180);
+        Matte matte(320, 180);
+        const int left = 70 + 4 * k;
+        for (int y = 0; y < frame.height(); ++y)
+            for (int x = 0; x < frame.width(); ++x) {
+                const bool inside = x >= left && x < left + 150 && y >= 30 && y < 150;
+                const int u = inside ? x - left : x / 3, v = inside ? y : y / 3;
+                const float grain = static_cast<float>((u * 37 + v * 59 + u * v) % 29) / 120.0f;
+                for (int c = 0; c < 3; ++c)
+                    frame.pixel(x, y)[c] =
+                        (inside ? 0.45f : 0.2f + 0.05f * static_cast<float>(c)) + grain;
+                matte.at(x, y) = inside ? 255 : 0;
+            }
+        const std::string file = "/" + std::string(k < 10 ? "000" : "00") + std::to_string(k);
+        ASSERT_TRUE(write_image(sandbox.in("shot") + file + ".png", frame, {}, {}));
+        ASSERT_TRUE(write_matte(sandbox.in("mattes") + file + ".png", matte));
+    }
+    std::ofstream(sandbox.in("shot.weft"))
+        << R"({"schema": "weft.project/1", "name": "Moving",
+               "plate": {"path": "shot/####.png", "fps": 24.0},
+               "settings": {"quality": "draft"},
+               "output": {"path": "render/####.png"},
+               "regions": [{"id": 1, "name": "card", "matte": {"files": "mattes/####.png"},
+                            "placement": {"scale": 0.5}, "texture": {"sample": ")"
+        << WEFT_SOURCE_DIR << R"(/assets/demo/textures/brick.png"}}]})";
+}
+
+// Rendered and measured: graphs, heat strips and the worst frames with their pictures.
+TEST(Screenshots, AMeasuredRenderLooksAsItDid) {
+    const Sandbox sandbox;
+    write_moving_shot(sandbox);
+    std::ofstream(sandbox.in("script.json"))
+        << R"([{"wait_for": "analysis", "timeout": 240}, {"workspace": "Jobs"},
+               {"click": "Render frames"}, {"wait": 0.5}, {"wait_for": "jobs", "timeout": 240},
+               {"workspace": "Review"}, {"click": "Measure it"},
+               {"wait_for": "report", "timeout": 240}, {"settle": true, "timeout": 60},
+               {"hover": "Top/File"}, {"wait": 6.5}, {"screenshot": ")"
+        << sandbox.in("measured.png") << R"("}, {"click": "Worst/Seams"}, {"wait": 0.3},
+               {"click": "Worst/Drift"}, {"wait": 0.3}])";
+    const Finished done = run(sandbox, {"edit", sandbox.in("shot.weft"), "--script",
+                                        sandbox.in("script.json"), "--size", "1280x720"});
+    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    ASSERT_EQ(done.code, 0) << done.errors;
+    expect_golden(sandbox.in("measured.png"), "review_measured");
+}
+
 TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
     const Sandbox sandbox;
     const std::string out = sandbox.in("welcome.png");

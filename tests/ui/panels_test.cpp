@@ -1,4 +1,6 @@
 // The panels on made views: what they emit, and that no state breaks them.
+#include <cmath>
+
 #include "tests/ui/ui_harness.h"
 #include "ui/view_map.h"
 
@@ -222,6 +224,28 @@ INSTANTIATE_TEST_SUITE_P(States, EveryState,
                                          Look{"Normal", normal_view}, Look{"Failing", failing_view},
                                          Look{"Huge", huge_view}),
                          [](const auto& state) { return state.param.name; });
+
+double luminance(ImU32 color) {
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
+    const auto linear = [](float v) {
+        return v <= 0.04045f ? static_cast<double>(v) / 12.92
+                             : std::pow((static_cast<double>(v) + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(c.x) + 0.7152 * linear(c.y) + 0.0722 * linear(c.z);
+}
+
+// What a picture's state is said in stands on what surrounds the picture (WCAG 2: 4.5).
+TEST(Theme, StatesAreLegibleBesideThePictureAndOnPanels) {
+    for (const bool dark : {true, false}) {
+        const Theme t = make_theme(dark, false, 1);
+        for (const ImU32 ground : {t.surround, t.panel})
+            for (const ImU32 ink : {t.text, t.good, t.warn}) {
+                const double a = luminance(ink), b = luminance(ground);
+                EXPECT_GE((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05), 4.5)
+                    << std::hex << ink << " on " << ground;
+            }
+    }
+}
 
 TEST_F(PanelTest, TheScreensViewsAreOfferedAndOneIsChosen) {
     view.screens = {{"monitor", "Film"}, {"monitor", "Raw"}, {"projector", "Film"}};

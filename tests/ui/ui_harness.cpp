@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "app/session/background.h"
+#include "app/session/render_job.h"
 #include "engine/media/frame_writer.h"
 #include "ui/view_map.h"
 
@@ -178,6 +179,7 @@ SessionView huge_view() {
 
 void SessionTest::SetUp() {
     keep_thread_priority();
+    keep_libraries_steady();  // as the program does before all else
     std::string name = (fs::temp_directory_path() / "weft_ui_XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder = name;
