@@ -22,7 +22,8 @@ struct SampleRequest {
     SampleQuality quality = SampleQuality::kFinal;
 };
 
-/// Shading gain in linear light: texture × (1 + strength (S / reference − 1)), within [1/8, 8].
+/// Shading gain in linear light: texture × (1 + strength (S / reference − 1)), within [least_gain,
+/// most_gain].
 struct GainRequest {
     ViewF1 shading;  ///< S, at 1/downscale of the frame.
     int downscale = 2;

@@ -9,7 +9,7 @@
 namespace weft {
 
 enum class LightForm {
-    kGain,     ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [1/8, 8].
+    kGain,  ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [least_gain, most_gain].
     kDetail,   ///< Display V: (λ Φ + (1−λ) B) · (V_T / B), B the base of the texture's V.
     kLiteral,  ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
     // Baselines, without a shading (plate_transfer.h); apply_light does nothing for them.
