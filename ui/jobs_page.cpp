@@ -236,7 +236,11 @@ void export_card(Ctx& c, ImVec2 size) {
         if (issue.severity == Severity::kError && !problem) problem = &issue;
     // The output is chosen here, so that its absence in the document is no obstacle.
     const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
-    if (!ready) banner(c, icons::kAlert, t.bad, in_words(c, *problem));
+    const bool no_plate = c.view.plate.state == PlateView::State::kFailed;
+    if (!ready)
+        banner(c, icons::kAlert, t.bad, in_words(c, *problem));
+    else if (no_plate)
+        banner(c, icons::kAlert, t.bad, "The plate cannot be opened. " + c.view.plate.error);
     const std::string label = "Render " + std::to_string(frames.size()) + " frames";
     if (button(c, (label + "##submit").c_str(),
                {.icon = icons::kRocket,

@@ -97,8 +97,11 @@ void strip_panel(Ctx& c, ImVec2 size) {
     if (strip.cards.empty() || strip.kind != c.state.strip) {
         ImGui::SetCursorScreenPos({origin.x, origin.y + top - t.px(8)});
         ImGui::BeginChild("Nothing", {size.x, size.y - top}, false);
-        empty_state(c, icons::kFourUp, "Small results side by side",
-                    "Give a region a matte and a texture, and they are made here while you work.");
+        empty_state(
+            c, icons::kFourUp, "Small results side by side",
+            c.view.plate.state == PlateView::State::kFailed
+                ? "They are made once the plate is found."
+                : "Give a region a matte and a texture, and they are made here while you work.");
         ImGui::EndChild();
         end_panel(c);
         return;

@@ -325,7 +325,7 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
-    const float left = t.px(196), count_w = t.px(260);
+    const float left = t.px(196), count_w = t.px(330);
     // One texture, large: once one is picked. Until then its room belongs to the others.
     const auto picked = std::find_if(cards->begin(), cards->end(), [&](const TextureCard& card) {
         return card.path == c.state.drawer.picked;
