@@ -376,7 +376,10 @@ void job_row(Ctx& c, const JobView& job) {
         if (job.left_s > 0) line += "   " + time_text(job.left_s) + " left";
         if (job.frames_per_minute > 0)
             line += "   " + number_text(job.frames_per_minute, 1) + " frames a minute";
-        if (job.elapsed_s > 0) line += "   " + time_text(job.elapsed_s) + " so far";
+        const bool done = job.state == JobState::kDone;
+        if (job.elapsed_s > 0)
+            line += std::string(done ? "   in " : "   ") + time_text(job.elapsed_s) +
+                    (done ? "" : " so far");
     }
     text_in(list, t.small, {x, at.y + t.px(61)}, {right, at.y + t.px(80)},
             state_color(t, job.state), fitted(line, right - x).c_str(), 0);
