@@ -1,6 +1,7 @@
 // How steady the result is, frame by frame, beside the plate's own figures.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ui/icons.h"
 #include "ui/panels.h"
@@ -76,26 +77,24 @@ struct Heat {
 };
 
 std::vector<Heat> heats_of(const Ctx& c) {
-    const SessionView& v = c.view;
-    Heat flicker{"Flicker", "How much more the result changes from frame to frame than the plate",
-                 std::vector<float>(v.marks.size(), -1.0f)};
-    Heat seams{"Seams", "How much steeper the picture is at seams than beside them", {}};
-    Heat drift{"Drift", "How different the surface looks from its reference frame", {}};
-    for (const FrameMarks& mark : v.marks) {
-        seams.values.push_back(mark.seam);
-        drift.values.push_back(mark.drift);
+    std::vector<Heat> out{
+        {"Flicker",
+         "How much more the result changes from frame to frame than the plate, or than its "
+         "texture would if it were carried unchanged",
+         {}},
+        {"Seams", "How much steeper the picture is at seams than beside them", {}},
+        {"Drift", "How different the surface looks from its reference frame", {}},
+        {"Matte", "How far the matte's edge moves otherwise than the picture", {}}};
+    // An edge that jumps by so many pixels is as bad as it gets.
+    constexpr float kWorstChatter_px = 4;
+    for (const FrameMarks& mark : c.view.marks) {
+        out[0].values.push_back(
+            flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_carried));
+        out[1].values.push_back(mark.seam);
+        out[2].values.push_back(mark.drift);
+        out[3].values.push_back(mark.chatter / kWorstChatter_px);
     }
-    if (v.report.state == QualityReport::State::kDone) {
-        for (std::size_t r = 1; r < v.report.rows.size(); ++r) {
-            const Row& row = v.report.rows[r];
-            const auto at =
-                std::lower_bound(v.plate.frames.begin(), v.plate.frames.end(), row.frame);
-            const auto k = static_cast<std::size_t>(at - v.plate.frames.begin());
-            if (k < flicker.values.size())
-                flicker.values[k] = 0.15f + std::max(0.0f, row.flicker - row.flicker_plate) / 8.0f;
-        }
-    }
-    return {flicker, seams, drift};
+    return out;
 }
 
 // One strip a figure, as wide as the panel; dark where all is well. A click goes to the frame.
@@ -149,25 +148,38 @@ struct Worst {
 };
 
 std::vector<Worst> worst_of(const Ctx& c, int by) {
-    std::vector<Worst> out;
-    const auto percent = [](float part) {
-        return number_text(100.0 * static_cast<double>(part), 0) + "%";
+    const auto number = [](float value, int places) {
+        return number_text(static_cast<double>(value), places);
     };
-    if (by == 0 && c.view.report.state == QualityReport::State::kDone) {
-        // The first frame has none before it to differ from.
-        for (std::size_t k = 1; k < c.view.report.rows.size(); ++k) {
-            const Row& row = c.view.report.rows[k];
-            out.push_back({row.frame, row.flicker - row.flicker_plate,
-                           number_text(static_cast<double>(row.flicker), 2) + " against " +
-                               number_text(static_cast<double>(row.flicker_plate), 2)});
+    const auto worst = [&](const FrameMarks& mark) -> std::optional<Worst> {
+        switch (by) {
+            case 0:
+                if (mark.flicker < 0) return std::nullopt;
+                return Worst{0, mark.flicker - std::max(mark.flicker_plate, mark.flicker_carried),
+                             number(mark.flicker, 2) +
+                                 (mark.flicker_carried < 0
+                                      ? ", plate " + number(mark.flicker_plate, 2)
+                                      : ", at best " + number(mark.flicker_carried, 2))};
+            case 1: {
+                if (mark.seam < 0) return std::nullopt;
+                std::string text = number(100 * mark.seam, 0) + "% steeper";
+                if (mark.seam_motion >= 0) text += ", moved " + number(mark.seam_motion, 1) + " px";
+                return Worst{0, mark.seam, text};
+            }
+            case 2:
+                if (mark.drift < 0) return std::nullopt;
+                return Worst{0, mark.drift, number(100 * mark.drift, 0) + "% different"};
+            default:
+                if (mark.chatter < 0) return std::nullopt;
+                return Worst{0, mark.chatter, "edge off by " + number(mark.chatter, 2) + " px"};
         }
-    }
-    for (std::size_t k = 0; by > 0 && k < c.view.marks.size(); ++k) {
-        const float value = by == 1 ? c.view.marks[k].seam : c.view.marks[k].drift;
-        if (value >= 0)
-            out.push_back(
-                {c.view.plate.frames[k], value,
-                 by == 1 ? "seams " + percent(value) + " steeper" : percent(value) + " different"});
+    };
+    std::vector<Worst> out;
+    for (std::size_t k = 0; k < c.view.marks.size(); ++k) {
+        std::optional<Worst> one = worst(c.view.marks[k]);
+        if (!one) continue;
+        one->frame = c.view.plate.frames[k];
+        out.push_back(std::move(*one));
     }
     std::stable_sort(out.begin(), out.end(),
                      [](const Worst& a, const Worst& b) { return a.badness > b.badness; });
@@ -176,17 +188,11 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
     return out;
 }
 
-// The file of a frame of the measured render.
-std::string frame_path(std::string pattern, int frame) {
-    const std::size_t first = pattern.rfind('#');
-    if (first == std::string::npos) return pattern;
-    std::size_t begin = first;
-    while (begin > 0 && pattern[begin - 1] == '#')
-        --begin;
-    std::string digits = std::to_string(frame);
-    const std::size_t width = first - begin + 1;
-    if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
-    return pattern.replace(begin, width, digits);
+// The picture of a frame that was measured; empty: none was.
+std::string picture_of(const Ctx& c, int frame) {
+    for (const Row& row : c.view.report.rows)
+        if (row.frame == frame) return row.file;
+    return {};
 }
 
 // The worst frames of the render, two in a row.
@@ -212,8 +218,9 @@ void worst_pictures(Ctx& c, const std::vector<Worst>& worst) {
         const ImVec2 end(at.x + width, at.y + picture_h);
         const bool here = one.frame == c.view.frame, over = ImGui::IsItemHovered();
         list.AddRectFilled(at, end, t.field, t.radius);
-        const PicturePtr picture = c.textures.thumbnail(
-            frame_path(c.view.report.pattern, one.frame), static_cast<int>(width));
+        const std::string file = picture_of(c, one.frame);
+        const PicturePtr picture =
+            file.empty() ? nullptr : c.textures.thumbnail(file, static_cast<int>(width));
         if (const ImTextureID texture = c.pictures.texture(picture))
             list.AddImageRounded(texture, at, end, {0, 0}, {1, 1}, IM_COL32_WHITE, t.radius);
         if (here || over) list.AddRect(at, end, here ? t.accent : t.quiet, t.radius, 0, t.px(2));
@@ -229,13 +236,14 @@ void worst_pictures(Ctx& c, const std::vector<Worst>& worst) {
 void worst_frames(Ctx& c) {
     if (!section(c, "Worst frames")) return;
     const PanelName panel(c, "Worst");
-    segments(c, "By", {"Flicker", "Seams", "Drift"}, c.state.worst_by);
+    segments(c, "By", {"Flicker", "Seams", "Drift", "Matte"}, c.state.worst_by);
     const std::vector<Worst> worst = worst_of(c, c.state.worst_by);
     if (worst.empty()) {
         static constexpr const char* kMissing[] = {
-            "Measure a render, and the frames that flicker most are listed here.",
+            "Flicker is looked at as the preview fills its frames, and measured on a render.",
             "Seams are looked at as the preview fills its frames.",
-            "Drift is looked at once the shot is analysed."};
+            "Drift is looked at once the shot is analysed.",
+            "The matte's edge is looked at as the preview fills its frames."};
         wrapped(c, kMissing[c.state.worst_by], c.theme.quiet);
     }
     if (c.view.report.state == QualityReport::State::kDone) {

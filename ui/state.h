@@ -173,7 +173,7 @@ struct UiState {
     bool keep_overlay = false;                    ///< Tool::kKeep has turned the pieces on.
     bool keep_again = false, keep_seams = false;  ///< What Tool::kKeep does, and to what.
     std::optional<float> pen_pressure;  ///< Of the tablet's pen, 0–1; unset: none is down.
-    int worst_by = 0;                   ///< Of the report: flicker, seams, drift.
+    int worst_by = 0;                   ///< Of the report: flicker, seams, drift, matte.
     std::optional<std::pair<Vec2, Vec2>> measured;  ///< Line of the ruler, plate pixels.
     int measured_count = 4;                         ///< … and how many bricks it is long.
     StripKind strip = StripKind::kKeyframes;

@@ -209,6 +209,13 @@ ImU32 heat_color(float value) {
     return IM_COL32(mix(16), mix(8), mix(0), 255);
 }
 
+float flicker_heat(float flicker, float plate, float carried) {
+    constexpr float kKnown = 0.15f, kWorst = 6.0f;
+    if (flicker < 0) return -1;
+    return std::clamp(kKnown + std::max(0.0f, flicker - std::max(plate, carried)) / kWorst, 0.0f,
+                      1.0f);
+}
+
 ImU32 faded(ImU32 color, float opacity) {
     const auto alpha = static_cast<float>((color >> IM_COL32_A_SHIFT) & 255) * opacity;
     return (color & ~IM_COL32_A_MASK) |

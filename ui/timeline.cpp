@@ -65,7 +65,8 @@ void transport(Ctx& c, ImVec2 size) {
     };
     const auto known = [&](auto&& has) { return std::any_of(v.marks.begin(), v.marks.end(), has); };
     if (!v.to_correct.empty()) legend("Correct", t.bad, 1);
-    if (v.report.state == QualityReport::State::kDone) legend("Flicker", heat_color(0.7f), 2);
+    if (known([](const FrameMarks& m) { return m.flicker >= 0; }))
+        legend("Flicker", heat_color(0.7f), 2);
     if (known([](const FrameMarks& m) { return m.seam >= 0; }))
         legend("Seams", heat_color(0.6f), 2);
     if (known([](const FrameMarks& m) { return m.drift >= 0; }))
@@ -175,15 +176,9 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
     };
     strip([](const FrameMarks& m) { return m.drift; });
     strip([](const FrameMarks& m) { return m.seam; });
-    // Flicker of the measured render, beyond the plate's own.
-    if (v.report.state == QualityReport::State::kDone) {
-        for (const auto& row : v.report.rows) {
-            const float x = scale.x_of(row.frame);
-            const float excess = row.flicker - row.flicker_plate;
-            list.AddRectFilled({x - half, strip_y}, {x + half, strip_y + strip_h},
-                               heat_color(0.15f + excess / 8.0f));
-        }
-    }
+    strip([](const FrameMarks& m) {
+        return flicker_heat(m.flicker, m.flicker_plate, m.flicker_carried);
+    });
     // Where a correction would help most.
     for (const CorrectionHint& hint : v.to_correct) {
         const float x = std::floor(scale.x_of(hint.frame)) + 0.5f, y = top - t.px(1);
@@ -211,8 +206,11 @@ void timeline(Ctx& c, ImVec2 size) {
         end_panel(c);
         return;
     }
-    const Scale scale{field_min.x + t.px(16), field_max.x - t.px(16), v.plate.frames.front(),
-                      v.plate.frames.back()};
+    // Half a frame's bar reaches beyond the first and the last frame.
+    const int first = v.plate.frames.front(), last = v.plate.frames.back();
+    const float inset = std::max(
+        t.px(16), (field_max.x - field_min.x) * 0.5f / static_cast<float>(last - first + 1));
+    const Scale scale{field_min.x + inset, field_max.x - inset, first, last};
     const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
     if (v.mark_in || v.mark_out) {
         const float a = scale.x_of(v.mark_in.value_or(scale.first)) - half;

@@ -22,7 +22,8 @@ std::string to_text(const MeasuredResult& o) {
     text += line("TDE of the result  ", a.tde) + line("TDE of the source  ", a.source_tde) +
             line("TDE floor          ", a.tde_floor) + line("TDE at the floor's ", a.tde_at_floor) +
             line("sharpness kept     ", a.sharpness_kept) +
-            line("RMS contrast kept  ", a.rms_contrast_kept);
+            line("RMS contrast kept  ", a.rms_contrast_kept) +
+            line("matte's chatter, px", a.matte_chatter_px);
     char more[400];
     if (a.tde_over_floor) {
         std::snprintf(more, sizeof more, "TDE over floor       %.3f\n", *a.tde_over_floor);

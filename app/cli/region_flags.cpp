@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "app/session/memory_plan.h"
+#include "engine/media/decode_limit.h"
 
 namespace weft {
 namespace {
@@ -220,6 +221,7 @@ void add_memory_flag(CLI::App& command, RunOptions& run) {
                 const auto bytes = parse_bytes(text);
                 if (!bytes) throw CLI::ValidationError("--memory", bytes.error().message);
                 run.memory_bytes = *bytes;
+                set_decode_limit_bytes(*bytes / 2);  // before any picture is opened
             },
             "Memory to keep to (3G, 800M): fewer frames are worked on side by side")
         ->type_name("BYTES");

@@ -6,7 +6,6 @@
 #include "app/session/version_up.h"
 #include "engine/core/frame_range.h"
 #include "engine/media/atomic_file.h"
-#include "engine/media/decode_limit.h"
 
 namespace weft {
 namespace {
@@ -23,7 +22,6 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     spec.cache = run.cache;
     spec.texture_library = run.texture_library;
     spec.memory_bytes = run.memory_bytes;
-    if (run.memory_bytes > 0) set_decode_limit_bytes(run.memory_bytes / 2);
     spec.stage = run.stage;
     return spec;
 }

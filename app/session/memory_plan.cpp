@@ -10,7 +10,8 @@ namespace weft {
 namespace {
 
 // Fitted to the peaks of 3840x2160 renders in `final`, a region over 41 % of the frame: 1.25 GB
-// with one frame at a time, 1.54 with two, 2.53 with four. What the shot holds once (the program
+// with one frame at a time, 1.54 with two, 2.53 with four, when each thread had a heap of its own
+// (main.cpp). What the shot holds once (the program
 // with its libraries and texture planes; for each pixel the analysis of the frames in hand), and
 // what each frame rendered side by side adds (working plate, canvas, texture, old surface, output,
 // mattes).

@@ -67,13 +67,9 @@ class Texels {
     Size size_;
 };
 
-Vec2 texel_of(const Provenance& from, Vec2 p) {
-    return from.texel_at(p);
-}
-
 std::optional<Vec2i> stored_texel(const Provenance& from, Vec2 p) {
     if (!from.plane || from.plane->source.empty()) return std::nullopt;
-    const Vec2 texel = texel_of(from, p);
+    const Vec2 texel = from.texel_at(p);
     if (!std::isfinite(texel.x) || !std::isfinite(texel.y) || std::abs(texel.x) > 1e8f ||
         std::abs(texel.y) > 1e8f)
         return std::nullopt;
@@ -169,7 +165,7 @@ std::optional<PlaneAmendment> places_in(const Provenance& from, Vec2 a, Vec2 b) 
         for (int i = 0; i < kParts; ++i) {
             const Vec2 p =
                 corners[k] + (corners[(k + 1) % 4] - corners[k]) * (static_cast<float>(i) / kParts);
-            outline.push_back(texel_of(from, p));
+            outline.push_back(from.texel_at(p));
             if (!std::isfinite(outline.back().x) || !std::isfinite(outline.back().y))
                 return std::nullopt;
         }

@@ -98,18 +98,11 @@ std::uint64_t Preview::news() const {
 }
 
 Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
-    OpenedPtr now;
-    {
-        const std::lock_guard lock(impl_->mutex);
-        now = impl_->opened;
-    }
-    if (now) {
-        for (std::size_t k = 0; k < now->shot->region_index.size(); ++k) {
-            if (now->shot->project.regions[now->shot->region_index[k]]->id != region) continue;
-            const int kept =
-                stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
-            const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept};
-            if (kept < 0 || !now->store->has(key)) break;
+    if (const auto [now, k] = impl_->find_opened(region); now) {
+        const int kept =
+            stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
+        const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept};
+        if (kept >= 0 && now->store->has(key)) {
             WEFT_TRY(bytes, now->store->get(key));
             WEFT_TRY(stored, decode_matte(bytes));
             return std::move(stored.matte);
@@ -117,6 +110,24 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame)
     }
     return fail(ErrorCode::kMissingFrames,
                 "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
+}
+
+Expected<LatticeField> Preview::carried(RegionId region, int before, int now) const {
+    if (const auto [opened, k] = impl_->find_opened(region); opened)
+        return carried_between(*opened, k, before, now);
+    return fail(ErrorCode::kMissingFrames,
+                "Frame " + std::to_string(now) + " has not been analysed yet.");
+}
+
+std::pair<OpenedPtr, std::size_t> Preview::Impl::find_opened(RegionId region) const {
+    OpenedPtr now;
+    {
+        const std::lock_guard lock(mutex);
+        now = opened;
+    }
+    for (std::size_t k = 0; now && k < now->shot->region_index.size(); ++k)
+        if (now->shot->project.regions[now->shot->region_index[k]]->id == region) return {now, k};
+    return {nullptr, 0};
 }
 
 std::uint64_t Preview::matte_version() const {

@@ -13,6 +13,7 @@
 #include "app/session/analysis_cache.h"
 #include "app/session/matte_shelf.h"
 #include "app/session/picture.h"
+#include "app/session/preview_flicker.h"
 #include "app/session/provenance.h"
 #include "engine/core/cancel.h"
 
@@ -72,6 +73,13 @@ struct PreviewFrame {
     int proxy = 1;  ///< By how much the pictures are smaller than the plate.
     std::string layer_name;
     PicturePtr layer;  ///< As PreviewRequest::layer, on the screen's terms.
+    /// The final picture as it was rendered small, kept when it is refined: neighbours are compared
+    /// at one size.
+    PicturePtr small;
+    std::shared_ptr<const SeamPoints> seams;  ///< Of the picture that is compared.
+    [[nodiscard]] const PicturePtr& comparable() const {
+        return small ? small : stages[static_cast<std::size_t>(Stage::kFinal)];
+    }
 };
 
 /// A value in 0–255 for each pixel of the overlay's region, with a matte of where it holds.
@@ -92,7 +100,9 @@ struct OverlayPicture {
 
 /// How a frame of a region fares, as far as it is known (below 0: not).
 struct FrameHealth {
-    float drift = -1, stretch = -1, seam = -1;  ///< As in FrameMarks.
+    // As in FrameMarks.
+    float drift = -1, stretch = -1, seam = -1, seam_motion = -1;
+    float flicker = -1, flicker_plate = -1, flicker_carried = -1, chatter = -1;
 };
 
 struct PreviewView {
@@ -147,6 +157,9 @@ class Preview {
     /// Reads a propagated matte (`layer` 0) or holdout; to be called in the background. Error: not
     /// propagated yet.
     [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int layer, int frame) const;
+    /// How the texture was carried, before_from_now, in plate pixels; to be called in the
+    /// background. Error: not analysed yet, or the region's mode carries nothing.
+    [[nodiscard]] Expected<LatticeField> carried(RegionId region, int before, int now) const;
     /// Changes whenever propagated mattes may have changed.
     [[nodiscard]] std::uint64_t matte_version() const;
 

@@ -39,6 +39,11 @@ using OpenedPtr = std::shared_ptr<const OpenedShot>;
 /// painted ones. Below 0: there is none.
 [[nodiscard]] int stored_layer(const Region& region, int layer);
 
+/// How a region's texture was carried: before_from_now, in plate pixels. Error: not analysed, or
+/// nothing is carried in the region's mode.
+[[nodiscard]] Expected<LatticeField> carried_between(const OpenedShot& opened, std::size_t region,
+                                                     int before, int now);
+
 struct Preview::Impl {
     using Clock = std::chrono::steady_clock;
 
@@ -50,6 +55,7 @@ struct Preview::Impl {
     bool step();
     bool step_frame(const PreviewRequest& now);
     bool step_fill(const PreviewRequest& now, const std::string& pixels);
+    bool step_flicker(const PreviewRequest& now);
     bool step_card(const PreviewRequest& now);
     [[nodiscard]] Status analyse_card(OpenedShot& of, const StripWish& wish);
     [[nodiscard]] Expected<std::shared_ptr<const Shot>> open(const Project& project);
@@ -71,6 +77,9 @@ struct Preview::Impl {
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, const CancelToken& token);
     void collect_confidence(const OpenedShot& opened);
     void collect_health(const OpenedShot& opened, const CancelToken& token);
+
+    /// The shot that is open and the region's place in it; null when it has none.
+    [[nodiscard]] std::pair<OpenedPtr, std::size_t> find_opened(RegionId region) const;
 
     void changed() { shown.changes = ++news; }
     void signal() {
@@ -117,6 +126,7 @@ struct Preview::Impl {
     PreviewScenes scenes;
     OverlayMaker overlays;
     std::set<int> ready_frames;
+    std::set<int> compared;  // frames whose flicker was looked at
     bool refine_due = false;
     std::shared_ptr<const ColorTransform> srgb_from_out, linear_from_out;
     std::shared_ptr<const CachedReader> reader;  // of the plate `reader_of`

@@ -9,11 +9,11 @@
 #include "app/session/piece_pick.h"
 #include "app/session/preview_health.h"
 #include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
 #include "engine/synthesis/plane_energy.h"
-#include "engine/temporal/placement.h"
 
 namespace weft {
 namespace {
@@ -215,12 +215,6 @@ std::string id_of(const ShotTexture& texture) {
     return texture.library_id.empty() ? texture.id.substr(0, 12) : "db:" + texture.library_id;
 }
 
-// As RegionSurface places it.
-Expected<Mat3> placement_on(const RegionPlan& plan, const RegionScene& scene, int frame) {
-    if (!plan.placement_moves()) return scene.plane_from_plate;
-    return plane_from_plate(plan.placement_at(frame));
-}
-
 // Which references a frame of a locked texture was followed from, and how they share it
 // (SurfacePass::blend; a held drawing's own position in time is left out).
 Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
@@ -233,9 +227,9 @@ Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
     const bool between =
         next != references.begin() && next != references.end() && *(next - 1) != out.frame;
     if (between) {
-        const float s =
-            static_cast<float>(out.frame - *(next - 1)) / static_cast<float>(*next - *(next - 1));
-        out.two = TwoHistories{*(next - 1), *next, s * s * (3 - 2 * s), {}};
+        const float after = smooth_step(static_cast<float>(out.frame),
+                                        static_cast<float>(*(next - 1)), static_cast<float>(*next));
+        out.two = TwoHistories{*(next - 1), *next, after, {}};
     }
     for (const HistorySeam& seam : scene.seams) {
         if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kHistoryAfter}))

@@ -86,6 +86,7 @@ Expected<PreviewFrame> render_stages(const ShotSource& source, const ShotPlan& g
     WEFT_TRY(lit, render_frame(source, plan, scenes, store, backend, frame));
     out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
     seam = seam_prominence(lit);
+    out.seams = std::make_shared<const SeamPoints>(seam_points(lit));
     if (!layer.empty() && lit.layers) {
         out.layer_name = layer;
         out.layer = layer_picture(*lit.layers, layer, *plan.out_from_working, picture);
@@ -105,6 +106,8 @@ Expected<PreviewFrame> render_stages(const ShotSource& source, const ShotPlan& g
 
 std::size_t bytes_of(const PreviewFrame& frame) {
     std::size_t sum = frame.layer ? frame.layer->size_bytes() : 0;
+    if (frame.small) sum += frame.small->size_bytes();
+    if (frame.seams) sum += frame.seams->size() * sizeof(SeamPoints::value_type);
     for (const PicturePtr& p : frame.stages)
         sum += p ? p->size_bytes() : 0;
     return sum;
@@ -179,7 +182,8 @@ bool Preview::Impl::step() {
         set_state(PreviewView::State::kAnalysing);
     else if (step_frame(now))
         return true;
-    return step_fill(now, pixels) || step_card(now);
+    // A frame is compared while its plate is still at hand.
+    return step_flicker(now) || step_fill(now, pixels) || step_card(now);
 }
 
 // The frame that is looked at: small at once, at full size when nothing else is wanted.
@@ -268,6 +272,11 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     old_opened = std::exchange(opened, fresh);
     old_frames.swap(frames);
     frame_bytes = 0;
+    compared.clear();
+    for (auto& [region, of_frames] : healths)
+        for (auto& [frame, health] : of_frames)
+            health.flicker = health.flicker_plate = health.flicker_carried = health.chatter =
+                health.seam_motion = health.seam = -1;
     shown.warnings = std::move(warnings);
     changed();
     if (!same_analysis) {
@@ -378,7 +387,15 @@ void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made
     // What a render would take: a small picture says little about it.
     if (made.proxy == 1 && !made.stages[0]) shown.frame_seconds = seconds;
     if (frame == now.frame) shown.first_seconds = seconds;
-    if (frames.contains(frame)) frame_bytes -= bytes_of(frames[frame]);
+    if (const auto before = frames.find(frame); before != frames.end()) {
+        frame_bytes -= bytes_of(before->second);
+        // What neighbours are compared by stays of one size.
+        if (made.proxy == 1 && !before->second.approximate && before->second.comparable() &&
+            (before->second.small || before->second.proxy > 1)) {
+            made.small = before->second.comparable();
+            made.seams = before->second.seams;
+        }
+    }
     frame_bytes += bytes_of(made);
     gone.push_back(std::exchange(frames[frame], std::move(made)));
     while (frame_bytes > budget_bytes && frames.size() > 1) {

@@ -7,12 +7,16 @@
 
 #include "app/project/project_file.h"
 #include "app/session/background.h"
+#include "app/session/preview_flicker.h"
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
 #include "engine/core/frame_range.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
+#include "engine/metrics/matte_chatter.h"
+#include "engine/metrics/region.h"
 #include "engine/metrics/sequence_measure.h"
+#include "engine/metrics/tde.h"
 
 namespace weft {
 namespace {
@@ -24,6 +28,7 @@ struct MeasuringInputs {
     std::shared_ptr<const FrameReader> plate;
     std::string result_pattern;
     std::function<Expected<Matte>(int)> matte;
+    std::function<Expected<LatticeField>(int before, int now)> carried;
 };
 
 // Mean absolute step of luma to the right and down, between pixels that both are inside.
@@ -56,6 +61,7 @@ float of_first(double value, double& first) {
 
 Status measure_all(const MeasuringInputs& in, Measuring& shared) {
     WEFT_TRY(result, open_plate(in.result_pattern, {}));
+    WEFT_TRY(files, SequencePattern::parse(in.result_pattern));
     std::vector<int> frames;
     for (const int frame : result->frames())
         if (std::binary_search(in.plate->frames().begin(), in.plate->frames().end(), frame))
@@ -65,30 +71,50 @@ Status measure_all(const MeasuringInputs& in, Measuring& shared) {
         shared.report.total = static_cast<int>(frames.size());
     }
     MeasureOptions options;
-    options.estimator = MeasuringEstimator::kFarneback;
     options.measure_drift = false;
     SequenceMeasure measure(options);
     double first_step = 0, first_plate_step = 0;
+    struct Kept {
+        int frame = 0;
+        ImageF1 result, plate;
+        Matte matte;
+    } kept;
     for (const int frame : frames) {
         if (shared.cancelled) return {};
         WEFT_TRY(after, result->read(frame));
         WEFT_TRY(before, in.plate->read(frame));
         WEFT_TRY(matte, in.matte(frame));
+        Kept now{frame, luma_8bit(after.rgb), luma_8bit(before.rgb), matte};
         MeasureFrame step;
         step.frame = frame;
         step.result = after.rgb;
         step.source = before.rgb;
         step.matte = matte;
+        FlowField motion;
+        float carried = -1;
+        if (!kept.matte.empty() && kept.matte.size() == matte.size()) {
+            motion = measuring_motion(kept.plate, now.plate, kept.matte, matte,
+                                      MeasuringEstimator::kFarneback, kChatterReachPx);
+            step.motion = &motion;
+            if (const auto field = in.carried(kept.frame, frame)) {
+                const TemporalError least =
+                    carried_tde(kept.result, dense_flow(*field), motion,
+                                visible_in_both(motion, kept.matte, matte, options.erode_px));
+                if (least.pixels > 0) carried = static_cast<float>(least.tde);
+            }
+        }
         WEFT_TRY(found, measure.add(step));
         const float sharpness = of_first(mean_step(after.rgb, matte), first_step);
         const float plate_sharpness = of_first(mean_step(before.rgb, matte), first_plate_step);
+        kept = std::move(now);
         const std::lock_guard lock(shared.mutex);
         ++shared.report.done;
-        shared.report.rows.push_back({frame, static_cast<float>(found.tde.value_or(0)),
+        shared.report.rows.push_back({frame, files.path_for(frame),
+                                      static_cast<float>(found.tde.value_or(0)),
                                       static_cast<float>(found.source_tde.value_or(0)),
                                       static_cast<float>(found.mean_v.value_or(0)),
                                       static_cast<float>(found.source_mean_v.value_or(0)),
-                                      sharpness, plate_sharpness});
+                                      sharpness, plate_sharpness, carried});
     }
     return {};
 }
@@ -182,7 +208,7 @@ void Session::measure(const std::string& pattern) {
     measuring_ = std::make_shared<Measuring>();
     measuring_->report.state = QualityReport::State::kMeasuring;
     measuring_->report.pattern = pattern;
-    MeasuringInputs in{reader_, pattern, {}};
+    MeasuringInputs in{reader_, pattern, {}, {}};
     const MatteSource source =
         *resolve_paths(document(), project_dir(path_))
              .regions[find_region(document(), std::to_string(selected_)).value_or(0)]
@@ -192,6 +218,9 @@ void Session::measure(const std::string& pattern) {
         if (source.files.empty()) return preview_.propagated_matte(id, 0, frame);
         WEFT_TRY(files, SequencePattern::parse(source.files));
         return read_matte(files.path_for(frame), source.select, size);
+    };
+    in.carried = [this, id = region->id](int before, int now) {
+        return preview_.carried(id, before, now);
     };
     measuring_->thread = std::thread([in, shared = measuring_.get()] {
         lower_thread_priority();

@@ -182,6 +182,23 @@ void Session::show_marks() {
             mark.drift = found->second.drift;
             mark.stretch = found->second.stretch;
             mark.seam = found->second.seam;
+            mark.seam_motion = found->second.seam_motion;
+            mark.flicker = found->second.flicker;
+            mark.flicker_plate = found->second.flicker_plate;
+            mark.flicker_carried = found->second.flicker_carried;
+            mark.chatter = found->second.chatter;
+        }
+    }
+    if (view_.report.state == QualityReport::State::kDone) {
+        // The first row has no frame before it to differ from.
+        for (std::size_t r = 1; r < view_.report.rows.size(); ++r) {
+            const QualityReport::Row& row = view_.report.rows[r];
+            const auto at = std::lower_bound(frames.begin(), frames.end(), row.frame);
+            if (at == frames.end() || *at != row.frame) continue;
+            FrameMarks& mark = view_.marks[static_cast<std::size_t>(at - frames.begin())];
+            mark.flicker = row.flicker;
+            mark.flicker_plate = row.flicker_plate;
+            mark.flicker_carried = row.flicker_carried;
         }
     }
     if (!region) return;

@@ -50,6 +50,15 @@ struct FrameMarks {
     float drift = -1;    ///< How far the surface looks different from the reference, 0–1.
     float stretch = -1;  ///< How far the texture is drawn out or squeezed: 1 not at all.
     float seam = -1;     ///< How much the seams stand out, 0–1.
+    /// How far seams moved since the frame before otherwise than the picture, in plate pixels.
+    float seam_motion = -1;
+    /// Mean change of a surface point since the frame before, in 8-bit steps, and the plate's own:
+    /// of the measured render, else of the preview.
+    float flicker = -1, flicker_plate = -1;
+    /// What the flicker would be if the texture were carried without any change: the most of it is
+    /// how well the measuring motion knows the surface.
+    float flicker_carried = -1;
+    float chatter = -1;  ///< How far the matte's edge moved otherwise than the picture, in pixels.
 };
 
 /// A region's matte on the current frame.
@@ -78,10 +87,12 @@ struct QualityReport {
     int done = 0, total = 0;
     struct Row {
         int frame = 0;
+        std::string file;  ///< The picture that was measured.
         /// Mean change of a surface point to the next frame, and mean brightness, in codes.
         float flicker = 0, flicker_plate = 0, brightness = 0, brightness_plate = 0;
         /// Mean step between neighbouring pixels of the region, in per cent of its first frame's.
         float sharpness = 0, sharpness_plate = 0;
+        float flicker_carried = -1;  ///< As in FrameMarks.
     };
     std::vector<Row> rows;
 };

@@ -177,8 +177,8 @@ float blur_between(float from_px, float to_px) {
     return std::sqrt(to_px * to_px - from_px * from_px);
 }
 
-float blur_to_match(ViewF3 texture, ViewU8x1 matte, float plate_px) {
-    const float first = blur_between(edge_blur_px(texture, matte), plate_px);
+float blur_to_match(ViewF3 texture, ViewU8x1 matte, float own_px, float plate_px) {
+    const float first = blur_between(own_px, plate_px);
     if (!(first > 0)) return 0;
     ImageF3 tried(texture.size());
     for (int y = 0; y < texture.height(); ++y)

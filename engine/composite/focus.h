@@ -32,9 +32,10 @@ struct EdgeBlur {
 /// The blur that takes edges of `from_px` to `to_px`; 0 where they are no sharper than by a tenth.
 [[nodiscard]] float blur_between(float from_px, float to_px);
 
-/// The blur, in pixels, after which the texture's strong edges are those of `plate_px`, found by
-/// trying blur_between() and correcting by what it gave: a lens blurs light, and of two edges
-/// under one blur the one of more contrast looks the sharper. 0 where they are no sharper.
-[[nodiscard]] float blur_to_match(ViewF3 texture, ViewU8x1 matte, float plate_px);
+/// The blur, in pixels, after which the texture's strong edges, of `own_px` now (edge_blur_px()),
+/// are those of `plate_px`, found by trying blur_between() and correcting by what it gave: a lens
+/// blurs light, and of two edges under one blur the one of more contrast looks the sharper. 0 where
+/// they are no sharper.
+[[nodiscard]] float blur_to_match(ViewF3 texture, ViewU8x1 matte, float own_px, float plate_px);
 
 }  // namespace weft

@@ -23,9 +23,13 @@ Error damaged(const std::string& path, const std::string& reason) {
 Status check_memory(const std::string& path, Size size, int channels) {
     const double bytes = static_cast<double>(size.width) * size.height * channels * sizeof(float);
     if (bytes <= static_cast<double>(decode_limit_bytes())) return {};
-    return fail(ErrorCode::kNoSpace, path + " does not fit into memory: it has " +
-                                         std::to_string(size.width) + "x" +
-                                         std::to_string(size.height) + " pixels. Scale it down.");
+    return fail(
+        ErrorCode::kNoSpace,
+        path + " does not fit into memory: it has " + std::to_string(size.width) + "x" +
+            std::to_string(size.height) + " pixels, and a picture may take " +
+            std::to_string(decode_limit_bytes() >> 20) +
+            " MB decoded (a quarter of this machine's memory, or half of --memory). Scale it "
+            "down, or give more memory.");
 }
 
 }  // namespace weft

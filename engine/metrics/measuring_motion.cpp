@@ -8,6 +8,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/metrics/motion_chain.h"
+#include "engine/metrics/region.h"
 
 namespace weft {
 namespace {
@@ -80,7 +81,7 @@ const char* name_of(MeasuringEstimator estimator) {
 }
 
 FlowField measuring_motion(ViewF1 earlier_luma, ViewF1 later_luma, ViewU8x1 earlier_matte,
-                           ViewU8x1 later_matte, MeasuringEstimator estimator) {
+                           ViewU8x1 later_matte, MeasuringEstimator estimator, int beyond_px) {
     FlowField out(earlier_luma.size());
     out.valid = Matte(out.size(), 0);
     const Recti seen = bounds(earlier_matte);
@@ -93,27 +94,21 @@ FlowField measuring_motion(ViewF1 earlier_luma, ViewF1 later_luma, ViewU8x1 earl
 
     FlowField there;
     FlowField back;
-    if (estimator == MeasuringEstimator::kFarneback) {
-        const int threads = cv::getNumThreads();
-        cv::setNumThreads(1);
-        there = to_field(farneback(earlier, later));
-        back = to_field(farneback(later, earlier));
-        cv::setNumThreads(threads);
-    } else {
-        parallel_for(2, [&](std::size_t i) {
-            if (i == 0)
-                there = to_field(deep_flow(earlier, later));
-            else
-                back = to_field(deep_flow(later, earlier));
-        });
-    }
+    const auto estimate = estimator == MeasuringEstimator::kFarneback ? farneback : deep_flow;
+    parallel_for(2, [&](std::size_t i) {
+        if (i == 0)
+            there = to_field(estimate(earlier, later));
+        else
+            back = to_field(estimate(later, earlier));
+    });
     const Matte all(there.size(), 255);
+    const Matte judged = beyond_px > 0 ? grown_cover(earlier_matte, beyond_px) : Matte();
+    const ViewU8x1 inside = beyond_px > 0 ? judged.view() : earlier_matte;
     parallel_rows(box.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             std::copy_n(there.d.row(y), 2 * box.width(), out.d.pixel(box.x0, box.y0 + y));
             for (int x = 0; x < box.width(); ++x) {
-                if (earlier_matte.at(box.x0 + x, box.y0 + y) != 0 &&
-                    returns(there, back, all, x, y))
+                if (inside.at(box.x0 + x, box.y0 + y) != 0 && returns(there, back, all, x, y))
                     out.valid.at(box.x0 + x, box.y0 + y) = 255;
             }
         }

@@ -58,6 +58,18 @@ Matte eroded_inside(ViewU8x1 matte, int radius_px) {
     return out;
 }
 
+Matte grown_cover(ViewU8x1 matte, int radius_px) {
+    // What is nowhere near the matte is its inverse, eroded.
+    const auto inverted = [](ViewU8x1 of) {
+        Matte out(of.size());
+        for (int y = 0; y < of.height(); ++y)
+            for (int x = 0; x < of.width(); ++x)
+                out.row(y)[x] = static_cast<std::uint8_t>(255 - of.row(y)[x]);
+        return out;
+    };
+    return inverted(eroded_inside(inverted(matte), radius_px));
+}
+
 Matte both_inside(ViewU8x1 a, ViewU8x1 b) {
     Matte out(a.size());
     for (int y = 0; y < a.height(); ++y) {

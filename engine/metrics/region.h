@@ -19,6 +19,10 @@ inline constexpr int kInsideCoverage = 250;
 /// picture cuts it off.
 [[nodiscard]] Matte eroded_inside(ViewU8x1 matte, int radius_px);
 
+/// 255 where `matte` covers anything (> 255 − kInsideCoverage) within the square of (2·radius + 1)²
+/// pixels around, else 0.
+[[nodiscard]] Matte grown_cover(ViewU8x1 matte, int radius_px);
+
 /// 255 where both are 255, else 0. Both of one size.
 [[nodiscard]] Matte both_inside(ViewU8x1 a, ViewU8x1 b);
 

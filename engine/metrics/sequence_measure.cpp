@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/metrics/matte_chatter.h"
 #include "engine/metrics/region.h"
 #include "engine/metrics/sequence_diff.h"
 #include "engine/metrics/sharpness.h"
@@ -172,6 +173,7 @@ void SequenceMeasure::State::measure_step(const FlowField& motion, MotionDirecti
     out.tde = value_of(e);
     out.tde_pixels = e.pixels;
     out.source_tde = value_of(measure_tde(from.source, to.source, motion, visible));
+    out.matte_chatter_px = matte_chatter_px(motion, from.matte, to.matte);
     if (options.measure_grain) {
         grain.add(from.result_rgb, to.result_rgb, motion, visible, forward);
         source_grain.add(from.source_rgb, to.source_rgb, motion, visible, forward);
@@ -203,7 +205,7 @@ Expected<FrameMeasures> SequenceMeasure::State::add(const MeasureFrame& f) {
     if (!first && motion == nullptr) {
         if (f.twin == nullptr) {
             estimated = measuring_motion(before.source, now.source, before.matte, now.matte,
-                                         options.estimator);
+                                         options.estimator, kChatterReachPx);
         }
         motion = f.twin != nullptr ? &f.twin->state_->estimated : &estimated;
         direction = MotionDirection::kForward;
@@ -232,6 +234,7 @@ Expected<FrameMeasures> SequenceMeasure::State::add(const MeasureFrame& f) {
     total.tde_at_floor.add(out.tde_at_floor);
     total.sharpness_kept.add(out.sharpness_kept);
     total.rms_contrast_kept.add(out.rms_contrast_kept);
+    total.matte_chatter_px.add(out.matte_chatter_px);
     ++total.frames;
     before = std::move(now);
     return out;

@@ -70,6 +70,9 @@ struct FrameMeasures {
     std::optional<double> rms_contrast_kept;
     std::int64_t sharpness_pixels = 0;
     std::optional<double> mean_v, source_mean_v;  ///< 8-bit units.
+    /// How far the matte's edge departs from where it was, moved with the plate: pixels; nothing in
+    /// the first frame (matte_chatter.h).
+    std::optional<double> matte_chatter_px;
     double outside_mean = 0,
            outside_max = 0;  ///< |result − source| where the matte is 0, 8-bit units.
     std::int64_t outside_pixels = 0, outside_differing = 0;
@@ -86,7 +89,8 @@ struct SequenceMeasures {
     std::int64_t frames = 0;
     std::string motion;  ///< "given (forward)", "given (backward)", "deepflow", "farneback",
                          ///< several joined by " and ", or empty for one frame.
-    Spread tde, source_tde, tde_floor, tde_at_floor, sharpness_kept, rms_contrast_kept;
+    Spread tde, source_tde, tde_floor, tde_at_floor, sharpness_kept, rms_contrast_kept,
+        matte_chatter_px;
     /// tde_at_floor.mean / tde_floor.mean: how many times the floor.
     std::optional<double> tde_over_floor;
     std::optional<ResidualMotion> drift;  ///< First result moved by the motion, against the last.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -77,6 +78,16 @@ TemporalError measure_tde(ViewF1 source_luma, ViewF1 target_luma, const FlowFiel
     for (const RowSum& r : rows)
         all.add(r);
     return {all.mean(), all.count};
+}
+
+TemporalError carried_tde(ViewF1 earlier_luma, const FlowField& earlier_from_later,
+                          const FlowField& later_from_earlier, ViewU8x1 visible) {
+    ImageF1 later = moved(earlier_luma, earlier_from_later);
+    for (int y = 0; y < later.height(); ++y)
+        for (int x = 0; x < later.width(); ++x)
+            if (earlier_from_later.valid.at(x, y) == 0)
+                later.at(x, y) = std::numeric_limits<float>::quiet_NaN();
+    return measure_tde(earlier_luma, later, later_from_earlier, visible);
 }
 
 ImageF1 moved(ViewF1 image, const FlowField& f) {

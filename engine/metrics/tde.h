@@ -27,6 +27,13 @@ struct TemporalError {
 [[nodiscard]] TemporalError measure_tde(ViewF1 source_luma, ViewF1 target_luma,
                                         const FlowField& target_from_source, ViewU8x1 visible);
 
+/// What measure_tde() would give if the later picture were nothing but the earlier one, moved along
+/// `earlier_from_later`: how much of it is the given motion's disagreement with that field, on a
+/// picture of this contrast, rather than a change. The rest as there; 0 pixels where the field is
+/// not valid.
+[[nodiscard]] TemporalError carried_tde(ViewF1 earlier_luma, const FlowField& earlier_from_later,
+                                        const FlowField& later_from_earlier, ViewU8x1 visible);
+
 /// Moves a picture: out(p) = image(p + d(p)) with the same lookup, 0 where the field is not valid.
 [[nodiscard]] ImageF1 moved(ViewF1 image, const FlowField& image_from_out);
 

@@ -86,6 +86,11 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
     return out;
 }
 
+Expected<Mat3> placement_on(const RegionPlan& region, const RegionScene& scene, int frame) {
+    if (!region.placement_moves()) return scene.plane_from_plate;
+    return plane_from_plate(region.placement_at(frame));
+}
+
 Size plane_size(const PlanePlacement& placement, Size plate) {
     return {plane_side(plate.width, placement.scale), plane_side(plate.height, placement.scale)};
 }

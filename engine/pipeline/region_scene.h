@@ -34,6 +34,11 @@ struct RegionScene {
     std::shared_ptr<const TexturePlane> grown;
 };
 
+/// Where the placement of a frame puts the plate's pixels of the reference frame on the plane: the
+/// scene's own, or that of the keys. Errors: Usage, as plane_from_plate().
+[[nodiscard]] Expected<Mat3> placement_on(const RegionPlan& region, const RegionScene& scene,
+                                          int frame);
+
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
 /// placement's scale, between 512 and 4096 texels a side. It joins at its borders and repeats. It
 /// depends on the plate and the placement only, so that every part of a shot gets the same plane.

@@ -55,8 +55,7 @@ Expected<LatticeField> RegionSurface::stored(AnalysisKind kind) const {
 }
 
 Expected<Mat3> RegionSurface::placement() const {
-    if (!region_.placement_moves()) return scene_.plane_from_plate;
-    return plane_from_plate(region_.placement_at(frame_));
+    return placement_on(region_, scene_, frame_);
 }
 
 // Towards the reference, so that a frame does not depend on what else is rendered.

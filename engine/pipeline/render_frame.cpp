@@ -199,7 +199,7 @@ Status FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
     const float own_px = edge_blur_px(texture, matte);
     if (!(own_px > 0)) return {};
     const float plate_px = edge_blur_px(working_.view().crop(box), matte);
-    const float needed_px = blur_to_match(texture, matte, plate_px);
+    const float needed_px = blur_to_match(texture, matte, own_px, plate_px);
     WEFT_TRY(local, local_blur(index, box, matte));
     if (local) {
         const float even_px = blur_between(own_px, plate_px);

@@ -108,12 +108,13 @@ TEST_F(Tools, MeasureJsonHasItsKeys) {
     expect_success(outcome);
     const Json json = Json::parse(outcome.out);
     for (const char* key : {"motion", "tde", "source_tde", "tde_floor", "sharpness_kept",
-                            "drift_px", "tiv", "tiv_relative", "per_frame"})
+                            "matte_chatter_px", "drift_px", "tiv", "tiv_relative", "per_frame"})
         EXPECT_FALSE(json[key].is_null()) << key;
     EXPECT_EQ(json["frames"], 3);
     EXPECT_EQ(json["per_frame"].size(), 3u);
     EXPECT_EQ(json["outside_differing_px"], 0);
-    // The card moves by whole pixels, so the source itself is perfectly steady.
+    // The card and its matte move by whole pixels, so the source itself is perfectly steady.
+    EXPECT_LT(json["matte_chatter_px"]["mean"].get<double>(), 0.01);
     EXPECT_LT(json["source_tde"]["mean"].get<double>(), 0.5);
 
     const Outcome estimated = run({"measure", "--result", "out/####.png", "--plate",

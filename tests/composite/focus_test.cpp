@@ -70,7 +70,7 @@ TEST(Focus, AStrongContrastIsBlurredAsFarAsTheFaintOnesOfThePlate) {
     }
     const Matte all(texture.size(), 255);
     const float plate_px = edge_blur_px(squares(1.5f), all);
-    const float blur_px = blur_to_match(texture, all, plate_px);
+    const float blur_px = blur_to_match(texture, all, edge_blur_px(texture, all), plate_px);
     blur_inside(texture, all, blur_px);
     EXPECT_NEAR(edge_blur_px(texture, all), plate_px, 0.1f * plate_px);
 }

@@ -145,11 +145,9 @@ Started start_painting(const Sandbox& sandbox, const std::string& script, int st
 // Where nothing can be drawn there is nothing to kill; any other end is a failure.
 void gave_up(const Sandbox& sandbox, pid_t pid) {
     ::kill(pid, SIGKILL);
-    const std::string errors = finish(sandbox, pid).errors;
-    if (errors.find("No OpenGL") != std::string::npos ||
-        errors.find("cannot draw without a display") != std::string::npos)
-        GTEST_SKIP() << errors;
-    FAIL() << "The editor did not start painting: " << errors;
+    const Finished ended = finish(sandbox, pid);
+    if (cannot_draw(ended)) GTEST_SKIP() << ended.errors;
+    FAIL() << "The editor did not start painting: " << ended.errors;
 }
 
 // What is lost at most is a second's work.

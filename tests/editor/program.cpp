@@ -79,6 +79,11 @@ Finished run(const Sandbox& sandbox, const std::vector<std::string>& arguments) 
     return finish(sandbox, start(sandbox, arguments));
 }
 
+bool cannot_draw(const Finished& ended) {
+    return ended.errors.find("No OpenGL") != std::string::npos ||
+           ended.errors.find("cannot draw without a display") != std::string::npos;
+}
+
 std::vector<pid_t> children_of(pid_t pid) {
     std::vector<pid_t> out;
     std::error_code error;

@@ -35,6 +35,8 @@ struct Finished {
 [[nodiscard]] bool has_ended(pid_t pid);
 [[nodiscard]] Finished finish(const Sandbox& sandbox, pid_t pid);
 [[nodiscard]] Finished run(const Sandbox& sandbox, const std::vector<std::string>& arguments);
+/// Whether it ended because nothing can be drawn on this machine.
+[[nodiscard]] bool cannot_draw(const Finished& ended);
 /// The processes that it has started and that still run.
 [[nodiscard]] std::vector<pid_t> children_of(pid_t pid);
 /// Whether there is such a process that has not ended.

@@ -31,11 +31,6 @@ double difference(const ImageF3& a, const ImageF3& b) {
     return sum / static_cast<double>(count);
 }
 
-bool no_gl(const Finished& run) {
-    return run.errors.find("No OpenGL") != std::string::npos ||
-           run.errors.find("cannot draw without a display") != std::string::npos;
-}
-
 TEST(Screenshots, EveryWorkspaceShowsSomethingOfItsOwn) {
     const Sandbox sandbox;
     const char* const names[] = {"Mask", "Texture", "Motion", "Seams & Light", "Review", "Jobs"};
@@ -50,7 +45,7 @@ TEST(Screenshots, EveryWorkspaceShowsSomethingOfItsOwn) {
     }
     const Finished done = run(
         sandbox, {"edit", "--demo", "--script", sandbox.in("script.json"), "--size", "1280x720"});
-    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     ImageF3 before;
     for (int k = 0; k < 6; ++k) {
@@ -71,7 +66,7 @@ TEST(Screenshots, TheSameScriptGivesTheSamePicture) {
     for (int k = 0; k < 2; ++k) {
         const std::string out = sandbox.in(std::to_string(k) + ".png");
         const Finished done = run(sandbox, {"edit", "--screenshot", out, "--size", "1280x720"});
-        if (no_gl(done)) GTEST_SKIP() << done.errors;
+        if (cannot_draw(done)) GTEST_SKIP() << done.errors;
         ASSERT_EQ(done.code, 0) << done.errors;
         const auto picture = read_image(out);
         ASSERT_TRUE(picture);
@@ -157,7 +152,7 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
     std::vector<std::string> all = arguments;
     all.insert(all.end(), {"--script", sandbox.in("script.json"), "--size", "1280x720"});
     const Finished done = run(sandbox, all);
-    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     for (const Page& page : kPages)
         expect_golden(sandbox.in(std::string(page.file) + ".png"), prefix + page.file);
@@ -248,7 +243,7 @@ TEST(Screenshots, AMeasuredRenderLooksAsItDid) {
                {"click": "Worst/Drift"}, {"wait": 0.3}])";
     const Finished done = run(sandbox, {"edit", sandbox.in("shot.weft"), "--script",
                                         sandbox.in("script.json"), "--size", "1280x720"});
-    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     expect_golden(sandbox.in("measured.png"), "review_measured");
 }
@@ -257,7 +252,7 @@ TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
     const Sandbox sandbox;
     const std::string out = sandbox.in("welcome.png");
     const Finished done = run(sandbox, {"edit", "--screenshot", out, "--size", "1280x720"});
-    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     expect_golden(out, "welcome");
 }
@@ -267,7 +262,7 @@ TEST(Screenshots, AScriptThatFailsSaysWhichStep) {
     std::ofstream(sandbox.in("script.json"))
         << "[{\"wait\": 0.1}, {\"click\": \"No such button\"}]";
     const Finished done = run(sandbox, {"edit", "--script", sandbox.in("script.json")});
-    if (no_gl(done)) GTEST_SKIP() << done.errors;
+    if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     EXPECT_EQ(done.code, 1);
     EXPECT_THAT(done.errors, testing::HasSubstr("step 2"));
     EXPECT_THAT(done.errors, testing::HasSubstr("No such button"));

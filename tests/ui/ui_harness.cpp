@@ -169,7 +169,7 @@ SessionView huge_view() {
     v.history_position = 250;
     v.report.state = QualityReport::State::kDone;
     for (const int frame : v.plate.frames)
-        v.report.rows.push_back({frame, 1, 2, 3, 4});
+        v.report.rows.push_back({frame, {}, 1, 2, 3, 4});
     for (int k = 0; k < 5; ++k)
         v.notices.push_back({k + 1, NoticeKind::kWarning, std::string(400, 'w'), 0});
     return v;

@@ -62,6 +62,25 @@ class WholeWay : public SessionTest {
     }
 };
 
+TEST_F(WholeWay, FramesTellHowSteadyTheyAreAsThePreviewFills) {
+    open();
+    paint_and_texture();
+    const auto known = [&] {
+        int count = 0;
+        for (const FrameMarks& mark : session->view().marks)
+            count += mark.flicker >= 0 && mark.flicker_plate >= 0 && mark.flicker_carried >= 0 &&
+                     mark.chatter >= 0;
+        return count;
+    };
+    // Every frame but the first has one before it.
+    ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
+    EXPECT_LT(session->view().marks[0].flicker, 0);
+    // Another light is another picture: nothing is known of it until it is rendered.
+    session->act(DoEdit{SetRegionParameter{{region().id, {}}, "light.strength", 0.25}});
+    ASSERT_TRUE(wait([&] { return known() < 3; })) << known();
+    ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
+}
+
 TEST_F(WholeWay, AKeptPieceStaysWhenTheVariationChanges) {
     open();
     paint_and_texture();
