@@ -20,6 +20,7 @@ Shell::Shell(EditorSettings& settings, PictureHost& pictures)
     size("drawer", state_.drawer_h);
     size("report", state_.review_h);
     size("strip", state_.strip_h);
+    size("sheet", state_.sheet_h);
 }
 
 void Shell::set_look(bool dark, bool grey_surround, float scale) {
@@ -169,17 +170,18 @@ void Shell::layout(Ctx& c) {
     // Four pictures need the room that the strip would take.
     const bool strip =
         panels && state_.workspace == Workspace::kLight && !(four && screen.y / t.scale < 1100);
+    const bool sheet = strip && state_.sheet();
     const float least_view = t.px(120);
     float extra_h =
         drawer   ? t.px(state_.drawer_h)
         : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 196)
-        : strip  ? t.px(state_.strip_h)
+        : strip  ? t.px(sheet ? state_.sheet_h : state_.strip_h)
                  : 0;
     // Unless the artist has drawn it larger, the picture keeps more than half.
     const UiState fresh;
     const float most_h = std::min(body_h - timeline_h - least_view, (low ? 0.34f : 0.36f) * body_h);
     const bool own_size = (drawer && state_.drawer_h > fresh.drawer_h) ||
-                          (strip && state_.strip_h > fresh.strip_h) ||
+                          (strip && !sheet && state_.strip_h > fresh.strip_h) || sheet ||
                           (report && state_.review_h > fresh.review_h);
     if (!own_size) extra_h = std::min(extra_h, most_h);
     extra_h =
@@ -226,7 +228,8 @@ void Shell::layout(Ctx& c) {
                      state_.drawer_h, -1, 150, 900, fresh.drawer_h);
         if (strip)
             splitter(c, "##strip", {0, top + view_h - hit / 2}, {left_w, hit}, false,
-                     state_.strip_h, -1, 110, 500, 176);
+                     sheet ? state_.sheet_h : state_.strip_h, -1, 110, sheet ? 900 : 500,
+                     sheet ? fresh.sheet_h : fresh.strip_h);
         if (report)
             splitter(c, "##report", {0, top + view_h - hit / 2}, {left_w, hit}, false,
                      state_.review_h, -1, 120, 700, 240);

@@ -147,6 +147,7 @@ struct UiState {
     ExportState output;
     float inspector_w = 320, timeline_h = 112, drawer_h = 320, review_h = 240;  ///< Unscaled.
     float strip_h = 176;
+    float sheet_h = 430;  ///< Of the strip as a contact sheet.
     bool panels_hidden = false;
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
     bool shot_open = false;
@@ -178,6 +179,12 @@ struct UiState {
     int measured_count = 4;                         ///< … and how many bricks it is long.
     StripKind strip = StripKind::kKeyframes;
     std::vector<std::string> strip_textures;
+    bool strip_over_time = false;  ///< Each setting on several frames.
+    /// The strip is a contact sheet now.
+    [[nodiscard]] bool sheet() const {
+        return strip_over_time && (strip == StripKind::kScale || strip == StripKind::kLight ||
+                                   strip == StripKind::kSeams);
+    }
     RegionId renaming = 0;
     std::string rename_text;
     std::string typing;  ///< Name of the value that is being typed.

@@ -1,4 +1,5 @@
-// A row of small results: frames of the shot, or this frame with other textures or settings.
+// Small results: frames of the shot, this frame with other textures or settings, or a contact sheet
+// of settings on several frames.
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +28,37 @@ std::vector<std::string> textures_to_try(const Ctx& c) {
     return out;
 }
 
+// The picture in `min`–`max`, or what it waits for.
+void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(min, max, t.field, t.radius);
+    if (one.picture) {
+        const float zoom = std::min((max.x - min.x) / static_cast<float>(one.picture->size.width),
+                                    (max.y - min.y) / static_cast<float>(one.picture->size.height));
+        const float w = zoom * static_cast<float>(one.picture->size.width);
+        const float h = zoom * static_cast<float>(one.picture->size.height);
+        const ImVec2 at(std::floor(min.x + (max.x - min.x - w) / 2),
+                        std::floor(min.y + (max.y - min.y - h) / 2));
+        if (const ImTextureID id = c.pictures.texture(one.picture))
+            list.AddImageRounded(id, at, {at.x + w, at.y + h}, {0, 0}, {1, 1}, IM_COL32_WHITE,
+                                 t.radius);
+        return;
+    }
+    // The frames before it, or the picture that is looked at.
+    const PreviewView& preview = c.view.preview;
+    const std::string waiting = preview.analysing && preview.total > 0
+                                    ? "After the analysis, " + std::to_string(preview.done) + "/" +
+                                          std::to_string(preview.total)
+                                : c.view.analysis_paused ? std::string("The analysis is paused")
+                                                         : std::string("Being worked out…");
+    const std::string text = one.error.empty() ? waiting : "No result";
+    ImGui::PushFont(t.small);
+    text_in(list, t.small, min, max, one.error.empty() ? t.quiet : t.bad,
+            fitted(text, max.x - min.x - t.px(6)).c_str());
+    ImGui::PopFont();
+}
+
 void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     const Theme& t = c.theme;
     const bool frames = c.view.strip.kind == StripKind::kKeyframes;
@@ -38,32 +70,10 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     tooltip(c, !one.error.empty() ? one.error.c_str()
                : frames           ? "Go to this frame"
                                   : "Use this; one step of the history");
+    const ImVec2 max(at.x + size.x, at.y + size.y - t.px(20));
+    picture_in(c, one, at, max);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float caption = t.px(20);
-    const ImVec2 max(at.x + size.x, at.y + size.y - caption);
-    list.AddRectFilled(at, max, t.field, t.radius);
-    if (one.picture) {
-        const float zoom = std::min(size.x / static_cast<float>(one.picture->size.width),
-                                    (max.y - at.y) / static_cast<float>(one.picture->size.height));
-        const float w = zoom * static_cast<float>(one.picture->size.width);
-        const float h = zoom * static_cast<float>(one.picture->size.height);
-        const ImVec2 min(std::floor(at.x + (size.x - w) / 2),
-                         std::floor(at.y + (max.y - at.y - h) / 2));
-        if (const ImTextureID id = c.pictures.texture(one.picture))
-            list.AddImageRounded(id, min, {min.x + w, min.y + h}, {0, 0}, {1, 1}, IM_COL32_WHITE,
-                                 t.radius);
-    } else {
-        // What it waits for: the frames before it, or the picture that is looked at.
-        const PreviewView& preview = c.view.preview;
-        const std::string waiting = preview.analysing && preview.total > 0
-                                        ? "After the analysis, " + std::to_string(preview.done) +
-                                              "/" + std::to_string(preview.total)
-                                    : c.view.analysis_paused ? std::string("The analysis is paused")
-                                                             : std::string("Being worked out…");
-        text_in(list, t.small, at, max, one.error.empty() ? t.quiet : t.bad,
-                one.error.empty() ? waiting.c_str() : "No result");
-    }
-    const bool here = frames && one.frame == c.view.frame;
+    const bool here = frames ? one.frame == c.view.frame : one.current;
     if (here || ImGui::IsItemHovered())
         list.AddRect({at.x - 1, at.y - 1}, {max.x + 1, max.y + 1},
                      here ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(here ? 2 : 1));
@@ -71,6 +81,63 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     text_in(list, t.small, {at.x, max.y}, {max.x, at.y + size.y}, here ? t.text : t.quiet,
             fitted(one.label, size.x).c_str(), 0);
     ImGui::PopFont();
+}
+
+// A row of cards with their labels below.
+void row_of_cards(Ctx& c, ImVec2 at, ImVec2 size, float aspect) {
+    const Theme& t = c.theme;
+    const auto& cards = c.view.strip.cards;
+    const auto count = static_cast<float>(cards.size());
+    const float gap = t.px(10);
+    const float w =
+        std::floor(std::min((size.x - gap * (count - 1)) / count, (size.y - t.px(20)) * aspect));
+    for (std::size_t k = 0; k < cards.size(); ++k)
+        card(c, cards[k], static_cast<int>(k), {at.x + static_cast<float>(k) * (w + gap), at.y},
+             {w, size.y});
+}
+
+// Settings one below the other, each on the same frames: a button takes the setting, a picture
+// goes to its frame.
+void contact_sheet(Ctx& c, ImVec2 at, ImVec2 size, float aspect) {
+    const Theme& t = c.theme;
+    const auto& cards = c.view.strip.cards;
+    const int columns = c.view.strip.columns;
+    const int rows = static_cast<int>(cards.size()) / columns;
+    const float gap = t.px(4), names = t.px(118), head = t.px(18);
+    const float most_w = (size.x - names) / static_cast<float>(columns) - gap;
+    const float most_h = (size.y - head) / static_cast<float>(rows) - gap;
+    const float w = std::floor(std::min(most_w, most_h * aspect)), h = std::floor(w / aspect);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (int row = 0; row < rows; ++row) {
+        const float y = at.y + head + static_cast<float>(row) * (h + gap);
+        const std::size_t first = static_cast<std::size_t>(row * columns);
+        ImGui::SetCursorScreenPos({at.x, y + std::floor((h - ImGui::GetFrameHeight()) / 2)});
+        if (button(
+                c, cards[first].label.c_str(),
+                {.look = cards[first].current ? Look::kPrimary : Look::kNormal,
+                 .tip = cards[first].current ? "As it is now" : "Use this; one step of the history",
+                 .width = names - t.px(8)}))
+            c.emit(ChooseFromStrip{static_cast<int>(first)});
+        for (int column = 0; column < columns; ++column) {
+            const StripCard& one = cards[first + static_cast<std::size_t>(column)];
+            const ImVec2 min(at.x + names + static_cast<float>(column) * (w + gap), y);
+            const ImVec2 max(min.x + w, min.y + h);
+            ImGui::SetCursorScreenPos(min);
+            ImGui::PushID(row * columns + column);
+            if (ImGui::InvisibleButton("##cell", {w, h})) c.emit(GoToFrame{one.frame});
+            ImGui::PopID();
+            c.note(one.label + " " + std::to_string(one.frame));
+            tooltip(c, one.error.empty() ? "Go to this frame" : one.error.c_str());
+            picture_in(c, one, min, max);
+            const bool here = one.frame == c.view.frame;
+            if (ImGui::IsItemHovered())
+                list.AddRect({min.x - 1, min.y - 1}, {max.x + 1, max.y + 1}, faded(t.text, 0.5f),
+                             t.radius);
+            if (row == 0)
+                text_in(list, t.small, {min.x, at.y}, {max.x, at.y + head}, here ? t.text : t.quiet,
+                        std::to_string(one.frame).c_str(), 0);
+        }
+    }
 }
 
 }  // namespace
@@ -85,16 +152,23 @@ void strip_panel(Ctx& c, ImVec2 size) {
     if (segments(c, "Compare", {"Keyframes", "Textures", "Scale", "Light", "Seams"}, kind,
                  t.px(420)))
         c.state.strip = static_cast<StripKind>(kind + 1);
+    if (c.state.strip == StripKind::kScale || c.state.strip == StripKind::kLight ||
+        c.state.strip == StripKind::kSeams) {
+        ImGui::SameLine(0, t.px(16));
+        checkbox(c, "Over time", c.state.strip_over_time,
+                 "Each setting on the same frames of the marked range, or of the shot");
+    }
     const StripView& strip = c.view.strip;
     // The session follows what is chosen here, and stops when nobody looks.
     const std::vector<std::string> textures =
         c.state.strip == StripKind::kTextures ? textures_to_try(c) : std::vector<std::string>{};
-    if (strip.kind != c.state.strip || textures != c.state.strip_textures) {
+    if (strip.kind != c.state.strip || textures != c.state.strip_textures ||
+        strip.over_time != c.state.sheet()) {
         c.state.strip_textures = textures;
-        c.emit(ShowStrip{c.state.strip, textures});
+        c.emit(ShowStrip{c.state.strip, textures, c.state.sheet()});
     }
-    const float top = t.px(40), gap = t.px(10);
-    if (strip.cards.empty() || strip.kind != c.state.strip) {
+    const float top = t.px(40);
+    if (strip.cards.empty() || strip.kind != c.state.strip || strip.over_time != c.state.sheet()) {
         ImGui::SetCursorScreenPos({origin.x, origin.y + top - t.px(8)});
         ImGui::BeginChild("Nothing", {size.x, size.y - top}, false);
         empty_state(
@@ -106,16 +180,15 @@ void strip_panel(Ctx& c, ImVec2 size) {
         end_panel(c);
         return;
     }
-    const auto count = static_cast<float>(strip.cards.size());
-    const float h = size.y - top - t.px(6);
     const Size plate = c.view.plate.size;
     const float aspect =
         plate.empty() ? 1.78f : static_cast<float>(plate.width) / static_cast<float>(plate.height);
-    const float most_w = (size.x - t.px(20) - gap * (count - 1)) / count;
-    const float w = std::floor(std::min(most_w, (h - t.px(20)) * aspect));
-    float x = origin.x + t.px(10);
-    for (std::size_t k = 0; k < strip.cards.size(); ++k, x += w + gap)
-        card(c, strip.cards[k], static_cast<int>(k), {x, origin.y + top}, {w, h});
+    const ImVec2 at(origin.x + t.px(10), origin.y + top);
+    const ImVec2 room(size.x - t.px(20), size.y - top - t.px(6));
+    if (strip.columns > 0)
+        contact_sheet(c, at, room, aspect);
+    else
+        row_of_cards(c, at, room, aspect);
     end_panel(c);
 }
 

@@ -237,6 +237,8 @@ enum class StripKind : std::uint8_t {
 struct ShowStrip {
     StripKind kind = StripKind::kNone;
     std::vector<std::string> textures;  ///< Files or "db:ID", for kTextures and kSuggested.
+    /// Each setting on several frames: a contact sheet. For kScale, kLight and kSeams.
+    bool over_time = false;
     bool operator==(const ShowStrip&) const = default;
 };
 /// Goes to the card's frame, or makes its setting the region's.

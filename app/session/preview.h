@@ -41,16 +41,18 @@ struct StripWish {
     std::string note;  ///< More about it, for whoever draws it.
     Project project;   ///< As in PreviewRequest.
     int frame = 0;
-    RegionId around = 0;  ///< Only the part of the frame where this region is; 0: all of it.
-    std::string key;      ///< Of its pixels; see strip_key().
+    RegionId around = 0;   ///< Only the part of the frame where this region is; 0: all of it.
+    std::string key;       ///< Of its pixels; see strip_key().
+    bool current = false;  ///< The setting that the region has.
 };
 
 /// Where a StripWish stands.
 struct StripCard {
     std::string label, note;
     int frame = 0;
-    PicturePtr picture;  ///< Null while it is being made.
-    std::string error;   ///< Why it cannot be.
+    PicturePtr picture;    ///< Null while it is being made.
+    std::string error;     ///< Why it cannot be.
+    bool current = false;  ///< As StripWish::current.
 };
 
 struct PreviewRequest {

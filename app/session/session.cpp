@@ -164,6 +164,7 @@ void Session::act(const Action& action) {
             [&](const ShowStrip& a) {
                 strip_kind_ = a.kind;
                 strip_textures_ = a.textures;
+                strip_over_time_ = a.over_time;
                 strip_version_ = 0;
             },
             [&](const ChooseFromStrip& a) { choose_from_strip(a.card); },

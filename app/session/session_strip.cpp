@@ -35,6 +35,10 @@ std::vector<Variant> variants_of(StripKind kind, const Region& region) {
             out.push_back({"Best cut", "synthesis.seam", std::string("graphcut")});
             out.push_back({"Quick cut", "synthesis.seam", std::string("dp")});
             out.push_back({"No cut", "synthesis.seam", std::string("none")});
+            for (const double factor : {0.5, 1.5})
+                number("synthesis.overlap_px",
+                       std::max(12.0, std::round(region.synthesis.overlap_px * factor)),
+                       "Overlap %.0f px");
             break;
         case StripKind::kNone:
         case StripKind::kKeyframes:
@@ -63,10 +67,31 @@ std::vector<int> Session::strip_frames() const {
     return out;
 }
 
+// As many as tell two settings apart, evenly over the marked range or the shot.
+std::vector<int> Session::sheet_frames() const {
+    const auto& frames = reader_->frames();
+    const auto [first, last] = played_range();
+    constexpr int kCount = 8;
+    std::vector<int> out;
+    for (int k = 0; k < kCount; ++k) {
+        const int frame =
+            frames[static_cast<std::size_t>(first + (last - first) * k / (kCount - 1))];
+        if (out.empty() || out.back() != frame) out.push_back(frame);
+    }
+    return out;
+}
+
+bool Session::strip_is_sheet() const {
+    return strip_over_time_ &&
+           (strip_kind_ == StripKind::kScale || strip_kind_ == StripKind::kLight ||
+            strip_kind_ == StripKind::kSeams);
+}
+
 // The cards are asked for together with the picture; here what has come is put in their order.
 void Session::show_strip() {
     StripView& shown = view_.strip;
     shown.kind = strip_kind_;
+    shown.over_time = strip_over_time_;
     const Region* region = region_by_id(document(), selected_);
     const bool possible =
         reader_ && view_.result_wanted && (region || strip_kind_ == StripKind::kKeyframes);
@@ -74,10 +99,11 @@ void Session::show_strip() {
         if (!strip_wishes_.empty()) request_due_ = true;
         strip_wishes_.clear();
         shown.cards.clear();
+        shown.columns = 0;
         strip_version_ = 0;
         return;
     }
-    const bool of_frame = strip_kind_ != StripKind::kKeyframes;
+    const bool of_frame = strip_kind_ != StripKind::kKeyframes && !strip_is_sheet();
     const bool stale = strip_version_ != document_version_ || (of_frame && strip_frame_ != frame_);
     if (stale && !tried_ && !painting_ && !playing_) {
         strip_version_ = document_version_;
@@ -87,9 +113,10 @@ void Session::show_strip() {
             wish.key = strip_key(wish);
         request_due_ = true;
     }
+    shown.columns = strip_is_sheet() ? static_cast<int>(sheet_frames().size()) : 0;
     shown.cards.clear();
     for (const StripWish& wish : strip_wishes_) {
-        StripCard card{wish.label, wish.note, wish.frame, nullptr, {}};
+        StripCard card{wish.label, wish.note, wish.frame, nullptr, {}, wish.current};
         if (const auto made = preview_reading_.cards.find(wish.key);
             made != preview_reading_.cards.end()) {
             card.picture = made->second.picture;
@@ -146,11 +173,19 @@ std::vector<StripWish> Session::strip_wishes(const Region* region) {
                 wishes.back().around = region->id;
         }
     }
+    const std::string shown_now = pixel_key(base);
+    const std::vector<int> on = strip_is_sheet() ? sheet_frames() : std::vector<int>{frame_};
     for (const Variant& variant : variants_of(strip_kind_, *region))
-        with(base, SetRegionParameter{ref, variant.key, variant.value}, variant.label,
-             [this, id = region->id, variant] {
-                 edit(SetRegionParameter{{id, {}}, variant.key, variant.value}, true);
-             });
+        for (const int frame : on) {
+            const std::size_t before = wishes.size();
+            with(base, SetRegionParameter{ref, variant.key, variant.value}, variant.label,
+                 [this, id = region->id, variant] {
+                     edit(SetRegionParameter{{id, {}}, variant.key, variant.value}, true);
+                 });
+            if (wishes.size() == before) continue;
+            wishes.back().frame = frame;
+            wishes.back().current = pixel_key(wishes.back().project) == shown_now;
+        }
     return wishes;
 }
 

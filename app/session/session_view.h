@@ -100,6 +100,8 @@ struct QualityReport {
 struct StripView {
     StripKind kind = StripKind::kNone;
     std::vector<StripCard> cards;
+    bool over_time = false;  ///< As ShowStrip::over_time.
+    int columns = 0;         ///< Of a contact sheet, whose rows are settings; 0: no sheet.
 };
 
 struct SessionView {

@@ -306,6 +306,24 @@ TEST_F(EditorSession, TheStripShowsVariantsAndOneIsChosen) {
     robot->key("Ctrl+Z");
     robot->frames(2);
     EXPECT_DOUBLE_EQ(project().regions.back()->light.strength, 1);
+    // As a contact sheet: five kinds of seams on each of the four frames.
+    shell->state().strip = StripKind::kSeams;
+    shell->state().strip_over_time = true;
+    ASSERT_TRUE(wait([&] {
+        const StripView& strip = session->view().strip;
+        return strip.columns == 4 && strip.cards.size() == 20 &&
+               std::all_of(strip.cards.begin(), strip.cards.end(),
+                           [](const StripCard& c) { return c.picture != nullptr; });
+    })) << session->view().strip.cards.size();
+    const auto& sheet = session->view().strip.cards;
+    EXPECT_EQ(sheet[3].frame, 4);
+    EXPECT_TRUE(sheet[0].current);
+    EXPECT_FALSE(sheet[4].current);
+    EXPECT_EQ(sheet[4].label, "Quick cut");
+    EXPECT_EQ(sheet[16].label, "Overlap 54 px");
+    session->act(ChooseFromStrip{16});
+    robot->frames(2);
+    EXPECT_EQ(project().regions.back()->synthesis.overlap_px, 54);
     set_workspace(shell->state(), Workspace::kMask);
     robot->frames(3);
     EXPECT_TRUE(session->view().strip.cards.empty());

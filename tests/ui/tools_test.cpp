@@ -184,6 +184,35 @@ TEST_F(Tools, TheStripFollowsTheWorkspace) {
     EXPECT_EQ(emitted<ShowStrip>().back().kind, StripKind::kNone);
 }
 
+TEST_F(Tools, AContactSheetShowsEachSettingOnTheSameFrames) {
+    go("Seams & Light", Tool::kPan);
+    ASSERT_TRUE(robot->click("Strip/Scale"));
+    ASSERT_TRUE(robot->click("Strip/Over time"));
+    robot->frames(2);
+    ASSERT_FALSE(emitted<ShowStrip>().empty());
+    EXPECT_EQ(emitted<ShowStrip>().back(), (ShowStrip{StripKind::kScale, {}, true}));
+    view.strip = {StripKind::kScale,
+                  {{"Scale 0.50", "", 1001, nullptr, ""},
+                   {"Scale 0.50", "", 1010, nullptr, ""},
+                   {"Scale 1.00", "", 1001, nullptr, ""},
+                   {"Scale 1.00", "", 1010, nullptr, "No"}},
+                  true,
+                  2};
+    robot->frames(2);
+    clear();
+    ASSERT_TRUE(robot->click("Strip/Scale 1.00"));
+    ASSERT_THAT(emitted<ChooseFromStrip>(), SizeIs(1));
+    EXPECT_EQ(emitted<ChooseFromStrip>()[0].card, 2);
+    ASSERT_TRUE(robot->click("Scale 0.50 1010"));
+    ASSERT_THAT(emitted<GoToFrame>(), SizeIs(1));
+    EXPECT_EQ(emitted<GoToFrame>()[0].frame, 1010);
+    // Frames of the shot know nothing of settings.
+    clear();
+    ASSERT_TRUE(robot->click("Strip/Keyframes"));
+    robot->frames(2);
+    EXPECT_EQ(emitted<ShowStrip>().back(), (ShowStrip{StripKind::kKeyframes, {}, false}));
+}
+
 TEST_F(Tools, ProvenanceIsCopied) {
     go("Texture", Tool::kPan);
     ASSERT_TRUE(robot->click("Made from"));
