@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/render_estimate.h"
 #include "engine/core/frame_range.h"
+#include "engine/core/parallel.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -71,38 +73,55 @@ void version_up(std::string& path) {
     path.replace(at + 2, end - at - 2, number);
 }
 
-void estimate(Ctx& c, std::size_t frames) {
+RenderOutlook outlook(const Ctx& c, const std::vector<int>& frames, Quality quality) {
     const SessionView& v = c.view;
-    const double pixels = static_cast<double>(v.plate.size.width) * v.plate.size.height;
-    // Rendering by what the preview took; the analysis costs several times that where it is not
-    // there yet.
-    const double frame_s = v.preview.frame_seconds > 0 ? v.preview.frame_seconds : pixels * 6e-7;
-    const double analysis_s = pixels * 1.6e-6 * static_cast<double>(v.project.regions.size());
-    // The analysis goes through the shot, however few frames of it are rendered.
-    const double seconds = static_cast<double>(frames) * frame_s +
-                           static_cast<double>(v.plate.frames.size()) * analysis_s + 4;
-    const double bytes_per_pixel[] = {2.2, 7.5, 3.2, 0.6};
-    const double disk = static_cast<double>(frames) * pixels *
-                        bytes_per_pixel[static_cast<std::size_t>(c.state.output.format)];
-    const double memory = 3e8 + pixels * 12 * 14;
+    OutlookInputs in;
+    in.size = v.plate.size;
+    in.frames = frames.size();
+    in.quality = quality;
+    in.extension = kExtensions[c.state.output.format];
+    in.threads = static_cast<unsigned>(thread_count());
+    in.speed = c.settings.render_speed;
+    count_regions(v.project, in);
+    // The analysis goes through all frames between the first and the last; the preview's serves a
+    // render of its quality.
+    const bool there = v.preview_quality == quality && v.result_current && !v.preview.analysing;
+    in.analysed =
+        there || frames.empty() ? 0 : static_cast<std::size_t>(frames.back() - frames.front() + 1);
+    return render_outlook(in);
+}
+
+// What the render will take. Returns its seconds.
+double estimate(Ctx& c, const std::vector<int>& frames) {
+    const SessionView& v = c.view;
     const Theme& t = c.theme;
+    const Quality quality = v.project.settings.quality;
+    const RenderOutlook now = outlook(c, frames, quality);
+    const Quality other = quality == Quality::kDraft ? Quality::kFinal : Quality::kDraft;
+    const bool known = !frames.empty() && !v.plate.size.empty();
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float w = ImGui::GetContentRegionAvail().x, h = t.px(58), third = w / 3;
+    const float w = ImGui::GetContentRegionAvail().x, h = t.px(80), third = w / 3;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + w, at.y + h}, t.field, t.radius);
-    std::string values[] = {"about " + time_text(seconds), bytes_text(memory), bytes_text(disk)};
-    if (frames == 0 || v.plate.size.empty())
-        for (std::string& value : values)
-            value = "–";
+    const std::string values[] = {"about " + time_text(now.seconds),
+                                  bytes_text(static_cast<double>(now.memory_bytes)),
+                                  bytes_text(static_cast<double>(now.disk_bytes))};
     constexpr const char* kNames[] = {"Time", "Memory", "Disk"};
     for (int k = 0; k < 3; ++k) {
         const float x = at.x + third * static_cast<float>(k);
         text_in(list, t.small, {x, at.y + t.px(8)}, {x + third, at.y + t.px(24)}, t.quiet,
                 kNames[k]);
         text_in(list, t.strong, {x, at.y + t.px(26)}, {x + third, at.y + t.px(50)}, t.text,
-                values[k].c_str());
+                known ? values[k].c_str() : "–");
     }
+    const std::string instead =
+        (other == Quality::kDraft ? "As a draft about " : "As a final about ") +
+        time_text(outlook(c, frames, other).seconds);
+    if (known)
+        text_in(list, t.small, {at.x, at.y + t.px(54)}, {at.x + w, at.y + t.px(72)}, t.quiet,
+                instead.c_str());
     ImGui::Dummy({w, h});
+    return now.seconds;
 }
 
 // The command line's names of things say nothing here.
@@ -229,7 +248,7 @@ void export_card(Ctx& c, ImVec2 size) {
     project_parameter(c, "output.depth", "Depth");
     ImGui::Dummy({0, t.px(6)});
     const std::vector<int> frames = frames_of(c);
-    estimate(c, frames.size());
+    const double seconds = estimate(c, frames);
     ImGui::Dummy({0, t.px(4)});
     const Issue* problem = nullptr;
     for (const Issue& issue : c.view.issues)
@@ -253,6 +272,7 @@ void export_card(Ctx& c, ImVec2 size) {
         if (e.with_movie) job.movie = folder_of(e.output) + ".mp4";
         job.overwrite = e.existing == 2;
         job.skip_existing = e.existing == 1;
+        job.foreseen_s = seconds;
         take_layers(e, job);
         c.emit(job);
     }
@@ -422,6 +442,17 @@ void jobs_page(Ctx& c, ImVec2 size) {
     for (auto job = c.view.jobs.rbegin(); job != c.view.jobs.rend(); ++job)
         job_row(c, *job);
     end_panel(c);
+}
+
+void learn_from_jobs(Ctx& c) {
+    for (const JobView& job : c.view.jobs) {
+        if (job.state != JobState::kDone || job.foreseen_s <= 0 ||
+            c.state.learnt_jobs.contains(job.id))
+            continue;
+        c.state.learnt_jobs.insert(job.id);
+        c.settings.render_speed =
+            learnt_speed(c.settings.render_speed, job.foreseen_s, job.elapsed_s);
+    }
 }
 
 }  // namespace weft::ui

@@ -16,6 +16,8 @@ void texture_drawer(Ctx& c, ImVec2 size);
 void review_panel(Ctx& c, ImVec2 size);
 void strip_panel(Ctx& c, ImVec2 size);
 void jobs_page(Ctx& c, ImVec2 size);
+/// Takes what finished jobs tell of this machine's speed into the settings.
+void learn_from_jobs(Ctx& c);
 void welcome(Ctx& c, ImVec2 size);
 
 // Parts of the inspector.

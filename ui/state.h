@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,7 @@ struct UiState {
     int measured_count = 4;                         ///< … and how many bricks it is long.
     StripKind strip = StripKind::kKeyframes;
     std::vector<std::string> strip_textures;
+    std::set<int> learnt_jobs;     ///< Whose time was taken into the settings.
     bool strip_over_time = false;  ///< Each setting on several frames.
     /// The strip is a contact sheet now.
     [[nodiscard]] bool sheet() const {

@@ -1,10 +1,14 @@
+#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
 #include "app/session/recipe.h"
+#include "app/session/render_estimate.h"
 #include "app/session/report.h"
 #include "app/session/version_up.h"
 #include "engine/core/frame_range.h"
+#include "engine/core/parallel.h"
 #include "engine/media/atomic_file.h"
 
 namespace weft {
@@ -26,9 +30,9 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     return spec;
 }
 
-int dry_run(const Project& project, const std::string& texture_library) {
+int dry_run(const Project& project, const RunOptions& run) {
     OpenShotOptions open;
-    open.texture_library = texture_library;
+    open.texture_library = run.texture_library;
     const auto shot = open_shot(project, open);
     if (!shot) return report_error(shot.error());
     if (const Status allowed = check_texture_licences(**shot); !allowed)
@@ -48,7 +52,23 @@ int dry_run(const Project& project, const std::string& texture_library) {
                 ", reference frame " + std::to_string(plan.regions[k].reference_frames.front()) +
                 "\n";
     }
-    print(stdout, text);
+    OutlookInputs in;
+    in.size = (*shot)->plate->size();
+    in.frames = plan.frames.size();
+    in.analysed = static_cast<std::size_t>(plan.frames.back() - plan.frames.front() + 1);
+    count_regions(project, in);
+    in.quality = project.settings.quality;
+    const std::string extension = std::filesystem::path(project.output.path).extension().string();
+    in.extension = extension.empty() ? std::string_view() : std::string_view(extension).substr(1);
+    in.threads = static_cast<unsigned>(run.threads > 0 ? run.threads : thread_count());
+    const RenderOutlook outlook = render_outlook(in);
+    char line[160];
+    std::snprintf(
+        line, sizeof line,
+        "takes    about %.0f s on %u threads of the CPU, %.1f GB of memory, %.1f MB of disk\n",
+        outlook.seconds, in.threads, static_cast<double>(outlook.memory_bytes) / 1e9,
+        static_cast<double>(outlook.disk_bytes) / 1e6);
+    print(stdout, text + line);
     return 0;
 }
 
@@ -66,7 +86,7 @@ int render_command(const Project& given, const RunOptions& run) {
                                  " contradict each other.",
                              {}});
     }
-    if (run.dry_run) return dry_run(project, run.texture_library);
+    if (run.dry_run) return dry_run(project, run);
     for (const std::string& path : {run.report, run.recipe}) {
         if (path.empty()) continue;
         remove_stale_temporaries(path);

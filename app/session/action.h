@@ -280,6 +280,7 @@ struct SubmitJob {
     std::string output, movie;
     bool overwrite = false, skip_existing = false;
     std::string layers = {}, layers_path = {};  ///< As Output's.
+    double foreseen_s = 0;                      ///< As RenderRequest's.
     bool operator==(const SubmitJob&) const = default;
 };
 enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };

@@ -56,6 +56,7 @@ EditorSettings load_editor_settings(const std::string& path) {
     take(json, "collections", out.collections);
     take(json, "texture_folders", out.texture_folders);
     take(json, "tour_seen", out.tour_seen);
+    take(json, "render_speed", out.render_speed);
     take(json, "screen_display", out.screen_display);
     take(json, "screen_view", out.screen_view);
     return out;
@@ -75,6 +76,7 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"collections", s.collections},
                     {"texture_folders", s.texture_folders},
                     {"tour_seen", s.tour_seen},
+                    {"render_speed", s.render_speed},
                     {"screen_display", s.screen_display},
                     {"screen_view", s.screen_view}};
     return write_file_atomically(path,

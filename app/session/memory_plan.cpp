@@ -36,6 +36,12 @@ Expected<std::size_t> frames_at_once(Size size, std::int64_t memory_bytes) {
                     std::to_string(needed_mib) + "M, or render at a smaller size.");
 }
 
+std::int64_t render_memory_bytes(Size size, std::size_t side_by_side) {
+    const std::int64_t pixels = static_cast<std::int64_t>(size.width) * size.height;
+    return kProgramBytes + kShotBytesPerPixel * pixels +
+           kFrameBytesPerPixel * pixels * static_cast<std::int64_t>(side_by_side);
+}
+
 Expected<std::int64_t> parse_bytes(std::string_view text) {
     const auto wrong = [&] {
         return fail(ErrorCode::kUsage, "'" + std::string(text) +

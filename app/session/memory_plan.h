@@ -15,6 +15,9 @@ inline constexpr std::size_t kCacheShare = 8;
 /// Errors: NoSpace when not even one fits, saying how much it takes.
 [[nodiscard]] Expected<std::size_t> frames_at_once(Size size, std::int64_t memory_bytes);
 
+/// What a render without a limit takes, with so many frames side by side.
+[[nodiscard]] std::int64_t render_memory_bytes(Size size, std::size_t side_by_side);
+
 /// "3G", "800M", "1.5GiB", "2000000": bytes; K, M, G and T are powers of 1024. Errors: Usage.
 [[nodiscard]] Expected<std::int64_t> parse_bytes(std::string_view text);
 

@@ -148,6 +148,7 @@ void Session::submit(const SubmitJob& action) {
     request.frames = *frames;
     request.overwrite = action.overwrite;
     request.skip_existing = action.skip_existing;
+    request.foreseen_s = action.skip_existing ? 0 : action.foreseen_s;
     request.label = (document().name.empty() ? "Shot" : document().name) + ", frames " +
                     format_frame_list(*frames);
     chores_.push_back(in_background([this, request]() -> Finish {

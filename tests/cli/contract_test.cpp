@@ -69,6 +69,15 @@ TEST_F(Contract, JsonPutsOneObjectOnStdoutAndProgressOnStderr) {
     EXPECT_THAT(outcome.err, HasSubstr("frame 2 2/2"));
 }
 
+TEST_F(Contract, ADryRunSaysWhatItWouldTakeAndWritesNothing) {
+    make_shot(2);
+    const Outcome outcome = run_replace({"--dry-run", "--threads", "2"});
+    expect_success(outcome);
+    EXPECT_THAT(outcome.out, HasSubstr("frames   1-2 (2)"));
+    EXPECT_THAT(outcome.out, HasSubstr("s on 2 threads of the CPU, "));
+    EXPECT_FALSE(fs::exists(in("out")));
+}
+
 TEST_F(Contract, NoProgressMeansSilence) {
     make_shot(2);
     const Outcome outcome = run_replace({"--progress", "none"});

@@ -1,0 +1,70 @@
+#include "app/session/render_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/session/memory_plan.h"
+
+namespace weft {
+namespace {
+
+// Microseconds a pixel, whole frames, on two cores: the demo (three regions, two of them with true
+// motion) and davis_blackswan (one region, painted matte, estimated motion), in both qualities.
+struct Costs {
+    double motion, matte, region, render;
+};
+constexpr Costs kDraft{0.10, 0.05, 0.18, 0.16}, kFinal{0.60, 0.60, 0.30, 0.30};
+constexpr double kStart_s = 1.5;
+// A region's planes and their growth; the larger pyramids of the better motion.
+constexpr std::int64_t kRegionBytes = 90ll << 20, kFinalBytes = 130ll << 20;
+// More cores help less than in proportion: coordinates are worked out in order.
+constexpr double kScaling = 0.75, kMeasuredOn = 2;
+
+double bytes_per_pixel(std::string_view extension) {
+    if (extension == "exr") return 7.5;
+    if (extension == "tif" || extension == "tiff") return 3.2;
+    if (extension == "jpg" || extension == "jpeg") return 0.6;
+    if (extension == "dpx") return 4;
+    return 2.2;
+}
+
+}  // namespace
+
+void count_regions(const Project& project, OutlookInputs& in) {
+    in.regions = 0;
+    in.motion_given = true;
+    in.mattes_painted = false;
+    for (const Leaf<Region>& region : project.regions) {
+        if (!region->enabled) continue;
+        ++in.regions;
+        in.mattes_painted = in.mattes_painted || !region->matte->keyframes.empty();
+        in.motion_given = in.motion_given && !region->motion.files.empty();
+    }
+}
+
+RenderOutlook render_outlook(const OutlookInputs& in) {
+    const double pixels = static_cast<double>(in.size.width) * in.size.height;
+    const Costs& cost = in.quality == Quality::kDraft ? kDraft : kFinal;
+    const double analysis = (in.motion_given ? 0 : cost.motion) +
+                            (in.mattes_painted ? cost.matte : 0) +
+                            cost.region * static_cast<double>(in.regions);
+    const double cores = std::pow(std::max(1u, in.threads) / kMeasuredOn, kScaling);
+    const double work = 1e-6 * pixels *
+                        (cost.render * static_cast<double>(in.frames) +
+                         analysis * static_cast<double>(in.analysed));
+    RenderOutlook out;
+    out.seconds = (kStart_s + work / cores) / std::max(in.speed, 1e-3);
+    out.memory_bytes = render_memory_bytes(in.size, std::min<std::size_t>(in.threads, in.frames)) +
+                       kRegionBytes * static_cast<std::int64_t>(in.regions) +
+                       (in.quality == Quality::kFinal ? kFinalBytes : 0);
+    out.disk_bytes = static_cast<std::int64_t>(static_cast<double>(in.frames) * pixels *
+                                               bytes_per_pixel(in.extension));
+    return out;
+}
+
+double learnt_speed(double speed, double foreseen_s, double took_s) {
+    if (!(foreseen_s > 0) || !(took_s > 0)) return speed;
+    return std::clamp(speed * std::sqrt(foreseen_s / took_s), 0.05, 20.0);
+}
+
+}  // namespace weft

@@ -1,0 +1,58 @@
+#include "app/session/render_estimate.h"
+
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+OutlookInputs clip() {
+    OutlookInputs in;
+    in.size = {854, 480};
+    in.frames = in.analysed = 50;
+    in.regions = 1;
+    in.extension = "png";
+    return in;
+}
+
+TEST(RenderEstimate, MoreWorkTakesLongerAndMoreCoresLess) {
+    const double seconds = render_outlook(clip()).seconds;
+    EXPECT_GT(seconds, 0);
+    const auto with = [](auto&& change) {
+        OutlookInputs in = clip();
+        change(in);
+        return render_outlook(in).seconds;
+    };
+    EXPECT_GT(with([](OutlookInputs& in) { in.frames *= 2; }), seconds);
+    EXPECT_GT(with([](OutlookInputs& in) { in.size = {1708, 960}; }), 3 * seconds);
+    EXPECT_GT(with([](OutlookInputs& in) { in.regions = 3; }), seconds);
+    EXPECT_LT(with([](OutlookInputs& in) { in.analysed = 0; }), seconds / 2);
+    EXPECT_GT(with([](OutlookInputs& in) { in.mattes_painted = true; }), seconds);
+    EXPECT_LT(with([](OutlookInputs& in) { in.motion_given = true; }), seconds);
+    EXPECT_LT(with([](OutlookInputs& in) { in.quality = Quality::kDraft; }), seconds / 2);
+    EXPECT_LT(with([](OutlookInputs& in) { in.threads = 8; }), seconds / 2);
+    EXPECT_NEAR(with([](OutlookInputs& in) { in.speed = 2; }), seconds / 2, 1e-9);
+}
+
+TEST(RenderEstimate, MemoryDoesNotGrowWithTheShotAndDiskDoes) {
+    OutlookInputs in = clip();
+    const RenderOutlook once = render_outlook(in);
+    in.frames *= 20;
+    const RenderOutlook long_one = render_outlook(in);
+    EXPECT_EQ(long_one.memory_bytes, once.memory_bytes);
+    EXPECT_EQ(long_one.disk_bytes, 20 * once.disk_bytes);
+    in.extension = "exr";
+    EXPECT_GT(render_outlook(in).disk_bytes, long_one.disk_bytes);
+}
+
+TEST(RenderEstimate, LearnsFromWhatARenderTook) {
+    // Foreseen 100 s, took 25: four times as fast; half of that in one step.
+    const double once = learnt_speed(1, 100, 25);
+    EXPECT_NEAR(once, 2, 1e-9);
+    EXPECT_NEAR(learnt_speed(once, 50, 25), 2 * 1.41421, 1e-4);
+    EXPECT_EQ(learnt_speed(3, 0, 25), 3);
+    EXPECT_EQ(learnt_speed(3, 25, 0), 3);
+    EXPECT_EQ(learnt_speed(1, 1e9, 1e-3), 20);
+}
+
+}  // namespace
+}  // namespace weft
