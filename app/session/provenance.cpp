@@ -11,6 +11,24 @@ int wrapped(float v, int n) {
     return k < 0 ? k + n : k;
 }
 
+// The patch at (u, v) and the nearest other one, on a plane that repeats.
+std::optional<std::pair<int, int>> nearest_neighbours(const Image<std::int32_t, 1>& patch, int u,
+                                                      int v) {
+    const std::int32_t here = patch.at(u, v);
+    const int w = patch.width(), h = patch.height();
+    int nearest = Provenance::kSeamReach * Provenance::kSeamReach + 1;
+    std::int32_t other = here;
+    for (int dy = -Provenance::kSeamReach; dy <= Provenance::kSeamReach; ++dy)
+        for (int dx = -Provenance::kSeamReach; dx <= Provenance::kSeamReach; ++dx) {
+            const std::int32_t there = patch.at((u + dx + w) % w, (v + dy + h) % h);
+            if (there == here || dx * dx + dy * dy >= nearest) continue;
+            nearest = dx * dx + dy * dy;
+            other = there;
+        }
+    if (other == here) return std::nullopt;
+    return std::minmax({here, other});
+}
+
 }  // namespace
 
 std::optional<float> Provenance::share_after(Vec2 p) const {
@@ -61,6 +79,7 @@ Provenance::Answer Provenance::at(Vec2 p) const {
             if (which < plane->ids.size()) out.sample_id = plane->ids[which];
         }
         if (!plane->patch.empty()) out.patch = plane->patch.at(u, v);
+        if (out.seam && out.patch) out.seam_between = nearest_neighbours(plane->patch, u, v);
     }
     if (shading && !shading->value.empty()) {
         const int x =

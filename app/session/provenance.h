@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/geometry.h"
@@ -67,8 +68,12 @@ struct Provenance {
         std::vector<Share> histories;
         float made_anew = 0;
         std::optional<int> seam;     ///< Its cost there; empty: no seam.
+        /// The patches that the seam joins, the lower number first: its name. Empty where there is
+        /// no seam, or the other patch is not within kSeamReach texels.
+        std::optional<std::pair<int, int>> seam_between;
         std::optional<float> light;  ///< Gain.
     };
+    static constexpr int kSeamReach = 3;
     [[nodiscard]] Answer at(Vec2 plate_pixel) const;
     /// Place of the texture plane that the pixel shows.
     [[nodiscard]] Vec2 texel_at(Vec2 plate_pixel) const;

@@ -183,8 +183,14 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     robot->frames(2);
     EXPECT_THAT(viewer.provenance,
                 ElementsAre("brick.png", "Texture 0123456789ab", "Patch 2, sample at 106, 43",
-                            "Inside a piece", "From 46, 35 on frame 1001",
+                            "Inside a patch", "From 46, 35 on frame 1001",
                             "History of frame 1001, weight 1.00"));
+    // A seam has the numbers of the patches that it joins.
+    plane->energy.at(4, 3) = 60;
+    robot->move(map.to_screen({44.5f, 35.5f}));
+    robot->frames(2);
+    ASSERT_THAT(viewer.provenance, SizeIs(6));
+    EXPECT_EQ(viewer.provenance[3], "Seam 1|2, difference 12");
     // Beside the surface there is nothing to say.
     robot->move({canvas->min.x + 2, canvas->min.y + 2});
     robot->frames(2);
