@@ -108,7 +108,7 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
     const auto same = [&](const Wish& w) { return w.path == path && w.longest_px == longest_px; };
     if (const auto at = std::find_if(wishes_.begin(), wishes_.end(), same); at != wishes_.end())
         wishes_.erase(at);
-    wishes_.push_back({path, longest_px});
+    wishes_.push_back({path, longest_px, std::chrono::steady_clock::now()});
     constexpr std::size_t kMostWaiting = 200;
     if (wishes_.size() > kMostWaiting) wishes_.pop_front();
     wake_.notify_all();
@@ -173,6 +173,18 @@ void TextureShelf::publish() {
     ++arrivals_;
 }
 
+// What is on the screen now, from the first to the last: everything seen is asked for in each
+// frame.
+TextureShelf::Wish TextureShelf::next_wish() {
+    constexpr std::chrono::milliseconds kOneFrame(50);
+    const auto seen = wishes_.back().asked - kOneFrame;
+    const auto at = std::find_if(wishes_.begin(), wishes_.end(),
+                                 [&](const Wish& wish) { return wish.asked >= seen; });
+    Wish wish = std::move(*at);
+    wishes_.erase(at);
+    return wish;
+}
+
 void TextureShelf::make_thumbnail(const Wish& wish) {
     PicturePtr picture;
     constexpr int kSample = 96;
@@ -185,7 +197,8 @@ void TextureShelf::make_thumbnail(const Wish& wish) {
         if (library) {
             const std::string id = wish.path.substr(3);
             auto pixels = library->thumbnail(id);
-            if (pixels && wish.longest_px > 2 * kSample) {
+            // Not for a card on a dense screen: the original of a drawn texture is drawn again.
+            if (pixels && wish.longest_px > 4 * kSample) {
                 if (auto larger = library->original(id)) pixels = std::move(larger);
             }
             if (pixels) picture = make_picture(shrink(pixels->view(), wish.longest_px));
@@ -329,8 +342,7 @@ void TextureShelf::work() {
             look_up(path);
             lock.lock();
         } else if (!wishes_.empty()) {
-            const Wish wish = wishes_.back();
-            wishes_.pop_back();
+            const Wish wish = next_wish();
             lock.unlock();
             make_thumbnail(wish);
             lock.lock();

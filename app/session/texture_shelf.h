@@ -3,6 +3,7 @@
 // the visible ones first.
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -139,6 +140,7 @@ class TextureShelf {
     struct Wish {
         std::string path;
         int longest_px = 0;
+        std::chrono::steady_clock::time_point asked;
     };
     struct Together {
         std::string key;
@@ -160,6 +162,7 @@ class TextureShelf {
     void recommend(const std::string& key, const ImageU8x3& plate, const SurfaceToSuit& surface);
     void publish();
     void scan(const std::vector<std::string>& folders);
+    Wish next_wish();
     void make_thumbnail(const Wish& wish);
     [[nodiscard]] std::vector<PicturePtr> trim();
     void rank(const std::string& key, const SurfaceToSuit& surface);
@@ -171,6 +174,8 @@ class TextureShelf {
     std::shared_ptr<const std::vector<TextureCard>> cards_;
     std::vector<std::string> folders_, to_scan_;
     bool scan_due_ = false, stop_ = false;
+    /// In the order in which they were asked for last: those of a frame of the window stand
+    /// together.
     std::deque<Wish> wishes_;
     struct Kept {
         PicturePtr picture;  ///< Null: it cannot be read.
