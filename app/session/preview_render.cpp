@@ -182,8 +182,8 @@ bool Preview::Impl::step() {
         set_state(PreviewView::State::kAnalysing);
     else if (step_frame(now))
         return true;
-    // A frame is compared while its plate is still at hand.
-    return step_flicker(now) || step_fill(now, pixels) || step_card(now);
+    // Pictures come first, then what is to be said of them.
+    return step_fill(now, pixels) || step_card(now) || step_flicker(now);
 }
 
 // The frame that is looked at: small at once, at full size when nothing else is wanted.
