@@ -108,6 +108,9 @@ void add_file_commands(std::vector<Command>& out) {
         "file.save_as", "File", "Save as…", icons::kSave, "Ctrl+Shift+S",
         [](Ctx& c) { browse(c, BrowserState::Purpose::kSaveProject); }, open));
     out.push_back(command(
+        "file.textures", "File", "Add textures…", icons::kTexture, "",
+        [](Ctx& c) { browse(c, BrowserState::Purpose::kTextureFolder); }, open));
+    out.push_back(command(
         "file.close", "File", "Close the project", icons::kClose, "Ctrl+W",
         [](Ctx& c) { leave_for(c, "close"); }, open));
     out.push_back(

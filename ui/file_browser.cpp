@@ -117,9 +117,9 @@ void accept(Ctx& c, const std::string& path) {
             break;
         }
         case Purpose::kTextureFolder:
-            if (std::find(c.settings.texture_folders.begin(), c.settings.texture_folders.end(),
-                          path) == c.settings.texture_folders.end())
-                c.settings.texture_folders.push_back(path);
+            c.state.adding.folder = path;
+            c.state.adding.open = true;
+            c.state.adding.asked = false;
             break;
         case Purpose::kNone:
             break;

@@ -44,6 +44,8 @@ void notices(Ctx& c);
 void command_palette(Ctx& c);
 void shortcut_sheet(Ctx& c);
 void settings_window(Ctx& c);
+/// How a folder of textures is added: into the library, or only shown.
+void adding_window(Ctx& c);
 void shot_window(Ctx& c);
 void history_window(Ctx& c);
 void about_window(Ctx& c);

@@ -79,6 +79,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     ui::tour(c);
     ui::history_window(c);
     ui::settings_window(c);
+    ui::adding_window(c);
     ui::shot_window(c);
     ui::shortcut_sheet(c);
     ui::about_window(c);

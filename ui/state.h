@@ -104,6 +104,15 @@ struct DrawerState {
     bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
 };
 
+/// A folder of the artist's own textures that is to be added.
+struct AddingState {
+    bool open = false;
+    std::string folder, author, licence;
+    int how = 0;  ///< 0: into the library; 1: the folder is only shown.
+    bool keep_originals = false;
+    bool asked = false;  ///< The import was begun here.
+};
+
 struct BrowserState {
     enum class Purpose : std::uint8_t {
         kNone,
@@ -145,6 +154,7 @@ struct UiState {
     BrushState brush;
     DrawerState drawer;
     BrowserState browser;
+    AddingState adding;
     ExportState output;
     float inspector_w = 320, timeline_h = 112, drawer_h = 320, review_h = 240;  ///< Unscaled.
     float strip_h = 176;

@@ -173,7 +173,11 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         c.state.browser.purpose = BrowserState::Purpose::kSimilar;
         c.state.browser.just_opened = true;
     }
-    if (button(c, "Add a folder…", {.icon = icons::kPlus, .look = Look::kQuiet, .width = -1})) {
+    if (button(c, "Add a folder…",
+               {.icon = icons::kPlus,
+                .look = Look::kQuiet,
+                .tip = "Textures of your own: into the library, or only shown",
+                .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kTextureFolder;
         c.state.browser.just_opened = true;
     }

@@ -50,8 +50,8 @@ void menu(Ctx& c, const char* name, std::initializer_list<const char*> ids) {
 
 void menus(Ctx& c) {
     menu(c, "File",
-         {"file.new", "file.open", "file.demo", "-", "file.save", "file.save_as", "file.close", "-",
-          "file.quit"});
+         {"file.new", "file.open", "file.demo", "-", "file.save", "file.save_as", "-",
+          "file.textures", "-", "file.close", "file.quit"});
     menu(c, "Edit",
          {"edit.undo", "edit.redo", "edit.history", "-", "edit.palette", "edit.shot",
           "edit.settings"});

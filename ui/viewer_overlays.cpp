@@ -264,10 +264,10 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
     else
         lines.push_back("Texel " + pair(static_cast<double>(found.texel.x),
                                         static_cast<double>(found.texel.y)));
-    const std::string seam =
-        found.seam_between ? "Seam " + std::to_string(found.seam_between->first) + "|" +
-                                 std::to_string(found.seam_between->second)
-                           : std::string("On a seam");
+    const std::string seam = found.seam_between
+                                 ? "Seam " + std::to_string(found.seam_between->first) + "|" +
+                                       std::to_string(found.seam_between->second)
+                                 : std::string("On a seam");
     lines.push_back(found.seam ? seam + ", difference " + std::to_string(*found.seam)
                                : "Inside a patch");
     if (const auto& marked = over->marked; !marked.empty() && marked.at(at.x, at.y) != 0)

@@ -80,6 +80,7 @@ TextureShelf::~TextureShelf() {
     wake_.notify_all();
     for (std::thread& thread : threads_)
         thread.join();
+    if (importer_.joinable()) importer_.join();
 }
 
 void TextureShelf::look_in(std::vector<std::string> folders) {

@@ -88,6 +88,20 @@ struct SurfaceToSuit {
     std::string excluded_licences;
 };
 
+/// An artist's own pictures on their way into the library.
+struct TextureImport {
+    std::string folder, author;
+    std::string licence;          ///< Empty: not known.
+    bool keep_originals = false;  ///< As ImportOptions has it.
+};
+
+/// How the last one goes, or went.
+struct TextureImportState {
+    bool running = false, failed = false;
+    int done = 0, total = 0;  ///< Pictures.
+    std::string outcome;      ///< "Brought in 40 samples of 3 pictures.", or what went wrong.
+};
+
 /// Thread-safe; nothing blocks.
 class TextureShelf {
   public:
@@ -99,6 +113,10 @@ class TextureShelf {
     /// Opens a texture library in the background, too, and fills an empty one with the starter
     /// textures. Its textures are named "db:ID". Once.
     void open_library(const std::string& path);
+    /// Cuts samples out of a folder's pictures and adds them to the library, in the background; one
+    /// import after the other. Interrupted by the end of the program, it goes on when asked again.
+    void bring_in(const TextureImport& import);
+    [[nodiscard]] TextureImportState importing() const;
     /// What is being done to the library ("Making the starter textures, 300 of 1700"), or nothing.
     [[nodiscard]] std::string activity() const;
     /// Everything known about a card; author, licence and tags of a library's texture come later.
@@ -154,6 +172,7 @@ class TextureShelf {
     };
     void work();
     void fill_library(const std::string& path);
+    void serve_imports(TextureLibrary& library);
     void take_library();
     void look_up(const std::string& path);
     void search_library(const TextureQuestion& question);
@@ -192,6 +211,8 @@ class TextureShelf {
     std::map<std::string, Look> looks_;  // of the working thread alone
     std::shared_ptr<TextureLibrary> library_;
     std::string activity_;
+    std::deque<TextureImport> imports_due_;
+    TextureImportState importing_;
     bool library_due_ = false;
     std::optional<TextureQuestion> search_due_, searched_;
     std::shared_ptr<const TextureAnswer> search_result_, everything_;
@@ -209,6 +230,7 @@ class TextureShelf {
     std::vector<TextureCard> folder_cards_, library_cards_;  // of the working thread alone
     CancelToken cancel_;
     std::vector<std::thread> threads_;
+    std::thread importer_;  // begun by the first import
 };
 
 }  // namespace weft

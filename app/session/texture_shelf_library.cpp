@@ -4,6 +4,7 @@
 #include "app/session/background.h"
 #include "app/session/larger_original.h"
 #include "app/session/texture_shelf.h"
+#include "texture_db/import.h"
 #include "texture_db/library.h"
 
 namespace weft {
@@ -13,6 +14,28 @@ std::vector<TextureCount> counts_of(const std::vector<FacetCount>& facets) {
     std::vector<TextureCount> out;
     for (const FacetCount& facet : facets)
         out.push_back({facet.value, facet.count});
+    return out;
+}
+
+}  // namespace
+
+namespace {
+
+std::string counted(int n, const char* one, const char* more) {
+    return std::to_string(n) + " " + (n == 1 ? one : more);
+}
+
+std::string outcome_of(const ImportReport& report) {
+    std::string out = "Brought in " + counted(report.samples, "sample", "samples") + " of " +
+                      counted(report.pictures, "picture", "pictures") + ".";
+    if (report.skipped > 0)
+        out += " " + counted(report.skipped, "picture was", "pictures were") +
+               " in already, or are no colour maps.";
+    if (!report.refused.empty())
+        out += " " +
+               counted(static_cast<int>(report.refused.size()), "picture was", "pictures were") +
+               " left out; the first: " + report.refused.front().first + " (" +
+               report.refused.front().second + ").";
     return out;
 }
 
@@ -55,9 +78,64 @@ void TextureShelf::fill_library(const std::string& path) {
     };
     const Status filled = add_starter_textures(**opened, cancel_, progress);
     say(filled || cancel_.cancelled() ? std::string() : filled.error().text());
-    const std::lock_guard lock(mutex_);
-    library_due_ = true;
+    {
+        const std::lock_guard lock(mutex_);
+        library_due_ = true;
+    }
     wake_.notify_all();
+}
+
+void TextureShelf::bring_in(const TextureImport& import) {
+    {
+        const std::lock_guard lock(mutex_);
+        importing_ = {};
+        importing_.running = library_ != nullptr;
+        importing_.failed = !library_;
+        if (library_) {
+            imports_due_.push_back(import);
+            if (!importer_.joinable())
+                importer_ = std::thread([this, library = library_] { serve_imports(*library); });
+        } else {
+            importing_.outcome = "There is no texture library to bring them into.";
+        }
+        ++arrivals_;
+    }
+    wake_.notify_all();
+}
+
+TextureImportState TextureShelf::importing() const {
+    const std::lock_guard lock(mutex_);
+    return importing_;
+}
+
+void TextureShelf::serve_imports(TextureLibrary& library) {
+    lower_thread_priority();
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        wake_.wait(lock, [&] { return stop_ || !imports_due_.empty(); });
+        if (stop_) return;
+        const TextureImport asked = std::move(imports_due_.front());
+        imports_due_.pop_front();
+        lock.unlock();
+        ImportOptions options;
+        options.author = asked.author;
+        if (!asked.licence.empty()) options.licence = asked.licence;
+        options.keep_originals = asked.keep_originals;
+        const auto report = import_pictures(library, {asked.folder}, options, cancel_,
+                                            [&](const ProgressEvent& event) {
+                                                const std::lock_guard busy(mutex_);
+                                                importing_.done = event.done;
+                                                importing_.total = event.total;
+                                                ++arrivals_;
+                                            });
+        lock.lock();
+        importing_.running = !imports_due_.empty();
+        importing_.failed = !report;
+        importing_.outcome = report ? outcome_of(*report) : report.error().text();
+        library_due_ = true;
+        ++arrivals_;
+        wake_.notify_all();
+    }
 }
 
 void TextureShelf::take_library() {
