@@ -17,9 +17,10 @@ namespace {
 bool speaks_openjd = false;
 
 // Signal handlers may touch nothing but this flag and this pipe.
+// Never destroyed: a signal, and end_in_time(), may come while the process ends.
 const CancelToken& signal_token() {
-    static const CancelToken token;
-    return token;
+    static const auto* const token = new CancelToken;
+    return *token;
 }
 int signal_pipe[2] = {-1, -1};
 

@@ -92,10 +92,17 @@ Steadiness measure_steadiness(const FramePair& pair) {
             carried_tde(luma_8bit(pair.before.result), pair.before_from_now, motion, visible);
         if (carried.pixels > 0) out.flicker_carried = static_cast<float>(carried.tde);
     }
-    if (pair.before.seams && pair.now.seams)
-        out.seam_motion =
-            seam_motion_px(*pair.before.seams, *pair.now.seams, motion, pair.seam_scale) *
-            pair.plate_scale / static_cast<float>(pair.seam_scale);
+    if (pair.before.seams && pair.now.seams) {
+        // Whether seams stay on the texture; whether that stays on the surface is drift.
+        FlowField inside = pair.before_from_now;
+        if (!inside.empty()) inside.valid = eroded_inside(pair.now.matte, options.erode_px);
+        const float moved =
+            inside.empty()
+                ? seam_motion_px(*pair.before.seams, *pair.now.seams, motion, pair.seam_scale)
+                : seam_motion_px(*pair.now.seams, *pair.before.seams, inside, pair.seam_scale);
+        if (moved >= 0)
+            out.seam_motion = moved * pair.plate_scale / static_cast<float>(pair.seam_scale);
+    }
     return out;
 }
 

@@ -50,7 +50,7 @@ struct FrameMarks {
     float drift = -1;    ///< How far the surface looks different from the reference, 0–1.
     float stretch = -1;  ///< How far the texture is drawn out or squeezed: 1 not at all.
     float seam = -1;     ///< How much the seams stand out, 0–1.
-    /// How far seams moved since the frame before otherwise than the picture, in plate pixels.
+    /// How far seams moved on the texture since the frame before, in plate pixels.
     float seam_motion = -1;
     /// Mean change of a surface point since the frame before, in 8-bit steps, and the plate's own:
     /// of the measured render, else of the preview.

@@ -60,7 +60,8 @@ TEST_F(Tools, SynthJsonHasEveryKeyOfTheContract) {
     double parts = 0;
     for (const char* key : {"search", "seam", "other"})
         parts += json["seconds"][key].get<double>();
-    EXPECT_NEAR(json["seconds"]["total"].get<double>(), parts, 0.02);
+    EXPECT_GT(parts, 0);
+    EXPECT_LE(parts, json["seconds"]["total"].get<double>() + 1e-3);
 
     // Each texel is the sample's pixel that the source map names.
     const ImageF3 sample = picture("sample.png").rgb, plane = picture("plane.png").rgb,

@@ -91,6 +91,15 @@ TEST(PreviewFlicker, AMatteLeftBehindAndSeamsThatCrawlAreToldInPlatePixels) {
     // Four pixels on two sides of a box of 80 × 60, four plate pixels each.
     EXPECT_NEAR(found.chatter, 4.0f * 4 * 60 / 140, 1.2f);
     EXPECT_NEAR(found.seam_motion, 6 * 4 / 2, 0.5f);
+    // Carried along with them, they stay on the texture.
+    pair.now.matte = pair.before.matte = Matte(kSize, 255);
+    pair.before_from_now = FlowField(kSize);
+    for (int y = 0; y < kSize.height; ++y)
+        for (int x = 0; x < kSize.width; ++x) {
+            pair.before_from_now.d.at(x, y, 0) = -2;
+            pair.before_from_now.d.at(x, y, 1) = -3;
+        }
+    EXPECT_EQ(measure_steadiness(pair).seam_motion, 0);
 }
 
 TEST(PreviewFlicker, SeamsThatStickHaveNoMotionOfTheirOwn) {
