@@ -78,11 +78,13 @@ class SessionTest : public ::testing::Test {
     [[nodiscard]] bool wait(Done&& done) {
         // Workers give way to everything else on the machine, so this may take long on a busy one.
         const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(3);
-        while (!done() && std::chrono::steady_clock::now() < end) {
+        // Not asked again once it was so: it may have passed.
+        while (!done()) {
+            if (std::chrono::steady_clock::now() > end) return false;
             frame();
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
-        return done();
+        return true;
     }
     void restart_session(const std::string& texture_library = {});
     /// Middle of a plate pixel on the screen.
