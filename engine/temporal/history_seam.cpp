@@ -91,7 +91,7 @@ class HistoryGraph {
 
     // Kwatra et al. 2003, eq. 1, times the length of the cells' common side on the frame.
     void add_seams(std::size_t t) {
-        const auto& [mismatch, pixels] = frames_[t];
+        const ImageF1 &mismatch = frames_[t].mismatch, &pixels = frames_[t].pixels;
         const auto seam = [&](int x0, int y0, int x1, int y1) {
             const float side = 0.5f * (std::sqrt(pixels.at(x0, y0)) + std::sqrt(pixels.at(x1, y1)));
             const Weight w = units((mismatch.at(x0, y0) + mismatch.at(x1, y1)) * side);
