@@ -83,11 +83,10 @@ RenderOutlook outlook(const Ctx& c, const std::vector<int>& frames, Quality qual
     in.threads = static_cast<unsigned>(thread_count());
     in.speed = c.settings.render_speed;
     count_regions(v.project, in);
-    // The analysis goes through all frames between the first and the last; the preview's serves a
-    // render of its quality.
+    // The preview's analysis serves a render of its quality.
     const bool there = v.preview_quality == quality && v.result_current && !v.preview.analysing;
     in.analysed =
-        there || frames.empty() ? 0 : static_cast<std::size_t>(frames.back() - frames.front() + 1);
+        there || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
     return render_outlook(in);
 }
 

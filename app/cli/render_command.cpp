@@ -55,7 +55,7 @@ int dry_run(const Project& project, const RunOptions& run) {
     OutlookInputs in;
     in.size = (*shot)->plate->size();
     in.frames = plan.frames.size();
-    in.analysed = static_cast<std::size_t>(plan.frames.back() - plan.frames.front() + 1);
+    in.analysed = analysed_frames(project, plan.frames.front(), plan.frames.back());
     count_regions(project, in);
     in.quality = project.settings.quality;
     const std::string extension = std::filesystem::path(project.output.path).extension().string();

@@ -30,6 +30,23 @@ double bytes_per_pixel(std::string_view extension) {
 
 }  // namespace
 
+std::size_t analysed_frames(const Project& project, int first, int last) {
+    const auto reach = [&](int frame) {
+        first = std::min(first, frame);
+        last = std::max(last, frame);
+    };
+    for (const Leaf<Region>& region : project.regions) {
+        if (!region->enabled) continue;
+        for (const int frame : region->reference_frames)
+            reach(frame);
+        for (const auto& [frame, pins] : region->corrections)
+            reach(frame);
+        for (const auto& [frame, painted] : region->matte->keyframes)
+            reach(frame);
+    }
+    return static_cast<std::size_t>(last - first + 1);
+}
+
 void count_regions(const Project& project, OutlookInputs& in) {
     in.regions = 0;
     in.motion_given = true;

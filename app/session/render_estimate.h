@@ -28,6 +28,9 @@ struct OutlookInputs {
     double speed = 1;  ///< Of this machine against the one that was measured, as learnt_speed().
 };
 
+/// How many frames the analysis for frames `first` to `last` goes through: on to the references,
+/// corrections and painted mattes of the regions that are enabled.
+[[nodiscard]] std::size_t analysed_frames(const Project& project, int first, int last);
 /// Fills in what the regions that are enabled have.
 void count_regions(const Project& project, OutlookInputs& in);
 

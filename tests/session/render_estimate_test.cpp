@@ -44,6 +44,19 @@ TEST(RenderEstimate, MemoryDoesNotGrowWithTheShotAndDiskDoes) {
     EXPECT_GT(render_outlook(in).disk_bytes, long_one.disk_bytes);
 }
 
+TEST(RenderEstimate, TheAnalysisReachesToReferencesAndPaintedMattes) {
+    Project project;
+    EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
+    Region region;
+    region.reference_frames = {40};
+    region.corrections[8] = {};
+    project.regions.emplace_back(region);
+    EXPECT_EQ(analysed_frames(project, 10, 12), 33u);
+    region.enabled = false;
+    project.regions[0] = Leaf<Region>(region);
+    EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
+}
+
 TEST(RenderEstimate, LearnsFromWhatARenderTook) {
     // Foreseen 100 s, took 25: four times as fast; half of that in one step.
     const double once = learnt_speed(1, 100, 25);
