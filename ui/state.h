@@ -193,10 +193,7 @@ struct UiState {
     std::set<int> learnt_jobs;     ///< Whose time was taken into the settings.
     bool strip_over_time = false;  ///< Each setting on several frames.
     /// The strip is a contact sheet now.
-    [[nodiscard]] bool sheet() const {
-        return strip_over_time && (strip == StripKind::kScale || strip == StripKind::kLight ||
-                                   strip == StripKind::kSeams);
-    }
+    [[nodiscard]] bool sheet() const { return strip_over_time && compares_settings(strip); }
     RegionId renaming = 0;
     std::string rename_text;
     std::string typing;  ///< Name of the value that is being typed.

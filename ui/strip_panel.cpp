@@ -152,8 +152,7 @@ void strip_panel(Ctx& c, ImVec2 size) {
     if (segments(c, "Compare", {"Keyframes", "Textures", "Scale", "Light", "Seams"}, kind,
                  t.px(420)))
         c.state.strip = static_cast<StripKind>(kind + 1);
-    if (c.state.strip == StripKind::kScale || c.state.strip == StripKind::kLight ||
-        c.state.strip == StripKind::kSeams) {
+    if (compares_settings(c.state.strip)) {
         ImGui::SameLine(0, t.px(16));
         checkbox(c, "Over time", c.state.strip_over_time,
                  "Each setting on the same frames of the marked range, or of the shot");

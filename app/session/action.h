@@ -234,10 +234,14 @@ enum class StripKind : std::uint8_t {
     kSeams,
     kSuggested
 };
+/// Compares settings of the region, which can also be seen over time.
+[[nodiscard]] constexpr bool compares_settings(StripKind kind) {
+    return kind == StripKind::kScale || kind == StripKind::kLight || kind == StripKind::kSeams;
+}
 struct ShowStrip {
     StripKind kind = StripKind::kNone;
     std::vector<std::string> textures;  ///< Files or "db:ID", for kTextures and kSuggested.
-    /// Each setting on several frames: a contact sheet. For kScale, kLight and kSeams.
+    /// Each setting on several frames: a contact sheet. Where compares_settings().
     bool over_time = false;
     bool operator==(const ShowStrip&) const = default;
 };

@@ -126,6 +126,7 @@ void Session::act(const Action& action) {
             [&](const MarkRange& a) {
                 mark_in_ = a.in;
                 mark_out_ = a.out;
+                strip_version_ = 0;  // its frames lie in the range
                 if (mark_in_ && mark_out_ && *mark_in_ > *mark_out_) std::swap(mark_in_, mark_out_);
                 request_due_ = true;
             },

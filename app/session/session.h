@@ -130,7 +130,9 @@ class Session {
     void show_strip();
     [[nodiscard]] std::vector<int> strip_frames() const;
     [[nodiscard]] std::vector<int> sheet_frames() const;
-    [[nodiscard]] bool strip_is_sheet() const;
+    [[nodiscard]] bool strip_is_sheet() const {
+        return strip_over_time_ && compares_settings(strip_kind_);
+    }
     [[nodiscard]] std::vector<StripWish> strip_wishes(const Region* region);
     void choose_from_strip(int card);
     void copy_keyframe(int from, int to);
@@ -238,6 +240,7 @@ class Session {
     int read_frame_ = 0;
     StripKind strip_kind_ = StripKind::kNone;
     bool strip_over_time_ = false;
+    int strip_columns_ = 0;  // as StripView::columns
     std::vector<std::string> strip_textures_;
     std::vector<StripWish> strip_wishes_;
     std::uint64_t strip_version_ = 0;  // of the document that its cards were asked for

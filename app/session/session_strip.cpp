@@ -81,12 +81,6 @@ std::vector<int> Session::sheet_frames() const {
     return out;
 }
 
-bool Session::strip_is_sheet() const {
-    return strip_over_time_ &&
-           (strip_kind_ == StripKind::kScale || strip_kind_ == StripKind::kLight ||
-            strip_kind_ == StripKind::kSeams);
-}
-
 // The cards are asked for together with the picture; here what has come is put in their order.
 void Session::show_strip() {
     StripView& shown = view_.strip;
@@ -113,7 +107,7 @@ void Session::show_strip() {
             wish.key = strip_key(wish);
         request_due_ = true;
     }
-    shown.columns = strip_is_sheet() ? static_cast<int>(sheet_frames().size()) : 0;
+    shown.columns = strip_columns_;
     shown.cards.clear();
     for (const StripWish& wish : strip_wishes_) {
         StripCard card{wish.label, wish.note, wish.frame, nullptr, {}, wish.current};
@@ -131,6 +125,7 @@ void Session::show_strip() {
 std::vector<StripWish> Session::strip_wishes(const Region* region) {
     std::vector<StripWish> wishes;
     strip_choices_.clear();
+    strip_columns_ = 0;
     bool any = false;
     const Project base = project_to_preview(any);
     if (strip_kind_ == StripKind::kKeyframes) {
@@ -175,17 +170,22 @@ std::vector<StripWish> Session::strip_wishes(const Region* region) {
     }
     const std::string shown_now = pixel_key(base);
     const std::vector<int> on = strip_is_sheet() ? sheet_frames() : std::vector<int>{frame_};
-    for (const Variant& variant : variants_of(strip_kind_, *region))
-        for (const int frame : on) {
-            const std::size_t before = wishes.size();
-            with(base, SetRegionParameter{ref, variant.key, variant.value}, variant.label,
-                 [this, id = region->id, variant] {
-                     edit(SetRegionParameter{{id, {}}, variant.key, variant.value}, true);
-                 });
-            if (wishes.size() == before) continue;
-            wishes.back().frame = frame;
-            wishes.back().current = pixel_key(wishes.back().project) == shown_now;
+    strip_columns_ = strip_is_sheet() ? static_cast<int>(on.size()) : 0;
+    for (const Variant& variant : variants_of(strip_kind_, *region)) {
+        const std::size_t before = wishes.size();
+        with(base, SetRegionParameter{ref, variant.key, variant.value}, variant.label,
+             [this, id = region->id, variant] {
+                 edit(SetRegionParameter{{id, {}}, variant.key, variant.value}, true);
+             });
+        if (wishes.size() == before) continue;
+        wishes.back().current = pixel_key(wishes.back().project) == shown_now;
+        wishes.back().frame = on.front();
+        for (std::size_t k = 1; k < on.size(); ++k) {
+            wishes.push_back(wishes.back());
+            wishes.back().frame = on[k];
+            strip_choices_.push_back(strip_choices_.back());
         }
+    }
     return wishes;
 }
 

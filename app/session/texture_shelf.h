@@ -135,8 +135,8 @@ class TextureShelf {
     [[nodiscard]] std::shared_ptr<const std::vector<std::string>> similar(
         const std::string& key) const;
     [[nodiscard]] std::shared_ptr<const std::vector<TextureCard>> cards() const;
-    /// Null while it is being made: asked for again every frame by what is visible. The newest wish
-    /// comes first.
+    /// Null while it is being made: asked for again every frame by what is visible. What is seen
+    /// now comes first, in the order of the questions.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
     /// Ranks the cards for a surface; `key` stands for all that it depends on.
     void suggest_for(const std::string& key, SurfaceToSuit surface);

@@ -96,7 +96,9 @@ void TextureShelf::bring_in(const TextureImport& import) {
             if (!importer_.joinable())
                 importer_ = std::thread([this, library = library_] { serve_imports(*library); });
         } else {
-            importing_.outcome = "There is no texture library to bring them into.";
+            importing_.outcome =
+                "The texture library is not open yet, or cannot be: the drawer says why. Add the "
+                "folder again then.";
         }
         ++arrivals_;
     }

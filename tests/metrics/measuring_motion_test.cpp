@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 
 #include "engine/core/parallel.h"
 #include "engine/metrics/ideal.h"
@@ -20,7 +21,10 @@ ImageF1 texture_at(float dx, float dy) {
 
 class MeasuringMotion : public testing::TestWithParam<MeasuringEstimator> {
   protected:
-    void TearDown() override { set_thread_count(0); }
+    void TearDown() override {
+        set_thread_count(0);
+        cv::setNumThreads(-1);
+    }
 };
 
 TEST_P(MeasuringMotion, FindsAKnownMotionInsideTheMatte) {
@@ -45,9 +49,11 @@ TEST_P(MeasuringMotion, FindsAKnownMotionInsideTheMatte) {
 TEST_P(MeasuringMotion, IsTheSameForAnyNumberOfThreads) {
     const Matte matte(kSize, 255);
     set_thread_count(1);
+    cv::setNumThreads(1);
     const FlowField one =
         measuring_motion(texture_at(0, 0), texture_at(3, 1), matte, matte, GetParam());
     set_thread_count(4);
+    cv::setNumThreads(4);
     const FlowField four =
         measuring_motion(texture_at(0, 0), texture_at(3, 1), matte, matte, GetParam());
     EXPECT_EQ(one.d, four.d);

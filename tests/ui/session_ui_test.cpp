@@ -321,6 +321,13 @@ TEST_F(EditorSession, TheStripShowsVariantsAndOneIsChosen) {
     EXPECT_FALSE(sheet[4].current);
     EXPECT_EQ(sheet[4].label, "Quick cut");
     EXPECT_EQ(sheet[16].label, "Overlap 54 px");
+    // A marked range has frames of its own.
+    session->act(MarkRange{2, 3});
+    ASSERT_TRUE(wait([&] { return session->view().strip.columns == 2; }));
+    EXPECT_EQ(sheet[0].frame, 2);
+    EXPECT_EQ(sheet[1].frame, 3);
+    session->act(MarkRange{});
+    ASSERT_TRUE(wait([&] { return session->view().strip.columns == 4; }));
     session->act(ChooseFromStrip{16});
     robot->frames(2);
     EXPECT_EQ(project().regions.back()->synthesis.overlap_px, 54);
