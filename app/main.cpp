@@ -6,13 +6,12 @@
 #endif
 
 #include "app/cli/cli.h"
-#include "app/cli/console.h"
 #include "app/editor/editor.h"
 
 namespace weft {
 namespace {
 
-int edit(const EditArguments& given) {
+Expected<int> edit(const EditArguments& given) {
     EditorOptions options;
     options.project = given.project;
     options.demo = given.demo;
@@ -28,12 +27,11 @@ int edit(const EditArguments& given) {
     if (std::sscanf(given.size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
         options.width < kLeast || options.height < kLeast || options.width > kMost ||
         options.height > kMost) {
-        return report_error({ErrorCode::kUsage,
-                             "--size " + given.size + " is no size. Write it like 1600x900.",
-                             {}});
+        return fail(ErrorCode::kUsage,
+                    "--size must be a width and a height of 320 to 16384 px, not '" + given.size +
+                        "'. Write it like 1600x900.");
     }
-    const auto code = run_editor(options);
-    return code ? *code : report_error(code.error());
+    return run_editor(options);
 }
 
 }  // namespace

@@ -71,7 +71,15 @@ void search(benchmark::State& state, SearchMethod method, Isa isa) {
 BENCHMARK_CAPTURE(search, direct_avx512, SearchMethod::kDirect, Isa::kAvx512)->Arg(96)->Arg(200);
 BENCHMARK_CAPTURE(search, direct_avx2, SearchMethod::kDirect, Isa::kAvx2)->Arg(96)->Arg(200);
 BENCHMARK_CAPTURE(search, direct_scalar, SearchMethod::kDirect, Isa::kScalar)->Arg(96)->Arg(200);
-BENCHMARK_CAPTURE(search, fft, SearchMethod::kFft, Isa::kAvx2)->Arg(96)->Arg(200)->Arg(488);
+BENCHMARK_CAPTURE(search, fft_avx512, SearchMethod::kFft, Isa::kAvx512)
+    ->Arg(96)
+    ->Arg(200)
+    ->Arg(488);
+BENCHMARK_CAPTURE(search, fft_avx2, SearchMethod::kFft, Isa::kAvx2)->Arg(96)->Arg(200)->Arg(488);
+BENCHMARK_CAPTURE(search, fft_scalar, SearchMethod::kFft, Isa::kScalar)
+    ->Arg(96)
+    ->Arg(200)
+    ->Arg(488);
 
 // An interior patch whose whole border is old, with old seams' costs: what refinement cuts.
 SeamProblem interior_problem(int side) {

@@ -3,6 +3,8 @@ option(WEFT_WERROR "Treat warnings as errors (CI)" OFF)
 option(WEFT_TESTS "Build the tests" ON)
 option(WEFT_BENCH "Build the benchmarks in bench/" OFF)
 option(WEFT_FUZZ "Build the libFuzzer targets in fuzz/ (clang)" OFF)
+option(WEFT_MOVIES "Read and write movies, with FFmpeg (docs/LICENCES.md)" ON)
+set(WEFT_LICENCE "" CACHE STRING "The licence under which Weft itself is given, as an SPDX expression; empty: not chosen yet")
 set(WEFT_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address or thread")
 set(WEFT_CUDA AUTO CACHE STRING "CUDA backend: AUTO (when nvcc is found), ON or OFF")
 

@@ -11,7 +11,9 @@ install(FILES ${linux}/io.weft.Weft.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/ico
         COMPONENT program)
 install(FILES ${linux}/weft-mime.xml RENAME weft.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
         COMPONENT program)
-install(FILES ${linux}/io.weft.Weft.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/packaging/io.weft.Weft.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT program)
+# In Debian's place whatever the folder of the documents is called.
+install(FILES ${PROJECT_BINARY_DIR}/packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/weft COMPONENT program)
 install(FILES ${linux}/weft.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${linux}/weft.bash RENAME weft DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         COMPONENT program)
@@ -22,11 +24,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR
 
 # The libraries: everything below the command line. weft::weft stands for all of them.
 add_library(weft_api INTERFACE)
-target_link_libraries(weft_api INTERFACE weft::session)
+target_link_libraries(weft_api INTERFACE weft::exchange weft::measure)
 target_compile_features(weft_api INTERFACE cxx_std_20)
 set_target_properties(weft_api PROPERTIES EXPORT_NAME weft)
 get_property(libraries GLOBAL PROPERTY WEFT_LIBRARIES)
-list(REMOVE_ITEM libraries weft_interactive weft_ui weft_editor weft_cli)
+list(REMOVE_ITEM libraries weft_mattes weft_textures weft_preview weft_session weft_ui weft_editor weft_cli weft_study
+     weft_baselines weft_retrieval)
 install(TARGETS weft_api ${libraries} EXPORT weft-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/weft COMPONENT development)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/weft)

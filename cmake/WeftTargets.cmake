@@ -19,18 +19,20 @@ function(weft_library name)
     set_property(GLOBAL APPEND PROPERTY WEFT_LIBRARIES ${target})
 endfunction()
 
-# weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full])
+# weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full] [OPTIMISED])
 #   One GoogleTest program per folder, each of its tests one for ctest. With the label "full" the whole program is one
 #   test instead: listing a program's tests means starting it, and a plain ./test need not start what it will not run.
+#   OPTIMISED: the tests' own code works for long, such as a search by brute force.
 function(weft_test name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "OPTIMISED" "" "SOURCES;LIBS;LABELS" ${ARGN})
     set(target test_${name})
     add_executable(${target} ${ARG_SOURCES})
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
-    target_link_libraries(${target} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest_main)
-    target_compile_definitions(${target} PRIVATE
-        WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-        WEFT_SHARED_DATA_DIR="${WEFT_SHARED_DATA_DIR}")
+    target_link_libraries(${target} PRIVATE ${ARG_LIBS} weft_test_places GTest::gmock GTest::gtest_main)
+    # A test's own code runs for moments, and is compiled in half the time without optimisation.
+    if(NOT ARG_OPTIMISED)
+        target_compile_options(${target} PRIVATE -O0)
+    endif()
     if("full" IN_LIST ARG_LABELS)
         add_test(NAME ${name} COMMAND ${target})
         set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS "${ARG_LABELS}")

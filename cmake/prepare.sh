@@ -56,9 +56,13 @@ build_jobs() {
     echo $((jobs > 0 ? jobs : 1))
 }
 
+# One compiler cache for every clone: objects are found by what they are made of, not by where they lie.
+use_compiler_cache() { export CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1; }
+
 # build ROOT PRESET TARGET: configures where needed and builds; says nothing when all is up to date.
 build() {
     local root=$1 preset=$2 target=$3 tree=$1/build/$2
+    use_compiler_cache "$root"
     if [[ ! -f $tree/build.ninja || $root/CMakePresets.json -nt $tree/build.ninja ]]; then
         say "Configuring $tree"
         # A preset is found from the current folder.

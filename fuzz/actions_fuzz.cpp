@@ -1,5 +1,5 @@
 // Action files, applied to a small project.
-#include "app/project/edit.h"
+#include "app/project/codec/edit_json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long size) {
     const auto edits = weft::edits_from_json(

@@ -2,12 +2,12 @@
 #include <cstdlib>
 #include <string>
 
+#include "app/base/path_map.h"
 #include "app/project/parameters.h"
-#include "app/session/memory_plan.h"
-#include "app/session/path_map.h"
-#include "app/session/version_up.h"
+#include "app/render/memory_plan.h"
+#include "app/render/version_up.h"
 #include "engine/core/frame_range.h"
-#include "engine/lighting/painted_light.h"
+#include "engine/lighting/lamp.h"
 #include "engine/media/sequence_pattern.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long size) {
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long s
         }
         case 5:
             static_cast<void>(weft::parse_lamps(text));
-            static_cast<void>(weft::parse_keyed_number(text, 2));
+            static_cast<void>(weft::parse_keyed_numbers(text, 2));
             break;
         case 6: {
             const auto table = weft::region_parameters();

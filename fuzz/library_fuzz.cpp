@@ -1,6 +1,6 @@
 // The texture database: a file that may be no database, or a damaged one.
 #include "fuzz/fuzz_file.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long size) {
     const std::string path = weft::fuzz::put_file(data, size, ".weftdb");

@@ -1,7 +1,7 @@
 // Project files: what is read must be written and read again as the same.
 #include <cstdlib>
 
-#include "app/project/project_json.h"
+#include "app/project/codec/project_json.h"
 #include "app/project/validate.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long size) {

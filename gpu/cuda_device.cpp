@@ -2,6 +2,7 @@
 
 #include <cuda_runtime_api.h>
 
+#include "engine/core/setting.h"
 #include "gpu/cuda_kernels.h"
 
 namespace weft {
@@ -16,10 +17,11 @@ Error error_of(cudaError_t code, const std::string& doing) {
         (void)cudaGetLastError();  // This one is not the end of the device.
         return {ErrorCode::kNoSpace,
                 "The GPU has too little free memory: " + why +
-                    " Close other programs that use it, or use --backend cpu.",
+                    " Close other programs that use it, or use the CPU" +
+                    by({{setting::kBackend, "cpu"}}) + ".",
                 {}};
     }
-    return {ErrorCode::kNoBackend, "The GPU cannot be used any more: " + why, {}};
+    return {ErrorCode::kNoBackend, "The GPU is no longer available: " + why, {}};
 }
 
 Status status_of(cudaError_t code, const char* doing) {

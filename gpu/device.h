@@ -58,63 +58,79 @@ class Device {
     [[nodiscard]] virtual Expected<double> timed_ms(Queue queue) = 0;
 };
 
-/// Device memory that grows as it is asked to. Growing forgets what was in it and must not happen
-/// while work with it is queued.
-class DeviceBuffer {
+struct PlainDeviceMemory {
+    using Memory = void*;
+    static Expected<Memory> allocate(Device& device, std::size_t bytes) {
+        return device.allocate(bytes);
+    }
+    static void release(Device& device, Memory memory) noexcept { device.release(memory); }
+};
+struct PinnedHostMemory {
+    using Memory = PinnedMemory;
+    static Expected<Memory> allocate(Device& device, std::size_t bytes) {
+        return device.allocate_pinned(bytes);
+    }
+    static void release(Device& device, Memory memory) noexcept { device.release_pinned(memory); }
+};
+
+/// Memory of one kind that grows as it is asked to. Growing forgets what was in it and must not
+/// happen while work with it is queued.
+template <class Kind>
+class GrowingBuffer {
   public:
-    DeviceBuffer() = default;
-    ~DeviceBuffer() { reset(); }
-    DeviceBuffer(DeviceBuffer&& o) noexcept { *this = std::move(o); }
-    DeviceBuffer& operator=(DeviceBuffer&& o) noexcept {
+    GrowingBuffer() = default;
+    ~GrowingBuffer() { reset(); }
+    GrowingBuffer(GrowingBuffer&& o) noexcept { *this = std::move(o); }
+    GrowingBuffer& operator=(GrowingBuffer&& o) noexcept {
         std::swap(device_, o.device_);
         std::swap(memory_, o.memory_);
         std::swap(bytes_, o.bytes_);
         return *this;
     }
 
-    [[nodiscard]] Status reserve(const std::shared_ptr<Device>& device, std::size_t bytes);
-    void reset() noexcept;
-    [[nodiscard]] std::size_t bytes() const { return bytes_; }
-    template <class T>
-    [[nodiscard]] T* as() const {
-        return static_cast<T*>(memory_);
+    [[nodiscard]] Status reserve(const std::shared_ptr<Device>& device, std::size_t bytes) {
+        if (bytes <= bytes_) return {};
+        reset();
+        WEFT_TRY(memory, Kind::allocate(*device, bytes));
+        device_ = device;
+        memory_ = memory;
+        bytes_ = bytes;
+        return {};
     }
+    void reset() noexcept {
+        if (bytes_ > 0) Kind::release(*device_, memory_);
+        memory_ = {};
+        bytes_ = 0;
+    }
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  protected:
+    [[nodiscard]] typename Kind::Memory memory() const { return memory_; }
 
   private:
     std::shared_ptr<Device> device_;
-    void* memory_ = nullptr;
+    typename Kind::Memory memory_{};
     std::size_t bytes_ = 0;
 };
 
-/// The same for pinned host memory.
-class PinnedBuffer {
+class DeviceBuffer : public GrowingBuffer<PlainDeviceMemory> {
   public:
-    PinnedBuffer() = default;
-    ~PinnedBuffer() { reset(); }
-    PinnedBuffer(PinnedBuffer&& o) noexcept { *this = std::move(o); }
-    PinnedBuffer& operator=(PinnedBuffer&& o) noexcept {
-        std::swap(device_, o.device_);
-        std::swap(memory_, o.memory_);
-        std::swap(bytes_, o.bytes_);
-        return *this;
+    template <class T>
+    [[nodiscard]] T* as() const {
+        return static_cast<T*>(memory());
     }
+};
 
-    [[nodiscard]] Status reserve(const std::shared_ptr<Device>& device, std::size_t bytes);
-    void reset() noexcept;
-    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+class PinnedBuffer : public GrowingBuffer<PinnedHostMemory> {
+  public:
     template <class T>
     [[nodiscard]] T* host(std::size_t offset_bytes = 0) const {
-        return reinterpret_cast<T*>(static_cast<std::byte*>(memory_.host) + offset_bytes);
+        return reinterpret_cast<T*>(static_cast<std::byte*>(memory().host) + offset_bytes);
     }
     template <class T>
     [[nodiscard]] T* device(std::size_t offset_bytes = 0) const {
-        return reinterpret_cast<T*>(static_cast<std::byte*>(memory_.device) + offset_bytes);
+        return reinterpret_cast<T*>(static_cast<std::byte*>(memory().device) + offset_bytes);
     }
-
-  private:
-    std::shared_ptr<Device> device_;
-    PinnedMemory memory_;
-    std::size_t bytes_ = 0;
 };
 
 /// A queue that is closed with its owner.

@@ -286,7 +286,7 @@ Status GpuFrame::read(const Recti& rect, ImageView<float, 3> out) {
     if (broken_) return fail(ErrorCode::kNoBackend, "The GPU has failed at this frame before.");
     if (rect.empty()) return {};
     if (rect != rect.intersected(rect_of(size_)) || out.size() != rect.size()) {
-        return fail(ErrorCode::kUsage, "What is to be read lies outside of the frame.");
+        return fail(ErrorCode::kUsage, "The rectangle to read is outside the frame.");
     }
     WEFT_CHECK_OK(noted(download(rect, false)));
     const auto* from = place_->layer_staging.host<float>();

@@ -162,7 +162,7 @@ Status GpuPlaneSearch::update(const Recti& rect, ViewU8x3 pixels, ViewU8x1 fille
     if (rect.empty()) return {};
     if (rect != rect.intersected(rect_of(canvas_size_)) || pixels.size() != rect.size() ||
         filled.size() != rect.size()) {
-        return fail(ErrorCode::kUsage, "An update of a plane search lies outside of its canvas.");
+        return fail(ErrorCode::kUsage, "An update of a plane search is outside its canvas.");
     }
     return noted(upload(rect, pixels, filled, canvas_));
 }

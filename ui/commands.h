@@ -17,7 +17,7 @@ struct Ctx;
 struct Command {
     std::string id;        ///< "view.fit": stable, in the settings file.
     std::string category;  ///< "View"
-    std::string name;      ///< "Fit the picture"
+    std::string name;      ///< "Fit to window"
     const char* icon = "";
     std::string default_key;
     bool repeats = false;
@@ -26,6 +26,9 @@ struct Command {
     std::function<bool(const Ctx&)> checked;  ///< Null: not a switch.
     KeyChord key;
 };
+
+/// The table itself, in the order of the menus; keys are the defaults, not yet read.
+[[nodiscard]] std::vector<Command> all_commands();
 
 class Commands {
   public:

@@ -8,11 +8,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "app/base/folder_lister.h"
 #include "app/session/action.h"
 #include "app/session/editor_settings.h"
-#include "app/session/folder_lister.h"
 #include "app/session/session_view.h"
-#include "app/session/texture_shelf.h"
+#include "app/textures/texture_shelf.h"
 #include "ui/commands.h"
 #include "ui/picture_host.h"
 #include "ui/state.h"
@@ -37,7 +37,7 @@ struct Ctx {
     FolderLister& folders;
     Commands& commands;
     std::vector<Action>& actions;
-    std::vector<DrawnItem>* items = nullptr;  ///< Null: nobody looks for widgets.
+    std::vector<DrawnItem>* items = nullptr;  ///< Null: widgets are not recorded.
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;
     /// Does actions at once and brings the view up to date with them; null: like emit().

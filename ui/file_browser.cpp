@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "ui/floating_window.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -23,7 +24,7 @@ const char* title_of(Purpose purpose) {
         case Purpose::kMatte:
             return "Choose the matte's files";
         case Purpose::kHoldout:
-            return "Choose what passes in front";
+            return "Choose the holdout's files";
         case Purpose::kMotion:
             return "Choose the motion's files";
         case Purpose::kOutput:
@@ -189,7 +190,7 @@ const FolderEntry* entries(Ctx& c, const std::vector<FolderEntry>& all, ImVec2 s
     ImGui::PopStyleColor();
     if (all.empty())
         empty_state(c, icons::kFolderOpen, "Nothing here",
-                    "This folder has no pictures, movies or projects.");
+                    "This folder has no images, movies or projects.");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGuiListClipper clipper;
     const float row_h = t.px(40);
@@ -258,19 +259,10 @@ void file_browser(Ctx& c) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const ImVec2 size(std::min(t.px(880), screen.x - t.px(32)),
                       std::min(t.px(580), screen.y - t.px(32)));
-    ImGui::SetNextWindowPos(
-        {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)});
-    ImGui::SetNextWindowSize(size);
     ImGui::SetNextWindowFocus();
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::Begin(
-        "##browser", nullptr,
-        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PopStyleVar(3);
-    ImGui::PopStyleColor();
+    begin_floating(t, "##browser",
+                   {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)}, size,
+                   {t.px(16), t.px(14)});
     const PanelName panel(c, "Browser");
     ImGui::PushFont(t.title);
     ImGui::TextUnformatted(title_of(b.purpose));
@@ -281,7 +273,7 @@ void file_browser(Ctx& c) {
         b.selected = -1;
     }
     ImGui::SameLine();
-    if (icon_button(c, icons::kRefresh, "Read it again", false, nullptr, true, t.row))
+    if (icon_button(c, icons::kRefresh, "Reload folder", false, nullptr, true, t.row))
         c.folders.refresh();
     ImGui::SameLine();
     input(c, "Folder", b.folder, "Folder", -1);
@@ -299,7 +291,7 @@ void file_browser(Ctx& c) {
     } else {
         ImGui::BeginChild("##waiting", {size.x - t.px(214), body}, true);
         empty_state(c, icons::kTimer,
-                    c.folders.error().empty() ? "Reading the folder…" : "It cannot be read",
+                    c.folders.error().empty() ? "Reading the folder…" : "Cannot read this folder",
                     c.folders.error().c_str());
         ImGui::EndChild();
     }

@@ -1,8 +1,9 @@
-// What floats over the rest: messages, the palette, the sheet of shortcuts, settings, history.
+// What floats over the rest: the palette, the sheet of shortcuts, settings, history.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "engine/core/text.h"
+#include "ui/floating_window.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/sheets.h"
@@ -10,12 +11,6 @@
 
 namespace weft::ui {
 namespace {
-
-std::string lower(std::string text) {
-    for (char& ch : text)
-        ch = static_cast<char>(std::tolower(static_cast<unsigned char>(ch)));
-    return text;
-}
 
 // How well a name answers what was typed: all letters in order, words' beginnings count more.
 int score(const std::string& name, const std::string& typed) {
@@ -33,117 +28,29 @@ int score(const std::string& name, const std::string& typed) {
 
 }  // namespace
 
-void notices(Ctx& c) {
-    const Theme& t = c.theme;
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float width = std::min(t.px(440), screen.x - t.px(40));
-    // Where nothing is in their way: over the picture, but not over the queue of renders.
-    const bool low = c.view.open && c.state.workspace == Workspace::kJobs;
-    const float x = std::floor(low ? screen.x - width - t.px(16) : (screen.x - width) / 2);
-    float y = low ? screen.y - t.px(26 + 12) : t.px(52);
-    const PanelName panel(c, "Notices");
-    const auto box = [&](const char* id, NoticeKind kind, const std::string& text, auto&& buttons,
-                         float extra) {
-        const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - t.px(76));
-        const float h = std::max(t.px(40), size.y + t.px(22)) + extra;
-        if (low) y -= h;
-        ImGui::SetNextWindowPos({x, y});
-        ImGui::SetNextWindowSize({width, h});
-        ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(4));
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-        ImGui::Begin(id, nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
-        ImGui::PopStyleVar(3);
-        ImGui::PopStyleColor();
-        const ImVec2 at = ImGui::GetWindowPos();
-        ImDrawList& list = *ImGui::GetWindowDrawList();
-        const ImU32 color = kind == NoticeKind::kGood      ? t.good
-                            : kind == NoticeKind::kWarning ? t.warn
-                            : kind == NoticeKind::kError   ? t.bad
-                                                           : t.accent;
-        const char* icon = kind == NoticeKind::kGood   ? icons::kCheckCircle
-                           : kind == NoticeKind::kInfo ? icons::kInformation
-                                                       : icons::kAlert;
-        list.AddRectFilled(at, {at.x + t.px(4), at.y + h}, color);
-        icon_in(c, list, {at.x + t.px(10), at.y}, {at.x + t.px(34), at.y + h - extra}, color, icon);
-        list.AddText(t.regular, t.regular->FontSize,
-                     {at.x + t.px(40), at.y + std::floor((h - extra - size.y) / 2)}, t.text,
-                     text.c_str(), nullptr, width - t.px(76));
-        buttons(at, h);
-        ImGui::End();
-        y += low ? -t.px(8) : h + t.px(8);
-    };
-    if (c.view.recovery) {
-        const std::string what =
-            (c.view.recovery->project_path.empty() ? std::string("An unsaved shot")
-                                                   : c.view.recovery->project_path) +
-            " was not closed properly. Its state of " + c.view.recovery->when +
-            " can be recovered.";
-        box(
-            "##recovery", NoticeKind::kWarning, what,
-            [&](ImVec2 at, float h) {
-                ImGui::SetCursorScreenPos({at.x + t.px(40), at.y + h - t.px(38)});
-                if (button(c, "Recover", {.icon = icons::kRestore, .look = Look::kPrimary}))
-                    c.emit(Recover{true});
-                ImGui::SameLine();
-                if (button(c, "Discard")) c.emit(Recover{false});
-            },
-            t.px(36));
-    }
-    for (auto notice = c.view.notices.rbegin(); notice != c.view.notices.rend(); ++notice) {
-        const std::string id = "##notice" + std::to_string(notice->id);
-        box(
-            id.c_str(), notice->kind, notice->text,
-            [&](ImVec2 at, float) {
-                ImGui::SetCursorScreenPos({at.x + width - t.px(34), at.y + t.px(6)});
-                if (icon_button(c, icons::kClose, "Dismiss", false, nullptr, true, t.px(26)) &&
-                    c.dismiss_notice)
-                    c.dismiss_notice(notice->id);
-                if (notice->kind != NoticeKind::kError) return;
-                if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(1))
-                    c.pictures.set_clipboard(notice->text);
-                if (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered())
-                    ImGui::SetTooltip("Right click copies this message");
-            },
-            0);
-    }
-}
-
 void command_palette(Ctx& c) {
     if (!c.state.palette_open) return;
     const Theme& t = c.theme;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = std::min(t.px(560), screen.x - t.px(40));
-    const std::string typed = lower(c.state.palette_text);
+    const std::string typed = lower_case(c.state.palette_text);
     std::vector<std::pair<int, const Command*>> found;
     for (const Command& command : c.commands.all()) {
         if (command.enabled && !command.enabled(c)) continue;
-        const int points = score(lower(command.name + " " + command.category), typed);
+        const int points = score(lower_case(command.name + " " + command.category), typed);
         if (points >= 0) found.emplace_back(points, &command);
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     constexpr int kRows = 10;
     const int rows = std::min(kRows, static_cast<int>(found.size()));
-    ImGui::SetNextWindowPos({std::floor((screen.x - width) / 2), t.px(90)});
-    ImGui::SetNextWindowSize({width, t.px(62) + t.px(30) * static_cast<float>(std::max(1, rows))});
     ImGui::SetNextWindowFocus();
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(12), t.px(12)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::Begin(
-        "##palette", nullptr,
-        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PopStyleVar(3);
-    ImGui::PopStyleColor();
+    begin_floating(t, "##palette", {std::floor((screen.x - width) / 2), t.px(90)},
+                   {width, t.px(62) + t.px(30) * static_cast<float>(std::max(1, rows))},
+                   {t.px(12), t.px(12)});
     const PanelName panel(c, "Palette");
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
-    if (input(c, "Find a command", c.state.palette_text, "Type what you want to do", -1,
-              icons::kMagnify))
+    if (input(c, "Find a command", c.state.palette_text, "Type a command", -1, icons::kMagnify))
         c.state.palette_at = 0;
     if (ImGui::IsKeyPressed(264)) ++c.state.palette_at;
     if (ImGui::IsKeyPressed(265)) --c.state.palette_at;
@@ -174,7 +81,7 @@ void command_palette(Ctx& c) {
                 chord_text(command.key).c_str(), 1);
     }
     ImGui::PopStyleVar();
-    if (rows == 0) quiet(c, "No command of that name");
+    if (rows == 0) quiet(c, "No matching command");
     if (ImGui::IsKeyPressed(257) && rows > 0)
         chosen = found[static_cast<std::size_t>(c.state.palette_at)].second;
     const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered();
@@ -190,7 +97,7 @@ void history_window(Ctx& c) {
     ImGui::BeginChild("##history", {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(1)});
     for (std::size_t k = c.view.history.size(); k-- > 0;) {
-        const std::string label = k == 0 ? "As it was opened" : c.view.history[k];
+        const std::string label = k == 0 ? "Opened" : c.view.history[k];
         ImGui::PushID(static_cast<int>(k));
         if (ImGui::InvisibleButton("##step", {-FLT_MIN, t.row})) c.emit(GoToHistory{k});
         ImGui::PopID();
@@ -215,8 +122,8 @@ void about_window(Ctx& c) {
     const Theme& t = c.theme;
     begin_sheet(c, "About Weft", {t.px(420), t.px(230)}, c.state.about_open);
     wrapped(c,
-            "Weft replaces textures in animation: mark a surface once, choose a texture, and it "
-            "sits on that surface through the whole shot, with the plate's own light.",
+            "Weft replaces textures in animation: mask a surface, choose a texture, and it "
+            "stays on that surface through the whole shot, lit like the plate.",
             t.text);
     ImGui::Dummy({0, t.px(6)});
     wrapped(c, "Set in Inter, with Material Design Icons. The interface is drawn with Dear ImGui.",
@@ -262,8 +169,8 @@ void leave_question(Ctx& c) {
     begin_sheet(c, modified ? "Save first?" : "A render is running", {t.px(440), t.px(190)}, open);
     wrapped(c,
             modified ? "'" + c.view.title + "' has changes that are not saved."
-                     : "The render goes on by itself when the editor is closed; its frames will be "
-                       "where you sent them.",
+                     : "The render continues when the editor is closed; its frames are written "
+                       "to its output folder.",
             t.text);
     ImGui::Dummy({0, t.px(12)});
     if (modified) {
@@ -279,9 +186,9 @@ void leave_question(Ctx& c) {
         ImGui::SameLine();
         if (button(c, "Don't save")) go();
     } else {
-        if (button(c, "Leave it running", {.look = Look::kPrimary})) go();
+        if (button(c, "Keep rendering", {.look = Look::kPrimary})) go();
         ImGui::SameLine();
-        if (button(c, "Cancel the render", {.look = Look::kDanger})) {
+        if (button(c, "Cancel render", {.look = Look::kDanger})) {
             for (const JobView& job : c.view.jobs)
                 c.emit(CommandJob{job.id, JobCommand::kCancel});
             go();
@@ -302,30 +209,31 @@ void tour(Ctx& c) {
         Workspace workspace;
     };
     static constexpr Step kSteps[] = {
-        {"A shot, and its surfaces",
-         "This is a two-second shot with three surfaces marked: a wall, a cape and a cloth. They "
+        {"A shot and its regions",
+         "This two-second shot has three masked surfaces: a wall, a cape and a cloth. They "
          "are the regions on the right. Press Space to play it.",
          Workspace::kMask},
-        {"Marking a surface",
-         "A matte says where a surface is. Add a region with +, choose the brush (B) and paint "
-         "over a surface on one frame: the other frames follow. Alt subtracts, [ and ] change the "
+        {"Masking a surface",
+         "A matte defines where a surface is. Add a region with +, choose the brush (B) and paint "
+         "over a surface on one frame; it is propagated to the others. Alt subtracts, [ and ] "
+         "change the "
          "size.",
          Workspace::kMask},
         {"Choosing a texture",
-         "Below are the textures. Double-click one, or drag it onto a surface. Scale and rotation "
-         "are on the right; R lets you move it on the picture.",
+         "Textures are below. Double-click one, or drag it onto a surface. Scale and rotation "
+         "are on the right; R moves it on the picture.",
          Workspace::kTexture},
-        {"Holding still",
-         "The texture moves with its surface. G draws a grid on it and S shows where it stretches. "
-         "Where it slides, make that frame a second reference frame.",
+        {"Tracking",
+         "The texture follows its surface. G draws a grid on it and S shows where it stretches. "
+         "Where it slides, pin it or add a second reference frame.",
          Workspace::kMotion},
         {"Light and seams",
-         "The plate's light falls on the new texture. Lower its strength, or look at the four "
-         "steps of the way with 4. X shows the seams.",
+         "The plate's light is applied to the new texture. Lower its strength, or compare the four "
+         "stages with 4. X shows the seams.",
          Workspace::kLight},
         {"Rendering",
-         "Choose the frames and press the blue button. You can go on working meanwhile. Afterwards "
-         "the review shows how steady the result is. That is all: enjoy it.",
+         "Choose the frames and press the blue button. You can keep working meanwhile. Afterwards "
+         "the Review workspace shows how stable the result is.",
          Workspace::kJobs}};
     constexpr int kCount = static_cast<int>(std::size(kSteps));
     int& step = c.state.tour_step;
@@ -349,18 +257,10 @@ void tour(Ctx& c) {
     const float most = (screen.y / t.scale < 800 ? 0.34f : 0.36f) * body;
     const bool jobs = c.state.workspace == Workspace::kJobs;
     const float foot = jobs ? t.px(26) : t.px(26 + 34) + t.px(c.state.timeline_h);
-    ImGui::SetNextWindowPos({jobs ? screen.x - width - t.px(24) : t.px(64),
-                             screen.y - h - foot - t.px(16) - std::min(panel_h, most)});
-    ImGui::SetNextWindowSize({width, h});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::Begin("##tour", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::PopStyleVar(3);
-    ImGui::PopStyleColor();
+    begin_floating(t, "##tour",
+                   {jobs ? screen.x - width - t.px(24) : t.px(64),
+                    screen.y - h - foot - t.px(16) - std::min(panel_h, most)},
+                   {width, h}, {t.px(16), t.px(14)}, ImGuiWindowFlags_NoFocusOnAppearing);
     const PanelName panel(c, "Tour");
     heading(c, now.title);
     wrapped(c, now.text, t.text);

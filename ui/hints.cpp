@@ -26,12 +26,13 @@ std::string text_of(const CorrectionHint& hint) {
 const char* tip_of(CorrectionHint::Kind kind) {
     switch (kind) {
         case CorrectionHint::Kind::kMatte:
-            return "Go there and paint the matte: it helps this frame and its neighbours";
+            return "Go to this frame and paint a keyframe: it improves this frame and its "
+                   "neighbours";
         case CorrectionHint::Kind::kDrift:
-            return "Go there and see whether the texture has slid; pin it, or add a reference "
+            return "Go to this frame and check for sliding; pin the texture, or add a reference "
                    "frame";
         case CorrectionHint::Kind::kStretch:
-            return "Go there; another reference frame lets the texture have its shape again";
+            return "Go to this frame; another reference frame restores the texture's shape";
     }
     return "";
 }
@@ -44,15 +45,15 @@ void hints_section(Ctx& c, bool mattes_only) {
     for (const CorrectionHint& hint : v.to_correct)
         if (!mattes_only || hint.kind == CorrectionHint::Kind::kMatte) shown.push_back(hint);
     if (mattes_only && shown.empty()) return;
-    if (!section(c, "Where to correct", true)) return;
+    if (!section(c, "Suggested keyframes", true)) return;
     const PanelName panel(c, "Hints");
     if (shown.empty()) {
         bool known = false;
         for (const FrameMarks& mark : v.marks)
             known |= mark.confidence >= 0 || mark.drift >= 0;
         wrapped(c,
-                known ? "No frame stands out."
-                      : "Once the shot is analysed, the frames that need a look are listed here.",
+                known ? "No frame needs a keyframe."
+                      : "Frames to check are listed here once the shot is analysed.",
                 c.theme.quiet);
     }
     for (const CorrectionHint& hint : shown) {

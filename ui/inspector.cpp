@@ -10,7 +10,7 @@ namespace weft::ui {
 
 void no_region(Ctx& c) {
     empty_state(c, icons::kLayers, "No region selected",
-                "A region is one surface that gets a new texture. Add one above, then paint its "
+                "A region is a surface that gets a new texture. Add one above, then paint its "
                 "matte.");
 }
 
@@ -24,11 +24,11 @@ void region_list(Ctx& c) {
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - t.px(26) + ImGui::GetCursorPosX() -
                     ImGui::GetCursorStartPos().x);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - t.px(4));
-    if (icon_button(c, icons::kPlus, "Add a region", false, "region.add", v.open, t.px(26)))
+    if (icon_button(c, icons::kPlus, "Add region", false, "region.add", v.open, t.px(26)))
         c.commands.run("region.add", c);
     if (v.project.regions.empty()) {
-        quiet(c, "None yet. Add the surface to be replaced.");
-        if (button(c, "Add a region##first",
+        quiet(c, "No regions yet. Add the surface to replace.");
+        if (button(c, "Add region##first",
                    {.icon = icons::kPlus, .look = Look::kPrimary, .enabled = v.open, .width = -1}))
             c.commands.run("region.add", c);
         return;

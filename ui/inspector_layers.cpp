@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/matte_layer.h"
+#include "app/mattes/matte_layer.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -34,8 +34,8 @@ void layer_row(Ctx& c, const Region& region, int layer) {
     if (button(c, label.c_str(),
                {.icon = icons::kBrush,
                 .look = chosen ? Look::kPrimary : Look::kNormal,
-                .tip = holdout.files.empty() ? "Brush, shapes and keys work on this layer"
-                                             : "Choose it, to paint it instead of its files",
+                .tip = holdout.files.empty() ? "Brush, shapes and keyframes edit this layer"
+                                             : "Select it to paint over its files",
                 .width = width}))
         c.emit(SelectMatteLayer{chosen ? 0 : layer});
     c.note("Layer " + std::to_string(layer));
@@ -61,7 +61,7 @@ void other_regions(Ctx& c, const Region& region) {
                                      [&](const MatteSource& m) { return m == *other->matte; });
         if (!has && button(c, ("Cut out " + other->name).c_str(),
                            {.icon = icons::kMinus,
-                            .tip = "That region's matte is cut out of this one",
+                            .tip = "Cuts that region's matte out of this one",
                             .width = -1})) {
             std::vector<MatteSource> more = list;
             more.push_back(*other->matte);
@@ -76,7 +76,7 @@ void carry_progress(Ctx& c) {
                                                  static_cast<float>(v.preview.total)
                                            : 0;
     progress_bar(c, part,
-                 "Carrying the matte, " + std::to_string(v.preview.done) + " of " +
+                 "Propagating the matte, " + std::to_string(v.preview.done) + " of " +
                      std::to_string(v.preview.total));
     if (button(c, "Pause", {.icon = icons::kPause, .width = -1})) c.emit(PauseAnalysis{true});
 }
@@ -105,13 +105,13 @@ void carry_controls(Ctx& c, const Region& region, const MatteSource& source) {
              source.carry_from || source.carry_to
                  ? end(source.carry_from, "the first") + " to " + end(source.carry_to, "the last")
                  : "the whole shot",
-             "On other frames there is no matte, but where one is painted");
+             "Other frames have no matte unless one is painted");
     const bool marked = v.mark_in || v.mark_out;
     const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
     if (button(
             c, "Marked range",
             {.enabled = marked && (source.carry_from != v.mark_in || source.carry_to != v.mark_out),
-             .tip = "Carries it to the frames between I and O alone",
+             .tip = "Propagates it between the in and out points only",
              .width = half}))
         change([&](MatteSource& m) {
             m.carry_from = v.mark_in;
@@ -120,7 +120,7 @@ void carry_controls(Ctx& c, const Region& region, const MatteSource& source) {
     ImGui::SameLine();
     if (button(c, "Whole shot",
                {.enabled = source.carry_from || source.carry_to,
-                .tip = "Carries it to all frames",
+                .tip = "Propagates it to all frames",
                 .width = half}))
         change([](MatteSource& m) {
             m.carry_from.reset();
@@ -131,13 +131,13 @@ void carry_controls(Ctx& c, const Region& region, const MatteSource& source) {
 }  // namespace
 
 void holdouts_section(Ctx& c, const Region& region) {
-    if (!section(c, "In front of it", !region.holdouts->empty() || c.view.matte_layer > 0)) return;
+    if (!section(c, "Holdouts", !region.holdouts->empty() || c.view.matte_layer > 0)) return;
     const PanelName panel(c, "Holdouts");
     const int count = static_cast<int>(region.holdouts->size());
     if (count == 0 && c.view.matte_layer == 0)
         wrapped(c,
-                "What passes in front is cut out; the surface comes back behind it with the "
-                "texture that it had.",
+                "Holdouts are cut out of the matte; the surface reappears behind them with the "
+                "same texture.",
                 c.theme.quiet);
     for (int layer = 1; layer <= std::max(count, c.view.matte_layer); ++layer)
         layer_row(c, region, layer);
@@ -145,14 +145,14 @@ void holdouts_section(Ctx& c, const Region& region) {
         if (button(c, "Back to the matte",
                    {.icon = icons::kArrowLeft,
                     .look = Look::kQuiet,
-                    .tip = "Brush, shapes and keys work on the region's own matte again",
+                    .tip = "Brush, shapes and keyframes edit the region's own matte",
                     .width = -1}))
             c.emit(SelectMatteLayer{0});
-    } else if (button(c, "Paint what is in front",
+    } else if (button(c, "Paint a holdout",
                       {.icon = icons::kBrush,
                        .enabled = c.view.plate.state == PlateView::State::kOpen,
-                       .tip = "A new layer: paint over what hides the surface. It is carried to "
-                              "the other frames like a matte",
+                       .tip = "Adds a layer: paint over what hides the surface. It is propagated "
+                              "like a matte",
                        .width = -1})) {
         c.emit(SelectMatteLayer{count + 1});
         if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
@@ -172,8 +172,9 @@ void propagation_section(Ctx& c, const Region& region) {
     const MatteSource source = v.painted_source();
     if (source.keyframes.empty()) {
         wrapped(c,
-                source.files.empty() ? "What you paint is carried to the other frames by itself."
-                                     : "The files have a matte for every frame.",
+                source.files.empty()
+                    ? "Painted mattes are propagated to the other frames automatically."
+                    : "The files provide a matte for every frame.",
                 c.theme.quiet);
         return section_gap(c);
     }
@@ -184,10 +185,10 @@ void propagation_section(Ctx& c, const Region& region) {
         if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
             c.emit(PauseAnalysis{false});
     } else if (v.unready.contains(region.id)) {
-        wrapped(c, "Choose a texture, and the matte is carried through the shot.", c.theme.quiet);
+        wrapped(c, "Choose a texture to propagate the matte through the shot.", c.theme.quiet);
     } else {
         wrapped(c,
-                "Carried through the shot. The strip below the ruler is light where it is "
+                "Propagated through the shot. The strip below the ruler is light where confidence "
                 "unsure.",
                 c.theme.quiet);
     }

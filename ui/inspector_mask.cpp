@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/matte_layer.h"
+#include "app/mattes/matte_layer.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -15,34 +15,35 @@ void matte_source_card(Ctx& c, const Region& region) {
     const MatteSource matte = c.view.painted_source();
     if (c.view.matte_layer > 0)
         banner(c, icons::kLayers, t.warn,
-               "You are painting what is in front, layer " + std::to_string(c.view.matte_layer) +
-                   ". It is cut out of the surface.");
+               "You are painting a holdout, layer " + std::to_string(c.view.matte_layer) +
+                   ". It is cut out of the region's matte.");
     if (!matte.files.empty() || !matte.select.crypto.empty()) {
         if (!matte.select.crypto.empty())
             info_row(c, "Cryptomatte", matte.select.crypto, matte.select.crypto.c_str());
         else
             info_row(c, "Matte files", matte.files);
-        if (button(c, "Paint instead",
-                   {.icon = icons::kBrush,
-                    .enabled = c.view.plate.state == PlateView::State::kOpen,
-                    .tip = "Makes this frame's matte a painted keyframe; the other frames follow "
-                           "from it",
-                    .width = -1}))
+        if (button(
+                c, "Paint instead",
+                {.icon = icons::kBrush,
+                 .enabled = c.view.plate.state == PlateView::State::kOpen,
+                 .tip = "Turns this frame's matte into a painted keyframe, which is propagated to "
+                        "the other frames",
+                 .width = -1}))
             c.emit(PaintInstead{});
         return;
     }
     if (matte.keyframes.empty() && c.view.matte_layer > 0) {
-        wrapped(c, "One frame is enough to begin; the others follow.", t.quiet);
+        wrapped(c, "One frame is enough to start; it is propagated to the others.", t.quiet);
         return;
     }
     if (matte.keyframes.empty()) {
         banner(c, icons::kBrush, t.accent,
-               "Paint over the surface with the brush (B). One frame is enough to begin; the "
-               "others follow.");
+               "Paint over the surface with the brush (B). One frame is enough to start; it "
+               "is propagated to the others.");
         ImGui::Dummy({0, t.px(2)});
         if (button(c, "Use matte files…",
                    {.icon = icons::kFolderImage,
-                    .tip = "A matte for every frame, from a sequence on disk",
+                    .tip = "A matte for every frame, from an image sequence",
                     .width = -1})) {
             c.state.browser.purpose = BrowserState::Purpose::kMatte;
             c.state.browser.just_opened = true;
@@ -52,26 +53,26 @@ void matte_source_card(Ctx& c, const Region& region) {
     info_row(c, "Keyframes", std::to_string(matte.keyframes.size()));
     const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
     const bool key_here = matte.keyframes.contains(c.view.frame);
-    if (button(c, "Key here",
+    if (button(c, "Add keyframe",
                {.icon = icons::kKeyframe,
                 .enabled = !key_here,
-                .tip = "Makes the matte of this frame a keyframe, to be corrected",
+                .tip = "Makes this frame's matte a keyframe that you can correct",
                 .command = "region.key",
                 .width = half}))
         c.emit(KeyMatteHere{});
     ImGui::SameLine();
-    if (button(c, "Remove key",
+    if (button(c, "Remove keyframe",
                {.icon = icons::kClose,
                 .enabled = key_here,
-                .tip = "The frame follows its neighbours again",
+                .tip = "Propagates the neighbouring keyframes to this frame again",
                 .width = half}))
         c.edit(without_layer_key(region, c.view.matte_layer, c.view.frame));
     auto before = matte.keyframes.lower_bound(c.view.frame);
     const bool can_copy = before != matte.keyframes.begin() && !key_here;
-    if (button(c, "Copy the key before",
+    if (button(c, "Copy previous keyframe",
                {.icon = icons::kCopy,
                 .enabled = can_copy,
-                .tip = "Puts the nearest earlier keyframe's matte here",
+                .tip = "Copies the nearest earlier keyframe's matte to this frame",
                 .width = -1}))
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
 }
@@ -80,36 +81,37 @@ void matte_source_card(Ctx& c, const Region& region) {
 void pressure_row(Ctx& c, Brush& brush) {
     int which = (brush.pressure_size ? 1 : 0) + (brush.pressure_opacity ? 2 : 0);
     if (!choice(c, "Pen pressure", {"Nothing", "Size", "Opacity", "Both"}, which,
-                "What a tablet's pen changes by its pressure, where there is one", 1))
+                "What the pressure of a tablet's pen controls", 1))
         return;
     brush.pressure_size = which == 1 || which == 3;
     brush.pressure_opacity = which >= 2;
 }
 
 void files_section(Ctx& c, const Region& region) {
-    if (region.matte->empty() || !section(c, "Keep and export", false)) return;
+    if (region.matte->empty() || !section(c, "Freeze and export", false)) return;
     const PanelName panel(c, "Matte files");
     const bool marked = c.view.mark_in || c.view.mark_out;
-    quiet(c, marked ? "Of the marked range" : "Of the whole shot");
+    quiet(c, marked ? "Freeze marked range" : "Freeze whole shot");
     if (region.matte->files.empty()) {
         if (region.matte->frozen.empty()) {
             if (button(c, "Freeze",
                        {.icon = icons::kLock,
-                        .tip = "These frames keep their mattes as they are now, "
-                               "whatever is painted elsewhere",
+                        .tip = "Keeps the mattes of these frames as they are now, "
+                               "whatever you paint on other frames",
                         .width = -1}))
                 c.emit(FreezeMattes{true});
         } else if (button(c,
                           ("Let " + std::to_string(region.matte->frozen.size()) +
-                           " frames follow again##freeze")
+                           " frames: unfreeze##freeze")
                               .c_str(),
                           {.icon = icons::kLockOpen, .width = -1})) {
             c.emit(FreezeMattes{false});
         }
-        region_parameter(c, region, "matte.steadiness", "Steadiness");
+        region_parameter(c, region, "matte.steadiness", "Stabilize edge");
     }
-    if (button(c, "Export mattes…",
-               {.icon = icons::kExport, .tip = "As PNG files, for other programs", .width = -1})) {
+    if (button(
+            c, "Export mattes…",
+            {.icon = icons::kExport, .tip = "Writes PNG files for other programs", .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kExportMattes;
         c.state.browser.just_opened = true;
     }
@@ -136,7 +138,7 @@ void mask_inspector(Ctx& c) {
         if (painting) {
             row({.label = "Size",
                  .unit = "px",
-                 .tip = "Radius of the brush. [ and ]",
+                 .tip = "Brush radius. [ and ]",
                  .min = 1,
                  .max = 400,
                  .standard = 24,
@@ -146,17 +148,18 @@ void mask_inspector(Ctx& c) {
                  .typed_max = 2000},
                 b.radius_px);
             row({.label = "Hardness",
-                 .tip = "1: a hard edge. Shift+[ and Shift+]",
+                 .tip = "1 is a hard edge. Shift+[ and Shift+]",
                  .standard = 0.8},
                 b.hardness);
-            row({.label = "Opacity", .tip = "Of the whole stroke", .standard = 1}, b.opacity);
+            row({.label = "Opacity", .tip = "Opacity of the whole stroke", .standard = 1},
+                b.opacity);
             pressure_row(c, b);
             quiet(c, "Alt subtracts, Shift draws a line");
         } else if (c.state.tool == Tool::kFlood) {
             double tolerance = c.state.brush.tolerance;
             if (slider(c,
                        {.label = "Tolerance",
-                        .tip = "How far a colour may be from the one clicked",
+                        .tip = "How much a colour may differ from the one you click",
                         .min = 0,
                         .max = 128,
                         .standard = 24,
@@ -164,29 +167,29 @@ void mask_inspector(Ctx& c) {
                         .integer = true},
                        tolerance) != Change::kNone)
                 c.state.brush.tolerance = static_cast<int>(tolerance);
-            quiet(c, "Click a colour; Alt takes it away");
+            quiet(c, "Click a colour to add it; Alt subtracts");
         } else if (c.state.tool == Tool::kCrypto) {
-            wrapped(c, "Click an object of the plate's Cryptomatte to add it, Alt takes it away.",
+            wrapped(c, "Click an object of the plate's Cryptomatte to add it; Alt subtracts.",
                     t.quiet);
             if (const std::string names = c.view.painted_source().select.crypto; !names.empty())
                 info_row(c, "Objects", names, names.c_str());
         } else if (c.state.tool == Tool::kPolygon) {
-            quiet(c, "Click corners; Enter closes, Esc drops");
+            quiet(c, "Click corners; Enter closes, Esc cancels");
         } else if (c.state.tool == Tool::kShape) {
             shape_controls(c);
         } else if (c.state.tool == Tool::kScribble) {
-            quiet(c, "Draw inside the surface; Alt: outside");
+            quiet(c, "Draw inside the surface; Alt draws outside");
             const ScribbleState& s = c.state.scribbles;
-            if (button(c, "Forget the lines",
+            if (button(c, "Clear scribbles",
                        {.icon = icons::kClose,
                         .enabled = !s.keep.empty() || !s.drop.empty(),
                         .tip = "The matte stays as it is. Esc",
                         .width = -1}))
                 c.state.scribbles = {};
         } else if (c.state.tool == Tool::kLasso) {
-            quiet(c, "Draw around the surface; Alt cuts out");
+            quiet(c, "Draw around the surface; Alt subtracts");
         } else {
-            quiet(c, "Drag to move the picture");
+            quiet(c, "Drag to pan the viewer");
         }
         section_gap(c);
     }
@@ -200,14 +203,16 @@ void mask_inspector(Ctx& c) {
         const PanelName panel(c, "Edge");
         const bool enabled = !c.view.matte_busy && !painted.empty();
         const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * t.gap) / 3);
-        if (button(
-                c, "Grow",
-                {.enabled = enabled, .tip = "By 1 px on this frame; Shift 5 px", .width = third}))
+        if (button(c, "Grow",
+                   {.enabled = enabled,
+                    .tip = "By 1 px on this frame; with Shift by 5 px",
+                    .width = third}))
             c.emit(GrowMatte{ImGui::GetIO().KeyShift ? 5.0f : 1.0f});
         ImGui::SameLine();
-        if (button(
-                c, "Shrink",
-                {.enabled = enabled, .tip = "By 1 px on this frame; Shift 5 px", .width = third}))
+        if (button(c, "Shrink",
+                   {.enabled = enabled,
+                    .tip = "By 1 px on this frame; with Shift by 5 px",
+                    .width = third}))
             c.emit(GrowMatte{ImGui::GetIO().KeyShift ? -5.0f : -1.0f});
         ImGui::SameLine();
         if (button(c, "Feather",

@@ -15,9 +15,17 @@ void motion_inspector(Ctx& c) {
     const SessionView& v = c.view;
     if (section(c, "Reference frames")) {
         const PanelName panel(c, "Reference frames");
-        if (region->reference_frames.empty())
-            wrapped(c, "The texture lies where you place it on the first frame with a matte.",
-                    t.quiet);
+        if (region->reference_frames.empty()) {
+            const auto chosen = v.preview.references.find(region->id);
+            if (chosen == v.preview.references.end()) {
+                wrapped(c, "Default: the first frame that shows the surface well.", t.quiet);
+            } else {
+                wrapped(c,
+                        "Default: frame " + std::to_string(chosen->second) +
+                            ", the first that shows the surface well.",
+                        t.quiet);
+            }
+        }
         for (const int frame : region->reference_frames) {
             ImGui::PushID(frame);
             if (button(c, ("Frame " + std::to_string(frame)).c_str(),
@@ -41,7 +49,7 @@ void motion_inspector(Ctx& c) {
                    {.icon = icons::kPlus,
                     .enabled = !here,
                     .tip = "The surface is followed from here in both directions; between two "
-                           "references the histories blend",
+                           "reference frames the tracks dissolve",
                     .width = -1})) {
             std::vector<double> frames(region->reference_frames.begin(),
                                        region->reference_frames.end());
@@ -56,12 +64,12 @@ void motion_inspector(Ctx& c) {
         const PanelName panel(c, "Motion");
         if (!region->motion.track.empty()) {
             info_row(c, "Follows", region->motion.track,
-                     "A planar track: the surface is as flat as it");
-            if (button(c, "Estimate it instead", {.icon = icons::kRefresh, .width = -1}))
+                     "Planar track: the surface is treated as flat");
+            if (button(c, "Estimate motion", {.icon = icons::kRefresh, .width = -1}))
                 c.edit(SetRegionParameter{{region->id, {}}, "motion.track", std::string()});
         } else if (region->motion.files.empty()) {
             info_row(c, "From", "Estimated from the plate");
-            if (button(c, "Follow a planar track…",
+            if (button(c, "Use planar track…",
                        {.icon = icons::kCrosshairs,
                         .tip = "Corner pins of Nuke, After Effects or Mocha: .nk, .txt, .json",
                         .width = -1})) {
@@ -70,21 +78,21 @@ void motion_inspector(Ctx& c) {
             }
             if (button(c, "Use motion files…",
                        {.icon = icons::kFolderImage,
-                        .tip = "True motion from a render: .flo or KITTI 16-bit PNG",
+                        .tip = "Motion vectors from a renderer: .flo or KITTI 16-bit PNG",
                         .width = -1})) {
                 c.state.browser.purpose = BrowserState::Purpose::kMotion;
                 c.state.browser.just_opened = true;
             }
         } else {
             info_row(c, "Files", region->motion.files);
-            region_parameter(c, *region, "motion.direction", "They point");
-            if (button(c, "Estimate it instead", {.icon = icons::kRefresh, .width = -1}))
+            region_parameter(c, *region, "motion.direction", "Direction");
+            if (button(c, "Estimate motion", {.icon = icons::kRefresh, .width = -1}))
                 c.edit(SetRegionParameter{{region->id, {}}, "motion.files", std::string()});
         }
         section_gap(c);
     }
-    if (section(c, "Look at")) {
-        const PanelName panel(c, "Look at");
+    if (section(c, "Overlays")) {
+        const PanelName panel(c, "Overlays");
         for (const char* id : {"view.grid", "view.stretch", "view.arrows", "view.trust"}) {
             const Command* command = c.commands.find(id);
             bool on = command->checked(c);

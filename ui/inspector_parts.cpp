@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/session/lamp_edit.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -13,7 +12,7 @@ namespace weft::ui {
 void shape_controls(Ctx& c) {
     const Theme& t = c.theme;
     if (c.state.shape_drawing) {
-        wrapped(c, "Click for corners, drag for curves. Enter closes the shape, Esc drops it.",
+        wrapped(c, "Click for corners, drag for curves. Enter closes the shape, Esc cancels.",
                 t.quiet);
         return;
     }
@@ -28,17 +27,17 @@ void shape_controls(Ctx& c) {
     std::string frames;
     for (const int frame : c.view.shape_frames)
         frames += (frames.empty() ? "" : ", ") + std::to_string(frame);
-    info_row(c, "Drawn on", frames, "Frames on which the shape was set by hand");
-    if (button(c, "Smooth the corners",
+    info_row(c, "Shape keyframes", frames, "Frames with a shape keyframe");
+    if (button(c, "Smooth corners",
                {.enabled = !c.view.matte_busy,
-                .tip = "Gives every corner handles along its neighbours",
+                .tip = "Gives every corner smooth handles",
                 .width = -1}))
         c.emit(SetShape{smoothed(*c.view.shape)});
-    if (button(c, "Fill between the shapes",
+    if (button(c, "Interpolate shapes",
                {.icon = icons::kKeyframe,
                 .enabled = c.view.shape_frames.size() > 1,
-                .tip = "Gives every frame between two shapes a matte from the shape in between. "
-                       "Otherwise they follow the motion of the surface",
+                .tip = "Gives every frame between two shape keyframes the interpolated shape. "
+                       "Otherwise the matte is propagated",
                 .width = -1}))
         c.emit(FillBetweenShapes{});
 }
@@ -47,18 +46,18 @@ void corrections_section(Ctx& c, const Region& region) {
     const Theme& t = c.theme;
     if (!section(c, "Corrections")) return;
     const PanelName panel(c, "Corrections");
-    if (button(c, "Pin the texture",
+    if (button(c, "Pin texture",
                {.icon = icons::kPin,
                 .look = c.state.tool == Tool::kPin ? Look::kPrimary : Look::kNormal,
-                .tip = "Click to hold a place, drag to put the texture back where it belongs, Alt "
+                .tip = "Click to hold a place, drag to move the texture back into place; Alt "
                        "removes a pin",
                 .command = "tool.pin",
                 .width = -1}))
         c.state.tool = Tool::kPin;
     if (region.corrections.empty())
         wrapped(c,
-                "Where the texture has slid, pin it back on that frame; the frames between two "
-                "corrections follow.",
+                "Where the texture slides, pin it on that frame; frames between two "
+                "corrections are interpolated.",
                 t.quiet);
     for (const auto& [frame, pins] : region.corrections) {
         ImGui::PushID(frame);
@@ -82,30 +81,32 @@ namespace {
 
 void add_lamp_buttons(Ctx& c, const Region& region) {
     const Size plate = c.view.plate.size;
-    const auto w = static_cast<float>(plate.width), h = static_cast<float>(plate.height);
+    const double w = plate.width, h = plate.height;
     const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * c.theme.gap) / 3);
-    const auto add = [&](const char* label, const char* tip, LampHandle lamp) {
+    const auto add = [&](const char* label, const char* tip, LampKind kind,
+                         std::vector<double> numbers) {
         if (!button(c, label, {.enabled = !plate.empty(), .tip = tip, .width = third})) return;
-        c.edit(SetRegionParameter{
-            {region.id, {}}, "light.lamps", with_new_lamp(region.light.lamps, lamp)});
-        c.state.lamp = static_cast<int>(lamps_at(region.light.lamps, c.view.frame).size());
+        std::vector<Lamp> lamps = region.light.lamps;
+        lamps.push_back({kind, {{{0, std::move(numbers)}}}});
+        c.state.lamp = static_cast<int>(lamps.size()) - 1;
+        c.edit(SetRegionParameter{{region.id, {}}, "light.lamps", std::move(lamps)});
         c.state.tool = Tool::kLamp;
     };
-    using Kind = LampHandle::Kind;
-    add("+ Lamp", "A bright or dark spot",
-        {Kind::kPoint, {w / 2, h / 2, 0.25f * std::min(w, h), 1.5f}, false});
+    add("+ Lamp", "Point light: a bright or dark spot", LampKind::kPoint,
+        {w / 2, h / 2, 0.25 * std::min(w, h), 1.5});
     ImGui::SameLine();
-    add("+ Side", "Light from one side of the picture", {Kind::kDirectional, {135, 1.3f}, false});
+    add("+ Side", "Directional light from one side of the picture", LampKind::kDirectional,
+        {135, 1.3});
     ImGui::SameLine();
-    add("+ Fall", "From one brightness to another between two points",
-        {Kind::kGradient, {w / 2, 0.1f * h, w / 2, 0.9f * h, 1.2f, 0.8f}, false});
+    add("+ Fall", "Gradient between two points", LampKind::kGradient,
+        {w / 2, 0.1 * h, w / 2, 0.9 * h, 1.2, 0.8});
 }
 
 }  // namespace
 
 void lamps_controls(Ctx& c, const Region& region) {
     add_lamp_buttons(c, region);
-    const std::vector<LampHandle> lamps = lamps_at(region.light.lamps, c.view.frame);
+    const std::vector<Lamp>& lamps = region.light.lamps;
     if (lamps.empty()) {
         wrapped(c, "Add a lamp, then drag it on the picture (Shift+L).", c.theme.quiet);
         return;
@@ -119,14 +120,15 @@ void lamps_controls(Ctx& c, const Region& region) {
     int chosen = c.state.lamp;
     if (choice(c, "Selected", names, chosen)) c.state.lamp = chosen;
     const auto index = static_cast<std::size_t>(c.state.lamp);
-    const LampHandle& lamp = lamps[index];
+    const Lamp& lamp = lamps[index];
+    const std::vector<double> here = lamp.numbers.at(c.view.frame);
     const RegionRef ref{region.id, {}};
     const auto gain = [&](const char* label, std::size_t which) {
-        double value = static_cast<double>(lamp.numbers[which]);
+        double value = here[which];
         const Change change = slider(c,
                                      {.label = label,
                                       .unit = "×",
-                                      .tip = "1 leaves the surface as it is",
+                                      .tip = "1 changes nothing",
                                       .min = 0.1,
                                       .max = 4,
                                       .standard = 1,
@@ -135,38 +137,43 @@ void lamps_controls(Ctx& c, const Region& region) {
                                       .typed_max = 100},
                                      value);
         if (change == Change::kNone) return;
-        std::vector<float> numbers = lamp.numbers;
-        numbers[which] = static_cast<float>(value);
-        const SetRegionParameter set{ref, "light.lamps",
-                                     with_lamp(region.light.lamps, index, c.view.frame, numbers)};
+        std::vector<double> numbers = here;
+        numbers[which] = value;
+        std::vector<Lamp> changed = lamps;
+        set_numbers(changed[index], c.view.frame, std::move(numbers));
+        const SetRegionParameter set{ref, "light.lamps", std::move(changed)};
         if (change == Change::kDone)
             c.edit(set);
         else
             c.emit(TryEdit{set});
     };
-    if (lamp.kind == LampHandle::Kind::kGradient) {
+    if (lamp.kind == LampKind::kGradient) {
         gain("Start", 4);
         gain("End", 5);
     } else {
-        gain("Brightness", lamp.numbers.size() - 1);
+        gain("Brightness", here.size() - 1);
     }
     const float half = std::floor((ImGui::GetContentRegionAvail().x - c.theme.gap) / 2);
-    if (button(c, "Key here##lamp",
+    if (button(c, "Add keyframe##lamp",
                {.icon = icons::kKeyframe,
-                .tip = "From now on this lamp changes over time; a change becomes a key of the "
-                       "frame it is made on",
-                .width = half}))
-        c.edit(SetRegionParameter{
-            ref, "light.lamps",
-            with_lamp(region.light.lamps, index, c.view.frame, lamp.numbers, true)});
+                .tip = "Animates this lamp; later changes set a keyframe on the "
+                       "current frame",
+                .width = half})) {
+        std::vector<Lamp> changed = lamps;
+        changed[index].numbers.set(c.view.frame, here);
+        c.edit(SetRegionParameter{ref, "light.lamps", std::move(changed)});
+    }
     ImGui::SameLine();
-    if (button(c, "Remove##lamp", {.icon = icons::kTrash, .width = half}))
-        c.edit(SetRegionParameter{ref, "light.lamps", without_lamp(region.light.lamps, index)});
+    if (button(c, "Remove##lamp", {.icon = icons::kTrash, .width = half})) {
+        std::vector<Lamp> changed = lamps;
+        changed.erase(changed.begin() + c.state.lamp);
+        c.edit(SetRegionParameter{ref, "light.lamps", std::move(changed)});
+    }
 }
 
 // Where what one sees comes from, for licences and for making it again.
 void provenance_section(Ctx& c, const Region& region) {
-    if (!section(c, "Made from", false)) return;
+    if (!section(c, "Source", false)) return;
     const PanelName panel(c, "Provenance");
     const bool plane = !region.texture.plane.empty();
     const std::string& path = plane ? region.texture.plane : region.texture.sample;
@@ -187,7 +194,7 @@ void provenance_section(Ctx& c, const Region& region) {
         info_row(c, "Licence", known.licence.empty() ? "not stated" : known.licence);
         info_row(c, "Source", known.source.empty() ? "not stated" : known.source);
     } else {
-        info_row(c, "Licence", "your own file", "Nothing is known about it but its name");
+        info_row(c, "Licence", "Your file", "No credits are stored with this file");
     }
     if (!plane) {
         info_row(c, "Seed", std::to_string(c.view.project.settings.seed));
@@ -202,9 +209,9 @@ void provenance_section(Ctx& c, const Region& region) {
 }
 
 void time_section(Ctx& c, const Region& region) {
-    if (!section(c, "Through time")) return;
+    if (!section(c, "Temporal mode")) return;
     const PanelName panel(c, "Time");
-    region_parameter(c, region, "temporal.mode", "The texture is");
+    region_parameter(c, region, "temporal.mode", "Mode");
     if (region.temporal.mode == TemporalMode::kPaper) {
         region_parameter(c, region, "temporal.blend");
         region_parameter(c, region, "temporal.weight");

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/keyed_text.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -15,8 +14,8 @@ constexpr double kMostMagnified = 1.5;
 
 void magnified_warning(Ctx& c, const Region& region) {
     double scale = region.placement.scale;
-    const KeyedValues keys = read_keyed(region.placement.scale_keys, 1);
-    if (!keys.empty()) scale = keyed_at(keys, c.view.frame)[0];
+    const KeyedNumbers& keys = region.placement.scale_keys;
+    if (!keys.empty()) scale = keys.at(c.view.frame)[0];
     if (scale <= kMostMagnified) return;
     // What came from the library may have a larger original.
     TextureCard card;
@@ -26,27 +25,27 @@ void magnified_warning(Ctx& c, const Region& region) {
         card.original_scale > 1 && region.texture.sample.find("_larger.") == std::string::npos;
     banner(c, icons::kMagnify, c.theme.warn,
            "Magnified " + number_text(scale, 1) + " times: it will look soft." +
-               (larger ? "" : " Take a larger picture of it."));
+               (larger ? "" : " Use a larger picture."));
     if (larger &&
         button(c,
-               ("Use its original, " + number_text(static_cast<double>(card.original_scale), 1) +
-                " times as fine##larger")
+               ("Use original, " + number_text(static_cast<double>(card.original_scale), 1) +
+                " times larger##larger")
                    .c_str(),
                {.icon = icons::kGrowing,
                 .look = Look::kPrimary,
-                .tip = "Grows the texture from the larger picture that the sample was cut from; it "
-                       "stays as large on the surface",
+                .tip = "Synthesizes from the larger picture that the sample was cut from; its "
+                       "size on the surface stays the same",
                 .width = -1}))
         c.emit(UseLargerOriginal{region.id});
-    if (larger) c.note("Use its original");
+    if (larger) c.note("Use original");
 }
 
 void bricks_controls(Ctx& c) {
     if (c.state.tool != Tool::kMeasure) {
-        if (button(c, "Size by a line",
+        if (button(c, "Scale by reference line",
                    {.icon = icons::kRuler,
-                    .tip = "Draw a line along a row of bricks or tiles on the plate and say how "
-                           "many it is to cover",
+                    .tip = "Draw a line along a row of bricks or tiles on the plate and enter how "
+                           "many repeats it covers",
                     .command = "tool.measure",
                     .width = -1}))
             c.state.tool = Tool::kMeasure;
@@ -59,8 +58,8 @@ void bricks_controls(Ctx& c) {
     }
     double count = c.state.measured_count;
     if (slider(c,
-               {.label = "Bricks on it",
-                .tip = "How many of them the line is long",
+               {.label = "Repeats along line",
+                .tip = "How many bricks, tiles or stitches the line covers",
                 .min = 1,
                 .max = 40,
                 .standard = 4,
@@ -108,11 +107,11 @@ void texture_inspector(Ctx& c) {
             text_in(list, t.strong, {x, at.y + t.px(4)}, {right, at.y + t.px(24)}, t.text,
                     fitted(c.textures.name_of_texture(path), right - x).c_str(), 0);
             text_in(list, t.small, {x, at.y + t.px(24)}, {right, at.y + t.px(42)}, t.quiet,
-                    plane ? "Used as it is" : "Grown over the surface", 0);
+                    plane ? "Tiled" : "Synthesized", 0);
             ImGui::Dummy({side, side});
             const bool as_plane = plane;
             int how = as_plane ? 1 : 0;
-            if (segments(c, "How", {"Grow it", "Use as it is"}, how)) {
+            if (segments(c, "How", {"Synthesize", "Tile"}, how)) {
                 TextureSource source = region->texture;
                 source.sample = how == 0 ? path : "";
                 source.plane = how == 1 ? path : "";
@@ -120,7 +119,7 @@ void texture_inspector(Ctx& c) {
                 if (how == 0) source.sample = keep;
                 c.edit(SetTexture{{region->id, {}}, source});
             }
-            if (plane) region_parameter(c, *region, "texture.wrap", "Beyond its edge");
+            if (plane) region_parameter(c, *region, "texture.wrap", "Wrap mode");
         }
         section_gap(c);
     }
@@ -130,9 +129,9 @@ void texture_inspector(Ctx& c) {
         magnified_warning(c, *region);
         keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
         keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
-        if (button(c, "Place by hand",
+        if (button(c, "Transform",
                    {.icon = icons::kMove,
-                    .tip = "Drag on the picture to move the texture, with Shift to turn it, with "
+                    .tip = "Drag on the picture to move the texture, with Shift to rotate it, with "
                            "Ctrl to scale it",
                     .command = "tool.place",
                     .width = -1}))
@@ -146,10 +145,10 @@ void texture_inspector(Ctx& c) {
         region_parameter(c, *region, "placement.corners_px", "Corners");
         const bool set = region->placement.corners_px.has_value();
         const Size plate = c.view.plate.size;
-        if (!set && button(c, "Set four corners",
+        if (!set && button(c, "Add corner pin",
                            {.icon = icons::kCrosshairs,
                             .enabled = !plate.empty(),
-                            .tip = "Puts four corners on the picture to be dragged to a flat "
+                            .tip = "Adds four corners to drag onto a flat "
                                    "surface in perspective",
                             .width = -1})) {
             const double w = plate.width, h = plate.height;
@@ -159,7 +158,7 @@ void texture_inspector(Ctx& c) {
                                                           0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h}});
             c.state.tool = Tool::kPlace;
         }
-        if (set && button(c, "Remove the corners", {.icon = icons::kClose, .width = -1}))
+        if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
             c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", {}});
         section_gap(c);
     }

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/render_estimate.h"
+#include "app/render/render_estimate.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/parallel.h"
 #include "ui/icons.h"
@@ -73,9 +73,9 @@ void version_up(std::string& path) {
     path.replace(at + 2, end - at - 2, number);
 }
 
-RenderOutlook outlook(const Ctx& c, const std::vector<int>& frames, Quality quality) {
+RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality quality) {
     const SessionView& v = c.view;
-    OutlookInputs in;
+    EstimateInputs in;
     in.size = v.plate.size;
     in.frames = frames.size();
     in.quality = quality;
@@ -83,19 +83,20 @@ RenderOutlook outlook(const Ctx& c, const std::vector<int>& frames, Quality qual
     in.threads = static_cast<unsigned>(thread_count());
     in.speed = c.settings.render_speed;
     count_regions(v.project, in);
+    in.layers = !c.state.output.layers.empty();
     // The preview's analysis serves a render of its quality.
     const bool there = v.preview_quality == quality && v.result_current && !v.preview.analysing;
     in.analysed =
         there || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
-    return render_outlook(in);
+    return estimate_render(in);
 }
 
-// What the render will take. Returns its seconds.
+// Draws the estimate of the render. Returns its seconds.
 double estimate(Ctx& c, const std::vector<int>& frames) {
     const SessionView& v = c.view;
     const Theme& t = c.theme;
     const Quality quality = v.project.settings.quality;
-    const RenderOutlook now = outlook(c, frames, quality);
+    const RenderEstimate now = estimate_of(c, frames, quality);
     const Quality other = quality == Quality::kDraft ? Quality::kFinal : Quality::kDraft;
     const bool known = !frames.empty() && !v.plate.size.empty();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -113,9 +114,8 @@ double estimate(Ctx& c, const std::vector<int>& frames) {
         text_in(list, t.strong, {x, at.y + t.px(26)}, {x + third, at.y + t.px(50)}, t.text,
                 known ? values[k].c_str() : "–");
     }
-    const std::string instead =
-        (other == Quality::kDraft ? "As a draft about " : "As a final about ") +
-        time_text(outlook(c, frames, other).seconds);
+    const std::string instead = (other == Quality::kDraft ? "Draft: about " : "Final: about ") +
+                                time_text(estimate_of(c, frames, other).seconds);
     if (known)
         text_in(list, t.small, {at.x, at.y + t.px(54)}, {at.x + w, at.y + t.px(72)}, t.quiet,
                 instead.c_str());
@@ -123,42 +123,22 @@ double estimate(Ctx& c, const std::vector<int>& frames) {
     return now.seconds;
 }
 
-// The command line's names of things say nothing here.
-std::string without_flags(std::string text) {
-    for (const char* begin : {" (--", " (weft "}) {
-        for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin)) {
-            const std::size_t end = text.find(')', at);
-            if (end == std::string::npos) break;
-            text.erase(at, end + 1 - at);
-        }
-    }
-    return text;
-}
-
 // Layers for compositing, and where they go.
 void layer_choice(Ctx& c) {
     const Theme& t = c.theme;
     ExportState& e = c.state.output;
-    static constexpr std::pair<const char*, const char*> kLayers[] = {
-        {"patch", "The new texture with its coverage, premultiplied"},
-        {"edge", "What soft edges take away of the old surface"},
-        {"light", "What the texture was multiplied by"},
-        {"st", "ST-map: the place in the texture that each pixel shows"},
-        {"matte", "Coverage of all regions"},
-        {"seam", "Where a seam of the grown texture shows"},
-        {"id", "The region's number"}};
     if (!section(c, "Layers for compositing", false)) return;
     const PanelName panel(c, "Layers");
     const float left = ImGui::GetCursorPosX();
     const float third = std::floor(ImGui::GetContentRegionAvail().x / 3);
     int column = 0;
-    for (const auto& [name, tip] : kLayers) {
-        const auto at = std::find(e.layers.begin(), e.layers.end(), name);
+    for (const LayerInfo& layer : kLayers) {
+        const auto at = std::find(e.layers.begin(), e.layers.end(), layer.kind);
         bool on = at != e.layers.end();
         if (column > 0) ImGui::SameLine(left + third * static_cast<float>(column));
-        if (checkbox(c, name, on, tip)) {
+        if (checkbox(c, layer.name.data(), on, layer.help.data())) {
             if (on)
-                e.layers.emplace_back(name);
+                e.layers.push_back(layer.kind);
             else
                 e.layers.erase(at);
         }
@@ -168,30 +148,28 @@ void layer_choice(Ctx& c) {
     if (e.layers.empty()) return section_gap(c);
     if (exr) {
         int apart = e.layers_apart ? 1 : 0;
-        if (segments(c, "Where", {"In the frames", "Files of their own"}, apart))
+        if (segments(c, "Where", {"In the frames", "Separate files"}, apart))
             e.layers_apart = apart == 1;
     } else {
-        quiet(c, "As EXR files, in a folder 'layers' beside them");
+        quiet(c, "Written as EXR files to a folder 'layers' beside the frames");
     }
     ImGui::Dummy({0, t.px(2)});
     section_gap(c);
 }
 
-// "patch,st" in the order in which they are listed in files.
 void take_layers(const ExportState& e, SubmitJob& job) {
-    for (const std::string& name : e.layers)
-        job.layers += (job.layers.empty() ? "" : ",") + name;
+    job.layers = e.layers;
     const bool exr = std::string_view(kExtensions[e.format]) == "exr";
     if (!job.layers.empty() && (!exr || e.layers_apart))
         job.layers_path = folder_of(job.output) + "/layers/####.exr";
 }
 
-// What keeps it from being rendered, by the region's name where it is a region's.
+// Why it cannot be rendered, with the region's name if a region is the reason.
 std::string in_words(const Ctx& c, const Issue& problem) {
     for (const Leaf<Region>& region : c.view.project.regions)
         if (const auto found = c.view.unready.find(region->id); found != c.view.unready.end())
             return region->name + " is not ready. " + found->second + ".";
-    return without_flags(problem.what + ". " + problem.what_to_do + ".");
+    return problem.what + ". " + problem.what_to_do + ".";
 }
 
 void export_card(Ctx& c, ImVec2 size) {
@@ -206,7 +184,8 @@ void export_card(Ctx& c, ImVec2 size) {
     quiet(c, "Frames");
     segments(c, "Frames", {"Whole shot", "Marked range", "Every nth"}, e.range);
     if (e.range == 1 && !c.view.mark_in && !c.view.mark_out)
-        banner(c, icons::kInformation, t.warn, "Mark a range with I and O on the timeline.");
+        banner(c, icons::kInformation, t.warn,
+               "Set in and out points with I and O on the timeline.");
     if (e.range == 2) {
         double step = e.step;
         if (slider(c,
@@ -236,12 +215,11 @@ void export_card(Ctx& c, ImVec2 size) {
     ImGui::SameLine(0, t.px(4));
     if (icon_button(c, icons::kArrowUp, "Version up", false, nullptr, true, t.row))
         version_up(e.output);
-    checkbox(c, "Review movie beside it", e.with_movie,
-             "An .mp4 of the result, to look at and to send round");
+    checkbox(c, "Write review movie", e.with_movie, "An .mp4 of the result for review");
     layer_choice(c);
     ImGui::Dummy({0, t.px(4)});
-    quiet(c, "Frames that are there already");
-    segments(c, "Existing", {"Stop", "Keep", "Overwrite"}, e.existing);
+    quiet(c, "If files exist");
+    segments(c, "Existing", {"Fail", "Skip", "Overwrite"}, e.existing);
     ImGui::Dummy({0, t.px(6)});
     project_parameter(c, "settings.quality", "Quality");
     project_parameter(c, "output.depth", "Depth");
@@ -252,13 +230,13 @@ void export_card(Ctx& c, ImVec2 size) {
     const Issue* problem = nullptr;
     for (const Issue& issue : c.view.issues)
         if (issue.severity == Severity::kError && !problem) problem = &issue;
-    // The output is chosen here, so that its absence in the document is no obstacle.
+    // The output is chosen here, so it may be missing in the document.
     const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
     const bool no_plate = c.view.plate.state == PlateView::State::kFailed;
     if (!ready)
         banner(c, icons::kAlert, t.bad, in_words(c, *problem));
     else if (no_plate)
-        banner(c, icons::kAlert, t.bad, "The plate cannot be opened. " + c.view.plate.error);
+        banner(c, icons::kAlert, t.bad, "Cannot open the plate. " + c.view.plate.error);
     const std::string label = "Render " + std::to_string(frames.size()) + " frames";
     if (button(c, (label + "##submit").c_str(),
                {.icon = icons::kRocket,
@@ -325,7 +303,7 @@ void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
     if (job.state == JobState::kFailed || job.state == JobState::kCancelled)
         shown.emplace_back(icons::kRefresh, "Retry");
     shown.emplace_back(icons::kConsole, "Log");
-    shown.emplace_back(icons::kFolderOpen, "Show the folder");
+    shown.emplace_back(icons::kFolderOpen, "Show folder");
     if (job.state == JobState::kDone) shown.emplace_back(icons::kReview, "Review");
     if (over) shown.emplace_back(icons::kClose, "Remove");
     const float side = t.px(28);
@@ -340,7 +318,7 @@ void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
             if (what == "Retry") c.emit(CommandJob{job.id, JobCommand::kRetry});
             if (what == "Remove") c.emit(CommandJob{job.id, JobCommand::kRemove});
             if (what == "Log") c.state.open_log = c.state.open_log == job.id ? 0 : job.id;
-            if (what == "Show the folder") c.pictures.reveal(folder_of(job.output));
+            if (what == "Show folder") c.pictures.reveal(folder_of(job.output));
             if (what == "Review") {
                 c.emit(MeasureResult{job.output});
                 set_workspace(c.state, Workspace::kReview);
@@ -398,7 +376,7 @@ void job_row(Ctx& c, const JobView& job) {
         const bool done = job.state == JobState::kDone;
         if (job.elapsed_s > 0)
             line += std::string(done ? "   in " : "   ") + time_text(job.elapsed_s) +
-                    (done ? "" : " so far");
+                    (done ? "" : " elapsed");
     }
     text_in(list, t.small, {x, at.y + t.px(61)}, {right, at.y + t.px(80)},
             state_color(t, job.state), fitted(line, right - x).c_str(), 0);
@@ -411,7 +389,7 @@ void job_row(Ctx& c, const JobView& job) {
         ImGui::PushStyleColor(ImGuiCol_ChildBg, t.field);
         ImGui::BeginChild("##log", {0, t.px(140)}, true);
         ImGui::PushFont(t.small);
-        wrapped(c, log.empty() ? "The log is empty: nothing went wrong." : log, t.quiet);
+        wrapped(c, log.empty() ? "The log is empty: no errors or warnings." : log, t.quiet);
         ImGui::PopFont();
         ImGui::EndChild();
         ImGui::PopStyleColor();
@@ -434,9 +412,9 @@ void jobs_page(Ctx& c, ImVec2 size) {
     ImGui::PopFont();
     ImGui::Dummy({0, t.px(4)});
     if (c.view.jobs.empty()) {
-        empty_state(c, icons::kJobs, "Nothing is rendering",
-                    "Set up a render on the left. It runs beside the editor: paint on while it "
-                    "works, or close the window and let it finish.");
+        empty_state(c, icons::kJobs, "No renders yet",
+                    "Set up a render on the left. It runs in the background: you can keep working "
+                    "or close the window.");
     }
     for (auto job = c.view.jobs.rbegin(); job != c.view.jobs.rend(); ++job)
         job_row(c, *job);
@@ -446,11 +424,11 @@ void jobs_page(Ctx& c, ImVec2 size) {
 void learn_from_jobs(Ctx& c) {
     for (const JobView& job : c.view.jobs) {
         if (job.state != JobState::kDone || job.foreseen_s <= 0 ||
-            c.state.learnt_jobs.contains(job.id))
+            c.state.calibrated_jobs.contains(job.id))
             continue;
-        c.state.learnt_jobs.insert(job.id);
+        c.state.calibrated_jobs.insert(job.id);
         c.settings.render_speed =
-            learnt_speed(c.settings.render_speed, job.foreseen_s, job.elapsed_s);
+            calibrated_speed(c.settings.render_speed, job.foreseen_s, job.elapsed_s);
     }
 }
 

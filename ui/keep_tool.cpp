@@ -1,9 +1,9 @@
-// Keeping pieces of the grown texture as they are, or having them made again: the tool on the
+// Locking and regenerating patches of the synthesized texture: the tool on the
 // canvas and its part of the inspector.
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/piece_pick.h"
+#include "app/textures/piece_pick.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/viewer.h"
@@ -96,44 +96,45 @@ void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
 }
 
 void keep_section(Ctx& c, const Region& region) {
-    if (!section(c, "Keep and make again")) return;
+    if (!section(c, "Lock and regenerate patches")) return;
     const PanelName panel(c, "Keep");
     const Theme& t = c.theme;
     if (!region.texture.plane.empty() || region.temporal.mode != TemporalMode::kLocked) {
-        wrapped(c, "Only a grown texture that stays on its surface has pieces to keep.", t.quiet);
+        wrapped(c, "Only a synthesized texture that is locked to the surface has patches to lock.",
+                t.quiet);
         return section_gap(c);
     }
     int what = c.state.keep_again ? 1 : 0;
-    if (segments(c, "What", {"Keep", "Make again"}, what)) c.state.keep_again = what == 1;
+    if (segments(c, "What", {"Lock", "Regenerate"}, what)) c.state.keep_again = what == 1;
     int which = c.state.keep_seams ? 1 : 0;
     if (segments(c, "Which", {"Piece", "Seam"}, which)) c.state.keep_seams = which == 1;
     const bool on = c.state.tool == Tool::kKeep;
-    if (button(c, "Choose on the picture",
+    if (button(c, "Select on the picture",
                {.icon = icons::kLock,
                 .look = on ? Look::kPrimary : Look::kNormal,
-                .tip = "Click a piece or a seam, or drag a rectangle; Alt lets go of one again. "
-                       "What is kept stays whatever else is changed",
+                .tip = "Click a patch or a seam, or drag a rectangle; Alt deselects. "
+                       "Locked patches stay whatever else you change",
                 .command = "tool.keep",
                 .width = -1}))
         c.state.tool = Tool::kKeep;
-    if (on && !provenance(c)) quiet(c, "Looking where the pieces are…");
+    if (on && !provenance(c)) quiet(c, "Finding patches…");
     if (region.amendments->empty())
         wrapped(c,
-                "Keep a piece that is right before you change seams, overlap or variation; or have "
-                "one made again that is not.",
+                "Lock a patch that is right before you change seams, overlap or seed, or "
+                "regenerate one that is not.",
                 t.quiet);
     for (std::size_t k = 0; k < region.amendments->size(); ++k) {
         const PlaneAmendment& one = (*region.amendments)[k];
         const bool again = one.kind == PlaneAmendment::Kind::kAgain;
         ImGui::PushID(static_cast<int>(k));
         const std::string number = std::to_string(k + 1);
-        const std::string label = (again ? "Made again, " : "Kept, ") +
+        const std::string label = (again ? "Regenerated, " : "Kept, ") +
                                   std::to_string(texels_of(one)) + " texels##amendment" + number;
         const float width = ImGui::GetContentRegionAvail().x - t.px(26) - t.gap;
         if (button(c, label.c_str(),
                    {.icon = again ? icons::kRefresh : icons::kLock,
                     .look = Look::kQuiet,
-                    .tip = again ? "Once more, with another result" : "It stays as it is",
+                    .tip = again ? "Regenerate with another seed" : "It is locked",
                     .width = width}) &&
             again) {
             std::vector<PlaneAmendment> all = *region.amendments;
@@ -142,7 +143,7 @@ void keep_section(Ctx& c, const Region& region) {
         }
         c.note("Amendment " + number);
         ImGui::SameLine();
-        if (icon_button(c, icons::kClose, ("Let go of " + number).c_str(), false, nullptr, true,
+        if (icon_button(c, icons::kClose, ("Release " + number).c_str(), false, nullptr, true,
                         t.row)) {
             std::vector<PlaneAmendment> left = *region.amendments;
             left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));

@@ -64,5 +64,9 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
 /// A colour space: built in, or one of the OpenColorIO config's. `usual`: what an empty one means.
 void space_parameter(Ctx& c, std::string_view key, const char* label, const char* usual);
 void project_parameter(Ctx& c, std::string_view key, const char* label = nullptr);
+/// The label of a parameter's slider by its full key: "Scale"; empty where it has none.
+[[nodiscard]] std::string_view parameter_label(std::string_view key);
+/// A choice in an artist's words: "Locked to the surface" for "locked"; else the name itself.
+[[nodiscard]] std::string choice_label(std::string_view key, std::string_view name);
 
 }  // namespace weft::ui

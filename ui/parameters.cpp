@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/keyed_text.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -25,15 +24,15 @@ constexpr Shape kShapes[] = {
     {"synthesis.overlap_px", "Overlap", 12, 96, 0, false, "px"},
     {"synthesis.feather_px", "Feather", 0, 16, 0, false, "px"},
     {"synthesis.refine", "Refinement", 0, 8, 0, false, ""},
-    {"temporal.blend", "Freshness (α)", 0, 1, 2, false, ""},
-    {"temporal.weight", "Stability (λt)", 0, 10, 2, false, ""},
+    {"temporal.blend", "Temporal blend (α)", 0, 1, 2, false, ""},
+    {"temporal.weight", "Temporal weight (λt)", 0, 10, 2, false, ""},
     {"light.strength", "Strength", 0, 1, 2, false, ""},
-    {"light.cast", "Colour of light", 0, 1, 2, false, ""},
-    {"light.highlights", "Gloss kept", 0, 2, 2, false, ""},
+    {"light.cast", "Light tint", 0, 1, 2, false, ""},
+    {"light.highlights", "Keep highlights", 0, 2, 2, false, ""},
     {"finish.grain", "Grain", 0, 2, 2, false, ""},
     {"finish.focus", "Focus", 0, 2, 2, false, ""},
     {"finish.shutter_deg", "Shutter", 0, 360, 0, false, "°"},
-    {"matte.steadiness", "Steadiness", 0, 1, 2, false, ""},
+    {"matte.steadiness", "Stabilize edge", 0, 1, 2, false, ""},
     {"output.jpeg_quality", "JPEG quality", 1, 100, 0, false, ""},
     {"plate.fps", "Frame rate", 0, 120, 3, false, "fps"},
 };
@@ -44,27 +43,27 @@ struct Word {
     const char* shown;
 };
 constexpr Word kWords[] = {
-    {"synthesis.seam", "graphcut", "Best cut (graph cut)"},
-    {"synthesis.seam", "dp", "Quick cut (row by row)"},
-    {"synthesis.seam", "none", "No cut (blocks)"},
-    {"synthesis.seam_cost", "gradient", "Along edges"},
-    {"synthesis.seam_cost", "paper", "The paper's"},
+    {"synthesis.seam", "graphcut", "Graph cut"},
+    {"synthesis.seam", "dp", "Dynamic programming"},
+    {"synthesis.seam", "none", "None (blocks)"},
+    {"synthesis.seam_cost", "gradient", "Gradient"},
+    {"synthesis.seam_cost", "paper", "Paper (eq. 2, 3)"},
     {"temporal.mode", "locked", "Locked to the surface"},
-    {"temporal.mode", "paper", "Carried and blended"},
-    {"temporal.mode", "none", "Every frame anew"},
+    {"temporal.mode", "paper", "Temporal blend (paper)"},
+    {"temporal.mode", "none", "Synthesize every frame"},
     {"light.source", "plate", "From the plate"},
     {"light.source", "none", "No light"},
     {"light.source", "painted", "Painted lamps"},
     {"light.source", "image", "From a picture"},
-    {"light.form", "gain", "Natural (gain)"},
-    {"light.form", "detail", "Plate's tones, texture's detail"},
-    {"light.form", "literal", "Plate's tones only"},
+    {"light.form", "gain", "Multiply"},
+    {"light.form", "detail", "Match plate exposure"},
+    {"light.form", "literal", "Plate shading only"},
     {"texture.wrap", "repeat", "Repeat"},
     {"texture.wrap", "mirror", "Mirror"},
-    {"texture.wrap", "clamp", "Stretch the edge"},
+    {"texture.wrap", "clamp", "Clamp"},
     {"motion.direction", "forward", "To the next frame"},
     {"motion.direction", "backward", "To the previous frame"},
-    {"output.depth", "auto", "As the plate"},
+    {"output.depth", "auto", "Same as plate"},
     {"output.depth", "8", "8 bit"},
     {"output.depth", "16", "16 bit"},
     {"output.depth", "half", "Half float"},
@@ -73,13 +72,7 @@ constexpr Word kWords[] = {
     {"settings.quality", "final", "Final"},
 };
 
-std::string shown_choice(const std::string& key, std::string_view name) {
-    for (const Word& word : kWords)
-        if (word.key == key && word.name == name) return word.shown;
-    return std::string(name);
-}
-
-const Shape* shape_of(const std::string& key) {
+const Shape* shape_of(std::string_view key) {
     for (const Shape& shape : kShapes)
         if (shape.key == key) return &shape;
     return nullptr;
@@ -137,7 +130,7 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
             const auto* text = std::get_if<std::string>(&now);
             const auto* usual = std::get_if<std::string>(&info.default_value);
             for (std::size_t k = 0; k < info.choices.size(); ++k) {
-                names.push_back(shown_choice(key, info.choices[k]));
+                names.push_back(choice_label(key, info.choices[k]));
                 if (text && *text == info.choices[k]) value = static_cast<int>(k);
                 if (usual && *usual == info.choices[k]) standard = static_cast<int>(k);
             }
@@ -189,6 +182,9 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
             return;
         }
         case ParameterKind::kCorners:
+        case ParameterKind::kNames:
+        case ParameterKind::kKeys:
+        case ParameterKind::kLamps:
         case ParameterKind::kFrames: {
             std::string value = format_parameter(info, now);
             if (text_row(c, label.c_str(), value, "default", help.c_str()) != Change::kDone) return;
@@ -217,12 +213,22 @@ bool key_button(Ctx& c, const char* name, bool here, bool anywhere) {
     else
         list.AddQuad({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r}, {mid.x - r, mid.y},
                      color, t.px(1.3f));
-    tooltip(c, here ? "A key is on this frame. Click to take it away"
-                    : "Key it on this frame: the value changes over time");
+    tooltip(c, here ? "Remove the keyframe on this frame" : "Add a keyframe on this frame");
     return pressed;
 }
 
 }  // namespace
+
+std::string_view parameter_label(std::string_view key) {
+    const Shape* shape = shape_of(key);
+    return shape ? shape->label : std::string_view();
+}
+
+std::string choice_label(std::string_view key, std::string_view name) {
+    for (const Word& word : kWords)
+        if (word.key == key && word.name == name) return word.shown;
+    return std::string(name);
+}
 
 void region_parameter(Ctx& c, const Region& region, std::string_view key, const char* label) {
     const auto found = find_parameter(region_parameters(), key);
@@ -243,18 +249,15 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
     if (!value_entry || !keys_entry) return;
     const Theme& t = c.theme;
     const ParameterInfo& info = **value_entry;
-    const ParameterValue text = (*keys_entry)->read(region);
-    const std::size_t count = info.kind == ParameterKind::kPoint ? 2 : 1;
-    KeyedValues keys = read_keyed(
-        std::holds_alternative<std::string>(text) ? std::get<std::string>(text) : "", count);
+    auto keys = std::get<KeyedNumbers>((*keys_entry)->read(region));
     ParameterValue now = (*value_entry)->read(region);
     if (!keys.empty()) {
-        const std::vector<double> here = keyed_at(keys, c.view.frame);
-        now = count == 1 ? ParameterValue(here[0]) : ParameterValue(here);
+        const std::vector<double> here = keys.at(c.view.frame);
+        now = here.size() == 1 ? ParameterValue(here[0]) : ParameterValue(here);
     }
     const RegionRef ref{region.id, {}};
-    const auto set = [&](const KeyedValues& changed, bool done) {
-        const SetRegionParameter edit{ref, std::string(keys_key), keyed_text(changed)};
+    const auto set = [&](const KeyedNumbers& changed, bool done) {
+        const SetRegionParameter edit{ref, std::string(keys_key), changed};
         if (done)
             c.emit(DoEdit{edit});
         else
@@ -266,7 +269,7 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
         return std::vector<double>{one ? *one : 0.0};
     };
     // Before the row: what is drawn first is what the mouse is over.
-    const bool here = keys.contains(c.view.frame);
+    const bool here = keys.has(c.view.frame);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float label_w = std::floor(ImGui::GetContentRegionAvail().x * 0.38f);
     ImGui::SetCursorScreenPos({at.x + label_w - t.px(24), at.y + t.px(3)});
@@ -275,13 +278,13 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
         if (here)
             keys.erase(c.view.frame);
         else
-            keys[c.view.frame] = numbers(now);
+            keys.set(c.view.frame, numbers(now));
         set(keys, true);
     }
     ImGui::SetCursorScreenPos(at);
     control(c, info, now, label, [&](const ParameterValue& value, bool done) {
         if (!keys.empty()) {
-            keys[c.view.frame] = numbers(value);
+            keys.set(c.view.frame, numbers(value));
             return set(keys, done);
         }
         const SetRegionParameter edit{ref, std::string(key), value};
@@ -297,7 +300,7 @@ void space_parameter(Ctx& c, std::string_view key, const char* label, const char
     if (!found) return;
     const ParameterValue now = (*found)->read(c.view.project);
     const auto* text = std::get_if<std::string>(&now);
-    std::vector<std::string> values{"", "srgb", "linear"};
+    std::vector<std::string> values{"", "srgb", "linear", "cineon"};
     values.insert(values.end(), c.view.color_spaces.begin(), c.view.color_spaces.end());
     const std::string chosen = text ? *text : std::string();
     auto at = std::find(values.begin(), values.end(), chosen);

@@ -22,7 +22,7 @@ class PenDevices {
     void add(int device, int number, double least, double most);
     void clear() { pens_.clear(), now_.reset(); }
     [[nodiscard]] bool empty() const { return pens_.empty(); }
-    /// The values of a device that have changed. Devices that are no pens are passed over.
+    /// The values of a device that have changed. Devices that are not pens are skipped.
     void report(int device, const std::map<int, double>& values);
     /// As PenSource::pressure().
     [[nodiscard]] std::optional<float> pressure() const { return now_; }

@@ -66,7 +66,7 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
             static_cast<std::size_t>(std::lround(u * static_cast<float>(rows.size() - 1)));
         if (rows[k].frame != c.view.frame) c.emit(GoToFrame{rows[k].frame});
     }
-    tooltip(c, "Blue: the result. Grey: the plate itself, over the same pixels. Drag to go there");
+    tooltip(c, "Blue: the result. Grey: the plate, over the same pixels. Drag to scrub");
 }
 
 // A value of a frame as a heat strip shows it; below 0: not known.
@@ -80,11 +80,11 @@ std::vector<Heat> heats_of(const Ctx& c) {
     std::vector<Heat> out{
         {"Flicker",
          "How much more the result changes from frame to frame than the plate, or than its "
-         "texture would if it were carried unchanged",
+         "texture would if it moved unchanged",
          {}},
         {"Seams", "How much steeper the picture is at seams than beside them", {}},
         {"Drift", "How different the surface looks from its reference frame", {}},
-        {"Matte", "How far the matte's edge moves otherwise than the picture", {}}};
+        {"Matte", "How far the matte's edge departs from the picture's motion", {}}};
     // An edge that jumps by so many pixels is as bad as it gets.
     constexpr float kWorstChatter_px = 4;
     for (const FrameMarks& mark : c.view.marks) {
@@ -129,7 +129,7 @@ void heat_strips(Ctx& c) {
                                heat_color(std::clamp(heat.values[k], 0.0f, 1.0f)));
         }
         if (ImGui::IsMouseHoveringRect({at.x, y}, {x1, y + row}) && ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s. Dark: all is well. Click to go there", heat.tip);
+            ImGui::SetTooltip("%s. Dark is good. Click to go to the frame", heat.tip);
         y += row + gap;
     }
     for (std::size_t k = 0; k < v.plate.frames.size(); ++k) {
@@ -240,10 +240,10 @@ void worst_frames(Ctx& c) {
     const std::vector<Worst> worst = worst_of(c, c.state.worst_by);
     if (worst.empty()) {
         static constexpr const char* kMissing[] = {
-            "Flicker is looked at as the preview fills its frames, and measured on a render.",
-            "Seams are looked at as the preview fills its frames.",
-            "Drift is looked at once the shot is analysed.",
-            "The matte's edge is looked at as the preview fills its frames."};
+            "Flicker is estimated as the preview fills its frames, and measured on a render.",
+            "Seams are measured as the preview fills its frames.",
+            "Drift is measured once the shot is analysed.",
+            "The matte's edge is measured as the preview fills its frames."};
         wrapped(c, kMissing[c.state.worst_by], c.theme.quiet);
     }
     if (c.view.report.state == QualityReport::State::kDone) {
@@ -277,7 +277,7 @@ void review_panel(Ctx& c, ImVec2 size) {
                         "of every frame beside the plate's own.");
             break;
         case QualityReport::State::kFailed:
-            empty_state(c, icons::kAlert, "It could not be measured", report.error.c_str());
+            empty_state(c, icons::kAlert, "Measuring failed", report.error.c_str());
             break;
         case QualityReport::State::kMeasuring:
             heading(c, "Measuring");
@@ -328,12 +328,12 @@ void review_inspector(Ctx& c) {
         if (!job) {
             wrapped(c, "Render the shot first; its frames are measured against the plate.",
                     t.quiet);
-            if (button(c, "Go to the render", {.icon = icons::kRocket, .width = -1}))
+            if (button(c, "Go to render", {.icon = icons::kRocket, .width = -1}))
                 set_workspace(c.state, Workspace::kJobs);
         } else {
             info_row(c, "Of", job->output);
             const bool busy = c.view.report.state == QualityReport::State::kMeasuring;
-            if (button(c, "Measure it",
+            if (button(c, "Measure",
                        {.icon = icons::kReview,
                         .look = Look::kPrimary,
                         .enabled = !busy && c.view.selected_region() != nullptr,

@@ -45,7 +45,7 @@ bool reset_dot(Ctx& c, const char* label, bool differs) {
     ImGui::GetWindowDrawList()->AddCircleFilled(
         {(min.x + max.x) * 0.5f + t.px(2), (min.y + max.y) * 0.5f}, t.px(hovered ? 4 : 3),
         hovered ? t.accent_hover : t.accent, 12);
-    tooltip(c, "Changed. Click for the default");
+    tooltip(c, "Changed. Click to reset to the default");
     return pressed;
 }
 

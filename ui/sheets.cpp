@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/floating_window.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -16,21 +17,12 @@ bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
     const Theme& t = c.theme;
     size.x = std::min(size.x, screen.x - t.px(32));
     size.y = std::min(size.y, screen.y - t.px(32));
-    ImGui::SetNextWindowPos(
-        {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)});
-    ImGui::SetNextWindowSize(size);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.panel);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(16), t.px(14)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, t.px(5));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     // In front of everything but the choices that were opened from it.
     if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
         ImGui::SetNextWindowFocus();
-    ImGui::Begin(
-        title, nullptr,
-        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PopStyleVar(3);
-    ImGui::PopStyleColor();
+    begin_floating(t, title,
+                   {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)}, size,
+                   {t.px(16), t.px(14)});
     c.panel = title;
     ImGui::PushFont(t.title);
     ImGui::TextUnformatted(title);
@@ -52,9 +44,9 @@ void shortcut_sheet(Ctx& c) {
     if (!c.state.shortcuts_open) return;
     const Theme& t = c.theme;
     begin_sheet(c, "Keyboard shortcuts", {t.px(920), t.px(640)}, c.state.shortcuts_open);
-    quiet(c, "Click a key to change it; Esc leaves it as it is, Backspace takes it away.");
+    quiet(c, "Click a shortcut to change it; Esc cancels, Backspace clears it.");
     for (const std::string& clash : c.commands.collisions())
-        banner(c, icons::kAlert, t.warn, "The same key twice: " + clash);
+        banner(c, icons::kAlert, t.warn, "Duplicate shortcut: " + clash);
     ImGui::BeginChild("##keys", {0, 0});
     const float column = std::floor((ImGui::GetContentRegionAvail().x - t.px(40)) / 3);
     const ImVec2 origin = ImGui::GetCursorScreenPos();
@@ -116,12 +108,12 @@ void settings_window(Ctx& c) {
     int dark = c.settings.dark ? 0 : 1;
     if (segments(c, "Theme", {"Dark", "Light"}, dark)) c.settings.dark = dark == 0;
     ImGui::Dummy({0, t.px(6)});
-    quiet(c, "Around the picture");
+    quiet(c, "Viewer background");
     int grey = c.settings.grey_surround ? 1 : 0;
-    if (segments(c, "Surround", {"As the theme", "18% grey"}, grey))
+    if (segments(c, "Surround", {"Same as theme", "18% grey"}, grey))
         c.settings.grey_surround = grey == 1;
     ImGui::Dummy({0, t.px(6)});
-    quiet(c, "Size of the interface");
+    quiet(c, "UI scale");
     const double scales[] = {0, 1, 1.25, 1.5, 2};
     int scale = 0;
     for (int k = 1; k < 5; ++k)
@@ -134,7 +126,7 @@ void settings_window(Ctx& c) {
         c.state.shortcuts_open = true;
     }
     ImGui::SameLine();
-    if (button(c, "All keys as they were")) {
+    if (button(c, "Reset shortcuts")) {
         c.settings.keys.clear();
         c.commands.bind(c.settings.keys);
     }
@@ -149,12 +141,12 @@ void shot_window(Ctx& c) {
     heading(c, "Plate");
     project_parameter(c, "plate.path", "Frames");
     project_parameter(c, "plate.layer", "Layer");
-    space_parameter(c, "plate.space", "Colour space", "As the kind of file says");
+    space_parameter(c, "plate.space", "Colour space", "Auto (from file type)");
     project_parameter(c, "plate.fps", "Frame rate");
     double aspect = static_cast<double>(c.state.viewer.aspect);
     if (slider(c,
                {.label = "Pixel aspect",
-                .tip = "Width of a pixel over its height, for the view alone: 2 for anamorphic",
+                .tip = "Pixel width divided by height, for viewing only: 2 for anamorphic",
                 .min = 0.5,
                 .max = 2,
                 .standard = c.view.plate.pixel_aspect,
@@ -165,12 +157,12 @@ void shot_window(Ctx& c) {
     ImGui::Dummy({0, t.px(8)});
     heading(c, "Colour");
     space_parameter(c, "color.working_space", "Working space", "Linear");
-    space_parameter(c, "color.texture_space", "Textures", "As the kind of file says");
-    space_parameter(c, "color.out_space", "Result", "As the kind of file says");
+    space_parameter(c, "color.texture_space", "Textures", "Auto (from file type)");
+    space_parameter(c, "color.out_space", "Result", "Auto (from file type)");
     ImGui::Dummy({0, t.px(8)});
     heading(c, "Render");
-    project_parameter(c, "settings.seed", "Variation");
-    project_parameter(c, "settings.excluded_licences", "No textures under");
+    project_parameter(c, "settings.seed", "Seed");
+    project_parameter(c, "settings.excluded_licences", "Exclude licences");
     project_parameter(c, "output.exr_compression", "EXR compression");
     project_parameter(c, "output.jpeg_quality");
     end_sheet(c);

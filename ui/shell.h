@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session/frame_clock.h"
+#include "app/base/frame_clock.h"
 #include "ui/ctx.h"
 
 namespace weft {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/session/action.h"
-#include "app/session/texture_shelf.h"
+#include "app/textures/texture_shelf.h"
 #include "ui/picture_host.h"
 
 namespace weft {
@@ -34,7 +34,7 @@ enum class Tool : std::uint8_t {
     kPin,
     kLamp,
     kMeasure,
-    kKeep,   ///< Keeps pieces of the texture, or has them made again.
+    kKeep,   ///< Locks or regenerates patches of the texture.
     kCrypto  ///< Picks objects of a Cryptomatte.
 };
 
@@ -143,8 +143,8 @@ struct ExportState {
     int existing = 0;  ///< 0: refuse, 1: skip, 2: overwrite.
     bool with_movie = true;
     bool filled = false;
-    std::vector<std::string> layers;  ///< For compositing, as layer_files.h names them.
-    bool layers_apart = false;        ///< Into files of their own.
+    std::vector<LayerKind> layers;  ///< For compositing.
+    bool layers_apart = false;      ///< Into files of their own.
 };
 
 struct UiState {
@@ -190,8 +190,8 @@ struct UiState {
     int measured_count = 4;                         ///< … and how many bricks it is long.
     StripKind strip = StripKind::kKeyframes;
     std::vector<std::string> strip_textures;
-    std::set<int> learnt_jobs;     ///< Whose time was taken into the settings.
-    bool strip_over_time = false;  ///< Each setting on several frames.
+    std::set<int> calibrated_jobs;  ///< Whose time was taken into the settings.
+    bool strip_over_time = false;   ///< Each setting on several frames.
     /// The strip is a contact sheet now.
     [[nodiscard]] bool sheet() const { return strip_over_time && compares_settings(strip); }
     RegionId renaming = 0;

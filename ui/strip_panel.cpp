@@ -51,7 +51,7 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
                                     ? "After the analysis, " + std::to_string(preview.done) + "/" +
                                           std::to_string(preview.total)
                                 : c.view.analysis_paused ? std::string("The analysis is paused")
-                                                         : std::string("Being worked out…");
+                                                         : std::string("Rendering…");
     const std::string text = one.error.empty() ? waiting : "No result";
     ImGui::PushFont(t.small);
     text_in(list, t.small, min, max, one.error.empty() ? t.quiet : t.bad,
@@ -69,7 +69,7 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     c.note(one.label);
     tooltip(c, !one.error.empty() ? one.error.c_str()
                : frames           ? "Go to this frame"
-                                  : "Use this; one step of the history");
+                                  : "Use this setting; one undo step");
     const ImVec2 max(at.x + size.x, at.y + size.y - t.px(20));
     picture_in(c, one, at, max);
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -112,11 +112,11 @@ void contact_sheet(Ctx& c, ImVec2 at, ImVec2 size, float aspect) {
         const float y = at.y + head + static_cast<float>(row) * (h + gap);
         const std::size_t first = static_cast<std::size_t>(row * columns);
         ImGui::SetCursorScreenPos({at.x, y + std::floor((h - ImGui::GetFrameHeight()) / 2)});
-        if (button(
-                c, cards[first].label.c_str(),
-                {.look = cards[first].current ? Look::kPrimary : Look::kNormal,
-                 .tip = cards[first].current ? "As it is now" : "Use this; one step of the history",
-                 .width = names - t.px(8)}))
+        if (button(c, cards[first].label.c_str(),
+                   {.look = cards[first].current ? Look::kPrimary : Look::kNormal,
+                    .tip = cards[first].current ? "Current setting"
+                                                : "Use this setting; one undo step",
+                    .width = names - t.px(8)}))
             c.emit(ChooseFromStrip{static_cast<int>(first)});
         for (int column = 0; column < columns; ++column) {
             const StripCard& one = cards[first + static_cast<std::size_t>(column)];
@@ -154,11 +154,11 @@ void strip_panel(Ctx& c, ImVec2 size) {
         c.state.strip = static_cast<StripKind>(kind + 1);
     if (compares_settings(c.state.strip)) {
         ImGui::SameLine(0, t.px(16));
-        checkbox(c, "Over time", c.state.strip_over_time,
-                 "Each setting on the same frames of the marked range, or of the shot");
+        checkbox(c, "Contact sheet", c.state.strip_over_time,
+                 "Shows each setting on the same frames of the marked range or of the shot");
     }
     const StripView& strip = c.view.strip;
-    // The session follows what is chosen here, and stops when nobody looks.
+    // The session follows what is chosen here, and stops when the panel is hidden.
     const std::vector<std::string> textures =
         c.state.strip == StripKind::kTextures ? textures_to_try(c) : std::vector<std::string>{};
     if (strip.kind != c.state.strip || textures != c.state.strip_textures ||
@@ -170,11 +170,10 @@ void strip_panel(Ctx& c, ImVec2 size) {
     if (strip.cards.empty() || strip.kind != c.state.strip || strip.over_time != c.state.sheet()) {
         ImGui::SetCursorScreenPos({origin.x, origin.y + top - t.px(8)});
         ImGui::BeginChild("Nothing", {size.x, size.y - top}, false);
-        empty_state(
-            c, icons::kFourUp, "Small results side by side",
-            c.view.plate.state == PlateView::State::kFailed
-                ? "They are made once the plate is found."
-                : "Give a region a matte and a texture, and they are made here while you work.");
+        empty_state(c, icons::kFourUp, "Small results side by side",
+                    c.view.plate.state == PlateView::State::kFailed
+                        ? "They are rendered once the plate is found."
+                        : "Give a region a matte and a texture to see variations here.");
         ImGui::EndChild();
         end_panel(c);
         return;

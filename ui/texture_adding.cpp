@@ -24,8 +24,8 @@ void library_choices(Ctx& c) {
     ImGui::Dummy({0, c.theme.px(4)});
     text_row(c, "Author", a.author, "who made them");
     text_row(c, "Licence", a.licence, "CC0-1.0, CC-BY-4.0, own work …");
-    checkbox(c, "Copy the pictures as well", a.keep_originals,
-             "Larger views work then also when the folder is gone");
+    checkbox(c, "Copy pictures into the library", a.keep_originals,
+             "Large previews then work without the original folder");
 }
 
 void progress(Ctx& c, const TextureImportState& now) {
@@ -34,7 +34,7 @@ void progress(Ctx& c, const TextureImportState& now) {
             c, now.total > 0 ? static_cast<float>(now.done) / static_cast<float>(now.total) : 0.0f,
             now.total > 0
                 ? std::to_string(now.done) + " of " + std::to_string(now.total) + " pictures"
-                : std::string("Looking through the folder"));
+                : std::string("Scanning the folder"));
     } else if (now.failed) {
         banner(c, icons::kAlert, c.theme.bad, now.outcome);
     } else {
@@ -55,17 +55,17 @@ void adding_window(Ctx& c) {
         const TextureImportState now = c.textures.importing();
         progress(c, now);
         ImGui::Dummy({0, t.px(8)});
-        if (button(c, now.running ? "Go on working" : "Close", {.look = Look::kPrimary}))
+        if (button(c, now.running ? "Continue in background" : "Close", {.look = Look::kPrimary}))
             a.open = false;
         end_sheet(c);
         return;
     }
-    segments(c, "How", {"Bring into the library", "Only show the folder"}, a.how);
+    segments(c, "How", {"Import into library", "Browse folder only"}, a.how);
     ImGui::Dummy({0, t.px(6)});
     if (a.how == 0)
         library_choices(c);
     else
-        wrapped(c, "The pictures are used as they are, and stay where they are.", t.quiet);
+        wrapped(c, "The pictures are used in place, without importing.", t.quiet);
     ImGui::Dummy({0, t.px(8)});
     if (button(c, "Add", {.icon = icons::kPlus, .look = Look::kPrimary})) {
         if (a.how == 0) {

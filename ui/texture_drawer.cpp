@@ -1,10 +1,10 @@
 // Textures: what there is, what suits the region, and one of them large.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
 
+#include "engine/core/text.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/texture_cards.h"
@@ -12,12 +12,6 @@
 
 namespace weft::ui {
 namespace {
-
-std::string lower(std::string text) {
-    for (char& ch : text)
-        ch = static_cast<char>(std::tolower(static_cast<unsigned char>(ch)));
-    return text;
-}
 
 bool listed(const std::vector<std::string>& list, const std::string& path) {
     return std::find(list.begin(), list.end(), path) != list.end();
@@ -34,9 +28,9 @@ bool matches(const Ctx& c, const TextureCard& card, const std::string& wanted) {
             return false;
     }
     if (wanted.empty()) return true;
-    std::string text = lower(card.name + " " + card.material);
+    std::string text = lower_case(card.name + " " + card.material);
     for (const std::string& tag : card.tags)
-        text += " " + lower(tag);
+        text += " " + lower_case(tag);
     return text.find(wanted) != std::string::npos;
 }
 
@@ -44,7 +38,7 @@ bool matches(const Ctx& c, const TextureCard& card, const std::string& wanted) {
 void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>& cards) {
     DrawerState& d = c.state.drawer;
     DrawerCache& cache = d.cache;
-    const std::string wanted = lower(d.search);
+    const std::string wanted = lower_case(d.search);
     // The library knows its words better than a comparison of letters does.
     std::shared_ptr<const std::vector<std::string>> answered = c.textures.similar(d.similar_key);
     if (d.similar_key.empty()) {
@@ -147,7 +141,7 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         if (shown && button(c, ("Delete " + collection).c_str(),
                             {.icon = icons::kClose,
                              .look = Look::kQuiet,
-                             .tip = "The textures stay where they are",
+                             .tip = "The textures themselves are not deleted",
                              .width = -1}))
             gone = collection;
     }
@@ -165,10 +159,10 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
         if (row(material.c_str(), icons::kTagOutline, count, d.material == material))
             pick(material, false, false);
     ImGui::Dummy({0, t.px(6)});
-    if (button(c, "Like a picture…",
+    if (button(c, "Find by picture…",
                {.icon = icons::kMagnify,
                 .look = Look::kQuiet,
-                .tip = "Finds the library's textures that look like a picture of your own",
+                .tip = "Finds textures in the library that look like your picture",
                 .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kSimilar;
         c.state.browser.just_opened = true;
@@ -176,7 +170,7 @@ void materials(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     if (button(c, "Add a folder…",
                {.icon = icons::kPlus,
                 .look = Look::kQuiet,
-                .tip = "Textures of your own: into the library, or only shown",
+                .tip = "Import your own textures, or browse a folder",
                 .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kTextureFolder;
         c.state.browser.just_opened = true;
@@ -217,16 +211,16 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::BeginChild("Grid", size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
     ImGui::PopStyleVar();
     const PanelName name(c, "Textures");
-    const std::string wanted = lower(c.state.drawer.search);
+    const std::string wanted = lower_case(c.state.drawer.search);
     const std::vector<const TextureCard*>& shown = c.state.drawer.cache.shown;
     DrawerState& d = c.state.drawer;
     if (!d.similar_key.empty()) {
-        if (button(c, "All textures again", {.icon = icons::kClose})) d.similar_key.clear();
+        if (button(c, "Show all textures", {.icon = icons::kClose})) d.similar_key.clear();
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
         const std::string like =
             d.similar_file.empty()
-                ? "Like the rectangle on frame " + std::to_string(d.similar_frame)
+                ? "Similar to the selection on frame " + std::to_string(d.similar_frame)
                 : "Like " + d.similar_file.substr(d.similar_file.find_last_of('/') + 1);
         quiet(c, (like + (c.textures.similar(d.similar_key) ? "" : "  ·  looking…")).c_str());
     } else if (wanted.empty() && d.material.empty() && d.collection.empty() && d.origin.empty() &&
@@ -239,10 +233,10 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
                         "Drag textures onto its name on the left.");
         else if (cards.empty())
             empty_state(c, icons::kTexture, "No textures yet",
-                        "Add a folder with pictures of surfaces, on the left.");
+                        "Add a folder of surface pictures on the left.");
         else
             empty_state(c, icons::kMagnify, "Nothing found",
-                        "Try another word, or all textures on the left.");
+                        "Try another word, or select All textures on the left.");
         ImGui::EndChild();
         return;
     }
@@ -310,7 +304,7 @@ void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     if (!known.author.empty()) facts += " · " + known.author;
     facts += " · " + (known.licence.empty() ? "licence not stated" : known.licence);
     quiet(c, facts.c_str());
-    if (button(c, "Put it on the region",
+    if (button(c, "Apply to region",
                {.icon = icons::kCheck,
                 .look = Look::kPrimary,
                 .enabled = c.view.selected_region() != nullptr,

@@ -46,7 +46,7 @@ void suggestion_heading(Ctx& c, const std::string& text) {
     ImGui::SameLine();
     if (chip(c, "All regions together", c.state.drawer.together))
         c.state.drawer.together = !c.state.drawer.together;
-    tooltip(c, "One texture for each region, chosen to go with each other");
+    tooltip(c, "Suggests one texture for each region, chosen to match");
 }
 
 // One suggestion: the artist's own frame with the texture on it, and why.
@@ -60,7 +60,8 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
     c.note(card.name);
     const bool hovered = ImGui::IsItemHovered();
     if (hovered && ImGui::IsMouseDoubleClicked(0)) c.emit(ApplyTexture{card.path, 0});
-    tooltip(c, (card.name + ". " + why.reason + ". Double-click puts it on the region").c_str());
+    tooltip(c,
+            (card.name + ". " + why.reason + ". Double-click to apply it to the region").c_str());
     texture_drag_source(c, card);
     ImGui::PopID();
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -88,7 +89,7 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
             texture_thumbnail(c, card.path, {x, at.y}, {x + size.y, max.y});
         list.AddRectFilled({at.x, max.y - t.px(18)}, max, t.scrim);
         list.PopClipRect();
-        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "on its way…");
+        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "rendering…");
     }
     const bool picked = c.state.drawer.picked == card.path;
     if (picked || hovered)
@@ -126,7 +127,7 @@ std::vector<TogetherRegion> regions_together(const Ctx& c) {
     return out;
 }
 
-// "Keep this, change those": a lock for each region that has a texture of the library.
+// "Keep this texture": a lock for each region that has a texture of the library.
 void keep_chips(Ctx& c, const std::vector<TogetherRegion>& regions) {
     std::vector<RegionId>& kept = c.state.drawer.kept;
     bool any = false;
@@ -170,17 +171,17 @@ void together_row(Ctx& c, const TogetherSuggestion& set, const std::vector<Toget
     ImGui::PopFont();
     ImGui::SetCursorScreenPos({x + t.px(4), at.y});
     ImGui::BeginGroup();
-    if (button(c, ("Use these##set" + std::to_string(number)).c_str(),
+    if (button(c, ("Apply set##set" + std::to_string(number)).c_str(),
                {.icon = icons::kCheck,
                 .look = number == 0 ? Look::kPrimary : Look::kNormal,
-                .tip = "Puts them on all regions; one step of the history"})) {
+                .tip = "Applies them to all regions; one undo step"})) {
         ApplyTextures apply;
         for (std::size_t k = 0; k < regions.size() && k < set.paths.size(); ++k)
             if (regions[k].keep.empty() && !set.paths[k].empty())
                 apply.textures.emplace_back(regions[k].region, set.paths[k]);
         c.emit(apply);
     }
-    c.note("Use set " + std::to_string(number + 1));
+    c.note("Apply set " + std::to_string(number + 1));
     quiet(c, set.why.c_str());
     ImGui::EndGroup();
     ImGui::SetCursorScreenPos({at.x, at.y + side + t.px(24)});
@@ -205,11 +206,11 @@ void suggested_together(Ctx& c, const std::vector<TextureCard>& cards) {
     keep_chips(c, regions);
     const auto found = c.textures.together(key);
     if (!found) {
-        quiet(c, "Looking for textures that go with each other…");
+        quiet(c, "Finding textures that match…");
         return;
     }
     if (found->empty()) {
-        quiet(c, "The library has none that go with each other. Keep fewer, or search below.");
+        quiet(c, "No matching set found. Keep fewer textures, or search below.");
         return;
     }
     int& first = c.state.drawer.together_first;
@@ -217,7 +218,7 @@ void suggested_together(Ctx& c, const std::vector<TextureCard>& cards) {
     constexpr int kShown = 2;
     if (count > kShown) {
         ImGui::SameLine();
-        if (button(c, "Shuffle", {.icon = icons::kRefresh, .tip = "Others that go together"}))
+        if (button(c, "Shuffle", {.icon = icons::kRefresh, .tip = "Show another set"}))
             first += kShown;
     }
     if (first >= count) first = 0;
@@ -240,7 +241,7 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
     if (found.empty()) {
         if (!c.textures.suggested(key))
-            quiet(c, ("Looking for textures that suit " + region->name + "…").c_str());
+            quiet(c, ("Finding textures for " + region->name + "…").c_str());
         return;
     }
     const PanelName name(c, "Suggested");

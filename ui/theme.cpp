@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
+#include "engine/core/input_file.h"
 #include "ui/icons.h"
 
 namespace weft {
@@ -28,8 +28,7 @@ constexpr float kLinePerEm = 1.21f;
 
 ImFont* load(const char* path, float em_px, float icon_px) {
     ImFontAtlas* atlas = ImGui::GetIO().Fonts;
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) {
+    if (!check_input_file(path)) {
         ImFontConfig config;
         config.SizePixels = std::round(em_px);
         return atlas->AddFontDefault(&config);
@@ -40,7 +39,7 @@ ImFont* load(const char* path, float em_px, float icon_px) {
     config.PixelSnapH = true;
     ImFont* font =
         atlas->AddFontFromFileTTF(path, std::round(em_px * kLinePerEm), &config, kTextRanges);
-    if (std::filesystem::exists(kIcons, error)) {
+    if (check_input_file(kIcons)) {
         ImFontConfig merged;
         merged.MergeMode = true;
         merged.PixelSnapH = true;

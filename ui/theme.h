@@ -43,7 +43,7 @@ void load_fonts(Theme& theme);
 [[nodiscard]] ImU32 region_color(int index, unsigned id);
 /// A perceptually even map from dark to light, 0–1: seams, flicker, confidence.
 [[nodiscard]] ImU32 heat_color(float value);
-/// Heat of a frame's flicker beyond the plate's own and beyond what a texture carried unchanged
+/// Heat of a frame's flicker beyond the plate's own and beyond what a texture moved unchanged
 /// has, all in 8-bit steps (below 0: not known); below 0 where nothing is known.
 [[nodiscard]] float flicker_heat(float flicker, float plate, float carried);
 /// The same colour, its opacity multiplied.

@@ -201,8 +201,7 @@ void timeline(Ctx& c, ImVec2 size) {
     const ImVec2 field_min(origin.x + t.px(8), top), field_max(origin.x + size.x - t.px(8), bottom);
     list.AddRectFilled(field_min, field_max, t.field, t.radius);
     if (v.plate.frames.empty()) {
-        text_in(list, t.regular, field_min, field_max, t.off,
-                "The frames of the plate appear here");
+        text_in(list, t.regular, field_min, field_max, t.off, "The plate's frames appear here");
         end_panel(c);
         return;
     }

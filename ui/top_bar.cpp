@@ -149,7 +149,7 @@ void top_bar(Ctx& c, ImVec2 size) {
             c.view.backend.c_str());
     ImGui::SetCursorScreenPos(chip_min);
     ImGui::InvisibleButton("##backend", {chip_max.x - chip_min.x, chip_max.y - chip_min.y});
-    tooltip(c, "Pictures are computed on this backend. A render takes the best one there is");
+    tooltip(c, "The preview uses this backend. Renders use the best one available");
     list.AddLine({origin.x, origin.y + size.y - 1}, {origin.x + size.x, origin.y + size.y - 1},
                  t.line);
     end_panel(c);

@@ -53,17 +53,18 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
             const auto stage = [&](Stage which) {
                 return v.stages.stages[static_cast<std::size_t>(which)];
             };
-            return {{part(0, 0, 0.5f, 0.5f), v.plate_picture, nullptr, {}, "Plate", false},
-                    {part(0.5f, 0, 1, 0.5f), stage(Stage::kTexture), nullptr, {}, "Texture", false},
-                    {part(0, 0.5f, 0.5f, 1), stage(Stage::kLit), nullptr, {}, "With light", false},
-                    {part(0.5f, 0.5f, 1, 1), v.result_picture, nullptr, {}, "Final", false}};
+            return {
+                {part(0, 0, 0.5f, 0.5f), v.plate_picture, nullptr, {}, "Plate", false},
+                {part(0.5f, 0, 1, 0.5f), stage(Stage::kTexture), nullptr, {}, "Texture", false},
+                {part(0, 0.5f, 0.5f, 1), stage(Stage::kLit), nullptr, {}, "With shading", false},
+                {part(0.5f, 0.5f, 1, 1), v.result_picture, nullptr, {}, "Final", false}};
         }
         case Compare::kResult:
             break;
     }
-    if (!v.layer.empty())
+    if (v.layer)
         return {{whole,
-                 v.stages.layer_name == v.layer ? v.stages.layer : nullptr,
+                 v.stages.layer_kind == v.layer ? v.stages.layer : nullptr,
                  nullptr,
                  {},
                  "",
@@ -85,11 +86,11 @@ void screen_choice(Ctx& c) {
             t.text, text.c_str());
     const std::string tip =
         now.display.empty()
-            ? "What the screen is taken for" +
+            ? "View transform" +
                   std::string(c.view.screens.empty()
                                   ? ". Set $OCIO to an OpenColorIO config for its views"
                                   : "")
-            : "Shown through " + now.view + " of " + now.display;
+            : "View: " + now.view + " of " + now.display;
     tooltip(c, tip.c_str());
     if (ImGui::IsItemClicked()) ImGui::OpenPopup("##screens");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
@@ -101,7 +102,7 @@ void screen_choice(Ctx& c) {
         };
         item({"", kScreenSrgb}, "sRGB");
         item({"", kScreenVideo}, "Video (BT.1886)");
-        item({"", kScreenRaw}, "Raw, linear light as it is");
+        item({"", kScreenRaw}, "Raw (linear)");
         std::vector<std::string> displays;
         for (const ScreenName& name : c.view.screens)
             if (std::find(displays.begin(), displays.end(), name.display) == displays.end())
@@ -161,19 +162,22 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
         s.display.channel =
             static_cast<DisplaySettings::Channel>((static_cast<int>(s.display.channel) + 1) % 5);
     ImGui::SameLine();
-    const std::string layer = c.view.layer.empty() ? "result" : c.view.layer;
-    value("##Layer", layer, t.px(62), "Layer: the result, or one for compositing", nullptr);
+    const std::string layer(c.view.layer ? info_of(*c.view.layer).name : "result");
+    value("##Layer", layer, t.px(62), "Layer shown in the viewer", nullptr);
     if (ImGui::IsItemClicked()) ImGui::OpenPopup("##layers");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(8), t.px(6)});
     if (ImGui::BeginPopup("##layers")) {
-        for (const char* one : {"", "patch", "edge", "light", "st", "matte", "seam", "id"}) {
-            if (ImGui::MenuItem(*one ? one : "result", nullptr, c.view.layer == one)) {
+        const auto item = [&](std::string_view label, std::optional<LayerKind> kind) {
+            if (ImGui::MenuItem(label.data(), nullptr, c.view.layer == kind)) {
                 s.compare = Compare::kResult;
-                c.emit(ShowLayer{one});
+                c.emit(ShowLayer{kind});
             }
-            c.note(std::string("Layer ") + (*one ? one : "result"));
-        }
+            c.note("Layer " + std::string(label));
+        };
+        item("result", std::nullopt);
+        for (const LayerInfo& known : kLayers)
+            item(known.name, known.kind);
         ImGui::EndPopup();
     }
     ImGui::PopStyleVar(2);
@@ -262,7 +266,7 @@ void relink(Ctx& c) {
     const float w = c.theme.px(180);
     ImGui::SetCursorScreenPos(
         {std::floor(at.x + (size.x - w) / 2), std::floor(at.y + size.y / 2 + c.theme.px(64))});
-    if (!button(c, "Find the frames…",
+    if (!button(c, "Relink plate…",
                 {.icon = icons::kFolderOpen, .look = Look::kPrimary, .width = w}))
         return;
     c.state.browser.purpose = BrowserState::Purpose::kPlate;
@@ -297,13 +301,12 @@ void no_picture(Ctx& c) {
             empty_state(c, icons::kTimer, "Opening the plate…", plate.path.c_str());
             break;
         case PlateView::State::kFailed:
-            empty_state(c, icons::kAlert, "The plate cannot be opened", plate.error.c_str());
+            empty_state(c, icons::kAlert, "Cannot open the plate", plate.error.c_str());
             relink(c);
             break;
         case PlateView::State::kOpen:
             if (!c.view.frame_error.empty())
-                empty_state(c, icons::kAlert, "This frame cannot be read",
-                            c.view.frame_error.c_str());
+                empty_state(c, icons::kAlert, "Cannot read this frame", c.view.frame_error.c_str());
             break;
     }
 }
@@ -375,7 +378,7 @@ void viewer(Ctx& c, ImVec2 size) {
             c.pictures.draw(list, draw);
         } else if (c.view.plate_picture) {
             text_in(list, t.regular, pane.map.min, pane.map.max, t.off,
-                    c.view.result_wanted ? "Being worked out…" : "Nothing to show yet");
+                    c.view.result_wanted ? "Rendering…" : "Nothing to show yet");
         }
         if (pane.mattes && s.mattes_shown) draw_mattes(c, list, pane.map);
         draw_overlay(c, list, pane.map);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/lamp_edit.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -122,8 +121,9 @@ namespace {
 
 void set_lamp(Ctx& c, const Region& region, std::size_t index, const std::vector<float>& numbers,
               bool final) {
-    const std::string text = with_lamp(region.light.lamps, index, c.view.frame, numbers);
-    const SetRegionParameter set{{region.id, {}}, "light.lamps", text};
+    std::vector<Lamp> lamps = region.light.lamps;
+    set_numbers(lamps[index], c.view.frame, {numbers.begin(), numbers.end()});
+    const SetRegionParameter set{{region.id, {}}, "light.lamps", std::move(lamps)};
     if (final)
         c.edit(set);
     else
@@ -149,17 +149,17 @@ bool place_handle(Ctx& c, const ViewMap& map, const std::string& id, std::vector
 void lamp_tool(Ctx& c, const ViewMap& map, bool hovered) {
     const Region* region = c.view.selected_region();
     if (!region || region->light.source != LightSource::kPainted) return;
-    const std::vector<LampHandle> lamps = lamps_at(region->light.lamps, c.view.frame);
+    const std::vector<Lamp>& lamps = region->light.lamps;
     const Size plate = c.view.plate.size;
     const Vec2 middle{static_cast<float>(plate.width) / 2, static_cast<float>(plate.height) / 2};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (std::size_t k = 0; k < lamps.size(); ++k) {
-        std::vector<float> n = lamps[k].numbers;
+        std::vector<float> n = lamps[k].numbers.float_at(c.view.frame);
         const std::string id = "lamp " + std::to_string(k + 1);
         const ImU32 color = c.state.lamp == static_cast<int>(k) ? c.theme.warn : c.theme.text;
         Grip grip = Grip::kNone;
         bool taken = false;
-        if (lamps[k].kind == LampHandle::Kind::kPoint) {
+        if (lamps[k].kind == LampKind::kPoint) {
             const Vec2 at{n[0], n[1]};
             list.AddCircle(map.to_screen(at), n[2] * map.zoom, faded(color, 0.7f), 64,
                            c.theme.px(1.5f));
@@ -171,7 +171,7 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered) {
             }
             taken = on_rim == Grip::kTaken;
             taken |= place_handle(c, map, id, n, 0, hovered, color, grip);
-        } else if (lamps[k].kind == LampHandle::Kind::kGradient) {
+        } else if (lamps[k].kind == LampKind::kGradient) {
             line(c, map, {n[0], n[1]}, {n[2], n[3]}, faded(color, 0.7f));
             taken = place_handle(c, map, id + " start", n, 0, hovered, color, grip);
             taken |= place_handle(c, map, id + " end", n, 2, hovered, color, grip);
@@ -190,7 +190,7 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered) {
             taken = now == Grip::kTaken;
         }
         if (taken) c.state.lamp = static_cast<int>(k);
-        if (lamps[k].kind == LampHandle::Kind::kPoint)
+        if (lamps[k].kind == LampKind::kPoint)
             tag(c, map.to_screen({n[0], n[1]}), ("Lamp " + std::to_string(k + 1)).c_str());
         if (grip != Grip::kNone) set_lamp(c, *region, k, n, grip == Grip::kLetGo);
     }

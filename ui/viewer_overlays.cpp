@@ -97,7 +97,7 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     if (over->kind != Overlay::kMotion) {
         c.pictures.draw(list, draw);
         if (over->marked.empty()) return;
-        // What is kept or was made again.
+        // Locked and regenerated patches.
         MatteDraw kept = draw;
         kept.pixels = over->marked;
         kept.where = {};
@@ -143,7 +143,7 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     list.AddRectFilled(a, b, t.scrim, t.radius);
     text_in(
         list, t.small, {a.x + t.px(8), a.y}, {b.x, a.y + t.px(24)}, t.text,
-        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": being made…")).c_str(),
+        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": rendering…")).c_str(),
         0);
     if (h < t.px(40)) return;
     constexpr int kSteps = 48;
@@ -179,16 +179,18 @@ State state_of_picture(const Ctx& c) {
         if (const Region* region = v.selected_region())
             if (const auto found = v.unready.find(region->id); found != v.unready.end())
                 what += "  ·  " + found->second;
-        if (v.project.regions.empty()) what += "  ·  Add a region to begin";
+        if (v.project.regions.empty()) what += "  ·  Add a region to start";
         return {what, t.text};
     }
     if (v.preview.state == PreviewView::State::kFailed)
         return {"Plate  ·  No result", t.bad, icons::kAlert};
-    if (v.result_current && !v.layer.empty() && c.state.viewer.compare == Compare::kResult)
-        return {"Layer for compositing: " + v.layer, t.good, icons::kLayers};
+    if (v.result_current && v.layer && c.state.viewer.compare == Compare::kResult)
+        return {"Layer for compositing: " + std::string(info_of(*v.layer).name), t.good,
+                icons::kLayers};
     if (v.result_current && !v.stages.approximate) {
         std::string what = v.preview_quality == Quality::kDraft ? "Result, draft" : "Result";
-        if (v.stages.proxy > 1) what += ", 1/" + std::to_string(v.stages.proxy) + " size for now";
+        if (v.stages.proxy > 1)
+            what += ", 1/" + std::to_string(v.stages.proxy) + " size while working";
         if (v.preview.analysing && v.preview.total > 0)
             what += "  ·  analysing " + std::to_string(v.preview.done) + "/" +
                     std::to_string(v.preview.total);
@@ -196,9 +198,9 @@ State state_of_picture(const Ctx& c) {
     }
     switch (v.preview.state) {
         case PreviewView::State::kOpening:
-            return {"Reading the shot…", t.warn, icons::kTimer};
+            return {"Opening the shot…", t.warn, icons::kTimer};
         case PreviewView::State::kAnalysing: {
-            if (v.analysis_paused) return {"Plate  ·  Analysis is paused", t.warn, icons::kPause};
+            if (v.analysis_paused) return {"Plate  ·  Analysis paused", t.warn, icons::kPause};
             State out{"Plate  ·  Analysing", t.warn, icons::kTimer};
             if (v.preview.total > 0) {
                 out.part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
@@ -210,7 +212,7 @@ State state_of_picture(const Ctx& c) {
             return out;
         }
         case PreviewView::State::kGrowing:
-            return {"Growing the texture…", t.warn, icons::kTimer};
+            return {"Synthesizing the texture…", t.warn, icons::kTimer};
         default:
             return {"Updating…", t.warn, icons::kTimer};
     }
@@ -271,7 +273,7 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
     lines.push_back(found.seam ? seam + ", difference " + std::to_string(*found.seam)
                                : "Inside a patch");
     if (const auto& marked = over->marked; !marked.empty() && marked.at(at.x, at.y) != 0)
-        lines.push_back(marked.at(at.x, at.y) == 255 ? "Kept by hand" : "Made again");
+        lines.push_back(marked.at(at.x, at.y) == 255 ? "Locked" : "Regenerated");
     if (found.light)
         lines.push_back("Light × " + number_text(static_cast<double>(*found.light), 2));
     lines.push_back(
@@ -279,10 +281,10 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
         pair(static_cast<double>(found.on_reference.x), static_cast<double>(found.on_reference.y)) +
         " on frame " + std::to_string(from.reference_frame));
     for (const Provenance::Answer::Share& share : found.histories)
-        lines.push_back("History of frame " + std::to_string(share.frame) + ", weight " +
+        lines.push_back("Track from frame " + std::to_string(share.frame) + ", weight " +
                         number_text(static_cast<double>(share.weight), 2));
     if (found.made_anew > 0)
-        lines.push_back("Made anew here, weight " +
+        lines.push_back("Synthesized here, weight " +
                         number_text(static_cast<double>(found.made_anew), 2));
     c.state.viewer.provenance = lines;
     const Theme& t = c.theme;

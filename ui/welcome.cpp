@@ -52,12 +52,12 @@ void welcome(Ctx& c, ImVec2 size) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText(t.display, t.display->FontSize, {x, y}, t.text, "Weft");
     text_in(list, t.regular, {x, y + t.px(42)}, {x + width, y + t.px(64)}, t.quiet,
-            "New textures on moving surfaces, with the light of your plate.", 0);
+            "New textures on moving surfaces, lit like your plate.", 0);
     y += t.px(92);
     const float column = std::floor((width - t.px(32)) * 0.42f);
     const ImVec2 card_size(column, t.px(64));
     ImGui::SetCursorScreenPos({x, y});
-    if (card(c, "Open the demo shot", "Ready to play with: result in one click", icons::kPlay,
+    if (card(c, "Open demo shot", "Ready to use: see a result in one click", icons::kPlay,
              card_size, true))
         c.commands.run("file.demo", c);
     ImGui::SetCursorScreenPos({x, y + t.px(74)});
@@ -80,9 +80,9 @@ void welcome(Ctx& c, ImVec2 size) {
             "Recent projects", 0);
     if (c.view.recent.empty()) {
         text_in(list, t.regular, {rx, y + t.px(130)}, {rx + rw, y + t.px(154)}, t.quiet,
-                "Projects that you save appear here");
+                "Saved projects appear here");
         text_in(list, t.small, {rx, y + t.px(154)}, {rx + rw, y + t.px(176)}, t.off,
-                "Begin with the demo shot");
+                "Start with the demo shot");
     }
     float row_y = y + t.px(44);
     for (const std::string& path : c.view.recent) {

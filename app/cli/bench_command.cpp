@@ -11,6 +11,7 @@
 #include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
@@ -88,7 +89,7 @@ std::string line_of(const std::string& name, const Runs& r) {
 }
 
 // The plane with each texel next to a seam in red.
-Status write_seams(const std::string& path, const TexturePlane& plane) {
+Status write_seams(const std::string& path, const TexturePlane& plane, const WriteRule& rule) {
     ImageF3 out(plane.pixels.size());
     for (int y = 0; y < out.height(); ++y) {
         for (int x = 0; x < out.width(); ++x) {
@@ -108,6 +109,7 @@ Status write_seams(const std::string& path, const TexturePlane& plane) {
     }
     WriteOptions write;
     write.depth = PixelDepth::kU8;
+    write.rule = rule;
     return write_image(path, out, {}, write);
 }
 
@@ -147,7 +149,7 @@ class Bench {
         nlohmann::ordered_json entry = json_of(result);
         entry["repetition"] = repetition.peak;
         json_[group][name] = std::move(entry);
-        if (!options_.json) print(stdout, line_of(name, result));
+        if (!json_output()) print(stdout, line_of(name, result));
         last_ = std::move(result.last);
         return {};
     }
@@ -189,7 +191,9 @@ class Bench {
             plane.refine_passes = 0;
             WEFT_CHECK_OK(add("methods", name, plane, std::min(options_.runs, 3)));
             if (options_.seams.empty()) continue;
-            WEFT_CHECK_OK(write_seams(options_.seams + "/seams_" + name + ".png", last_));
+            WEFT_TRY(rule, write_rule(options_.write, {options_.sample}));
+            WEFT_CHECK_OK(make_folder(options_.seams, rule));
+            WEFT_CHECK_OK(write_seams(options_.seams + "/seams_" + name + ".png", last_, rule));
         }
         return {};
     }
@@ -201,57 +205,47 @@ class Bench {
     TexturePlane last_;
 };
 
-int report_repetition(const BenchOptions& options, const ImageU8x3& sample) {
-    nlohmann::ordered_json json;
+CommandResult report_repetition(const BenchOptions& options, const ImageU8x3& sample) {
+    Answer answer;
     for (const std::string& path : options.repetition_of) {
-        const auto picture = read_picture(path);
-        if (!picture) return report_error(picture.error());
-        const Repetition r = measure_repetition(picture->view(), find_period(sample));
-        json[path] = r.peak;
-        if (!options.json) print(stdout, path + ": repetition " + std::to_string(r.peak) + "\n");
+        WEFT_TRY(picture, read_picture(path));
+        const Repetition r = measure_repetition(picture.view(), find_period(sample));
+        answer.json["repetition"][absolute_path(path)] = r.peak;
+        answer.text += path + ": repetition " + std::to_string(r.peak) + "\n";
     }
-    if (options.json) print(stdout, json.dump(2) + "\n");
-    return 0;
+    return answer;
+}
+
+CommandResult report_lighting(const BenchOptions& options, const ImageU8x3& sample) {
+    WEFT_TRY(lighting, bench_lighting(sample, options.sizes, options.runs));
+    Answer answer;
+    answer.json["lighting"] = lighting_json(lighting);
+    for (const LightingCost& cost : lighting)
+        answer.text += lighting_line(cost);
+    return answer;
 }
 
 }  // namespace
 
-int bench_command(const BenchOptions& options) {
-    const auto chosen = choose_engine(options.threads, options.isa, options.backend);
-    if (!chosen) return report_error(chosen.error());
-    const Backend& backend = *chosen->backend;
-    const auto sample = middle_of(options.sample);
-    if (!sample) return report_error(sample.error());
-    if (!options.repetition_of.empty()) return report_repetition(options, *sample);
-    if (options.lighting) {
-        auto lighting = bench_lighting(*sample, options.sizes, options.runs);
-        if (!lighting) return report_error(lighting.error());
-        for (const LightingCost& cost : *lighting)
-            print(stdout, options.json ? std::string() : lighting_line(cost));
-        if (options.json) print(stdout, lighting_json(*lighting));
-        return 0;
-    }
-    if (!options.seams.empty()) {
-        std::error_code ignored;  // Writing the pictures says what is wrong.
-        std::filesystem::create_directories(options.seams, ignored);
-    }
-    if (!options.json) {
+CommandResult bench_command(const BenchOptions& options) {
+    WEFT_TRY(chosen, choose_engine(options.threads, options.isa, options.backend));
+    const Backend& backend = *chosen.backend;
+    WEFT_TRY(sample, middle_of(options.sample));
+    if (!options.repetition_of.empty()) return report_repetition(options, sample);
+    if (options.lighting) return report_lighting(options, sample);
+    // It takes minutes: each line is printed when it is known.
+    if (!json_output()) {
         print(stdout, backend.name() + ", " + std::string(isa_name(current_isa())) + ", " +
                           std::to_string(thread_count()) + " thread(s), overlap 36 px, sample " +
-                          std::to_string(sample->width()) + "x" + std::to_string(sample->height()) +
-                          "\n");
+                          size_text(sample.size()) + "\n");
     }
-    auto result = Bench(options, backend, *sample).run();
-    if (!result) return report_error(result.error());
+    WEFT_TRY(result, Bench(options, backend, sample).run());
     for (const std::string& remark : backend.remarks())
         print_warning(remark);
-    if (options.json) {
-        (*result)["backend"] = backend.name();
-        (*result)["isa"] = isa_name(current_isa());
-        (*result)["threads"] = thread_count();
-        print(stdout, result->dump(2) + "\n");
-    }
-    return 0;
+    result["backend"] = backend.name();
+    result["isa"] = isa_name(current_isa());
+    result["threads"] = thread_count();
+    return Answer{std::move(result)};
 }
 
 }  // namespace weft

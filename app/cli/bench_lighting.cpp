@@ -111,7 +111,7 @@ std::string lighting_line(const LightingCost& c) {
     return text;
 }
 
-std::string lighting_json(const std::vector<LightingCost>& costs) {
+nlohmann::ordered_json lighting_json(const std::vector<LightingCost>& costs) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const LightingCost& c : costs) {
         all.push_back({{"side", c.side},
@@ -119,7 +119,7 @@ std::string lighting_json(const std::vector<LightingCost>& costs) {
                        {"final_s", c.final_s},
                        {"draft_s", c.draft_s}});
     }
-    return all.dump(2) + "\n";
+    return all;
 }
 
 }  // namespace weft

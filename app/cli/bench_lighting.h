@@ -1,6 +1,7 @@
 #pragma once
 // What light costs, beside the paper's own synthesis of the same size (the paper, Table 1).
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,6 @@ struct LightingCost {
                                                                  const std::vector<int>& sides,
                                                                  int runs);
 [[nodiscard]] std::string lighting_line(const LightingCost& cost);
-[[nodiscard]] std::string lighting_json(const std::vector<LightingCost>& costs);
+[[nodiscard]] nlohmann::ordered_json lighting_json(const std::vector<LightingCost>& costs);
 
 }  // namespace weft

@@ -1,15 +1,19 @@
 #pragma once
-// The subcommands, free of how their arguments were written. Each returns the exit code.
+// The subcommands, free of how their arguments were written.
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/base/path_map.h"
+#include "app/base/trust.h"
+#include "app/cli/answer.h"
 #include "app/cli/console.h"
+#include "app/cli/write_flags.h"
 #include "app/project/edit.h"
-#include "app/session/path_map.h"
-#include "app/session/render_job.h"
-#include "app/session/study.h"
+#include "app/project/validate.h"
+#include "app/render/render_job.h"
+#include "bench/study/study.h"
 #include "engine/metrics/measuring_motion.h"
 #include "engine/synthesis/texture_plane.h"
 
@@ -24,48 +28,62 @@ struct RunOptions {
     std::vector<RootMap> maps;
     JobStage stage = JobStage::kAll;
     std::int64_t memory_bytes = 0;  ///< 0: no limit.
-    std::string recipe;             ///< Path of the recipe file.
+    std::string settings;           ///< As JobSpec has it.
+    std::string project_file;       ///< Whose outputs are the project's own; empty: of nobody's.
+    NamedByUser by_user;
+    std::string recipe;              ///< Path of the recipe file.
+    std::string output_root;         ///< Nothing is written elsewhere; empty: anywhere.
+    std::vector<std::string> roots;  ///< As WriteLimits has it.
+    std::vector<std::string> reads;  ///< Read besides the project's inputs: its file, a job.
     bool dry_run = false;
     AnalysisCacheOptions cache;
     std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
     std::string report;           ///< Path of the JSON report.
     ProgressStyle progress = ProgressStyle::kPlain;
-    bool json = false;
 };
 
-/// `weft replace` and `weft render`: the project has its paths resolved.
-int render_command(const Project& project, const RunOptions& run);
+/// Prints the document's warnings. Errors: Usage, what is wrong with it.
+[[nodiscard]] Status check_document(const Project& project);
 
-int look_save_command(const std::string& project, const std::string& look,
-                      const std::string& region);
-int look_apply_command(const std::string& look, const std::string& project,
-                       const std::string& region, const std::string& library);
-int collect_command(const std::string& project, const std::string& folder,
-                    const std::string& library, const RunOptions& run);
+/// `weft replace` and `weft render`: the project has its paths resolved.
+CommandResult render_command(const Project& project, const RunOptions& run);
+
+CommandResult look_save_command(const std::string& project, const std::string& look,
+                                const std::string& region, const WriteFlags& write);
+CommandResult look_apply_command(const std::string& look, const std::string& project,
+                                 const std::string& region, const std::string& library);
+CommandResult collect_command(const std::string& project, const std::string& folder,
+                              const std::string& library, const RunOptions& run);
 struct SubmitOptions {
     std::string project, engine, folder, cache, library;
     std::vector<std::string> maps;
     int chunk = 10, threads = 0;
-    bool run = false, json = false;
+    bool skip_existing = false, resume = false;
+    bool run = false, trust = false;
+    WriteFlags write;
 };
 /// `weft submit`, and `weft task`, which the farm's machines run.
-int submit_command(const SubmitOptions& options);
-int task_command(const std::string& job, const std::string& stage, int index, ProgressStyle style);
-int doctor_command(const std::string& assets, bool json);
-/// "weft 0.1.0 (commit abc1234), backends: cpu"
-std::string version_text();
+CommandResult submit_command(const SubmitOptions& options);
+CommandResult task_command(const std::string& job, const std::string& stage, int index,
+                           const RunOptions& given);
+CommandResult doctor_command(const std::string& assets);
+/// Returns true if $PATH has an executable of this name.
+[[nodiscard]] bool is_on_path(const std::string& program);
+/// `weft --version`: "weft 0.1.0 (commit abc1234), backends: cpu"
+Answer version_answer();
 
 /// `weft cryptomatte`: what a frame's Cryptomatte holds, or what covers pixel `at` ("X,Y").
-int cryptomatte_command(const std::string& path, const std::string& at, bool json);
+CommandResult cryptomatte_command(const std::string& path, const std::string& at);
 
 struct VerifyCommandOptions {
     std::string recipe, frames;
     bool quick = false;
 };
 /// `weft verify`
-int verify_command(const VerifyCommandOptions& options, const RunOptions& run);
+CommandResult verify_command(const VerifyCommandOptions& options, const RunOptions& run);
 
-int matte_command(const Project& project, const std::string& output, const RunOptions& run);
+CommandResult matte_command(const Project& project, const std::string& output,
+                            const RunOptions& run);
 
 struct SynthOptions {
     std::vector<std::string> samples;
@@ -78,23 +96,23 @@ struct SynthOptions {
     Vec2i at{0, 0};
     PlaneOptions plane;
     int threads = 0;
-    bool overwrite = false, json = false;
+    WriteFlags write;
 };
-int synth_command(const SynthOptions& options);
+CommandResult synth_command(const SynthOptions& options);
 
 struct BenchOptions {
     std::string sample;
     std::vector<int> sizes;
     int runs = 10;
     int threads = 1;
-    std::string seams;  ///< Folder for pictures of the seams; empty: none.
+    std::string seams;      ///< Folder for pictures of the seams; empty: none.
     bool lighting = false;  ///< Only what light costs beside the paper's synthesis.
     /// Planes of other programs: only their repetition is measured.
     std::vector<std::string> repetition_of;
     std::string isa, backend = "cpu";
-    bool json = false;
+    WriteFlags write;
 };
-int bench_command(const BenchOptions& options);
+CommandResult bench_command(const BenchOptions& options);
 
 struct MeasureCommandOptions {
     Project project;  ///< Plate, matte, placement, motion; paths resolved.
@@ -106,12 +124,12 @@ struct MeasureCommandOptions {
     std::string pictures;  ///< Folder for pictures of the light; empty: none.
     std::string cache;
     int threads = 0;
-    bool json = false;
+    WriteFlags write;
 };
-int measure_command(const MeasureCommandOptions& options);
+CommandResult measure_command(const MeasureCommandOptions& options);
 
 /// `weft study`; threads, overwrite and the like are in `options` already.
-int study_command(const StudyOptions& options, const RunOptions& run);
+CommandResult study_command(const StudyOptions& options, const RunOptions& run);
 
 struct DiffOptions {
     std::string a, b;
@@ -122,23 +140,28 @@ struct DiffOptions {
     std::optional<int> matte_value;
     std::string matte_channel;
     std::string worst;  ///< Picture of the ten worst crops to write, or empty.
-    bool json = false;
+    WriteFlags write;
 };
-int diff_command(const DiffOptions& options);
+CommandResult diff_command(const DiffOptions& options);
 
-int info_command(const std::string& path, bool json);
-int validate_command(const std::string& path, bool files);
-int new_command(const std::string& path, const Project& project, bool overwrite);
+CommandResult info_command(const std::string& path);
+/// A fault of the document as an error whose context is its place.
+[[nodiscard]] Error error_of(const Issue& issue);
+CommandResult validate_command(const std::string& path, bool files);
+CommandResult new_command(const std::string& path, const Project& project, const WriteFlags& write);
 /// A project file changed by a file of actions, by a new region, by another region instead of the
 /// one at `index`. Textures of the library `library` (empty: the user's own) are kept beside it.
-int apply_command(const std::string& path, const std::string& actions, const std::string& library,
-                  bool dry_run);
-int region_add_command(const std::string& path, Region region, const std::string& library);
-int region_set_command(const std::string& path, const Project& project, std::size_t index,
-                       const Region& changed, const std::string& library);
-int region_correct_command(const std::string& path, const SetCorrection& edit);
-int region_list_command(const std::string& path, bool json);
+CommandResult apply_command(const std::string& path, const std::string& actions,
+                            const std::string& library, bool dry_run);
+CommandResult region_add_command(const std::string& path, Region region,
+                                 const std::string& library);
+CommandResult region_set_command(const std::string& path, const Project& project, std::size_t index,
+                                 const Region& changed, const std::string& library);
+CommandResult region_remove_command(const std::string& path, const std::string& region);
+CommandResult region_correct_command(const std::string& path, const SetCorrection& edit);
+CommandResult region_list_command(const std::string& path);
 
-int demo_command(const std::string& assets, const std::string& given_output, const RunOptions& run);
+CommandResult demo_command(const std::string& assets, const std::string& given_output,
+                           const RunOptions& run);
 
 }  // namespace weft

@@ -9,12 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "engine/core/printable.h"
 #include "engine/media/atomic_file.h"
 
 namespace weft {
 namespace {
 
 bool speaks_openjd = false;
+bool answers_json = false;
 
 // Signal handlers may touch nothing but this flag and this pipe.
 // Never destroyed: a signal, and end_in_time(), may come while the process ends.
@@ -80,30 +82,44 @@ std::string json_line(const ProgressEvent& e) {
            "\n";
 }
 
+// With --json stdout belongs to the one object.
+std::FILE* progress_stream() {
+    return answers_json ? stderr : stdout;
+}
+
 }  // namespace
 
 void print(std::FILE* stream, std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stream);
+    const std::string safe = printable(text, LineBreaks::kKeep);
+    std::fwrite(safe.data(), 1, safe.size(), stream);
     std::fflush(stream);
 }
 
 void print_warning(std::string_view text) {
-    print(stderr, "weft: warning: " + std::string(text) + "\n");
+    print(stderr, "weft: warning: " + printable(text) + "\n");
 }
 
-int report_error(const Error& error) {
-    print(stderr, "weft: " + error.text() + "\n");
-    if (speaks_openjd) print(stdout, "openjd_fail: " + error.text() + "\n");
-    return exit_code(error.code);
+void report_error(const Error& error) {
+    const std::string line = printable(error.text());
+    print(stderr, "weft: " + line + "\n");
+    if (speaks_openjd) print(progress_stream(), "openjd_fail: " + line + "\n");
 }
 
-ProgressFn progress_printer(ProgressStyle style, bool to_stderr) {
+bool json_output() {
+    return answers_json;
+}
+
+void set_json_output(bool on) {
+    answers_json = on;
+}
+
+ProgressFn progress_printer(ProgressStyle style) {
     if (style == ProgressStyle::kNone) return {};
     if (style == ProgressStyle::kOpenJd) {
         speaks_openjd = true;
-        return [](const ProgressEvent& event) { print(stdout, openjd_lines(event)); };
+        return [](const ProgressEvent& event) { print(progress_stream(), openjd_lines(event)); };
     }
-    return [style, stream = to_stderr ? stderr : stdout](const ProgressEvent& event) {
+    return [style, stream = progress_stream()](const ProgressEvent& event) {
         print(stream, style == ProgressStyle::kPlain ? plain_line(event) : json_line(event));
     };
 }

@@ -1,7 +1,7 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "engine/core/printable.h"
 #include "engine/media/cryptomatte.h"
 
 namespace weft {
@@ -18,35 +18,32 @@ nlohmann::ordered_json entry_of(const CryptoObject& object) {
 
 }  // namespace
 
-int cryptomatte_command(const std::string& path, const std::string& at, bool json) {
+CommandResult cryptomatte_command(const std::string& path, const std::string& at) {
     std::vector<CryptoObject> objects;
     if (at.empty()) {
-        auto all = list_cryptomatte(path);
-        if (!all) return report_error(all.error());
-        objects = std::move(*all);
+        WEFT_TRY(all, list_cryptomatte(path));
+        objects = std::move(all);
     } else {
         int x = 0, y = 0, used = 0;
         if (std::sscanf(at.c_str(), "%d,%d%n", &x, &y, &used) != 2 ||
             used != static_cast<int>(at.size())) {
-            return report_error(
-                {ErrorCode::kUsage, "'" + at + "' is no pixel. Write it like 320,180.", {}});
+            return fail(ErrorCode::kUsage,
+                        "--at must be a pixel, not '" + at + "'. Write it like 320,180.");
         }
-        auto picked = pick_cryptomatte(path, x, y);
-        if (!picked) return report_error(picked.error());
-        if (!picked->name.empty()) objects.push_back(std::move(*picked));
+        WEFT_TRY(picked, pick_cryptomatte(path, x, y));
+        if (!picked.name.empty()) objects.push_back(std::move(picked));
     }
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    std::string text;
+    Answer answer;
+    answer.json = {{"schema", "weft.cryptomatte/1"},
+                   {"file", absolute_path(path)},
+                   {"objects", nlohmann::ordered_json::array()}};
     for (const CryptoObject& object : objects) {
-        list.push_back(entry_of(object));
+        answer.json["objects"].push_back(entry_of(object));
         char line[64];
         std::snprintf(line, sizeof line, "%12.1f px  ", object.coverage_px);
-        text += line + object.layer + "/" + object.name + "\n";
+        answer.text += line + printable(object.layer + "/" + object.name) + "\n";
     }
-    print(stdout,
-          json ? list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
-               : text);
-    return 0;
+    return answer;
 }
 
 }  // namespace weft

@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "app/cli/commands.h"
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 
@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Frames of the plate above the same frames of the result, at half size, in one picture.
-Status write_contact_sheet(const Project& project, const std::string& path) {
+Status write_contact_sheet(const Project& project, const std::string& path, const WriteRule& rule) {
     WEFT_TRY(plate, open_plate(project.plate.path, {}));
     WEFT_TRY(result, open_plate(project.output.path, {}));
     constexpr int kColumns = 4, kGap = 8;
@@ -37,34 +37,35 @@ Status write_contact_sheet(const Project& project, const std::string& path) {
             }
         }
     }
-    return write_image(path, sheet, {}, {});
+    WriteOptions write;
+    write.rule = rule;
+    return write_image(path, sheet, {}, write);
 }
 
 }  // namespace
 
-int demo_command(const std::string& assets, const std::string& given_output,
-                 const RunOptions& run) {
+CommandResult demo_command(const std::string& assets, const std::string& given_output,
+                           const RunOptions& run) {
     const std::string output = given_output.empty() ? "weft-demo" : given_output;
     const std::string path = (fs::path(assets) / "demo" / "demo.weft").string();
-    auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    *project = resolve_paths(*project, project_dir(path));
-    project->output.path = (fs::path(output) / "####.png").string();
-    project->output.movie = (fs::path(output) / "demo.mp4").string();
+    WEFT_TRY(written, load_project(path));
+    Project project = resolve_paths(written, project_dir(path));
+    project.output.path = (fs::path(output) / "####.png").string();
+    project.output.movie = (fs::path(output) / "demo.mp4").string();
     // The default folder is the demo's own: a second run replaces what the first one left.
     RunOptions demo_run = run;
     if (given_output.empty()) demo_run.overwrite = !run.skip_existing;
-    if (const int exit = render_command(*project, demo_run); exit != 0 || run.dry_run) return exit;
     const std::string sheet = (fs::path(output) / "contact_sheet.png").string();
-    if (const Status written = write_contact_sheet(*project, sheet); !written)
-        return report_error(written.error());
-    if (!run.json) {
-        print(stdout, "The demo shot is in " + fs::absolute(output).string() +
-                          ":\n  frames         " + project->output.path + "\n  movie          " +
-                          project->output.movie + "\n  contact sheet  " + sheet +
-                          " (plate above, result below)\n");
-    }
-    return 0;
+    const bool goes_on = demo_run.overwrite || demo_run.skip_existing || demo_run.resume;
+    WEFT_TRY(rule, write_rule({goes_on, run.output_root}, {path}, project));
+    WEFT_TRY(answer, render_command(project, demo_run));
+    if (run.dry_run) return answer;
+    WEFT_CHECK_OK(write_contact_sheet(project, sheet, rule));
+    answer.json["contact_sheet"] = absolute_path(sheet);
+    answer.text += "The demo shot is in " + absolute_path(output) + ":\n  frames         " +
+                   project.output.path + "\n  movie          " + project.output.movie +
+                   "\n  contact sheet  " + sheet + " (plate above, result below)\n";
+    return answer;
 }
 
 }  // namespace weft

@@ -127,41 +127,44 @@ std::string likeness_text(const SequenceLikeness& likeness) {
 }
 
 // Codes of 8 bits as an image to write.
-Status write_strip(const std::string& path, const SequenceLikeness& likeness) {
+Status write_strip(const std::string& path, const SequenceLikeness& likeness,
+                   const WriteRule& rule) {
     const ImageU8x3 strip = strip_of(likeness.worst());
     if (strip.empty()) return {};
     ImageF3 rgb(strip.size());
     std::transform(strip.data(), strip.data() + strip.size_bytes(), rgb.data(),
                    [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
-    return write_image(path, rgb, {}, {});
+    WriteOptions write;
+    write.rule = rule;
+    return write_image(path, rgb, {}, write);
 }
 
 }  // namespace
 
-int diff_command(const DiffOptions& options) {
-    const auto outcome = compare(options);
-    if (!outcome) return report_error(outcome.error());
-    const SequenceDiff& all = outcome->all;
+CommandResult diff_command(const DiffOptions& options) {
+    WEFT_TRY(rule, write_rule(options.write, {options.a, options.b, options.matte}));
+    if (!options.worst.empty()) WEFT_CHECK_OK(check_output(options.worst, rule));
+    WEFT_TRY(outcome, compare(options));
+    const SequenceDiff& all = outcome.all;
     const bool alike = !options.matte.empty();
-    if (alike && !options.worst.empty()) {
-        if (const auto written = write_strip(options.worst, outcome->likeness); !written)
-            return report_error(written.error());
+    if (alike && !options.worst.empty())
+        WEFT_CHECK_OK(write_strip(options.worst, outcome.likeness, rule));
+    Answer answer;
+    answer.json = {{"equal", all.equal()},
+                   {"frames", all.frames},
+                   {"differing_frames", all.differing_frames},
+                   {"max_abs", all.max_abs},
+                   {"differences", outcome.frames}};
+    answer.text = outcome.text;
+    if (alike) {
+        answer.json["likeness"] = likeness_json(outcome.likeness);
+        answer.text += likeness_text(outcome.likeness);
     }
-    if (options.json) {
-        Json json{{"equal", all.equal()},
-                  {"frames", all.frames},
-                  {"differing_frames", all.differing_frames},
-                  {"max_abs", all.max_abs},
-                  {"differences", outcome->frames}};
-        if (alike) json["likeness"] = likeness_json(outcome->likeness);
-        print(stdout, json.dump(2) + "\n");
-    } else {
-        print(stdout, outcome->text + (alike ? likeness_text(outcome->likeness) : "") +
-                          (all.equal() ? "The same: " : "Different: ") +
-                          std::to_string(all.frames - all.differing_frames) + " of " +
-                          std::to_string(all.frames) + " frames are equal.\n");
-    }
-    return all.equal() ? 0 : exit_code(ErrorCode::kDiffers);
+    answer.text += (all.equal() ? "The same: " : "Different: ") +
+                   std::to_string(all.frames - all.differing_frames) + " of " +
+                   std::to_string(all.frames) + " frames are equal.\n";
+    answer.exit = all.equal() ? 0 : exit_code(ErrorCode::kDiffers);
+    return answer;
 }
 
 }  // namespace weft

@@ -2,6 +2,8 @@
 #include <functional>
 #include <string>
 
+#include "engine/core/error.h"
+
 namespace weft {
 
 /// What `weft edit` was given. The editor itself lies above the command line and is handed in.
@@ -16,7 +18,7 @@ struct EditArguments {
     double ui_scale = 0;  ///< 0: the monitor's.
     bool light = false;
 };
-/// Returns the exit code.
-using EditCommand = std::function<int(const EditArguments&)>;
+/// Returns the exit code. Blocks until the editor is closed.
+using EditCommand = std::function<Expected<int>(const EditArguments&)>;
 
 }  // namespace weft

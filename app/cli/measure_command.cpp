@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
-#include "app/session/measure_job.h"
-#include "app/session/measure_report.h"
+#include "app/measure/measure_job.h"
+#include "app/measure/measure_report.h"
 
 namespace weft {
 namespace {
@@ -82,7 +82,7 @@ std::string to_text(const LightMeasures& light) {
 
 }  // namespace
 
-int measure_command(const MeasureCommandOptions& options) {
+CommandResult measure_command(const MeasureCommandOptions& options) {
     use_threads(options.threads);
     MeasureJobOptions job;
     job.project = options.project;
@@ -92,24 +92,24 @@ int measure_command(const MeasureCommandOptions& options) {
     job.truth = options.truth;
     job.truth_blur_px = static_cast<float>(options.truth_blur_px);
     job.pictures = options.pictures;
+    job.overwrite = options.write.overwrite;
+    job.limits.root = options.write.root;
     job.cache.folder = options.cache;
-    const auto outcome = run_measure_job(job, cancel_on_signals());
-    if (!outcome) return report_error(outcome.error());
-    for (const std::string& warning : outcome->warnings)
+    WEFT_TRY(outcome, run_measure_job(job, cancel_on_signals()));
+    for (const std::string& warning : outcome.warnings)
         print_warning(warning);
-    const MeasuredResult& result = outcome->results.front();
-    if (!options.json) {
-        print(stdout, to_text(result));
-        if (outcome->truth) print(stdout, to_text(*outcome->truth));
-        if (outcome->light) print(stdout, to_text(*outcome->light));
-        return 0;
+    const MeasuredResult& result = outcome.results.front();
+    Answer answer{measure_json(result), to_text(result)};
+    if (outcome.truth) {
+        answer.json["truth"] = truth_json(*outcome.truth);
+        answer.text += to_text(*outcome.truth);
     }
-    nlohmann::ordered_json json = measure_json(result);
-    if (outcome->truth) json["truth"] = truth_json(*outcome->truth);
-    if (outcome->light) json["light"] = light_json(*outcome->light);
-    json["warnings"] = outcome->warnings;
-    print(stdout, json.dump(2) + "\n");
-    return 0;
+    if (outcome.light) {
+        answer.json["light"] = light_json(*outcome.light);
+        answer.text += to_text(*outcome.light);
+    }
+    answer.json["warnings"] = outcome.warnings;
+    return answer;
 }
 
 }  // namespace weft

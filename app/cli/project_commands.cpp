@@ -3,50 +3,41 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "app/base/trust.h"
 #include "app/cli/commands.h"
-#include "app/project/edit.h"
-#include "app/project/project_file.h"
-#include "app/project/project_json.h"
-#include "app/project/validate.h"
-#include "app/session/kept_textures.h"
+#include "app/exchange/kept_textures.h"
+#include "app/project/codec/edit_json.h"
+#include "app/project/codec/project_file.h"
+#include "app/project/codec/project_json.h"
+#include "app/project/region_names.h"
 #include "engine/core/frame_range.h"
+#include "engine/core/input_file.h"
+#include "engine/core/printable.h"
+#include "engine/core/text.h"
 
 namespace weft {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+// What is told of a project on disk: where it is and how many regions it has.
+Answer saved_answer(const std::string& path, const Project& project) {
+    return {Json{{"project", absolute_path(path)}, {"regions", project.regions.size()}}};
+}
+
+CommandResult saved(const std::string& path, const Project& project) {
+    WEFT_CHECK_OK(save_project(path, project, in_place()));
+    return saved_answer(path, project);
+}
+
 // Textures of a library are kept beside the project first.
-int saved_with_textures(const std::string& path, const Expected<Project>& project,
-                        const std::string& library) {
-    if (!project) return report_error(project.error());
-    const auto kept = keep_library_textures(*project, path, library);
-    if (!kept) return report_error(kept.error());
-    const Status status = save_project(path, *kept);
-    return status ? 0 : report_error(status.error());
-}
-
-int saved(const std::string& path, const Expected<Project>& project) {
-    if (!project) return report_error(project.error());
-    const Status status = save_project(path, *project);
-    return status ? 0 : report_error(status.error());
-}
-
-Expected<std::string> read_text(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        return fail(ErrorCode::kUnreadable,
-                    path + " cannot be read. Check the name and its permissions.");
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
-Error in_file(Error error, const std::string& path) {
-    error.context.push_back(path);
-    return error;
+CommandResult saved_with_textures(const std::string& path, const Project& project,
+                                  const std::string& library) {
+    WEFT_TRY(kept, keep_library_textures(project, path, library));
+    return saved(path, kept);
 }
 
 Json region_json(const Region& region) {
@@ -60,121 +51,202 @@ Json region_json(const Region& region) {
     return out;
 }
 
+Json regions_json(const Project& project) {
+    Json list = Json::array();
+    for (const auto& region : project.regions)
+        list.push_back(region_json(*region));
+    return list;
+}
+
+std::string regions_text(const Project& project) {
+    std::string text;
+    for (const auto& region : project.regions) {
+        const TextureSource& texture = region->texture;
+        text += std::to_string(region->id) + "  " + printable(region->name) +
+                (region->enabled ? "" : " (off)") + "  " +
+                printable(texture.plane.empty() ? texture.sample : texture.plane) + "\n";
+    }
+    return text;
+}
+
 }  // namespace
 
-int new_command(const std::string& path, const Project& project, bool overwrite) {
-    if (!overwrite && std::filesystem::exists(path)) {
-        return report_error(
-            {ErrorCode::kUsage, path + " exists already. Use --overwrite, or another name.", {}});
+CommandResult new_command(const std::string& path, const Project& project,
+                          const WriteFlags& write) {
+    const Project whole = resolve_paths(project, project_dir(path));
+    WEFT_TRY(rule, write_rule(write, {}, whole));
+    WEFT_CHECK_OK(save_project(path, project, rule));
+    // What was made here is its user's own.
+    if (!outputs_outside(whole, path).empty()) {
+        std::string folder = project_dir(path);
+        if (folder.empty()) folder = ".";
+        if (const auto trusted = TrustList::of_user().add(folder, false); !trusted)
+            print_warning(trusted.error().text());
     }
-    return saved(path, project);
+    return saved_answer(path, project);
 }
 
-int apply_command(const std::string& path, const std::string& actions, const std::string& library,
-                  bool dry_run) {
-    const auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    const auto text = read_text(actions);
-    if (!text) return report_error(text.error());
-    const auto edits = edits_from_json(*text);
-    if (!edits) return report_error(in_file(edits.error(), actions));
-    const auto changed = apply_edits(*project, *edits);
-    if (!changed) return report_error(in_file(changed.error(), actions));
-    return dry_run ? 0 : saved_with_textures(path, changed, library);
+CommandResult apply_command(const std::string& path, const std::string& actions,
+                            const std::string& library, bool dry_run) {
+    WEFT_TRY(project, load_project(path));
+    const bool piped = actions == "-";
+    WEFT_TRY(text, piped ? read_standard_input("The list of actions")
+                         : read_file(actions, "The list of actions"));
+    const std::string source = piped ? "standard input" : actions;
+    const auto edits = edits_from_json(text);
+    if (!edits) return fail_in(edits.error(), source);
+    const auto changed = apply_edits(project, *edits);
+    if (!changed) return fail_in(changed.error(), source);
+    Answer answer;
+    if (!dry_run) {
+        WEFT_TRY(done, saved_with_textures(path, *changed, library));
+        answer = std::move(done);
+    }
+    answer.json["project"] = absolute_path(path);
+    answer.json["actions"] = edits->size();
+    answer.json["dry_run"] = dry_run;
+    return answer;
 }
 
-int region_add_command(const std::string& path, Region region, const std::string& library) {
-    const auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    if (region.name.empty()) region.name = "region " + std::to_string(project->next_region_id);
-    return saved_with_textures(path, apply_edit(*project, AddRegion{std::move(region), {}}),
-                               library);
+CommandResult region_add_command(const std::string& path, Region region,
+                                 const std::string& library) {
+    WEFT_TRY(project, load_project(path));
+    if (region.name.empty())
+        region.name = free_region_name(project, "region " + std::to_string(project.next_region_id));
+    WEFT_TRY(changed, apply_edit(project, AddRegion{std::move(region), {}}));
+    WEFT_TRY(answer, saved_with_textures(path, changed, library));
+    answer.json["region"] = region_json(*changed.regions.back());
+    return answer;
 }
 
-int region_set_command(const std::string& path, const Project& project, std::size_t index,
-                       const Region& changed, const std::string& library) {
-    const auto edits = region_edits(*project.regions[index], changed);
-    return saved_with_textures(path, apply_edits(project, edits), library);
+CommandResult region_set_command(const std::string& path, const Project& project, std::size_t index,
+                                 const Region& changed, const std::string& library) {
+    WEFT_TRY(after, apply_edits(project, region_edits(*project.regions[index], changed)));
+    WEFT_TRY(answer, saved_with_textures(path, after, library));
+    answer.json["region"] = region_json(*after.regions[index]);
+    return answer;
 }
 
-int region_correct_command(const std::string& path, const SetCorrection& edit) {
-    const auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    return saved(path, apply_edit(*project, edit));
+CommandResult region_remove_command(const std::string& path, const std::string& region) {
+    WEFT_TRY(project, load_project(path));
+    WEFT_TRY(index, find_region(project, region));
+    const Json removed = region_json(*project.regions[index]);
+    WEFT_TRY(changed, apply_edit(project, RemoveRegion{{project.regions[index]->id, {}}}));
+    WEFT_TRY(answer, saved(path, changed));
+    answer.json["removed"] = removed;
+    return answer;
 }
 
-int region_list_command(const std::string& path, bool json) {
-    const auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    Json list = Json::array();
+CommandResult region_correct_command(const std::string& path, const SetCorrection& edit) {
+    WEFT_TRY(project, load_project(path));
+    WEFT_TRY(changed, apply_edit(project, edit));
+    WEFT_TRY(answer, saved(path, changed));
+    answer.json["frame"] = edit.frame;
+    answer.json["pins"] = edit.pins.size();
+    return answer;
+}
+
+CommandResult region_list_command(const std::string& path) {
+    WEFT_TRY(project, load_project(path));
+    return Answer{Json{{"schema", "weft.regions/1"},
+                       {"project", absolute_path(path)},
+                       {"regions", regions_json(project)}},
+                  regions_text(project)};
+}
+
+namespace {
+
+// Adds each planned region's reference frame to its entry, and returns them as lines of text.
+std::string add_references(const Project& project, const Shot& shot, Json& regions) {
     std::string text;
-    for (const auto& region : project->regions) {
-        const Json entry = region_json(*region);
-        list.push_back(entry);
-        text += std::to_string(region->id) + "  " + region->name +
-                (region->enabled ? "" : " (off)") + "  " + entry["texture"].get<std::string>() +
-                "\n";
+    for (std::size_t k = 0; k < shot.references.size(); ++k) {
+        const ShotReference& reference = shot.references[k];
+        const std::size_t at = shot.region_index[k];
+        regions[at]["reference_frame"] = reference.frame;
+        regions[at]["reference_frame_chosen"] = reference.by_default;
+        text += "reference  " + printable(project.regions[at]->name) + ": frame " +
+                std::to_string(reference.frame) + (reference.by_default ? " (default)" : "") + "\n";
     }
-    print(stdout, json ? list.dump(2) + "\n" : text);
-    return 0;
+    return text;
 }
 
-int info_command(const std::string& path, bool json) {
-    const auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    const auto shot = open_shot(resolve_paths(*project, project_dir(path)));
-    if (!shot) return report_error(shot.error());
-    const CachedReader& plate = *(*shot)->plate;
-    Json regions = Json::array();
-    for (const auto& region : project->regions)
-        regions.push_back(region_json(*region));
-    const Json info{
-        {"project", path},
-        {"name", project->name},
+}  // namespace
+
+CommandResult info_command(const std::string& path) {
+    WEFT_TRY(written, load_project(path));
+    const Project project = resolve_paths(written, absolute_path(project_dir(path)));
+    WEFT_TRY(shot, open_shot(project));
+    const CachedReader& plate = *shot->plate;
+    const std::string frames = format_frame_list(plate.frames()),
+                      wanted = format_frame_list(shot->plan.frames);
+    Json regions = regions_json(project);
+    const std::string references = add_references(project, *shot, regions);
+    Answer answer;
+    answer.json = {
+        {"project", absolute_path(path)},
+        {"name", project.name},
         {"plate",
-         {{"path", project->plate.path},
+         {{"path", project.plate.path},
           {"size", {plate.size().width, plate.size().height}},
-          {"frames", format_frame_list(plate.frames())},
+          {"frames", frames},
           {"fps", plate.fps()},
-          {"space", (*shot)->spaces.plate.name}}},
-        {"render",
-         {{"frames", format_frame_list((*shot)->plan.frames)}, {"output", project->output.path}}},
-        {"spaces", {{"working", (*shot)->spaces.working.name}, {"out", (*shot)->spaces.out.name}}},
+          {"space", shot->spaces.plate.name}}},
+        {"render", {{"frames", wanted}, {"output", project.output.path}}},
+        {"spaces", {{"working", shot->spaces.working.name}, {"out", shot->spaces.out.name}}},
         {"regions", regions},
-        {"warnings", (*shot)->warnings}};
-    if (json) {
-        print(stdout, info.dump(2) + "\n");
-        return 0;
-    }
-    print(stdout, path + "\nplate    " + project->plate.path + "  " +
-                      std::to_string(plate.size().width) + "x" +
-                      std::to_string(plate.size().height) + "  frames " +
-                      format_frame_list(plate.frames()) + "  " + (*shot)->spaces.plate.name +
-                      "\nrender   frames " + format_frame_list((*shot)->plan.frames) + "  to " +
-                      project->output.path + "\nregions  " +
-                      std::to_string(project->regions.size()) + "\n");
-    return region_list_command(path, false);
+        {"warnings", shot->warnings}};
+    answer.text = path + "\nplate    " + written.plate.path + "  " + size_text(plate.size()) +
+                  "  frames " + frames + "  " + shot->spaces.plate.name + "\nrender   frames " +
+                  wanted + "  to " + written.output.path + "\n" + references + "regions  " +
+                  std::to_string(written.regions.size()) + "\n" + regions_text(written);
+    return answer;
 }
 
-int validate_command(const std::string& path, bool files) {
-    const auto project = load_project(path);
-    if (!project) return report_error(project.error());
-    const auto issues = validate(*project);
-    for (const Issue& issue : issues) {
-        print(stdout, std::string(issue.severity == Severity::kError ? "error: " : "warning: ") +
-                          issue.text() + "\n");
+namespace {
+
+// What is wrong, for people and for programs.
+void tell(const Issue& issue, Answer& answer) {
+    const bool wrong = issue.severity == Severity::kError;
+    answer.text += (wrong ? "error: " : "warning: ") + issue.text() + "\n";
+    answer.json["issues"].push_back({{"severity", wrong ? "error" : "warning"},
+                                     {"field", issue.where},
+                                     {"message", issue.what},
+                                     {"remedy", issue.what_to_do}});
+}
+
+}  // namespace
+
+Error error_of(const Issue& issue) {
+    return {ErrorCode::kUsage, issue.what + ". " + issue.what_to_do + ".", {issue.where}};
+}
+
+CommandResult validate_command(const std::string& path, bool files) {
+    WEFT_TRY(project, load_project(path));
+    const auto issues = validate(project);
+    Answer answer;
+    answer.json = {{"project", absolute_path(path)},
+                   {"valid", !has_errors(issues)},
+                   {"issues", Json::array()}};
+    for (const Issue& issue : issues)
+        tell(issue, answer);
+    const auto wrong = std::find_if(issues.begin(), issues.end(), [](const Issue& issue) {
+        return issue.severity == Severity::kError;
+    });
+    if (wrong != issues.end()) {
+        answer.exit = exit_code(ErrorCode::kUsage);
+        answer.json.update(error_json(error_of(*wrong)));
+        return answer;
     }
-    if (has_errors(issues)) return exit_code(ErrorCode::kUsage);
     if (files) {
-        const auto shot = open_shot(resolve_paths(*project, project_dir(path)));
-        if (!shot) return report_error(shot.error());
-        if (const Status allowed = check_texture_licences(**shot); !allowed)
-            return report_error(allowed.error());
-        for (const std::string& warning : (*shot)->warnings)
-            print(stdout, "warning: " + warning + "\n");
+        WEFT_TRY(shot, open_shot(resolve_paths(project, project_dir(path))));
+        WEFT_CHECK_OK(check_texture_licences(*shot));
+        for (const std::string& warning : shot->warnings) {
+            answer.text += "warning: " + warning + "\n";
+            answer.json["issues"].push_back({{"severity", "warning"}, {"message", warning}});
+        }
     }
-    print(stdout, path + " is valid.\n");
-    return 0;
+    answer.text += path + " is valid.\n";
+    return answer;
 }
 
 }  // namespace weft

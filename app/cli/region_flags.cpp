@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <string_view>
-
-#include "app/session/memory_plan.h"
-#include "engine/media/decode_limit.h"
 
 namespace weft {
 namespace {
@@ -18,6 +14,26 @@ std::string help_of(const ParameterInfo& info) {
     const std::string standard = format_parameter(info, info.default_value);
     if (!standard.empty() && info.kind != ParameterKind::kFlag) help += " [" + standard + "]";
     return help;
+}
+
+// What stands for the value in --help. Units are in the description.
+std::string placeholder(const ParameterInfo& info) {
+    switch (info.kind) {
+        case ParameterKind::kInteger:
+            return "N";
+        case ParameterKind::kNumber:
+            return info.unit == "deg" ? "DEG" : info.unit == "px" ? "PX" : "X";
+        case ParameterKind::kPoint:
+        case ParameterKind::kCorners:
+            return "X,Y";
+        case ParameterKind::kFrames:
+            return "FRAMES";
+        case ParameterKind::kPath:
+        case ParameterKind::kPaths:
+            return "PATH";
+        default:
+            return info.is_path || !info.path_key.empty() ? "PATH" : "NAME";
+    }
 }
 
 bool begins_with_any(std::string_view flag, std::initializer_list<std::string_view> names) {
@@ -37,8 +53,8 @@ bool is_output_flag(std::string_view flag) {
 
 bool is_matte_flag(std::string_view flag) {
     return begins_with_any(flag, {"--matte-value", "--matte-channel", "--matte-invert",
-                                  "--matte-steadiness", "--matte-frozen", "--matte-frozen-files",
-                                  "--matte-carry", "--matte-from", "--matte-to"});
+                                  "--matte-stabilize", "--matte-frozen", "--matte-frozen-files",
+                                  "--matte-propagate", "--matte-from", "--matte-to"});
 }
 
 }  // namespace
@@ -62,9 +78,12 @@ void ProjectFlags::add(CLI::App& command, const Parameter<Owner>& parameter,
         option->multi_option_policy(parameter.repeatable ? CLI::MultiOptionPolicy::TakeAll
                                                          : CLI::MultiOptionPolicy::TakeLast);
     }
-    option->type_name(parameter.is_path        ? "PATH"
-                      : parameter.unit.empty() ? ""
-                                               : std::string(parameter.unit));
+    option->type_name(placeholder(parameter));
+    if (parameter.old_flag.empty()) return;
+    command.add_option(std::string(parameter.old_flag), given.texts)
+        ->expected(1)
+        ->multi_option_policy(option->get_multi_option_policy())
+        ->group("");
 }
 
 ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
@@ -136,6 +155,13 @@ Status apply_given(Owner& owner, const List& given) {
 
 }  // namespace
 
+bool ProjectFlags::given(std::string_view key) const {
+    return std::any_of(project_.begin(), project_.end(), [&](const Given<Project>& g) {
+        return g.parameter->full_key() == key &&
+               (!g.texts.empty() || (g.option && g.option->count() > 0));
+    });
+}
+
 Status ProjectFlags::apply(Project& project) const {
     return apply_given(project, project_);
 }
@@ -181,115 +207,6 @@ Expected<Project> ProjectFlags::project() const {
     WEFT_CHECK_OK(apply(region));
     project.regions.emplace_back(std::move(region));
     return project;
-}
-
-namespace {
-
-void add_library_option(CLI::App& command, std::string& library) {
-    command
-        .add_option("--db", library,
-                    "Library of the textures 'db:ID'; default: the user's own (weft texture)")
-        ->type_name("FILE");
-}
-
-}  // namespace
-
-std::shared_ptr<std::string> add_library_flag(CLI::App& command) {
-    auto library = std::make_shared<std::string>();
-    add_library_option(command, *library);
-    return library;
-}
-
-void add_progress_flags(CLI::App& command, RunOptions& run) {
-    const std::map<std::string, ProgressStyle> styles{{"plain", ProgressStyle::kPlain},
-                                                      {"json", ProgressStyle::kJson},
-                                                      {"none", ProgressStyle::kNone},
-                                                      {"openjd", ProgressStyle::kOpenJd}};
-    command.add_option("--progress", run.progress, "plain, json, openjd or none [plain]")
-        ->transform(CLI::CheckedTransformer(styles))
-        ->type_name("");
-    command.add_flag("--json", run.json, "One JSON object on stdout; progress goes to stderr");
-}
-
-namespace {
-
-void add_memory_flag(CLI::App& command, RunOptions& run) {
-    command
-        .add_option_function<std::string>(
-            "--memory",
-            [&run](const std::string& text) {
-                const auto bytes = parse_bytes(text);
-                if (!bytes) throw CLI::ValidationError("--memory", bytes.error().message);
-                run.memory_bytes = *bytes;
-                set_decode_limit_bytes(*bytes / 2);  // before any picture is opened
-            },
-            "Memory to keep to (3G, 800M): fewer frames are worked on side by side")
-        ->type_name("BYTES");
-}
-
-}  // namespace
-
-void add_map_flag(CLI::App& command, RunOptions& run) {
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--map",
-            [&run](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) {
-                    const auto map = parse_root_map(text);
-                    if (!map) throw CLI::ValidationError("--map", map.error().message);
-                    run.maps.push_back(*map);
-                }
-            },
-            "FROM=TO: paths below FROM are below TO on this machine; repeatable")
-        ->type_name("")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-std::string assets_folder() {
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    const auto installed = program.parent_path().parent_path() / "share" / "weft" / "assets";
-    if (!error && std::filesystem::exists(installed, error)) return installed.string();
-    return WEFT_ASSETS_DIR;
-}
-
-void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
-    command.add_option("--threads", run.threads, "Threads to use; 0 is one a processor")
-        ->check(CLI::Range(0, 1024));
-    command
-        .add_option("--cache", run.cache.folder,
-                    "Folder for analyses that later runs find again [~/.cache/weft]")
-        ->type_name("PATH");
-    command.add_flag("!--no-cache", run.cache.keep, "Keep nothing of the analysis");
-    command.add_flag("--overwrite", run.overwrite, "Replace output files that exist");
-    add_progress_flags(command, run);
-    if (!renders) return;
-    command.add_flag("--skip-existing", run.skip_existing,
-                     "Keep frames that are there and can be read");
-    command.add_flag("--resume", run.resume,
-                     "Keep frames that are there and were rendered with these very settings");
-    add_map_flag(command, run);
-    command
-        .add_option_function<std::string>(
-            "--stage",
-            [&run](const std::string& text) {
-                const auto stage = parse_job_stage(text);
-                if (!stage) throw CLI::ValidationError("--stage", stage.error().message);
-                run.stage = *stage;
-            },
-            "A part of the render, for a farm: motion, analyse, planes, frames, encode [all]")
-        ->type_name("");
-    command.add_flag("--version-up", run.version_up,
-                     "Write to the next free version: v003 in the output's path becomes v004");
-    command.add_flag("--restart", run.overwrite, "As --overwrite: render all frames again");
-    command.add_option("--recipe", run.recipe, "Write what 'weft verify' needs here")
-        ->type_name("PATH");
-    add_memory_flag(command, run);
-    add_library_option(command, run.texture_library);
-    command.add_option("--backend", run.backend, "auto, cpu or cuda [auto]")->type_name("");
-    command.add_option("--report", run.report, "Write a JSON report here")->type_name("PATH");
-    command.add_flag("--dry-run", run.dry_run, "Say what would be rendered, and stop");
 }
 
 }  // namespace weft

@@ -1,29 +1,21 @@
 // weft replace, render, matte and demo.
 
+#include "app/cli/command_line.h"
+#include "app/cli/commands.h"
+#include "app/cli/option_values.h"
 #include "app/cli/region_flags.h"
-#include "app/project/project_file.h"
-#include "app/project/validate.h"
+#include "app/project/codec/project_file.h"
 
 namespace weft {
 namespace {
 
-// The project with absolute meaning, or the exit code of what is wrong with it.
-int run_render(const Expected<Project>& project, const std::string& dir, const RunOptions& run) {
-    if (!project) return report_error(project.error());
-    if (project->output.path.empty()) {
-        return report_error({ErrorCode::kUsage,
-                             "No output is set. Give a pattern with -o, such as 'out/####.png'.",
-                             {}});
-    }
-    for (const Issue& issue : validate(*project)) {
-        if (issue.severity == Severity::kError)
-            return report_error({ErrorCode::kUsage, issue.text(), {}});
-        print_warning(issue.text());
-    }
-    return render_command(resolve_paths(*project, dir), run);
+// Relative paths of `project` mean the current folder.
+CommandResult run_render(const Project& project, const RunOptions& run) {
+    WEFT_CHECK_OK(check_document(project));
+    return render_command(project, run);
 }
 
-void add_replace(CLI::App& app, int& exit) {
+void add_replace(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("replace", "Replace a surface's texture in a shot");
     const auto run = std::make_shared<RunOptions>();
     const auto flags = std::make_shared<ProjectFlags>(*command, ProjectFlags::Which{});
@@ -39,37 +31,41 @@ void add_replace(CLI::App& app, int& exit) {
         "'flow/####.flo' \\\n"
         "               --plane tiles.png --light-strength 0.8 -o 'out/####.exr' --report "
         "report.json");
-    command->callback([=, &exit] { exit = run_render(flags->project(), "", *run); });
+    on_run(*command, result, [=]() -> CommandResult {
+        WEFT_TRY(project, flags->project());
+        return run_render(project, *run);
+    });
 }
 
-void add_render(CLI::App& app, int& exit) {
+void add_render(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("render", "Render a project");
     const auto run = std::make_shared<RunOptions>();
     const auto path = std::make_shared<std::string>();
-    command->add_option("project", *path, "Project file (.weft)")->required()->type_name("PATH");
+    add_project_path(*command, *path);
     const auto flags = std::make_shared<ProjectFlags>(
         *command, ProjectFlags::Which{false, true, true, false, false});
     add_run_flags(*command, *run, true);
+    add_trust_flag(*command, run->by_user.trust);
     command->footer(
-        "Settings given here hold for this run only.\n"
+        "Settings given here apply to this run only.\n"
         "Examples:\n"
         "  weft render shot.weft\n"
         "  weft render shot.weft --frames 1010-1020 --quality draft -o '/tmp/look/####.jpg'\n"
         "  weft render shot.weft --skip-existing --progress json");
-    command->callback([=, &exit] {
-        auto project = load_project(*path);
-        if (project) *project = resolve_paths(*project, project_dir(*path));
-        if (project) {
-            if (Status status = flags->apply(*project); !status) {
-                exit = report_error(status.error());
-                return;
-            }
-        }
-        exit = run_render(project, "", *run);
+    on_run(*command, result, [=]() -> CommandResult {
+        run->reads = {*path};
+        run->project_file = *path;
+        run->by_user.frames = flags->given("output.path");
+        run->by_user.layers = flags->given("output.layers_path");
+        run->by_user.movie = flags->given("output.movie");
+        WEFT_TRY(written, load_project(*path));
+        Project project = resolve_paths(written, project_dir(*path));
+        WEFT_CHECK_OK(flags->apply(project));
+        return run_render(project, *run);
     });
 }
 
-void add_matte(CLI::App& app, int& exit) {
+void add_matte(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("matte", "Propagate painted mattes through a shot");
     const auto run = std::make_shared<RunOptions>();
     const auto output = std::make_shared<std::string>();
@@ -81,23 +77,23 @@ void add_matte(CLI::App& app, int& exit) {
         ->type_name("PATH");
     add_run_flags(*command, *run, false);
     command->footer(
-        "Prints the confidence of each frame: low ones want a keyframe.\n"
+        "Prints the confidence of each frame; add keyframes where it is low.\n"
         "Examples:\n"
         "  weft matte --plate 'frames/####.png' --matte 12=a.png -o 'mattes/####.png'\n"
         "  weft matte --plate shot.mp4 --matte 1012=a.png --matte 1040=b.png -o 'mattes/####.png' "
         "--frames 1001-1050");
-    command->callback([=, &exit] {
-        const auto project = flags->project();
-        exit = project ? matte_command(*project, *output, *run) : report_error(project.error());
+    on_run(*command, result, [=]() -> CommandResult {
+        WEFT_TRY(project, flags->project());
+        return matte_command(project, *output, *run);
     });
 }
 
 }  // namespace
 
-void add_render_commands(CLI::App& app, int& exit) {
-    add_replace(app, exit);
-    add_render(app, exit);
-    add_matte(app, exit);
+void add_render_commands(CLI::App& app, CommandResult& result) {
+    add_replace(app, result);
+    add_render(app, result);
+    add_matte(app, result);
 }
 
 }  // namespace weft

@@ -1,108 +1,78 @@
-// weft look, collect, submit, task and doctor.
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+// weft look, collect, submit and task.
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
-#include "app/project/project_file.h"
-#include "app/session/collect.h"
-#include "app/session/farm.h"
-#include "app/session/kept_textures.h"
-#include "app/session/look.h"
-#include "app/session/report.h"
-#include "engine/media/atomic_file.h"
-#include "gpu/cuda_backend.h"
+#include "app/exchange/collect.h"
+#include "app/exchange/kept_textures.h"
+#include "app/exchange/look.h"
+#include "app/project/codec/project_file.h"
+#include "app/render/farm.h"
+#include "engine/core/child_process.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-// Runs a script of ours without a shell in between; its exit code.
-int run_script(const std::string& path) {
-    char shell[] = "/bin/sh";
-    std::string script = path;
-    char* const argv[] = {shell, script.data(), nullptr};
-    pid_t child = 0;
-    if (posix_spawn(&child, shell, nullptr, nullptr, argv, environ) != 0) return 127;
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+Status submit_to_slurm(const std::string& folder) {
+    if (!is_on_path("sbatch"))
+        return fail(ErrorCode::kUsage,
+                    "sbatch is not available on this machine. Run submit.sh on one that has it.");
+    WEFT_TRY(child, start_process({"/bin/sh", (fs::path(folder) / "submit.sh").string()}, {}));
+    const int code = wait_for_process(child);
+    if (code == 0) return {};
+    return fail(ErrorCode::kRenderFailed, "Slurm refused the job (exit code " +
+                                              std::to_string(code) +
+                                              "). Correct what sbatch says, then run submit.sh.");
 }
 
-bool is_on_path(const std::string& program) {
-    const char* path = std::getenv("PATH");
-    std::string rest = path ? path : "";
-    while (!rest.empty()) {
-        const std::size_t colon = std::min(rest.find(':'), rest.size());
-        if (access((fs::path(rest.substr(0, colon)) / program).c_str(), X_OK) == 0) return true;
-        rest.erase(0, colon + 1);
+Expected<std::vector<RootMap>> root_maps(const std::vector<std::string>& texts) {
+    std::vector<RootMap> maps;
+    for (const std::string& text : texts) {
+        WEFT_TRY(map, parse_root_map(text));
+        maps.push_back(map);
     }
-    return false;
-}
-
-struct Finding {
-    std::string what, state, advice;
-    bool good = true;
-};
-
-Finding folder_finding(const std::string& what, const std::string& path) {
-    std::error_code error;
-    fs::create_directories(path, error);
-    const bool good = !path.empty() && access(path.c_str(), W_OK | X_OK) == 0;
-    return {what, path.empty() ? "none" : path,
-            good ? "" : "It cannot be written: set HOME, XDG_CACHE_HOME or --cache.", good};
+    return maps;
 }
 
 }  // namespace
 
-int look_save_command(const std::string& project, const std::string& look,
-                      const std::string& region) {
-    const auto loaded = load_project(project);
-    if (!loaded) return report_error(loaded.error());
-    const Status saved = save_look(look, resolve_paths(*loaded, project_dir(project)), region);
-    return saved ? 0 : report_error(saved.error());
+CommandResult look_save_command(const std::string& project, const std::string& look,
+                                const std::string& region, const WriteFlags& write) {
+    WEFT_TRY(loaded, load_project(project));
+    const Project whole = resolve_paths(loaded, project_dir(project));
+    WEFT_TRY(rule, write_rule(write, {project}, whole));
+    WEFT_CHECK_OK(save_look(look, whole, region, rule));
+    return Answer{{{"look", absolute_path(look)}}};
 }
 
-int look_apply_command(const std::string& look, const std::string& project,
-                       const std::string& region, const std::string& library) {
-    const auto loaded = load_project(project);
-    if (!loaded) return report_error(loaded.error());
-    const auto changed = apply_look(look, *loaded, project_dir(project), region);
-    if (!changed) return report_error(changed.error());
-    const auto kept = keep_library_textures(*changed, project, library);
-    if (!kept) return report_error(kept.error());
-    const Status saved = save_project(project, *kept);
-    return saved ? 0 : report_error(saved.error());
+CommandResult look_apply_command(const std::string& look, const std::string& project,
+                                 const std::string& region, const std::string& library) {
+    WEFT_TRY(loaded, load_project(project));
+    WEFT_TRY(changed, apply_look(look, loaded, project_dir(project), region));
+    WEFT_TRY(kept, keep_library_textures(changed, project, library));
+    WEFT_CHECK_OK(save_project(project, kept, in_place()));
+    return Answer{{{"project", absolute_path(project)}, {"look", absolute_path(look)}}};
 }
 
-int collect_command(const std::string& project, const std::string& folder,
-                    const std::string& library, const RunOptions& run) {
-    const auto loaded = load_project(project);
-    if (!loaded) return report_error(loaded.error());
-    const Project whole = with_mapped_roots(resolve_paths(*loaded, project_dir(project)), run.maps);
-    const auto collected = collect_project(whole, fs::path(project).filename().string(), folder,
-                                           library, cancel_on_signals(), {});
-    if (!collected) return report_error(collected.error());
-    if (run.json) {
-        print(stdout, Json{{"project", collected->project},
-                           {"files", collected->files},
-                           {"bytes", collected->bytes}}
-                              .dump(2) +
-                          "\n");
-    } else {
-        print(stdout, collected->project + " with " + std::to_string(collected->files) +
-                          " files, " + std::to_string(collected->bytes >> 20) + " MiB\n");
-    }
-    return 0;
+CommandResult collect_command(const std::string& project, const std::string& folder,
+                              const std::string& library, const RunOptions& run) {
+    WEFT_TRY(loaded, load_project(project));
+    const Project whole = with_mapped_roots(resolve_paths(loaded, project_dir(project)), run.maps);
+    WEFT_TRY(collected,
+             collect_project(whole, fs::path(project).filename().string(), folder, library,
+                             {run.output_root, {project}}, cancel_on_signals(), {}));
+    return Answer{{{"project", absolute_path(collected.project)},
+                   {"files", collected.files},
+                   {"bytes", collected.bytes}},
+                  collected.project + " with " + std::to_string(collected.files) + " files, " +
+                      std::to_string(collected.bytes >> 20) + " MiB\n"};
 }
 
-int submit_command(const SubmitOptions& options) {
+namespace {
+
+Expected<FarmEngine> farm_engine(const SubmitOptions& options) {
     static const std::map<std::string, FarmEngine> kEngines{{"openjd", FarmEngine::kOpenJd},
                                                             {"slurm", FarmEngine::kSlurm},
                                                             {"deadline", FarmEngine::kDeadline},
@@ -110,116 +80,108 @@ int submit_command(const SubmitOptions& options) {
                                                             {"flamenco", FarmEngine::kFlamenco}};
     const auto engine = kEngines.find(options.engine);
     if (engine == kEngines.end()) {
-        return report_error({ErrorCode::kUsage,
-                             "There is no farm '" + options.engine +
-                                 "'. There are openjd, slurm, deadline, opencue and flamenco.",
-                             {}});
+        return fail(ErrorCode::kUsage,
+                    "--to must be openjd, slurm, deadline, opencue or flamenco, not '" +
+                        options.engine + "'.");
     }
     if (options.run && engine->second != FarmEngine::kSlurm) {
-        return report_error({ErrorCode::kUsage,
-                             "--run submits to Slurm only. The files for " + options.engine +
-                                 " are submitted with its own tools.",
-                             {}});
+        return fail(ErrorCode::kUsage, "--run submits to Slurm only. The files for " +
+                                           options.engine + " are submitted with its own tools.");
     }
-    std::vector<RootMap> maps;
-    for (const std::string& text : options.maps) {
-        const auto map = parse_root_map(text);
-        if (!map) return report_error(map.error());
-        maps.push_back(*map);
+    if (options.write.overwrite + options.skip_existing + options.resume > 1) {
+        return fail(ErrorCode::kUsage,
+                    "--resume, --overwrite and --skip-existing contradict each other. Give one.");
     }
-    const auto loaded = load_project(options.project);
-    if (!loaded) return report_error(loaded.error());
-    OpenShotOptions open;
-    open.texture_library = options.library;
-    const auto shot = open_shot(
-        with_mapped_roots(resolve_paths(*loaded, project_dir(options.project)), maps), open);
-    if (!shot) return report_error(shot.error());
-    if (const Status allowed = check_texture_licences(**shot); !allowed)
-        return report_error(allowed.error());
-    FarmOptions farm{engine->second, options.project, options.folder, options.cache,
-                     options.chunk,  options.threads, options.maps,   options.library};
-    const auto written = write_farm_job(farm, **shot);
-    if (!written) return report_error(written.error());
-    std::string text;
-    for (const std::string& path : *written)
-        text += path + "\n";
-    print(stdout, options.json ? Json{{"files", *written}}.dump(2) + "\n" : text);
-    if (!options.run) return 0;
-    if (!is_on_path("sbatch")) {
-        return report_error({ErrorCode::kUsage,
-                             "There is no sbatch on this machine. Run submit.sh where there is.",
-                             {}});
-    }
-    const int code = run_script((fs::path(options.folder) / "submit.sh").string());
-    if (code == 0) return 0;
-    return report_error({ErrorCode::kRenderFailed,
-                         "Slurm refused the job (exit code " + std::to_string(code) + ").",
-                         {}});
+    return engine->second;
 }
 
-int task_command(const std::string& job, const std::string& stage, int index, ProgressStyle style) {
+// The project as the machines see it.
+Expected<Project> project_for_machines(const SubmitOptions& options) {
+    WEFT_TRY(maps, root_maps(options.maps));
+    WEFT_TRY(loaded, load_project(options.project));
+    return with_mapped_roots(resolve_paths(loaded, project_dir(options.project)), maps);
+}
+
+// What `weft render` would refuse is refused here, not by a task.
+Expected<std::vector<std::string>> write_job(const SubmitOptions& options, FarmEngine engine) {
+    WEFT_TRY(project, project_for_machines(options));
+    WEFT_CHECK_OK(check_document(project));
+    const NamedByUser by_user{false, false, false, options.trust, options.write.root};
+    const TrustList trusted = TrustList::of_user();
+    WEFT_CHECK_OK(check_trust(project, options.project, by_user, trusted));
+    JobSpec spec;
+    spec.project = project;
+    spec.backend = "cpu";
+    spec.threads = options.threads;
+    spec.texture_library = options.library;
+    spec.limits = {options.write.root, {options.project}};
+    spec.existing = options.write.overwrite ? ExistingFrames::kOverwrite
+                    : options.skip_existing ? ExistingFrames::kSkip
+                    : options.resume        ? ExistingFrames::kResume
+                                            : ExistingFrames::kRefuse;
+    WEFT_TRY(checked, check_job(spec));
+    for (const std::string& note : checked.shot->notes)
+        print(stderr, "weft: " + note + "\n");
+    for (const std::string& warning : checked.warnings)
+        print_warning(warning);
+    FarmOptions farm;
+    farm.engine = engine;
+    farm.project_file = options.project;
+    farm.project = std::move(project);
+    farm.folder = options.folder;
+    farm.cache = options.cache;
+    farm.chunk = options.chunk;
+    farm.threads = options.threads;
+    farm.library = options.library;
+    farm.existing = spec.existing;
+    farm.roots = permitted_roots(farm.project, options.project, by_user, trusted);
+    if (!options.write.root.empty()) farm.roots = {fs::absolute(options.write.root).string()};
+    // To go on with a job is to replace its files.
+    WriteFlags write = options.write;
+    write.overwrite =
+        write.overwrite || (spec.existing != ExistingFrames::kRefuse &&
+                            is_farm_job((fs::path(options.folder) / "job.json").string()));
+    WEFT_TRY(rule, write_rule(write, {options.project}, farm.project));
+    farm.rule = rule;
+    return write_farm_job(farm, *checked.shot);
+}
+
+}  // namespace
+
+CommandResult submit_command(const SubmitOptions& options) {
+    WEFT_TRY(engine, farm_engine(options));
+    WEFT_TRY(written, write_job(options, engine));
+    Answer answer;
+    for (const std::string& path : written) {
+        answer.json["files"].push_back(absolute_path(path));
+        answer.text += path + "\n";
+    }
+    if (options.run) {
+        const Status submitted = submit_to_slurm(options.folder);
+        answer.json["submitted"] = submitted.has_value();
+        if (!submitted) answer.error = submitted.error();
+    }
+    return answer;
+}
+
+CommandResult task_command(const std::string& job, const std::string& stage, int index,
+                           const RunOptions& given) {
     // Before anything can go wrong, so that it is told in the farm's words.
-    static_cast<void>(progress_printer(style, false));
-    const auto task = read_farm_task(job, stage, index);
-    if (!task) return report_error(task.error());
-    const auto loaded = load_project(task->project);
-    if (!loaded) return report_error(loaded.error());
-    RunOptions run;
-    for (const std::string& text : task->maps) {
-        const auto map = parse_root_map(text);
-        if (!map) return report_error(map.error());
-        run.maps.push_back(*map);
-    }
-    Project project = resolve_paths(*loaded, project_dir(task->project));
-    // The frames of the whole shot are the project's own, but in the stages that are cut into
-    // parts.
-    if (!task->frames.empty()) project.settings.frames = task->frames;
-    run.cache.folder = task->cache;
-    run.texture_library = task->library;
-    run.threads = task->threads;
-    run.stage = task->stage;
-    run.resume = true;
+    static_cast<void>(progress_printer(given.progress));
+    WEFT_TRY(task, read_farm_task(job, stage, index));
+    RunOptions run = given;
+    run.reads = {job};
+    if (run.output_root.empty()) run.roots = task.output_roots;
+    run.cache.folder = task.cache;
+    run.texture_library = task.library;
+    run.threads = task.threads;
+    run.stage = task.stage;
+    run.settings = task.settings;
+    run.overwrite = task.existing == ExistingFrames::kOverwrite;
+    run.skip_existing = task.existing == ExistingFrames::kSkip;
+    run.resume = task.existing == ExistingFrames::kResume;
     run.backend = "cpu";  // the same pixels on every machine
-    run.progress = style;
-    return render_command(project, run);
-}
-
-int doctor_command(const std::string& assets, bool json) {
-    std::vector<Finding> findings;
-    findings.push_back({"version", version_text(), "", true});
-    for (const std::string name : {"cpu", "cuda"}) {
-        const auto choice = choose_backend(name);
-        findings.push_back(
-            {"backend " + name, choice ? choice->backend->description() : choice.error().text(),
-             choice || name == "cuda" ? "" : "The build is broken: install Weft again.",
-             choice.has_value() || name == "cuda"});
-    }
-    findings.push_back(folder_finding("cache", cache_root({})));
-    const char* ocio = std::getenv("OCIO");
-    const bool ocio_good = !ocio || !*ocio || fs::exists(ocio);
-    findings.push_back({"OpenColorIO", ocio && *ocio ? ocio : "built-in spaces (no $OCIO)",
-                        ocio_good ? "" : "$OCIO names no file: correct or unset it.", ocio_good});
-    const bool demo = fs::exists(fs::path(assets) / "demo" / "demo.weft");
-    findings.push_back(
-        {"demo shot", assets, demo ? "" : "Install Weft again, or give --assets.", demo});
-    const bool display = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-    findings.push_back(
-        {"display", display ? "there" : "none: the editor cannot open; all else works", "", true});
-    findings.push_back({"Slurm",
-                        is_on_path("sbatch") ? "sbatch found" : "no sbatch: --run cannot submit",
-                        "", true});
-    Json list = Json::array();
-    std::string text;
-    bool good = true;
-    for (const Finding& f : findings) {
-        good = good && f.good;
-        list.push_back(
-            {{"what", f.what}, {"state", f.state}, {"good", f.good}, {"advice", f.advice}});
-        text += std::string(f.good ? "ok   " : "FIX  ") + f.what + ": " + f.state +
-                (f.advice.empty() ? "" : "\n     " + f.advice) + "\n";
-    }
-    print(stdout, json ? list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n" : text);
-    return good ? 0 : exit_code(ErrorCode::kUnreadable);
+    return render_command(task.project, run);
 }
 
 }  // namespace weft

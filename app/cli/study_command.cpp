@@ -1,5 +1,5 @@
 #include "app/cli/commands.h"
-#include "app/session/study_report.h"
+#include "bench/study/study_report.h"
 
 namespace weft {
 namespace {
@@ -44,14 +44,13 @@ std::string to_text(const StudyResult& study, const std::string& folder) {
 
 }  // namespace
 
-int study_command(const StudyOptions& options, const RunOptions& run) {
-    const auto study =
-        run_study(options, cancel_on_signals(), progress_printer(run.progress, run.json));
-    if (!study) return report_error(study.error());
-    for (const std::string& warning : study->warnings)
+CommandResult study_command(const StudyOptions& options, const RunOptions& run) {
+    WEFT_TRY(study, run_study(options, cancel_on_signals(), progress_printer(run.progress)));
+    for (const std::string& warning : study.warnings)
         print_warning(warning);
-    print(stdout, run.json ? study_json(*study) : to_text(*study, options.folder));
-    return 0;
+    Answer answer{nlohmann::ordered_json::parse(study_json(study)), to_text(study, options.folder)};
+    answer.json["report"] = absolute_path(options.folder + "/report.html");
+    return answer;
 }
 
 }  // namespace weft

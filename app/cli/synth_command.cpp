@@ -1,13 +1,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
 
 #include "app/cli/commands.h"
 #include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
@@ -20,12 +19,13 @@
 namespace weft {
 namespace {
 
-Status write_plane(const std::string& path, const TexturePlane& plane) {
+Status write_plane(const std::string& path, const TexturePlane& plane, const WriteRule& rule) {
     ImageF3 pixels(plane.pixels.size());
     std::transform(plane.pixels.data(), plane.pixels.data() + plane.pixels.size_bytes(),
                    pixels.data(), [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
     WriteOptions write;
     write.depth = default_depth(path, PixelDepth::kU8);
+    write.rule = rule;
     if (write.depth == PixelDepth::kHalf || write.depth == PixelDepth::kFloat) {
         WEFT_TRY(to_linear, make_color_transform({"srgb"}, {"linear"}));
         to_linear->apply(pixels);
@@ -35,7 +35,7 @@ Status write_plane(const std::string& path, const TexturePlane& plane) {
 
 // The source map: R and G are the sample's x and y of each texel; B the sample's number, plus 256
 // times its orientation.
-Status write_source_map(const std::string& path, const TexturePlane& plane) {
+Status write_source_map(const std::string& path, const TexturePlane& plane, const WriteRule& rule) {
     ImageF3 map(plane.source.size());
     for (int y = 0; y < map.height(); ++y) {
         for (int x = 0; x < map.width(); ++x) {
@@ -48,16 +48,14 @@ Status write_source_map(const std::string& path, const TexturePlane& plane) {
     }
     WriteOptions write;
     write.depth = PixelDepth::kFloat;
+    write.rule = rule;
     WEFT_CHECK_OK(check_format(path, write));
     return write_image(path, map, {}, write);
 }
 
 Expected<ImageU8x3> read_sample(const std::string& path, const std::string& space_name) {
     WEFT_TRY(picture, read_image(path));
-    const bool is_float = picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
-    WEFT_TRY(space, parse_color_space(!space_name.empty() ? space_name
-                                      : is_float          ? "linear"
-                                                          : "srgb"));
+    WEFT_TRY(space, parse_color_space(space_name.empty() ? picture.color.space : space_name));
     WEFT_TRY(display_from_texture, make_color_transform(space, {"srgb"}));
     return make_views(picture.rgb, *display_from_texture).display;
 }
@@ -82,7 +80,7 @@ Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const
     if (samples.size() > 1 || grow.tileable || grow.guide || grow.orientations.rotations ||
         grow.orientations.mirror) {
         return fail(ErrorCode::kUsage,
-                    "A plane without end (--endless) grows from one upright sample, without "
+                    "An unbounded plane (--endless) needs one upright sample, without "
                     "--tileable and --light.");
     }
     constexpr int kFurthest = 1 << 30, kLargestSide = 16384;
@@ -90,10 +88,10 @@ Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const
         at.y < -kFurthest || at.x > kFurthest - grow.size.width ||
         at.y > kFurthest - grow.size.height) {
         return fail(ErrorCode::kUsage,
-                    "Of a plane without end parts of up to 16384 px a side can be read, between "
+                    "Parts of an unbounded plane may have up to 16384 px per side, between "
                     "-2^30 and 2^30.");
     }
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     WEFT_TRY(endless, EndlessPlane::make(samples.front(), grow, cancel_on_signals()));
     WEFT_TRY(part, endless->read({at.x, at.y, at.x + grow.size.width, at.y + grow.size.height},
                                  cancel_on_signals()));
@@ -101,8 +99,7 @@ Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const
     plane.pixels = std::move(part.pixels);
     plane.source = std::move(part.source);
     PlaneStats& stats = plane.stats;
-    stats.total_s = stats.other_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    stats.total_s = stats.other_s = seconds_since(start);
     const PlaneEnergy energy =
         recount_energy(SampleAtlas(samples.front().view()), plane.source, false);
     stats.seam_energy = energy.energy;
@@ -113,12 +110,14 @@ Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const
 }
 
 Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) {
-    for (const std::string& path : {options.output, options.source_map}) {
-        if (!path.empty() && !options.overwrite && std::filesystem::exists(path)) {
-            return fail(ErrorCode::kUsage,
-                        path + " exists already. Use --overwrite, or another name.");
-        }
-    }
+    std::vector<std::string> reads = options.samples;
+    if (!options.light.empty()) reads.push_back(options.light);
+    WEFT_TRY(rule, write_rule(options.write, reads));
+    std::vector<PlannedFile> files{{"The plane", options.output}};
+    if (!options.source_map.empty()) files.push_back({"The source map", options.source_map});
+    WEFT_CHECK_OK(check_apart(files));
+    for (const PlannedFile& file : files)
+        WEFT_CHECK_OK(check_output(file.path, rule));
     WriteOptions write;
     write.depth = default_depth(options.output, PixelDepth::kU8);
     WEFT_CHECK_OK(check_format(options.output, write));
@@ -146,8 +145,9 @@ Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) 
     if (!plane) return fail_in(std::move(plane).error(), names);
     for (const std::string& remark : backend.remarks())
         print_warning(remark);
-    WEFT_CHECK_OK(write_plane(options.output, *plane));
-    if (!options.source_map.empty()) WEFT_CHECK_OK(write_source_map(options.source_map, *plane));
+    WEFT_CHECK_OK(write_plane(options.output, *plane, rule));
+    if (!options.source_map.empty())
+        WEFT_CHECK_OK(write_source_map(options.source_map, *plane, rule));
     return plane;
 }
 
@@ -159,7 +159,8 @@ nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repe
         const Vec2i step = s.period.steps[static_cast<std::size_t>(i)];
         period.push_back({step.x, step.y});
     }
-    return {{"size", {plane.pixels.width(), plane.pixels.height()}},
+    return {{"output", absolute_path(options.output)},
+            {"size", {plane.pixels.width(), plane.pixels.height()}},
             {"seconds",
              {{"search", s.search_s},
               {"seam", s.seam_s},
@@ -186,28 +187,22 @@ nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repe
 
 }  // namespace
 
-int synth_command(const SynthOptions& options) {
-    const auto chosen = choose_engine(options.threads, options.isa, options.backend);
-    if (!chosen) return report_error(chosen.error());
-    const Backend& backend = *chosen->backend;
-    const auto plane = run(options, backend);
-    if (!plane) return report_error(plane.error());
-    for (const std::string& remark : backend.remarks())
-        print(stderr, "weft: " + remark + "\n");
-    if (options.json) {
-        print(stdout, json_of(*plane, measure_repetition(*plane), backend, options).dump(2) + "\n");
-        return 0;
-    }
-    const PlaneStats& s = plane->stats;
+CommandResult synth_command(const SynthOptions& options) {
+    WEFT_TRY(chosen, choose_engine(options.threads, options.isa, options.backend));
+    const Backend& backend = *chosen.backend;
+    WEFT_TRY(plane, run(options, backend));
+    Answer answer;
+    // Measuring repetition takes longer than growing a small plane.
+    if (json_output()) answer.json = json_of(plane, measure_repetition(plane), backend, options);
+    const PlaneStats& s = plane.stats;
     char line[256];
     std::snprintf(line, sizeof line,
                   "%s %dx%d: %d placements, seam energy per area %.3f, %.3fs (search %.3f, seam "
                   "%.3f, refine %.3f, other %.3f)\n",
-                  options.output.c_str(), plane->pixels.width(), plane->pixels.height(),
-                  s.placements, s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.refine_s,
-                  s.other_s);
-    print(stdout, line);
-    return 0;
+                  options.output.c_str(), plane.pixels.width(), plane.pixels.height(), s.placements,
+                  s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.refine_s, s.other_s);
+    answer.text = line;
+    return answer;
 }
 
 }  // namespace weft

@@ -1,12 +1,15 @@
 // weft measure, diff and demo.
 
+#include "app/cli/command_line.h"
+#include "app/cli/commands.h"
+#include "app/cli/option_values.h"
 #include "app/cli/region_flags.h"
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 
 namespace weft {
 namespace {
 
-void add_measure(CLI::App& app, int& exit) {
+void add_measure(CLI::App& app, CommandResult& result) {
     CLI::App* command =
         app.add_subcommand("measure", "Measure flicker, sharpness, drift and light of a result");
     const auto options = std::make_shared<MeasureCommandOptions>();
@@ -19,8 +22,8 @@ void add_measure(CLI::App& app, int& exit) {
                         "Colour space of the result");
     command
         ->add_option("--estimator", options->motion_estimator,
-                     "Motion to measure with where none is given: deepflow or farneback [deepflow]")
-        ->check(CLI::IsMember({"deepflow", "farneback"}))
+                     "Motion estimator without --motion: deepflow or farneback [deepflow]")
+        ->check(one_of({"deepflow", "farneback"}))
         ->type_name("");
     command
         ->add_option("--truth", options->truth,
@@ -28,17 +31,17 @@ void add_measure(CLI::App& app, int& exit) {
         ->type_name("PATH");
     command
         ->add_option("--truth-blur", options->truth_blur_px,
-                     "Compare with the truth after a Gaussian of this many px [0]")
-        ->check(CLI::Range(0.0, 100.0))
+                     "Blur both by a Gaussian of this many px before comparing [0]")
+        ->check(number(0.0, 100.0))
         ->type_name("PX");
     command
         ->add_option("--light-pictures", options->pictures,
-                     "Folder for pictures of the light and the reflectance, before and after")
+                     "Folder for images of light and reflectance, before and after")
         ->type_name("PATH");
-    command->add_option("--cache", options->cache, "Where analyses are kept")->type_name("PATH");
-    command->add_option("--threads", options->threads, "Threads to use; 0 is one a processor")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--json", options->json, "One JSON object on stdout");
+    add_write_flags(*command, options->write);
+    command->add_option("--cache", options->cache, "Folder of the analysis cache")
+        ->type_name("PATH");
+    add_threads_flag(*command, options->threads);
     command->footer(
         "With --albedo or --lighting the light that Weft estimates is compared with the true one.\n"
         "With --motion (true motion) and the texture and placement of the render, the floor of the "
@@ -52,70 +55,64 @@ void add_measure(CLI::App& app, int& exit) {
         "  weft measure --result 'out/####.png' --plate 'frames/####.png' --matte 'ids/####.png' "
         "--matte-value 2 \\\n"
         "               --motion 'flow/####.png' --plane plane.png --json");
-    command->callback([=, &exit] {
+    on_run(*command, result, [=]() -> CommandResult {
         const std::string out_space = options->project.color.out_space;
-        auto project = flags->project();
-        if (!project) {
-            exit = report_error(project.error());
-            return;
-        }
-        project->color.out_space = out_space;
-        options->project = std::move(*project);
-        exit = measure_command(*options);
+        WEFT_TRY(project, flags->project());
+        project.color.out_space = out_space;
+        options->project = std::move(project);
+        return measure_command(*options);
     });
 }
 
-void add_diff(CLI::App& app, int& exit) {
-    CLI::App* command = app.add_subcommand("diff", "Compare two sequences, pictures or movies");
+void add_diff(CLI::App& app, CommandResult& result) {
+    CLI::App* command = app.add_subcommand("diff", "Compare two sequences, images or movies");
     const auto options = std::make_shared<DiffOptions>();
     command->add_option("a", options->a, "One sequence")->required()->type_name("PATH");
     command->add_option("b", options->b, "The other")->required()->type_name("PATH");
     command->add_option("--frames", options->frames, "Frames to compare");
     command
         ->add_option("--tolerance", options->tolerance,
-                     "Largest difference that counts as the same, white = 1 [0]")
-        ->check(CLI::NonNegativeNumber)
+                     "Largest difference that counts as equal, white = 1 [0]")
+        ->check(number(0, std::numeric_limits<double>::max()))
         ->type_name("");
     command
         ->add_option("--matte", options->matte,
-                     "Matte of what should look alike: says how far its features are off, and what "
-                     "differs inside and in the soft edge")
+                     "Matte of the surface: also measures the offset of its features and the "
+                     "difference inside and in the soft edge")
         ->type_name("PATTERN");
     command->add_option("--matte-value", options->matte_value, "Id matte: where the pixel equals N")
+        ->transform(whole_number())
         ->type_name("N");
     command->add_option("--matte-channel", options->matte_channel, "R, G, B, A, Y or a name")
         ->type_name("");
     command
         ->add_option("--worst", options->worst,
-                     "Picture of the ten worst crops to write, with --matte: the first sequence "
+                     "Image of the ten worst crops to write, with --matte: the first sequence "
                      "above, the second below it, the difference at the bottom")
         ->type_name("FILE");
-    command->add_flag("--json", options->json, "One JSON object on stdout");
+    add_write_flags(*command, options->write);
     command->footer(
-        "Exit code 0 when they are the same, 8 when they differ.\n"
+        "Exit code 0 if they are equal, 8 if they differ.\n"
         "Examples:\n  weft diff 'out/####.png' 'retake/####.png'\n"
         "  weft diff 'second_rendering/####.png' 'out/####.png' --matte 'mattes/####.png' "
         "--worst worst.png");
-    command->callback([=, &exit] { exit = diff_command(*options); });
+    on_run(*command, result, [=] { return diff_command(*options); });
 }
 
-void add_cryptomatte(CLI::App& app, int& exit) {
+void add_cryptomatte(CLI::App& app, CommandResult& result) {
     CLI::App* command =
         app.add_subcommand("cryptomatte", "List a frame's Cryptomatte objects, or pick one");
     const auto path = std::make_shared<std::string>(), at = std::make_shared<std::string>();
-    const auto json = std::make_shared<bool>(false);
     command->add_option("file", *path, "EXR with a Cryptomatte")->required()->type_name("PATH");
     command->add_option("--at", *at, "X,Y: the object that covers most of this pixel")
         ->type_name("");
-    command->add_flag("--json", *json, "As JSON");
     command->footer(
         "Examples:\n  weft cryptomatte cg/0001.exr\n  weft cryptomatte cg/0001.exr --at 320,180");
-    command->callback([=, &exit] { exit = cryptomatte_command(*path, *at, *json); });
+    on_run(*command, result, [=] { return cryptomatte_command(*path, *at); });
 }
 
-void add_verify(CLI::App& app, int& exit) {
-    CLI::App* command =
-        app.add_subcommand("verify", "Prove that frames are what their recipe gives");
+void add_verify(CLI::App& app, CommandResult& result) {
+    CLI::App* command = app.add_subcommand("verify", "Verify frames from their recipe");
     const auto run = std::make_shared<RunOptions>();
     const auto options = std::make_shared<VerifyCommandOptions>();
     run->cache.keep = false;
@@ -124,19 +121,18 @@ void add_verify(CLI::App& app, int& exit) {
         ->type_name("PATH");
     command->add_option("--frames", options->frames, "Frames to verify [all of the recipe]");
     command->add_flag("--quick", options->quick, "Compare hashes only, render nothing");
-    command->add_option("--threads", run->threads, "Threads to use; 0 is one a processor")
-        ->check(CLI::Range(0, 1024));
-    add_progress_flags(*command, *run);
+    add_threads_flag(*command, run->threads);
+    add_progress_flag(*command, *run);
     command->footer(
         "Compares every input and every frame with the hashes of the recipe, and renders the "
-        "frames again\ninto a private folder. Exit code 0 when all bytes are the same, 8 when "
+        "frames again\ninto a private folder. Exit code 0 if all bytes are equal, 8 if "
         "some differ.\n"
         "Examples:\n  weft render shot.weft --recipe shot.recipe.json\n"
         "  weft verify shot.recipe.json --frames 1001,1048");
-    command->callback([=, &exit] { exit = verify_command(*options, *run); });
+    on_run(*command, result, [=] { return verify_command(*options, *run); });
 }
 
-void add_demo(CLI::App& app, int& exit) {
+void add_demo(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("demo", "Render the demo shot");
     const auto run = std::make_shared<RunOptions>();
     const auto assets = std::make_shared<std::string>(assets_folder());
@@ -145,17 +141,17 @@ void add_demo(CLI::App& app, int& exit) {
     command->add_option("--assets", *assets, "Folder of the demo's assets")->type_name("PATH");
     add_run_flags(*command, *run, true);
     command->footer("Example:\n  weft demo -o /tmp/demo --overwrite");
-    command->callback([=, &exit] { exit = demo_command(*assets, *output, *run); });
+    on_run(*command, result, [=] { return demo_command(*assets, *output, *run); });
 }
 
 }  // namespace
 
-void add_tool_commands(CLI::App& app, int& exit) {
-    add_measure(app, exit);
-    add_diff(app, exit);
-    add_cryptomatte(app, exit);
-    add_verify(app, exit);
-    add_demo(app, exit);
+void add_tool_commands(CLI::App& app, CommandResult& result) {
+    add_measure(app, result);
+    add_diff(app, result);
+    add_cryptomatte(app, result);
+    add_verify(app, result);
+    add_demo(app, result);
 }
 
 }  // namespace weft

@@ -3,6 +3,8 @@
 #include <cstdlib>
 
 #include "app/editor/run_modes.h"
+#include "engine/core/setting.h"
+#include "ui/setting_labels.h"
 
 namespace weft {
 
@@ -15,6 +17,7 @@ bool has_display() {
 }
 
 Expected<int> run_editor(const EditorOptions& options) {
+    set_setting_namer(ui::setting_label);
     if (!options.script.empty() || !options.screenshot.empty()) return run_offscreen(options);
     return run_window(options);
 }

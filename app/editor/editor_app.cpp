@@ -3,10 +3,11 @@
 #include <time.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
-#include "texture_db/library.h"
+#include "app/base/trust.h"
+#include "engine/core/stopwatch.h"
+#include "texture_db/library/library.h"
 
 namespace weft {
 namespace {
@@ -17,6 +18,7 @@ SessionOptions session_options(const EditorOptions& options) {
     out.assets = options.assets;
     out.texture_library = options.texture_library;
     out.state_folder = editor_state_folder();
+    out.trust_file = TrustList::of_user().file();
     out.offer_recovery = options.script.empty();
     return out;
 }
@@ -80,7 +82,7 @@ bool EditorApp::update_look(double monitor_scale) {
 }
 
 void EditorApp::frame(double now_s) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const double cpu_start_ms = thread_cpu_ms();
     clock_.enter("pictures");
     pictures_.begin_frame();
@@ -110,8 +112,7 @@ void EditorApp::frame(double now_s) {
                 session_->notify(NoticeKind::kWarning, saved.error().text());
         }
     }
-    times_.last_ms =
-        1000.0 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    times_.last_ms = 1000.0 * seconds_since(start);
     times_.worst_ms = std::max(times_.worst_ms, times_.last_ms);
     times_.sum_ms += times_.last_ms;
     const double cpu_ms = thread_cpu_ms() - cpu_start_ms;

@@ -28,7 +28,7 @@ class EditorApp {
     [[nodiscard]] Status start();
     /// Between the backends' NewFrame() and drawing: everything but OpenGL's own work.
     void frame(double now_s);
-    /// Fonts are loaded anew where the scale has changed; returns whether they were.
+    /// Fonts are reloaded if the scale has changed; returns whether they were.
     bool update_look(double monitor_scale);
 
     [[nodiscard]] Session& session() { return *session_; }

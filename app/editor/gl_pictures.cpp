@@ -3,17 +3,13 @@
 
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <fcntl.h>
-#include <spawn.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/editor/gl_program.h"
 #include "app/editor/shader_sources.h"
-
-extern char** environ;
+#include "engine/core/child_process.h"
 
 namespace weft {
 namespace {
@@ -267,14 +263,9 @@ void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& di
 }
 
 void GlPictures::reveal(const std::string& path) {
-    std::string program = "xdg-open", folder = path;
-    char* arguments[] = {program.data(), folder.data(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    pid_t pid = -1;
-    (void)posix_spawnp(&pid, "xdg-open", &actions, nullptr, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    ProcessOptions quiet;
+    quiet.errors = "/dev/null";
+    static_cast<void>(start_process({"xdg-open", path}, quiet));
 }
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "app/session/picture.h"
+#include "app/base/picture.h"
 
 namespace weft {
 
@@ -42,7 +42,7 @@ class GlTextures {
     };
     Texture& made(const PicturePtr& picture, Values values);
     void hand_over(const Picture& picture, Texture& texture, int rows);
-    // The texture that nobody has looked at for longest, or end().
+    // The least recently used texture, or end().
     [[nodiscard]] std::map<std::uint64_t, Texture>::iterator oldest();
     void trim();
 

@@ -7,12 +7,11 @@
 #include <GL/glext.h>
 #include <backends/imgui_impl_opengl3.h>
 
-#include <chrono>
-
+#include "app/base/background.h"
 #include "app/editor/editor_app.h"
 #include "app/editor/run_modes.h"
 #include "app/editor/script.h"
-#include "app/session/background.h"
+#include "engine/core/stopwatch.h"
 #include "engine/media/frame_writer.h"
 
 namespace weft {
@@ -58,7 +57,7 @@ class EglContext {
   private:
     static tl::unexpected<Error> no_gl() {
         return fail(ErrorCode::kRenderFailed,
-                    "No OpenGL 3.3 can be had without a display here. Install the software "
+                    "OpenGL 3.3 is not available without a display. Install the software "
                     "renderer (libgl1-mesa-dri), or run under a display.");
     }
     EGLDisplay display_ = EGL_NO_DISPLAY;
@@ -90,7 +89,7 @@ class Canvas {
         glDisable(GL_SCISSOR_TEST);
         glClear(GL_COLOR_BUFFER_BIT);
     }
-    [[nodiscard]] Status write(const std::string& path) const {
+    [[nodiscard]] Status write(const std::string& path, const WriteRule& rule) const {
         std::vector<unsigned char> bytes(static_cast<std::size_t>(width_) *
                                          static_cast<std::size_t>(height_) * 3);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -105,6 +104,7 @@ class Canvas {
         }
         WriteOptions options;
         options.jpeg_quality = 88;
+        options.rule = rule;
         return write_image(path, picture, {}, options);
     }
 
@@ -140,24 +140,23 @@ Expected<int> run_offscreen(const EditorOptions& options) {
         const Canvas canvas(options.width, options.height);
         ImGui_ImplOpenGL3_Init("#version 330 core");
         app.update_look(1);
-        const auto begin = std::chrono::steady_clock::now();
+        const auto begin = Clock::now();
         const auto frame = [&] {
             app.clock().begin();
             if (app.update_look(1)) ImGui_ImplOpenGL3_DestroyFontsTexture();
             io.DeltaTime = 1.0f / 60.0f;
             ImGui_ImplOpenGL3_NewFrame();
-            app.frame(
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+            app.frame(seconds_since(begin));
             app.clock().end();
             app.watch();
         };
         // Only what is written is drawn: nothing would hold a software renderer back from piling up
-        // frames that nobody sees.
+        // frames that are not displayed.
         const auto write = [&](const std::string& path) {
             canvas.begin();
             ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
             glFinish();
-            return canvas.write(path);
+            return canvas.write(path, app.session().export_rule());
         };
         Status done = app.start();
         if (done) done = run_script(options.script, app, frame, write);

@@ -1,10 +1,15 @@
 #include "app/editor/script.h"
 
+#include <algorithm>
 #include <chrono>
-#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
+#include "engine/core/input_file.h"
+#include "engine/core/stopwatch.h"
+#include "engine/media/atomic_file.h"
 #include "ui/robot.h"
 #include "ui/view_map.h"
 
@@ -12,8 +17,6 @@ namespace weft {
 namespace {
 
 using Json = nlohmann::json;
-using Clock = std::chrono::steady_clock;
-
 constexpr double kPatienceS = 60;
 
 class ScriptRunner {
@@ -35,18 +38,22 @@ class ScriptRunner {
     Status select(const std::string& name);
     [[nodiscard]] ImVec2 on_screen(const Json& point) const;
     static Status missing(const std::string& name) {
-        return fail(ErrorCode::kRenderFailed, "There is no '" + name + "' on the screen.");
+        return fail(ErrorCode::kRenderFailed, "Widget '" + name + "' is not on the screen.");
     }
 
     EditorApp& app_;
     std::function<void()> frame_;
     std::function<Status(const std::string&)> write_;
     Robot robot_;
+    std::map<std::string, std::string> times_;  // lines of the step "times", by the file's path
 };
 
 bool ScriptRunner::reached(const std::string& what) const {
     const SessionView& v = view();
     if (what == "plate") return v.plate_picture != nullptr;
+    if (what == "cached")
+        return !v.marks.empty() && std::all_of(v.marks.begin(), v.marks.end(),
+                                               [](const FrameMarks& m) { return m.plate; });
     if (what == "mattes") {
         for (const RegionMatteView& matte : v.mattes)
             if (matte.kind == RegionMatteView::Kind::kLoading) return false;
@@ -77,7 +84,7 @@ bool ScriptRunner::reached(const std::string& what) const {
 Status ScriptRunner::wait_for(const std::string& what, double patience_s) {
     const auto start = Clock::now();
     while (!reached(what)) {
-        if (std::chrono::duration<double>(Clock::now() - start).count() > patience_s)
+        if (seconds_since(start) > patience_s)
             return fail(ErrorCode::kRenderFailed,
                         "'" + what + "' did not come within " + std::to_string(patience_s) + " s.");
         frame_();
@@ -100,10 +107,8 @@ Status ScriptRunner::settle(double patience_s) {
             news = app_.news();
             quiet_since = now;
         }
-        const auto seconds = [&](Clock::time_point from) {
-            return std::chrono::duration<double>(now - from).count();
-        };
-        if (seconds(quiet_since) > 0.4 || seconds(start) > patience_s) break;
+        if (seconds_between(quiet_since, now) > 0.4 || seconds_between(start, now) > patience_s)
+            break;
     }
     robot_.frames(3);
     return {};
@@ -116,7 +121,7 @@ Status ScriptRunner::select(const std::string& name) {
         robot_.frames(2);
         return {};
     }
-    return fail(ErrorCode::kRenderFailed, "There is no region '" + name + "'.");
+    return fail(ErrorCode::kRenderFailed, "Unknown region '" + name + "'.");
 }
 
 ImVec2 ScriptRunner::on_screen(const Json& point) const {
@@ -161,7 +166,7 @@ Status ScriptRunner::step(const Json& step) {
         robot_.type(text("type"));
     } else if (step.contains("key")) {
         if (!robot_.key(text("key")))
-            return fail(ErrorCode::kUnreadable, "There is no key '" + text("key") + "'.");
+            return fail(ErrorCode::kUnreadable, "Unknown key '" + text("key") + "'.");
     } else if (step.contains("hold")) {
         robot_.hold(text("hold"), step.value("down", true));
         robot_.frames(2);
@@ -187,7 +192,7 @@ Status ScriptRunner::step(const Json& step) {
     } else if (step.contains("wait")) {
         const auto start = Clock::now();
         const double wait = step.at("wait").get<double>();
-        while (std::chrono::duration<double>(Clock::now() - start).count() < wait) {
+        while (seconds_since(start) < wait) {
             frame_();
             std::this_thread::sleep_for(std::chrono::milliseconds(15));
         }
@@ -196,17 +201,21 @@ Status ScriptRunner::step(const Json& step) {
     } else if (step.contains("settle")) {
         return settle(patience);
     } else if (step.contains("items")) {
-        std::ofstream out(text("items"));
+        std::ostringstream out;
         for (const DrawnItem& item : app_.shell().items())
             out << item.name << " " << item.min.x << " " << item.min.y << " " << item.max.x << " "
                 << item.max.y << "\n";
+        return write_file_atomically(text("items"), out.str(), app_.session().export_rule());
     } else if (step.contains("times")) {
         const FrameTimes& t = app_.times();
-        std::ofstream out(text("times"), std::ios::app);
+        std::ostringstream out;
         const double frames = std::max(1, t.frames);
         out << step.value("label", "") << ": work " << t.cpu_sum_ms / frames
             << " ms a frame, worst " << t.cpu_worst_ms << " ms; by the clock " << t.sum_ms / frames
             << " ms, worst " << t.worst_ms << " ms; " << t.frames << " frames\n";
+        std::string& lines = times_[text("times")];
+        lines += out.str();
+        return write_file_atomically(text("times"), lines, app_.session().export_rule());
     } else if (step.contains("repeat")) {
         for (int k = step.at("repeat").get<int>(); k > 0; --k)
             for (const Json& inner : step.at("steps"))
@@ -220,7 +229,7 @@ Status ScriptRunner::step(const Json& step) {
         while (app_.pictures().pending());
         return write_(text("screenshot"));
     } else {
-        return fail(ErrorCode::kUnreadable, "This step is not known: " + step.dump());
+        return fail(ErrorCode::kUnreadable, "This step is not known.");
     }
     return {};
 }
@@ -231,11 +240,10 @@ Status run_script(const std::string& path, EditorApp& app, const std::function<v
                   const std::function<Status(const std::string&)>& write) {
     ScriptRunner runner(app, frame, write);
     if (path.empty()) return runner.settle(30);
-    std::ifstream file(path);
-    if (!file) return fail(ErrorCode::kUnreadable, "The script " + path + " cannot be read.");
-    const Json script = Json::parse(file, nullptr, false);
+    WEFT_TRY(text, read_file(path, "The script"));
+    const Json script = Json::parse(text, nullptr, false);
     if (!script.is_array())
-        return fail(ErrorCode::kUnreadable, "The script " + path + " is no JSON list of steps.");
+        return fail(ErrorCode::kUnreadable, "The script " + path + " is not a JSON list of steps.");
     frame();
     int number = 0;
     for (const Json& step : script) {
@@ -243,9 +251,9 @@ Status run_script(const std::string& path, EditorApp& app, const std::function<v
         try {
             if (Status done = runner.step(step); !done)
                 return fail_in(done.error(), path + ", step " + std::to_string(number));
-        } catch (const Json::exception& error) {
-            return fail(ErrorCode::kUnreadable,
-                        path + ", step " + std::to_string(number) + ": " + error.what());
+        } catch (const Json::exception&) {
+            return fail(ErrorCode::kUnreadable, path + ", step " + std::to_string(number) +
+                                                    ": a value is missing or of another type.");
         }
     }
     return {};

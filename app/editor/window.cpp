@@ -194,7 +194,7 @@ GLFWwindow* make_window(const EditorOptions& options) {
 Expected<int> run_window(const EditorOptions& options) {
     if (!has_display() || !glfwInit()) {
         return fail(ErrorCode::kRenderFailed,
-                    "There is no display to open the editor on. Set DISPLAY, or use the commands "
+                    "No display is available for the editor. Set DISPLAY, or use the commands "
                     "that need none: weft --help.");
     }
     GLFWwindow* window = make_window(options);

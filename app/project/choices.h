@@ -100,6 +100,17 @@ struct Choices<LightForm> {
          {LightForm::kHistogram, "histogram"}}};
 };
 
+template <>
+struct Choices<LayerKind> {
+    static constexpr std::array<std::pair<LayerKind, std::string_view>, kLayers.size()> kNames =
+        [] {
+            std::array<std::pair<LayerKind, std::string_view>, kLayers.size()> names;
+            for (std::size_t k = 0; k < kLayers.size(); ++k)
+                names[k] = {kLayers[k].kind, kLayers[k].name};
+            return names;
+        }();
+};
+
 template <class E>
 [[nodiscard]] constexpr std::string_view name_of(E value) {
     for (const auto& [candidate, name] : Choices<E>::kNames)

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "app/project/parameter_entry.h"
+#include "app/project/region_names.h"
+#include "engine/core/frame_range.h"
 
 namespace weft {
 namespace {
@@ -18,7 +20,13 @@ Expected<std::size_t> index_of(const Project& project, const RegionRef& ref) {
     if (ref.id == 0) return find_region(project, ref.name);
     for (std::size_t i = 0; i < project.regions.size(); ++i)
         if (project.regions[i]->id == ref.id) return i;
-    return fail(ErrorCode::kUsage, fmt::format("There is no region with the id {}", ref.id));
+    return fail(ErrorCode::kUsage, fmt::format("No region has the id {}", ref.id));
+}
+
+Status check_frame(int frame) {
+    if (is_frame_number(frame)) return {};
+    return fail(ErrorCode::kUsage, fmt::format("Frame {} is beyond {}, where frame numbers end",
+                                               frame, kMaxFrameNumber));
 }
 
 /// The project with one region replaced by what `change(Region&) -> Status` makes of it.
@@ -81,6 +89,7 @@ Expected<Project> apply_one(const Project& project, const AddRegion& edit) {
         return fail(
             ErrorCode::kUsage,
             fmt::format("There is a region with the id {} already; leave the id out", region.id));
+    WEFT_CHECK_OK(check_name_is_free(project, region.id, region.name));
     const int count = static_cast<int>(project.regions.size());
     const int index = edit.index.value_or(count);
     if (index < 0 || index > count)
@@ -112,16 +121,16 @@ Expected<Project> apply_one(const Project& project, const MoveRegion& edit) {
     return out;
 }
 
-Expected<Project> apply_one(const Project& project, const RenameRegion& edit) {
-    return with_region(project, edit.region, [&](Region& region) {
-        return set_by_key(region, region_parameters(), "name", edit.name);
+Expected<Project> apply_one(const Project& project, const SetRegionParameter& edit) {
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        WEFT_CHECK_OK(set_by_key(region, region_parameters(), edit.key, edit.value));
+        if (edit.key != "name") return {};
+        return check_name_is_free(project, region.id, region.name);
     });
 }
 
-Expected<Project> apply_one(const Project& project, const SetRegionParameter& edit) {
-    return with_region(project, edit.region, [&](Region& region) {
-        return set_by_key(region, region_parameters(), edit.key, edit.value);
-    });
+Expected<Project> apply_one(const Project& project, const RenameRegion& edit) {
+    return apply_one(project, SetRegionParameter{edit.region, "name", edit.name});
 }
 
 Expected<Project> apply_one(const Project& project, const SetMatte& edit) {
@@ -132,6 +141,7 @@ Expected<Project> apply_one(const Project& project, const SetMatte& edit) {
 }
 
 Expected<Project> apply_one(const Project& project, const SetMatteKeyframe& edit) {
+    WEFT_CHECK_OK(check_frame(edit.frame));
     return with_region(project, edit.region, [&](Region& region) -> Status {
         if (!region.matte->files.empty())
             return fail(ErrorCode::kUsage, fmt::format("The matte of region '{}' comes from the "
@@ -176,6 +186,7 @@ Expected<Project> apply_one(const Project& project, const SetTexture& edit) {
 }
 
 Expected<Project> apply_one(const Project& project, const SetCorrection& edit) {
+    WEFT_CHECK_OK(check_frame(edit.frame));
     for (const CorrectionPin& pin : edit.pins) {
         for (const double v : {pin.from.x, pin.from.y, pin.to.x, pin.to.y}) {
             if (!(std::abs(v) <= parameter_entry::kMaxPlatePx))

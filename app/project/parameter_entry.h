@@ -8,6 +8,7 @@
 
 #include "app/project/choices.h"
 #include "app/project/parameters.h"
+#include "engine/core/frame_range.h"
 
 namespace weft::parameter_entry {
 
@@ -29,6 +30,12 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kFrames;
     else if constexpr (std::same_as<T, std::vector<std::string>>)
         return ParameterKind::kPaths;
+    else if constexpr (std::same_as<T, std::vector<LayerKind>>)
+        return ParameterKind::kNames;
+    else if constexpr (std::same_as<T, KeyedNumbers>)
+        return ParameterKind::kKeys;
+    else if constexpr (std::same_as<T, std::vector<Lamp>>)
+        return ParameterKind::kLamps;
     else if constexpr (std::same_as<T, std::string>)
         return info.is_path ? ParameterKind::kPath : ParameterKind::kText;
     else
@@ -52,6 +59,18 @@ inline ParameterValue to_value(const std::string& member) {
     return member;
 }
 inline ParameterValue to_value(const std::vector<std::string>& member) {
+    return member;
+}
+inline ParameterValue to_value(const std::vector<LayerKind>& member) {
+    std::vector<std::string> names;
+    for (const LayerKind kind : member)
+        names.emplace_back(info_of(kind).name);
+    return names;
+}
+inline ParameterValue to_value(const KeyedNumbers& member) {
+    return member;
+}
+inline ParameterValue to_value(const std::vector<Lamp>& member) {
     return member;
 }
 inline ParameterValue to_value(const std::optional<int>& member) {
@@ -94,6 +113,17 @@ inline void from_value(const ParameterValue& value, std::string& member) {
 }
 inline void from_value(const ParameterValue& value, std::vector<std::string>& member) {
     member = std::get<std::vector<std::string>>(value);
+}
+inline void from_value(const ParameterValue& value, std::vector<LayerKind>& member) {
+    member.clear();
+    for (const std::string& name : std::get<std::vector<std::string>>(value))
+        member.push_back(choice_from<LayerKind>(name));
+}
+inline void from_value(const ParameterValue& value, KeyedNumbers& member) {
+    member = std::get<KeyedNumbers>(value);
+}
+inline void from_value(const ParameterValue& value, std::vector<Lamp>& member) {
+    member = std::get<std::vector<Lamp>>(value);
 }
 inline void from_value(const ParameterValue& value, std::optional<int>& member) {
     const auto* number = std::get_if<std::int64_t>(&value);
@@ -168,6 +198,9 @@ Parameter<Owner> entry(ParameterInfo info) {
     if constexpr (std::is_enum_v<Member>)
         for (const auto& choice : Choices<Member>::kNames)
             out.choices.push_back(choice.second);
+    if constexpr (std::same_as<Member, std::vector<LayerKind>>)
+        for (const LayerInfo& layer : kLayers)
+            out.choices.push_back(layer.name);
     out.read = [](const Owner& owner) { return to_value(Access<Path...>::get(owner)); };
     out.write = [](Owner& owner, const ParameterValue& value) {
         Access<Path...>::change(owner, [&](auto& member) { from_value(value, member); });
@@ -176,7 +209,7 @@ Parameter<Owner> entry(ParameterInfo info) {
     return out;
 }
 
-inline constexpr double kMaxFrame = 100'000'000;  // either sign; leaves room for arithmetic in int
+inline constexpr double kMaxFrame = kMaxFrameNumber;  // either sign
 inline constexpr double kMaxPlatePx = 1'000'000;
 inline constexpr double kMaxExactInteger = 9007199254740991;  // 2^53 − 1: any JSON reader keeps it
 

@@ -6,8 +6,10 @@
 #include <optional>
 #include <set>
 
+#include "app/project/parameter_lists.h"
 #include "app/project/parameters.h"
 #include "engine/core/frame_range.h"
+#include "engine/core/setting.h"
 
 namespace weft {
 namespace {
@@ -15,7 +17,8 @@ namespace {
 constexpr std::size_t kMostFrames = 1'000'000;
 
 std::string display_name(const ParameterInfo& info) {
-    return info.flag.empty() ? info.full_key() : fmt::format("{} ({})", info.flag, info.full_key());
+    const std::string name = setting_name({info.full_key()});
+    return name.empty() ? info.full_key() : name;
 }
 
 std::string_view type_name(ParameterKind kind) {
@@ -28,7 +31,7 @@ std::string_view type_name(ParameterKind kind) {
             return "a number";
         case ParameterKind::kChoice:
         case ParameterKind::kText:
-            return "a text";
+            return "a string";
         case ParameterKind::kPath:
             return "a path";
         case ParameterKind::kPaths:
@@ -39,6 +42,12 @@ std::string_view type_name(ParameterKind kind) {
             return "four points (top left, top right, bottom right, bottom left)";
         case ParameterKind::kFrames:
             return "a list of frame numbers";
+        case ParameterKind::kNames:
+            return "a list of names";
+        case ParameterKind::kKeys:
+            return "a list of keys";
+        case ParameterKind::kLamps:
+            return "a list of lamps";
     }
     return "";
 }
@@ -57,7 +66,13 @@ std::string shown(const ParameterValue& value) {
             return fmt::format("{} numbers", v.size());
         }
         std::string operator()(const std::vector<std::string>& v) const {
-            return fmt::format("{} texts", v.size());
+            return fmt::format("{} strings", v.size());
+        }
+        std::string operator()(const KeyedNumbers& v) const {
+            return fmt::format("{} keys", v.keys.size());
+        }
+        std::string operator()(const std::vector<Lamp>& v) const {
+            return fmt::format("{} lamps", v.size());
         }
     };
     return std::visit(Show{}, value);
@@ -66,7 +81,7 @@ std::string shown(const ParameterValue& value) {
 tl::unexpected<Error> wrong(const ParameterInfo& info, const ParameterValue& value,
                             const std::string& wanted) {
     return fail(ErrorCode::kUsage,
-                fmt::format("{} is {}, but must be {}", display_name(info), shown(value), wanted));
+                fmt::format("{} must be {}, not {}", display_name(info), wanted, shown(value)));
 }
 
 std::string range_text(const ParameterInfo& info) {
@@ -121,7 +136,8 @@ Expected<ParameterValue> normalise_text(const ParameterInfo& info, ParameterValu
     const auto* text = std::get_if<std::string>(&value);
     if (!text) return wrong(info, value, std::string(type_name(info.kind)));
     if (text->find('\0') != std::string::npos)
-        return fail(ErrorCode::kUsage, display_name(info) + " holds a zero character; remove it");
+        return fail(ErrorCode::kUsage,
+                    display_name(info) + " contains a zero character; remove it");
     return value;
 }
 
@@ -135,7 +151,8 @@ Expected<ParameterValue> normalise_choice(const ParameterInfo& info, ParameterVa
 Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterValue value) {
     auto* numbers = std::get_if<std::vector<double>>(&value);
     if (std::holds_alternative<std::vector<std::string>>(value))
-        return fail(ErrorCode::kUsage, display_name(info) + " holds texts, but must hold numbers");
+        return fail(ErrorCode::kUsage,
+                    display_name(info) + " contains strings, but must be numbers");
     if (!numbers) return wrong(info, value, std::string(type_name(info.kind)));
     const std::size_t wanted = info.kind == ParameterKind::kPoint     ? 2
                                : info.kind == ParameterKind::kCorners ? 8
@@ -175,6 +192,15 @@ Expected<ParameterValue> normalise_paths(const ParameterInfo& info, ParameterVal
     return value;
 }
 
+using ListReader = Expected<ParameterValue> (*)(const ParameterInfo&, ParameterValue);
+
+Expected<ParameterValue> normalise_list(const ParameterInfo& info, ParameterValue value,
+                                        ListReader read) {
+    auto read_value = read(info, std::move(value));
+    if (!read_value) return fail_in(std::move(read_value).error(), display_name(info));
+    return read_value;
+}
+
 std::optional<double> number_from(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double number = 0;
@@ -206,7 +232,7 @@ std::optional<bool> flag_from(std::string_view text) {
     return std::nullopt;
 }
 
-/// The text as the type of the parameter; the text itself where it is no such thing, so that
+/// The text as the type of the parameter; the text itself if it cannot be converted, so that
 /// normalise() says what it should have been.
 Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text) {
     const ParameterValue as_text{std::string(text)};
@@ -307,6 +333,12 @@ Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue val
             return normalise_text(info, std::move(value));
         case ParameterKind::kPaths:
             return normalise_paths(info, std::move(value));
+        case ParameterKind::kNames:
+            return normalise_list(info, std::move(value), parameter_lists::names);
+        case ParameterKind::kKeys:
+            return normalise_list(info, std::move(value), parameter_lists::keys);
+        case ParameterKind::kLamps:
+            return normalise_list(info, std::move(value), parameter_lists::lamps);
         case ParameterKind::kPoint:
         case ParameterKind::kCorners:
         case ParameterKind::kFrames:
@@ -325,6 +357,9 @@ Expected<ParameterValue> parse_parameter(const ParameterInfo& info, std::string_
 std::string format_parameter(const ParameterInfo& info, const ParameterValue& value) {
     if (std::holds_alternative<std::monostate>(value)) return {};
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (info.kind == ParameterKind::kNames || info.kind == ParameterKind::kKeys ||
+        info.kind == ParameterKind::kLamps)
+        return parameter_lists::text_of(value);
     std::string out;
     if (const auto* paths = std::get_if<std::vector<std::string>>(&value)) {
         for (const std::string& path : *paths)
@@ -360,7 +395,10 @@ std::string allowed_values(const ParameterInfo& info) {
         case ParameterKind::kText:
         case ParameterKind::kPath:
         case ParameterKind::kPaths:
+        case ParameterKind::kLamps:
             return {};
+        case ParameterKind::kNames:
+            return "all, or of " + choices_text(info);
         default:
             return range_text(info);
     }
@@ -381,7 +419,7 @@ Expected<const Parameter<Owner>*> find_parameter(std::span<const Parameter<Owner
             if (distance < best) best = distance, nearest = key;
         }
     }
-    return fail(ErrorCode::kUsage, fmt::format("There is no parameter '{}'; the nearest is '{}'",
+    return fail(ErrorCode::kUsage, fmt::format("Unknown parameter '{}'; the nearest is '{}'",
                                                key_or_flag.substr(0, 64), nearest));
 }
 template Expected<const Parameter<Region>*> find_parameter(std::span<const Parameter<Region>>,

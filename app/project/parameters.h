@@ -25,23 +25,29 @@ enum class ParameterKind {
     kPoint,    ///< 2 numbers: x, y. On the command line "X,Y".
     kPaths,    ///< std::vector<std::string>, as kPath. On the command line one a line.
     kCorners,  ///< 8 numbers: TL, TR, BR, BL, or unset. On the command line "x,y x,y x,y x,y".
-    kFrames    ///< Frame numbers. On the command line a frame list.
+    kFrames,   ///< Frame numbers. On the command line a frame list.
+    kNames,    ///< std::vector<std::string>, each one of `choices`. On the command line with commas
+               ///< between them, or "all".
+    kKeys,     ///< KeyedNumbers of `components` each. On the command line "FRAME:X FRAME:X,Y".
+    kLamps     ///< std::vector<Lamp>. On the command line as parse_lamps() reads them.
 };
 
 /// std::monostate: not set (only where `optional`); std::vector<double>: points and frames.
 using ParameterValue =
     std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
-                 std::vector<std::string>>;
+                 std::vector<std::string>, KeyedNumbers, std::vector<Lamp>>;
 
 struct ParameterInfo {
     std::string_view group{};  ///< JSON object that holds it; empty: the region or project itself.
     std::string_view key{};    ///< JSON key.
     std::string_view flag{};   ///< "--scale"; empty: has none.
-    std::string_view unit{};   ///< "px", "deg", …; empty: a bare number or text.
-    std::string_view help{};   ///< One line of sentence case without a full stop at its end.
-    double min = 0, max = 0;   ///< Inclusive; numbers, integers, every coordinate, every frame.
-    bool optional = false;     ///< May be unset.
-    bool repeatable = false;   ///< The flag may be given several times.
+    std::string_view old_flag{};  ///< The flag's name before: still read, but not shown.
+    std::string_view unit{};      ///< "px", "deg", …; empty: a bare number or text.
+    std::string_view help{};      ///< One line of sentence case without a full stop at its end.
+    double min = 0, max = 0;      ///< Inclusive; numbers, integers, every coordinate, every frame.
+    std::size_t components = 1;   ///< Of kKeys: how many numbers a key has.
+    bool optional = false;        ///< May be unset.
+    bool repeatable = false;      ///< The flag may be given several times.
     /// On the command line, a text that is none of `choices` is a path: it becomes this key of the
     /// same group, and the choice becomes the last of `choices`. Empty: no such thing.
     std::string_view path_key{};
@@ -70,8 +76,8 @@ struct Parameter : ParameterInfo {
 [[nodiscard]] std::span<const Parameter<MatteSource>> matte_parameters();
 
 /// The value in the type that the parameter wants (an integer for a number, whole numbers for an
-/// integer). Errors: Usage when the type, the range or the choice is wrong; the message names the
-/// parameter, the value and what is allowed.
+/// integer, what a text says for names, keys and lamps). Errors: Usage when the type, the range or
+/// the choice is wrong; the message names the parameter, the value and what is allowed.
 [[nodiscard]] Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue value);
 
 /// From the command line's text. Errors as normalise().

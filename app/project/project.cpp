@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "engine/core/frame_range.h"
+
 namespace weft {
 namespace {
 
@@ -18,7 +20,14 @@ std::size_t heap_bytes(const Extras& extra) {
     return bytes;
 }
 
-/// Sum over strings and extras.
+std::size_t heap_bytes(const KeyedNumbers& keyed) {
+    std::size_t bytes = keyed.keys.capacity() * sizeof(keyed.keys[0]);
+    for (const auto& [frame, numbers] : keyed.keys)
+        bytes += numbers.capacity() * sizeof(double);
+    return bytes;
+}
+
+/// Sum over strings, extras and keys.
 template <class... Members>
 std::size_t heap_bytes_of(const Members&... members) {
     return (heap_bytes(members) + ... + 0);
@@ -67,7 +76,7 @@ Expected<std::size_t> find_region(const Project& project, std::string_view name_
         for (std::size_t i = 0; i < project.regions.size(); ++i)
             if (project.regions[i]->id == id) return i;
     return fail(ErrorCode::kUsage,
-                "There is no region '" + std::string(name_or_id) + "'; " + list_regions(project));
+                "Unknown region '" + std::string(name_or_id) + "'; " + list_regions(project));
 }
 
 const Region* region_by_id(const Project& project, RegionId id) {
@@ -102,6 +111,10 @@ Status add_matte_text(MatteSource& matte, std::string_view text) {
         matte.files = shown;
         return {};
     }
+    if (!is_frame_number(frame))
+        return fail(ErrorCode::kUsage, "'" + shown +
+                                           "' is a keyframe beyond frame 100000000; renumber the "
+                                           "shot, or correct the number");
     const std::string_view path = text.substr(equals + 1);
     if (path.empty())
         return fail(ErrorCode::kUsage, "'" + shown + "' names no file; write FRAME=FILE");
@@ -142,6 +155,7 @@ Project map_paths(const Project& project,
             map(region.light.image);
             map(region.light.albedo);
             map(region.light.lighting);
+            map(region.finish.depth);
             map(region.lines.files);
         });
     }
@@ -161,7 +175,8 @@ std::size_t own_bytes(const MatteSource& matte) {
                                       matte.select.crypto, matte.extra) +
                         matte.frozen.capacity() * sizeof(int);
     for (const auto& [frame, key] : matte.keyframes)
-        bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra);
+        bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra) +
+                 (key.shape ? key.shape->points.capacity() * sizeof(RotoPoint) : 0);
     return bytes;
 }
 
@@ -172,15 +187,19 @@ std::size_t own_bytes(const Region& r) {
     std::size_t samples = r.texture.also.capacity() * sizeof(std::string);
     for (const std::string& path : r.texture.also)
         samples += heap_bytes_of(path);
-    return sizeof r + pins + samples + r.reference_frames.capacity() * sizeof(int) +
+    std::size_t keys = 0;
+    for (const KeyedNumbers* keyed : {&r.placement.scale_keys, &r.placement.rotate_keys,
+                                      &r.placement.offset_keys, &r.light.strength_keys})
+        keys += heap_bytes_of(*keyed);
+    for (const Lamp& lamp : r.light.lamps)
+        keys += sizeof lamp + heap_bytes_of(lamp.numbers);
+    return sizeof r + pins + samples + keys + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
-                         r.texture.extra, r.placement.scale_keys, r.placement.rotate_keys,
-                         r.placement.offset_keys, r.placement.uv, r.placement.uv_layer,
-                         r.placement.extra, r.motion.files, r.motion.track, r.motion.layer,
-                         r.motion.extra, r.synthesis.extra, r.temporal.extra, r.light.image,
-                         r.light.extra, r.light.strength_keys, r.light.lamps, r.light.albedo,
-                         r.light.lighting, r.light.pass_layer, r.finish.extra, r.lines.files,
-                         r.lines.extra, r.extra);
+                         r.texture.extra, r.placement.uv, r.placement.uv_layer, r.placement.extra,
+                         r.motion.files, r.motion.track, r.motion.layer, r.motion.extra,
+                         r.synthesis.extra, r.temporal.extra, r.light.image, r.light.extra,
+                         r.light.albedo, r.light.lighting, r.light.pass_layer, r.finish.extra,
+                         r.lines.files, r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {
@@ -188,8 +207,8 @@ std::size_t own_bytes(const Project& p) {
            heap_bytes_of(p.name, p.plate.path, p.plate.layer, p.plate.space, p.plate.extra,
                          p.color.working_space, p.color.texture_space, p.color.out_space,
                          p.color.extra, p.settings.frames, p.settings.extra, p.output.path,
-                         p.output.movie, p.output.layers, p.output.layers_path,
-                         p.output.exr_compression, p.output.extra, p.extra);
+                         p.output.movie, p.output.layers_path, p.output.exr_compression,
+                         p.output.extra, p.extra);
 }
 
 }  // namespace weft

@@ -17,10 +17,14 @@
 #include "engine/compute/wrap_mode.h"
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
+#include "engine/core/keyed_numbers.h"
+#include "engine/lighting/lamp.h"
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/shading.h"
 #include "engine/mask/matte_reach.h"
+#include "engine/mask/roto_shape.h"
 #include "engine/media/image_files.h"
+#include "engine/pipeline/layer_kind.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
@@ -86,10 +90,10 @@ struct Output {
         OutputDepth::kAuto;  ///< kAuto: the plate's, or the nearest the format holds.
     int jpeg_quality = 95;
     std::string exr_compression = "auto";
-    std::string movie;        ///< Review movie (.mp4, .mkv); empty: none.
-    bool burn_in = false;     ///< The movie names frame, version and colour space.
-    std::string layers;       ///< Layers for compositing, by commas: patch, light, st …, or all.
-    std::string layers_path;  ///< EXR files of their own for them; empty: into the output.
+    std::string movie;              ///< Review movie (.mp4, .mkv); empty: none.
+    bool burn_in = false;           ///< The movie names frame, version and colour space.
+    std::vector<LayerKind> layers;  ///< For compositing, each once.
+    std::string layers_path;        ///< EXR files of their own for them; empty: into the output.
     Extras extra;
     bool operator==(const Output&) const = default;
 };
@@ -97,7 +101,9 @@ struct Output {
 /// A matte painted on one frame.
 struct MatteKeyframe {
     std::string path;
-    Extras extra;
+    std::optional<RotoShape> shape = {};  ///< The roto shape that the matte was drawn from.
+    bool shape_between = false;  ///< That shape was interpolated between those of other frames.
+    Extras extra = {};
     bool operator==(const MatteKeyframe&) const = default;
 };
 
@@ -146,8 +152,8 @@ struct Placement {
     std::optional<std::array<PlatePoint, 4>> corners_px;
     /// A given picture (a plane) is fitted into the corners; else `scale` holds there too.
     bool fit = true;
-    /// Instead of the above, over time: "1:1 24:1.5", "1:0 24:90", "1:0,0 24:10,5".
-    std::string scale_keys, rotate_keys, offset_keys;
+    /// Instead of the above, over time; an offset has two numbers, x and y.
+    KeyedNumbers scale_keys, rotate_keys, offset_keys;
     std::string uv;        ///< Pattern of a UV pass or ST-map: where the texture lies, exactly.
     std::string uv_layer;  ///< Empty: found.
     Extras extra;
@@ -189,15 +195,15 @@ struct LightParams {
     LightSource source = LightSource::kPlate;
     std::string image;  ///< The illumination picture of kImage.
     LightForm form = LightForm::kGain;
-    double strength = 1;        ///< λ
-    std::string strength_keys;  ///< λ over time, "1:1 24:0.3"; empty: `strength` throughout.
-    std::string lamps;          ///< Painted light (engine/lighting/painted_light.h).
-    double cast = 0;            ///< How far the light's colour is taken over.
-    double highlights = 0;      ///< How much of the old surface's gloss is kept.
-    std::string albedo;         ///< Pattern of the artist's unlit colour.
-    std::string lighting;       ///< Pattern of the artist's lighting pass.
-    std::string pass_layer;     ///< EXR layer of these two; empty: R, G, B.
-    bool exact = false;         ///< Their light as it is, not relative to the reference frame's.
+    double strength = 1;         ///< λ
+    KeyedNumbers strength_keys;  ///< λ over time; empty: `strength` throughout.
+    std::vector<Lamp> lamps;     ///< Painted light, for kPainted.
+    double cast = 0;             ///< How far the light's colour is taken over.
+    double highlights = 0;       ///< How much of the old surface's gloss is kept.
+    std::string albedo;          ///< Pattern of the artist's unlit colour.
+    std::string lighting;        ///< Pattern of the artist's lighting pass.
+    std::string pass_layer;      ///< EXR layer of these two; empty: R, G, B.
+    bool exact = false;          ///< Their light as it is, not relative to the reference frame's.
     Extras extra;
     bool operator==(const LightParams&) const = default;
 };

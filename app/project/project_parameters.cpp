@@ -13,7 +13,7 @@ std::vector<Parameter<Project>> make_project_table() {
             {.group = "plate",
              .key = "path",
              .flag = "--plate",
-             .help = "Numbered images ('frames/####.png'), a folder of them, or a movie",
+             .help = "Numbered sequence ('frames/####.png'), a folder with one, or a movie",
              .is_path = true}),
         entry<P, &P::plate, &Plate::layer>({.group = "plate",
                                             .key = "layer",
@@ -34,14 +34,14 @@ std::vector<Parameter<Project>> make_project_table() {
                                           .key = "fps",
                                           .flag = "--fps",
                                           .unit = "frames/s",
-                                          .help = "Frame rate; 0: as the plate says",
+                                          .help = "Frame rate; 0: the plate's",
                                           .min = 0,
                                           .max = 1000}),
-        entry<P, &P::plate, &Plate::missing>({.group = "plate",
-                                              .key = "missing",
-                                              .flag = "--missing",
-                                              .help = "What stands for frames that the plate has "
-                                                      "not"}),
+        entry<P, &P::plate, &Plate::missing>(
+            {.group = "plate",
+             .key = "missing",
+             .flag = "--missing",
+             .help = "Missing plate frames: stop, hold the previous one, black, or skip"}),
         entry<P, &P::color, &ColorSettings::working_space>(
             {.group = "color",
              .key = "working_space",
@@ -60,7 +60,7 @@ std::vector<Parameter<Project>> make_project_table() {
         entry<P, &P::settings, &RenderSettings::quality>({.group = "settings",
                                                           .key = "quality",
                                                           .flag = "--quality",
-                                                          .help = "Quick look or the real thing"}),
+                                                          .help = "Draft or final quality"}),
         entry<P, &P::settings, &RenderSettings::seed>({.group = "settings",
                                                        .key = "seed",
                                                        .flag = "--seed",
@@ -76,8 +76,8 @@ std::vector<Parameter<Project>> make_project_table() {
             {.group = "settings",
              .key = "excluded_licences",
              .flag = "--exclude-licences",
-             .help = "Licences and families that no texture may be under (GPL, CC-BY-SA, copyleft, "
-                     "unknown), by commas",
+             .help = "Licences and families that no texture may have (GPL, CC-BY-SA, copyleft, "
+                     "unknown), separated by commas",
              .repeatable = true}),
         entry<P, &P::output, &Output::path>(
             {.group = "output",
@@ -89,7 +89,8 @@ std::vector<Parameter<Project>> make_project_table() {
             {.group = "output",
              .key = "depth",
              .flag = "--depth",
-             .help = "Bits of a channel; auto: the plate's, or the nearest the format holds"}),
+             .help =
+                 "Bits per channel; auto: the plate's, or the nearest that the format supports"}),
         entry<P, &P::output, &Output::jpeg_quality>({.group = "output",
                                                      .key = "jpeg_quality",
                                                      .flag = "--jpeg-quality",
@@ -111,18 +112,19 @@ std::vector<Parameter<Project>> make_project_table() {
             {.group = "output",
              .key = "burn_in",
              .flag = "--burn-in",
-             .help = "Write frame, version and colour space into the movie's picture"}),
+             .help = "Burn frame number, version and colour space into the movie"}),
         entry<P, &P::output, &Output::layers>(
             {.group = "output",
              .key = "layers",
              .flag = "--layers",
-             .help = "EXR layers for compositing: all, or of patch, edge, light, st, matte, seam, "
-                     "id, with commas"}),
+             .help =
+                 "EXR layers for compositing: all, or any of patch, edge, light, st, matte, seam, "
+                 "id, separated by commas"}),
         entry<P, &P::output, &Output::layers_path>(
             {.group = "output",
              .key = "layers_path",
              .flag = "--layers-output",
-             .help = "Pattern of EXR files of their own for the layers",
+             .help = "Pattern of separate EXR files for the layers",
              .is_path = true}),
     };
 }

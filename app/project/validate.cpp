@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "app/project/parameters.h"
 #include "engine/core/frame_range.h"
+#include "engine/core/setting.h"
 
 namespace weft {
 namespace {
@@ -55,7 +57,7 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
                        "Set it or remove the keyframe");
     if (matte.carry_from && matte.carry_to && *matte.carry_from > *matte.carry_to)
         find.error(key,
-                   fmt::format("It is carried from frame {} to frame {}", *matte.carry_from,
+                   fmt::format("It is propagated from frame {} to frame {}", *matte.carry_from,
                                *matte.carry_to),
                    "Exchange the two frames");
     if (matte.select.value && !matte.select.channel.empty())
@@ -67,20 +69,22 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
 void check_texture(Finder& find, const Region& region) {
     const TextureSource& texture = region.texture;
     if (texture.sample.empty() && texture.plane.empty())
-        find.error("texture", "No texture is set", "Set a sample (--texture) or a plane (--plane)");
+        find.error("texture", "No texture is set",
+                   "Set a sample or a plane" + by({{setting::kSample}, {setting::kPlane}}));
     if (!texture.sample.empty() && !texture.plane.empty())
         find.error("texture", "It has both a sample and a plane",
-                   "Keep the sample (--texture) or the plane (--plane)");
+                   "Keep the sample or the plane" + by({{setting::kSample}, {setting::kPlane}}));
     if (texture.sample.empty() && !texture.also.empty())
         find.error("texture.also", "It has further samples, but no sample",
-                   "Give the first one with --texture");
+                   "Set the first one" + by({{setting::kSample}}));
     if (!texture.plane.empty() && region.temporal.mode != TemporalMode::kLocked)
         find.warning(
             "temporal.mode",
             fmt::format(
-                "Temporal mode '{}' synthesises every frame, but a given plane is used as it is",
+                "Temporal mode '{}' synthesizes every frame, but a plane is used without synthesis",
                 choice_name(region.temporal.mode)),
-            "Use a sample (--texture), or --temporal locked");
+            "Use a sample, or the locked mode" +
+                by({{setting::kSample}, {setting::kTemporalMode, "locked"}}));
 }
 
 /// Twice the signed area of the corner at b.
@@ -99,7 +103,7 @@ void check_placement(Finder& find, const Placement& placement) {
         counter += area < -kFlatPx2 ? 1 : 0;
     }
     if (clockwise != 4 && counter != 4)
-        find.error("placement.corners_px", "The four corners make no convex quadrilateral",
+        find.error("placement.corners_px", "The four corners do not form a convex quadrilateral",
                    "Give top left, top right, bottom right, bottom left, in this order");
 }
 
@@ -108,18 +112,19 @@ void check_synthesis(Finder& find, const SynthesisParams& synthesis) {
         find.warning("synthesis.feather_px",
                      fmt::format("The feather of {} px is wider than the overlap of {} px",
                                  synthesis.feather_px, synthesis.overlap_px),
-                     "Lower --feather or raise --overlap");
+                     "Lower the feather or raise the overlap" +
+                         by({{setting::kFeather}, {setting::kOverlap}}));
 }
 
 void check_light(Finder& find, const LightParams& light) {
     if (light.source == LightSource::kImage && light.image.empty())
-        find.error("light.image", "The light comes from a picture, but none is set",
-                   "Give it with --light PICTURE");
+        find.error("light.image", "The light comes from an image, but none is set",
+                   "Choose one" + by({{setting::kLightSource}}));
     if (light.source != LightSource::kImage && !light.image.empty())
-        find.warning("light.image",
-                     fmt::format("A picture is set, but the light source is '{}'",
-                                 choice_name(light.source)),
-                     "Set light.source to image, or remove the picture");
+        find.warning(
+            "light.image",
+            fmt::format("An image is set, but the light source is '{}'", choice_name(light.source)),
+            "Set the light source to image, or remove the image");
 }
 
 void check_region(std::vector<Issue>& issues, const Region& region, std::size_t index) {
@@ -140,8 +145,7 @@ void check_region(std::vector<Issue>& issues, const Region& region, std::size_t 
 
 void check_output(Finder& find, const Project& project) {
     if (project.output.path.empty() && project.output.movie.empty())
-        find.warning("output.path", "No output is set",
-                     "Set it in the project, or give -o when rendering");
+        find.warning("output.path", "No output is set", "Set one" + by({{setting::kOutput}}));
     Project only_inputs = project;
     only_inputs.output = {};
     std::set<std::string> inputs;
@@ -157,12 +161,12 @@ void check_output(Finder& find, const Project& project) {
 
 void check_region_set(Finder& find, const Project& project) {
     if (project.regions.empty())
-        find.error("regions", "There is no region to replace", "Add one (weft region add)");
+        find.error("regions", "The project has no region", "Add one" + by({{setting::kAddRegion}}));
     const auto enabled = [](const Leaf<Region>& region) { return region->enabled; };
     if (!project.regions.empty() &&
         std::none_of(project.regions.begin(), project.regions.end(), enabled))
-        find.warning("regions", "Every region is switched off",
-                     "Enable one, or the output is the plate");
+        find.warning("regions", "Every region is disabled",
+                     "Enable one; otherwise the output is the plate");
     std::set<RegionId> ids;
     std::set<std::string> names;
     for (const Leaf<Region>& region : project.regions) {
@@ -176,6 +180,14 @@ void check_region_set(Finder& find, const Project& project) {
     }
 }
 
+/// A message's first sentence and the rest, both without their full stops.
+std::pair<std::string, std::string> sentences(std::string message) {
+    if (message.ends_with('.')) message.pop_back();
+    const std::size_t stop = message.find(". ");
+    if (stop == std::string::npos) return {message, {}};
+    return {message.substr(0, stop), message.substr(stop + 2)};
+}
+
 }  // namespace
 
 std::string Issue::text() const {
@@ -187,12 +199,15 @@ std::vector<Issue> validate(const Project& project) {
     Finder find(issues, "");
     find.check_ranges(project, project_parameters());
     if (project.plate.path.empty())
-        find.error("plate.path", "No plate is set",
-                   "Give the numbered images ('frames/####.png') or the movie (--plate)");
+        find.error(
+            "plate.path", "No plate is set",
+            "Choose numbered images ('frames/####.png') or a movie" + by({{setting::kPlate}}));
     if (!project.settings.frames.empty())
-        if (const auto frames = parse_frame_list(project.settings.frames); !frames)
-            find.error("settings.frames", frames.error().message,
-                       "Write it like 1-40, 1-100x2 or 1,4,9-12");
+        if (const auto frames = parse_frame_list(project.settings.frames); !frames) {
+            const auto [what, remedy] = sentences(frames.error().message);
+            find.error("settings.frames", what,
+                       remedy.empty() ? "Write it like 1-40, 1-100x2 or 1,4,9-12" : remedy);
+        }
     check_output(find, project);
     check_region_set(find, project);
     for (std::size_t i = 0; i < project.regions.size(); ++i)

@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "app/mattes/paint.h"
+#include "app/mattes/roto_shape.h"
+#include "app/preview/preview.h"
 #include "app/project/edit.h"
-#include "app/session/paint.h"
-#include "app/session/preview.h"
-#include "app/session/roto_shape.h"
 #include "engine/color/screen_view.h"
 
 namespace weft {
@@ -65,6 +65,12 @@ struct CloseProject {
 struct Recover {
     bool accept = true;
     bool operator==(const Recover&) const = default;
+};
+
+/// Answers SessionView::trust.
+struct TrustFolder {
+    bool trust = true;
+    bool operator==(const TrustFolder&) const = default;
 };
 
 // ---- where the artist is ----
@@ -259,9 +265,9 @@ struct ShowStages {
     bool shown = false;
     bool operator==(const ShowStages&) const = default;
 };
-/// Shows one of the layers for compositing (layer_files.h) in place of the result; empty: none.
+/// Shows one of the layers for compositing in place of the result; unset: the result.
 struct ShowLayer {
-    std::string name;
+    std::optional<LayerKind> layer;
     bool operator==(const ShowLayer&) const = default;
 };
 /// What the screen is shown through: a view of the OpenColorIO config, or with an empty display one
@@ -283,8 +289,9 @@ struct SubmitJob {
     std::string frames;  ///< As in a frame list; empty: all.
     std::string output, movie;
     bool overwrite = false, skip_existing = false;
-    std::string layers = {}, layers_path = {};  ///< As Output's.
-    double foreseen_s = 0;                      ///< As RenderRequest's.
+    std::vector<LayerKind> layers = {};  ///< As Output's.
+    std::string layers_path = {};
+    double foreseen_s = 0;  ///< As RenderRequest's.
     bool operator==(const SubmitJob&) const = default;
 };
 enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };
@@ -301,13 +308,13 @@ struct MeasureResult {
 
 using Action =
     std::variant<DoEdit, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
-                 OpenAny, Save, SaveAs, CloseProject, Recover, SelectRegion, SoloRegion, LockRegion,
-                 GoToFrame, StepFrames, StepKeyframe, Play, MarkRange, BeginStroke, ContinueStroke,
-                 EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape,
-                 FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte,
-                 KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine,
-                 PauseAnalysis, ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte,
-                 ShowLayer, ShowOverlay, ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob,
-                 CommandJob, MeasureResult>;
+                 OpenAny, Save, SaveAs, CloseProject, Recover, TrustFolder, SelectRegion,
+                 SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, MarkRange,
+                 BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer, FillPolygon, FloodSelect,
+                 ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte,
+                 FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes,
+                 FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture, ApplyTextures,
+                 UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay, ShowStages,
+                 ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

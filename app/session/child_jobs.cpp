@@ -11,12 +11,14 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
+#include "app/base/background.h"
+#include "app/project/codec/project_file.h"
 #include "engine/core/frame_range.h"
+#include "engine/core/input_file.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
 
@@ -42,8 +44,20 @@ PicturePtr thumbnail_of(const std::string& path) {
     return make_picture(shrink(*whole, kThumbnailPx));
 }
 
+constexpr std::size_t kTail_bytes = std::size_t{64} << 10;
+
+// The end of a file that another process may still be writing; empty when it cannot be read.
+std::string tail_of(const std::string& path, std::size_t most_bytes) {
+    const auto file = InputFile::open(path);
+    if (!file) return {};
+    std::string text(std::min<std::size_t>(file->bytes(), most_bytes), '\0');
+    const auto got = file->read_at(file->bytes() - text.size(), text.data(), text.size());
+    text.resize(got.value_or(0));
+    return text;
+}
+
 std::string last_line(const std::string& path) {
-    std::ifstream file(path);
+    std::istringstream file(tail_of(path, kTail_bytes));
     std::string line, last;
     while (std::getline(file, line)) {
         if (!line.empty() && line.find("warning:") == std::string::npos &&
@@ -99,7 +113,7 @@ Expected<int> ChildJobs::submit(const RenderRequest& request) {
                                                            std::to_string(job->view.id)))
                                  .string();
     job->snapshot = stem + ".weft";
-    WEFT_CHECK_OK(save_project(job->snapshot, job->request.project));
+    WEFT_CHECK_OK(save_project(job->snapshot, job->request.project, WriteRule::own()));
     job->skip_existing = request.skip_existing;
     job->view.label = request.label;
     job->view.foreseen_s = request.foreseen_s;
@@ -162,17 +176,20 @@ pid_t spawn(const std::vector<std::string>& arguments, const std::string& progre
 // Calls `line` for every line that the child writes until it ends; returns its status.
 template <class F>
 int follow(pid_t pid, const std::string& path, F&& line) {
-    std::ifstream file;
+    std::optional<InputFile> file;
     std::string pending;
+    std::uint64_t offset = 0;
     for (int status = 0;;) {
         const bool over = waitpid(pid, &status, WNOHANG) == pid;
-        if (!file.is_open()) file.open(path);
+        if (!file) {
+            if (auto opened = InputFile::open(path)) file = std::move(*opened);
+        }
         char buffer[4096];
-        for (;;) {
-            file.clear();
-            file.read(buffer, sizeof buffer);
-            if (file.gcount() <= 0) break;
-            pending.append(buffer, static_cast<std::size_t>(file.gcount()));
+        while (file) {
+            const std::size_t got = file->read_at(offset, buffer, sizeof buffer).value_or(0);
+            if (got == 0) break;
+            pending.append(buffer, got);
+            offset += got;
         }
         for (std::size_t end = pending.find('\n'); end != std::string::npos;
              end = pending.find('\n')) {
@@ -188,9 +205,11 @@ int follow(pid_t pid, const std::string& path, F&& line) {
 
 void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr<Job>& job) {
     lower_thread_priority();
-    std::vector<std::string> arguments{shared->program,     "render", job->snapshot,
-                                       "--progress",        "json",   "--backend",
-                                       job->request.backend};
+    std::vector<std::string> arguments{shared->program, "render", job->snapshot, "--progress",
+                                       "json", "--backend", job->request.backend,
+                                       // The snapshot lies elsewhere than the project, whose
+                                       // outputs the session has looked at.
+                                       "--trust"};
     if (job->skip_existing) {
         arguments.emplace_back("--skip-existing");
     } else if (job->request.overwrite) {
@@ -367,14 +386,7 @@ std::string ChildJobs::log_tail(int id, std::size_t most_bytes) const {
         for (const auto& job : shared_->jobs)
             if (job->view.id == id) path = job->view.log_path;
     }
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) return {};
-    const auto size = static_cast<std::size_t>(file.tellg());
-    const std::size_t take = std::min(size, most_bytes);
-    file.seekg(static_cast<std::streamoff>(size - take));
-    std::string text(take, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(take));
-    return text;
+    return tail_of(path, most_bytes);
 }
 
 }  // namespace weft

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "app/base/picture.h"
 #include "app/project/project.h"
-#include "app/session/picture.h"
 #include "engine/core/error.h"
 
 namespace weft {

@@ -2,9 +2,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/input_file.h"
 #include "engine/media/atomic_file.h"
 
 namespace weft {
@@ -41,9 +41,9 @@ std::string editor_state_folder() {
 
 EditorSettings load_editor_settings(const std::string& path) {
     EditorSettings out;
-    std::ifstream file(path);
-    if (!file) return out;
-    const Json json = Json::parse(file, nullptr, false);
+    const auto text = read_file(path, "The settings");
+    if (!text) return out;
+    const Json json = Json::parse(*text, nullptr, false);
     if (!json.is_object()) return out;
     take(json, "dark", out.dark);
     take(json, "grey_surround", out.grey_surround);
@@ -79,8 +79,8 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"render_speed", s.render_speed},
                     {"screen_display", s.screen_display},
                     {"screen_view", s.screen_view}};
-    return write_file_atomically(path,
-                                 json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    return write_file_atomically(
+        path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", WriteRule::own());
 }
 
 }  // namespace weft

@@ -21,7 +21,7 @@ struct EditorSettings {
     std::map<std::string, std::vector<std::string>> collections;  ///< Name → textures, by path.
     std::vector<std::string> texture_folders;
     bool tour_seen = false;
-    double render_speed = 1;                  ///< Of this machine, as learnt_speed() has it.
+    double render_speed = 1;                  ///< Of this machine, as calibrated_speed() has it.
     std::string screen_display, screen_view;  ///< As ChooseScreen::name; both empty: the usual.
     bool operator==(const EditorSettings&) const = default;
 };

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 
 namespace weft {
 namespace {
@@ -109,7 +109,7 @@ void RecoveryWriter::work() {
         } else {
             if (before_writing_) before_writing_();
             snapshot->first.extra[kPathKey] = json_text(snapshot->second);
-            written = save_project(file_, snapshot->first);
+            written = save_project(file_, snapshot->first, WriteRule::own());
         }
         lock.lock();
         busy_ = false;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
-#include "app/session/kept_textures.h"
-#include "app/session/matte_layer.h"
+#include "app/base/background.h"
+#include "app/exchange/kept_textures.h"
+#include "app/mattes/matte_layer.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session_measuring.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft {
 namespace {
@@ -17,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kToastSeconds = 6;
-
-template <class... F>
-struct Overloaded : F... {
-    using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;
 
 }  // namespace
 
@@ -44,205 +37,11 @@ Session::~Session() {
     measuring_.reset();
 }
 
-void Session::act(const Action& action) {
-    std::visit(
-        Overloaded{
-            [&](const DoEdit& a) { edit(a.edit, true); },
-            [&](const TryEdit& a) { edit(a.edit, false); },
-            [&](const Undo&) {
-                end_stroke();
-                tried_.reset();
-                if (history_.undo()) {
-                    document_changed();
-                    recovery_.note(resolved(), path_);
-                }
-            },
-            [&](const Redo&) {
-                if (history_.redo()) {
-                    document_changed();
-                    recovery_.note(resolved(), path_);
-                }
-            },
-            [&](const GoToHistory& a) {
-                end_stroke();
-                tried_.reset();
-                if (history_.go_to(a.position)) {
-                    document_changed();
-                    recovery_.note(resolved(), path_);
-                }
-            },
-            [&](const NewProject&) {
-                recovery_.clear();
-                start_document(Project{}, "");
-            },
-            [&](const OpenProject& a) { open_project(a.path); },
-            [&](const OpenDemo&) { open_demo(); },
-            [&](const OpenAny& a) { open_any(a.path); },
-            [&](const Save&) { save(path_); },
-            [&](const SaveAs& a) { save(a.path); },
-            [&](const CloseProject&) {
-                end_stroke();
-                recovery_.clear();
-                start_document(Project{}, "");
-                open_ = false;
-            },
-            [&](const Recover& a) { recover(a.accept); },
-            [&](const SelectRegion& a) {
-                end_stroke();
-                if (selected_ != a.region) layer_ = 0;
-                selected_ = a.region;
-                ++document_version_;
-                request_due_ = true;
-            },
-            [&](const SoloRegion& a) {
-                solo_ = a.region;
-                request_due_ = true;
-            },
-            [&](const LockRegion& a) {
-                if (a.locked)
-                    locked_.insert(a.region);
-                else
-                    locked_.erase(a.region);
-            },
-            [&](const GoToFrame& a) {
-                playing_ = 0;
-                go_to(a.frame);
-            },
-            [&](const StepFrames& a) {
-                playing_ = 0;
-                if (!reader_) return;
-                const int last = static_cast<int>(reader_->frames().size()) - 1;
-                const int at = std::clamp(index_of(frame_) + a.count, 0, last);
-                go_to(reader_->frames()[static_cast<std::size_t>(at)]);
-            },
-            [&](const StepKeyframe& a) { step_keyframe(a.direction); },
-            [&](const Play& a) {
-                end_stroke();
-                playing_ = reader_ && reader_->frames().size() > 1 ? a.direction : 0;
-                frame_at_s_ = fps_shown_at_s_ = now_s_;
-                frames_shown_ = 0;
-                request_due_ = true;
-            },
-            [&](const MarkRange& a) {
-                mark_in_ = a.in;
-                mark_out_ = a.out;
-                strip_version_ = 0;  // its frames lie in the range
-                if (mark_in_ && mark_out_ && *mark_in_ > *mark_out_) std::swap(mark_in_, mark_out_);
-                request_due_ = true;
-            },
-            [&](const SelectMatteLayer& a) {
-                end_stroke();
-                const Region* region = painted_region();
-                layer_ =
-                    region ? std::clamp(a.layer, 0, static_cast<int>(region->holdouts->size()) + 1)
-                           : 0;
-            },
-            [&](const BeginStroke& a) { begin_stroke(a); },
-            [&](const ContinueStroke& a) {
-                if (!painting_) return;
-                painting_->changed = painting_->changed.united(
-                    painting_->stroke->move_to(a.at, a.pressure, painting_->canvas));
-                painting_->version = next_picture_id();
-            },
-            [&](const EndStroke&) { end_stroke(); },
-            [&](const FillPolygon& a) {
-                change_matte([a](const Matte& m) { return fill_polygon(m, a.points, a.subtract); },
-                             a.subtract ? "Cut a shape" : "Fill a shape");
-            },
-            [&](const FloodSelect& a) {
-                const PicturePtr picture = view_.plate_picture;
-                if (!picture) return;
-                change_matte(
-                    [a, picture](const Matte& m) {
-                        return flood_select(m, shrink(*picture, 1 << 20), a.at, a.tolerance,
-                                            a.subtract);
-                    },
-                    a.subtract ? "Take away a colour" : "Select a colour");
-            },
-            [&](const ScribbleSelect& a) { scribble(a); },
-            [&](const SetShape& a) { set_shape(a.shape); },
-            [&](const FillBetweenShapes&) { fill_between_shapes(); },
-            [&](const ShowStrip& a) {
-                strip_kind_ = a.kind;
-                strip_textures_ = a.textures;
-                strip_over_time_ = a.over_time;
-                strip_version_ = 0;
-            },
-            [&](const ChooseFromStrip& a) { choose_from_strip(a.card); },
-            [&](const GrowMatte& a) {
-                change_matte([a](const Matte& m) { return grow_matte(m, a.px); },
-                             a.px > 0 ? "Grow the matte" : "Shrink the matte");
-            },
-            [&](const FeatherMatte& a) {
-                change_matte([a](const Matte& m) { return feather_matte(m, a.px); },
-                             "Feather the matte");
-            },
-            [&](const ClearMatte&) {
-                change_matte([](const Matte& m) { return Matte(m.size()); }, "Clear the matte");
-            },
-            [&](const KeyMatteHere&) {
-                change_matte([](const Matte& m) { return m; }, "Key the matte");
-            },
-            [&](const CopyKeyframe& a) { copy_keyframe(a.from, a.to); },
-            [&](const PaintInstead&) { paint_instead(); },
-            [&](const ExportMattes& a) { export_mattes(a.pattern); },
-            [&](const FreezeMattes& a) { freeze_mattes(a.frozen); },
-            [&](const ScaleByLine& a) { scale_by_line(a); },
-            [&](const PauseAnalysis& a) { a.paused ? preview_.pause() : preview_.resume(); },
-            [&](const ApplyTexture& a) { apply_texture(a.path, a.region ? a.region : selected_); },
-            [&](const ApplyTextures& a) { apply_textures(a); },
-            [&](const UseLargerOriginal& a) {
-                use_larger_original(a.region ? a.region : selected_);
-            },
-            [&](const PickCryptomatte& a) { pick_cryptomatte(a); },
-            [&](const ShowLayer& a) {
-                layer_name_ = a.name;
-                request_due_ = true;
-            },
-            [&](const ShowOverlay& a) {
-                overlay_ = a.overlay;
-                request_due_ = true;
-            },
-            [&](const ShowStages& a) {
-                stages_ = a.shown;
-                request_due_ = true;
-            },
-            [&](const ChooseScreen& a) { choose_screen(a.name, true); },
-            [&](const SetPreviewQuality& a) {
-                preview_quality_ = a.quality;
-                request_due_ = true;
-            },
-            [&](const SubmitJob& a) { submit(a); },
-            [&](const CommandJob& a) { command(a); },
-            [&](const MeasureResult& a) { measure(a.pattern); },
-        },
-        action);
-}
-
 // ---- frames ----------------------------------------------------------------------------------
 
-int Session::index_of(int frame) const {
-    if (!reader_) return 0;
-    const auto& frames = reader_->frames();
-    const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
-    return static_cast<int>(std::min<std::ptrdiff_t>(
-        at - frames.begin(), static_cast<std::ptrdiff_t>(frames.size()) - 1));
-}
-
-std::pair<int, int> Session::played_range() const {
-    if (!reader_) return {0, 0};
-    int first = 0, last = static_cast<int>(reader_->frames().size()) - 1;
-    if (mark_in_) first = std::clamp(index_of(*mark_in_), first, last);
-    if (mark_out_) last = std::clamp(index_of(*mark_out_), first, last);
-    return {first, last};
-}
-
 void Session::go_to(int frame) {
-    if (!reader_) return;
-    const int now = reader_->frames()[static_cast<std::size_t>(index_of(frame))];
-    if (now == frame_) return;
+    if (!playback_.go_to(frame)) return;
     end_stroke();
-    frame_ = now;
     request_due_ = true;
 }
 
@@ -253,58 +52,12 @@ void Session::step_keyframe(int direction) {
     for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)
         stops.insert(frame);
     if (direction > 0) {
-        if (const auto next = stops.upper_bound(frame_); next != stops.end()) go_to(*next);
+        const auto next = stops.upper_bound(playback_.frame());
+        if (next != stops.end()) go_to(*next);
     } else {
-        const auto next = stops.lower_bound(frame_);
+        const auto next = stops.lower_bound(playback_.frame());
         if (next != stops.begin()) go_to(*std::prev(next));
     }
-}
-
-void Session::advance_playback(double now_s) {
-    now_s_ = now_s;
-    if (playing_ == 0 || !player_) return;
-    const double fps = view_.plate.fps > 0 ? view_.plate.fps : 24;
-    const auto [first, last] = played_range();
-    const auto& frames = reader_->frames();
-    constexpr int kMostAtOnce = 4;
-    for (int k = 0; k < kMostAtOnce && now_s - frame_at_s_ >= 1.0 / fps; ++k) {
-        int next = index_of(frame_) + playing_;
-        if (next > last || next < first) next = playing_ > 0 ? first : last;
-        const int frame = frames[static_cast<std::size_t>(next)];
-        // The first time round it waits for what is not decoded yet; then it runs in real time.
-        const auto& states = plate_reading_.states;
-        if (states.empty() ||
-            states[static_cast<std::size_t>(next)] == PlatePlayer::State::kEmpty) {
-            frame_at_s_ = now_s;
-            break;
-        }
-        frame_ = frame;
-        frame_at_s_ += 1.0 / fps;
-        ++frames_shown_;
-    }
-    if (now_s - frame_at_s_ > 0.5) frame_at_s_ = now_s;
-    if (now_s - fps_shown_at_s_ > 0.5) {
-        view_.play_fps = frames_shown_ / (now_s - fps_shown_at_s_);
-        fps_shown_at_s_ = now_s;
-        frames_shown_ = 0;
-    }
-}
-
-void Session::want_frames() {
-    if (!player_) return;
-    const auto& frames = reader_->frames();
-    const auto [first, last] = played_range();
-    std::vector<int> wanted{frame_};
-    const int at = index_of(frame_), step = playing_ < 0 ? -1 : 1;
-    const int count = std::min(last - first + 1, 2000);
-    int next = at;
-    for (int k = 1; k < count; ++k) {
-        next += step;
-        if (next > last) next = first;
-        if (next < first) next = last;
-        wanted.push_back(frames[static_cast<std::size_t>(next)]);
-    }
-    (void)player_->try_want(wanted);  // else the next frame asks again
 }
 
 // ---- the preview -----------------------------------------------------------------------------
@@ -326,13 +79,11 @@ Project Session::project_to_preview(bool& any) const {
 }
 
 void Session::request_preview() {
-    if (!request_due_ || painting_) return;
+    if (!request_due_ || painting_.active()) return;
     if (!reader_) {
         request_due_ = false;
         return;
     }
-    // It reads the painted mattes from the disk.
-    if (shelf_.writing()) return;
     PreviewRequest request;
     bool any = false;
     request.project = project_to_preview(any);
@@ -344,22 +95,23 @@ void Session::request_preview() {
         return;
     }
     view_.result_wanted = true;
-    const auto& frames = reader_->frames();
-    request.frame = frame_;
+    const auto& frames = playback_.frames();
+    request.frame = playback_.frame();
     request.range = frames;
+    request.painted = shelf_.unwritten();
     request.stages = stages_;
-    request.layer = layer_name_;
+    request.layer = shown_layer_;
     request.overlay = overlay_;
     request.overlay_region = selected_;
-    request.cards = strip_wishes_;
-    request.hurried = playing_ != 0;
+    if (const auto cards = strip_.cards()) request.cards = cards->wishes;
+    request.hurried = playback_.direction() != 0;
     // The marked range, or as much around the playhead as a look needs.
     constexpr int kAround = 24;
-    const auto [first, last] = played_range();
-    const bool marked = mark_in_ || mark_out_;
-    const int at = index_of(frame_);
-    const int from = marked ? first : std::max(first, at - (playing_ ? 0 : kAround / 4));
-    const int to = marked ? last : std::min(last, at + kAround);
+    const auto [first, last] = playback_.range();
+    const int at = playback_.index();
+    const int before = playback_.direction() != 0 ? 0 : kAround / 4;
+    const int from = playback_.marked() ? first : std::max(first, at - before);
+    const int to = playback_.marked() ? last : std::min(last, at + kAround);
     for (int k = std::clamp(at, from, to); k <= to; ++k)
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     for (int k = from; k < std::min(at, to); ++k)
@@ -390,9 +142,6 @@ void Session::apply_texture(const std::string& path, RegionId region) {
 
 // A texture of the library becomes a file beside the project, so that the project needs no library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
-    const fs::path folder = path_.empty()
-                                ? fs::path(options_.state_folder) / "unsaved" / "textures"
-                                : fs::path(project_dir(path_)) / kept_textures_name(path_);
     fetching_.emplace();
     fetching_->region = region;
     fetching_->path =
@@ -443,8 +192,8 @@ void Session::flush() {
 }
 
 bool Session::busy() const {
-    return playing_ != 0 || painting_ || changing_ || fetching_ || opening_.valid() ||
-           !chores_.empty() || request_due_ ||
+    return playback_.direction() != 0 || painting_.active() || changing_ || fetching_ ||
+           opening_.valid() || !chores_.empty() || request_due_ || strip_.busy() ||
            (measuring_ && view_.report.state == QualityReport::State::kMeasuring);
 }
 
@@ -461,10 +210,18 @@ void Session::update(double now_s) {
     finish_chores(false);
     part("plate");
     take_plate();
-    advance_playback(now_s);
-    want_frames();
+    now_s_ = now_s;
+    if (player_) {
+        playback_.advance(now_s, view_.plate.fps > 0 ? view_.plate.fps : 24, plate_reading_.states);
+        (void)player_->try_want(playback_.upcoming());  // else the next frame asks again
+    }
     part("mattes");
+    painting_.update();
     take_changed_matte();
+    // What was rendered from mattes in memory may be kept under the names of their files now.
+    const bool unwritten = shelf_.writing();
+    request_due_ |= mattes_unwritten_ && !unwritten;
+    mattes_unwritten_ = unwritten;
     take_texture();
     part("preview");
     request_preview();
@@ -490,10 +247,9 @@ void Session::update(double now_s) {
     part("marks");
     show_marks();
     part("jobs");
-    view_.jobs = jobs_.views();
     watch_jobs();
     view_.notices = notices_;
-    if (painting_) painting_->changed = {};
+    painting_.shown();
 }
 
 }  // namespace weft

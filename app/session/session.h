@@ -9,13 +9,18 @@
 #include <set>
 #include <string>
 
+#include "app/base/frame_clock.h"
+#include "app/mattes/matte_painting.h"
+#include "app/preview/plate_player.h"
+#include "app/preview/playback.h"
 #include "app/project/history.h"
 #include "app/session/action.h"
 #include "app/session/editor_settings.h"
-#include "app/session/frame_clock.h"
-#include "app/session/plate_player.h"
+#include "app/session/job_desk.h"
 #include "app/session/recovery.h"
 #include "app/session/session_view.h"
+#include "app/session/strip.h"
+#include "engine/media/write_rule.h"
 
 namespace weft {
 
@@ -26,6 +31,7 @@ struct SessionOptions {
     std::string assets;           ///< Folder with demo/demo.weft.
     std::string state_folder;     ///< See editor_state_folder().
     std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
+    std::string trust_file;       ///< Of TrustList; empty: no project from a file is trusted.
     AnalysisCacheOptions cache;
     std::size_t plate_budget_bytes = std::size_t{640} << 20;
     bool offer_recovery = true;
@@ -59,12 +65,17 @@ class Session {
     /// tests and before leaving.
     void flush();
     [[nodiscard]] std::string job_log(int id) const { return jobs_.log_tail(id); }
+    /// For files that the user names (exported mattes, a script's pictures): they replace others,
+    /// but no input of the document. Looks at each of them.
+    [[nodiscard]] WriteRule export_rule() const;
     /// The document as it was left must not be offered again.
     void close_cleanly();
     /// The texture files that the project and the demo know.
     [[nodiscard]] const SessionOptions& options() const { return options_; }
 
   private:
+    struct Actor;  // what each action does (session_actions.cpp)
+
     // ---- the document (session_document.cpp) ----
     [[nodiscard]] const Project& document() const { return tried_ ? *tried_ : history_.current(); }
     [[nodiscard]] Project resolved() const;
@@ -85,25 +96,33 @@ class Session {
     void finish_chores(bool wait);
     void end_player();
 
+    // ---- projects from elsewhere (session_trust.cpp) ----
+    void look_at_trust(bool from_file);
+    void offer_trust();
+    void answer_trust(bool trust);
+    [[nodiscard]] bool may_render_to(const Project& chosen);
+    void trust_saved();
+
     // ---- frames ----
     void go_to(int frame);
     void step_keyframe(int direction);
-    void advance_playback(double now_s);
-    void want_frames();
-    [[nodiscard]] int index_of(int frame) const;
-    [[nodiscard]] std::pair<int, int> played_range() const;  ///< Indices, inclusive.
 
     // ---- mattes (session_mattes.cpp) ----
     [[nodiscard]] RegionMatteView matte_of(const Region& region, int layer, int frame);
     [[nodiscard]] const Region* painted_region() const {
         return region_by_id(document(), selected_);
     }
+    [[nodiscard]] MattePlace painted_place() const {
+        return {selected_, layer_, playback_.frame()};
+    }
     [[nodiscard]] bool may_paint();
-    [[nodiscard]] MattePtr matte_to_paint_on();
+    /// Null: an empty one. Nothing: it is not there yet.
+    [[nodiscard]] std::optional<MattePtr> matte_to_paint_on();
+    void prepare_stroke();
     void begin_stroke(const BeginStroke& action);
     void end_stroke();
-    void keep_matte(Matte matte, RegionId region, int layer, int frame, const std::string& label,
-                    const Extras& extra = {});
+    void keep_matte(MattePtr matte, const MattePlace& place, const std::string& label,
+                    const std::optional<RotoShape>& shape = {});
     void change_matte(std::function<Matte(const Matte&)> change, std::string label);
     void take_changed_matte();
     void paint_instead();
@@ -128,12 +147,7 @@ class Session {
 
     // ---- the strip (session_strip.cpp) ----
     void show_strip();
-    [[nodiscard]] std::vector<int> strip_frames() const;
-    [[nodiscard]] std::vector<int> sheet_frames() const;
-    [[nodiscard]] bool strip_is_sheet() const {
-        return strip_over_time_ && compares_settings(strip_kind_);
-    }
-    [[nodiscard]] std::vector<StripWish> strip_wishes(const Region* region);
+    [[nodiscard]] StripQuestion strip_question() const;
     void choose_from_strip(int card);
     void copy_keyframe(int from, int to);
     [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
@@ -150,7 +164,6 @@ class Session {
     void fetch_texture(const std::string& path, RegionId region);
     void take_texture();
     void submit(const SubmitJob& action);
-    void command(const CommandJob& action);
     void watch_jobs();
     void measure(const std::string& pattern);
 
@@ -167,6 +180,7 @@ class Session {
     SessionView view_;
 
     bool open_ = false;
+    bool untrusted_ = false;  // it came from a file in a folder that is not trusted
     std::string path_;
     History history_;
     std::optional<Project> tried_;
@@ -177,7 +191,7 @@ class Session {
     Preview preview_;
     MatteShelf shelf_;
     RecoveryWriter recovery_;
-    ChildJobs jobs_;
+    JobDesk jobs_;
 
     struct OpenedPlate {
         std::shared_ptr<const FrameReader> reader;
@@ -198,24 +212,14 @@ class Session {
     using Finish = std::function<void()>;
     std::vector<std::future<Finish>> chores_;
 
-    int frame_ = 0;
-    int playing_ = 0;
-    double now_s_ = 0, frame_at_s_ = 0, fps_shown_at_s_ = 0;
-    int frames_shown_ = 0;
-    std::optional<int> mark_in_, mark_out_;
+    Playback playback_;
+    double now_s_ = 0;
 
     RegionId selected_ = 0, solo_ = 0;
     int layer_ = 0;  // of the selected region, as SelectMatteLayer
     std::set<RegionId> locked_;
-    struct Painting {
-        RegionId region = 0;
-        int layer = 0, frame = 0;
-        Matte canvas;
-        std::optional<Stroke> stroke;
-        std::uint64_t version = 0;
-        Recti changed;  // since the last view
-    };
-    std::optional<Painting> painting_;
+    MattePainting painting_;
+    bool mattes_unwritten_ = false;  // as of the last update
     struct Shown {
         MattePtr matte;
         std::uint64_t version = 0;
@@ -224,10 +228,9 @@ class Session {
     std::map<std::string, std::uint64_t> missed_mattes_;  // name → matte_version() when it failed
     struct Changing {
         std::future<Matte> matte;
-        RegionId region = 0;
-        int layer = 0, frame = 0;
+        MattePlace place;
         std::string label;
-        Extras extra;  // of the keyframe that it becomes
+        std::optional<RotoShape> shape;  // that it is drawn from
     };
     std::optional<Changing> changing_;
     int matte_serial_ = 0;
@@ -238,16 +241,9 @@ class Session {
     std::optional<Fetching> fetching_;  // a texture out of the library
 
     int read_frame_ = 0;
-    StripKind strip_kind_ = StripKind::kNone;
-    bool strip_over_time_ = false;
-    int strip_columns_ = 0;  // as StripView::columns
-    std::vector<std::string> strip_textures_;
-    std::vector<StripWish> strip_wishes_;
-    std::uint64_t strip_version_ = 0;  // of the document that its cards were asked for
-    int strip_frame_ = 0;
-    std::vector<std::function<void()>> strip_choices_;
+    Strip strip_;
     bool stages_ = false;
-    std::string layer_name_;
+    std::optional<LayerKind> shown_layer_;
     ScreenName wanted_screen_;  // being made, or shown
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;
@@ -255,7 +251,6 @@ class Session {
     PicturePtr last_result_;
     int last_result_frame_ = 0;
 
-    std::map<int, JobState> known_jobs_;
     std::vector<Notice> notices_;
     int last_notice_ = 0;
     std::shared_ptr<Measuring> measuring_;

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
-#include "app/session/kept_textures.h"
-#include "app/session/larger_original.h"
-#include "app/session/matte_layer.h"
+#include "app/base/background.h"
+#include "app/exchange/kept_textures.h"
+#include "app/mattes/matte_layer.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "app/textures/larger_original.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/sequence_pattern.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft {
 namespace {
@@ -120,9 +120,9 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
     const MatteSource& source = layer_source(*region, layer_);
     const bool own = !source.select.crypto.empty() && !source.files.empty();
     const std::string files =
-        own ? resolve_path(project_dir(path_), source.files) : reader_->path_of(frame_);
-    chores_.push_back(in_background([this, action, files, frame = frame_, id = region->id,
-                                     layer = layer_]() -> Finish {
+        own ? resolve_path(project_dir(path_), source.files) : reader_->path_of(playback_.frame());
+    chores_.push_back(in_background([this, action, files, frame = playback_.frame(),
+                                     id = region->id, layer = layer_]() -> Finish {
         const auto pick = [&]() -> Expected<CryptoObject> {
             WEFT_TRY(pattern, SequencePattern::parse(files));
             return weft::pick_cryptomatte(pattern.path_for(frame), action.at.x, action.at.y);
@@ -133,7 +133,7 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
             if (!now) return;
             if (!picked) return notify(NoticeKind::kWarning, picked.error().text());
             if (picked->name.empty())
-                return notify(NoticeKind::kWarning, "There is no object of the Cryptomatte here.");
+                return notify(NoticeKind::kWarning, "The Cryptomatte has no object here.");
             const MatteSource& before = layer_source(*now, layer);
             MatteSource matte;
             matte.select.crypto =

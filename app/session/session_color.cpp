@@ -1,7 +1,7 @@
 // What the screen is shown through: the views of the OpenColorIO config in $OCIO.
 #include <algorithm>
 
-#include "app/session/background.h"
+#include "app/base/background.h"
 #include "app/session/session.h"
 
 namespace weft {

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
+#include "app/base/background.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/color/color_space.h"
+#include "engine/media/atomic_file.h"
 #include "engine/media/plates.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft {
 namespace {
@@ -51,29 +52,26 @@ Expected<Project> project_for_plate(const std::string& path) {
 Status move_to(const std::string& path, const std::string& unsaved, const std::string& from_dir,
                Project& project, std::map<std::string, std::string>& moved) {
     const std::string dir = project_dir(path), stem = fs::path(path).stem().string();
-    std::string failed;
+    Status failed;
     project = map_paths(resolve_paths(project, from_dir), [&](const std::string& from) {
         if (!from.starts_with(unsaved)) return relative_to(dir, from);
         const bool texture = from.find("/textures/") != std::string::npos;
         const fs::path to = fs::path(dir) / (stem + (texture ? "_textures" : "_mattes")) /
                             fs::path(from).filename();
-        std::error_code error;
-        fs::create_directories(to.parent_path(), error);
-        fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+        Status copied = make_folder_of(to.string(), WriteRule::own());
+        if (copied) copied = copy_file_atomically(from, to.string(), WriteRule::own());
         // A texture's author and licence go with it; one of the artist's own has none.
         std::error_code none;
         const std::string credit = texture_credit_path(from);
-        if (!error && fs::exists(credit, none)) {
-            fs::copy_file(credit, texture_credit_path(to.string()),
-                          fs::copy_options::overwrite_existing, error);
+        if (copied && fs::exists(credit, none)) {
+            copied =
+                copy_file_atomically(credit, texture_credit_path(to.string()), WriteRule::own());
         }
-        if (error && failed.empty())
-            failed = from + " cannot be copied beside the project: " + error.message() +
-                     ". Free some space there, or save elsewhere.";
+        if (!copied && failed)
+            failed = fail_in(copied.error(), from + " cannot be copied beside the project");
         return moved[from] = relative_to(dir, to.string());
     });
-    if (!failed.empty()) return fail(ErrorCode::kUnreadable, failed);
-    return {};
+    return failed;
 }
 
 }  // namespace
@@ -122,13 +120,11 @@ void Session::document_changed() {
 
 void Session::start_document(Project project, std::string path) {
     preview_.clear();
-    painting_.reset();
+    painting_.cancel();
     tried_.reset();
     shown_mattes_.clear();
     last_result_.reset();
-    playing_ = 0;
-    mark_in_.reset();
-    mark_out_.reset();
+    playback_.reset();
     solo_ = 0;
     locked_.clear();
     path_ = std::move(path);
@@ -137,6 +133,7 @@ void Session::start_document(Project project, std::string path) {
     selected_ = 0;
     opened_plate_ = Plate{};
     opened_plate_dir_ = "\n";  // no folder has this name: the plate is opened in any case
+    look_at_trust(!path_.empty());
     document_changed();
 }
 
@@ -196,7 +193,7 @@ void Session::save(const std::string& path) {
             Status written;
             std::map<std::string, std::string> moved;
             if (whole != from) written = move_to(whole, unsaved, project_dir(from), project, moved);
-            if (written) written = save_project(whole, project);
+            if (written) written = save_project(whole, project, in_place());
             return [this, whole, from, serial, written, moved = std::move(moved),
                     project = std::move(project)] {
                 view_.saving = false;
@@ -213,6 +210,7 @@ void Session::save(const std::string& path) {
                 }
                 if (!history_.modified()) recovery_.clear();
                 remember_recent(path_);
+                trust_saved();
                 ++document_version_;
                 notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
             };
@@ -289,6 +287,7 @@ void Session::open_plate_in_background() {
     if (opening_.valid()) abandoned_.push_back(std::move(opening_));
     end_player();
     reader_.reset();
+    playback_.close();
     view_.plate = {};
     Plate plate = opened_plate_;
     plate.path = resolve_path(opened_plate_dir_, plate.path);
@@ -297,9 +296,7 @@ void Session::open_plate_in_background() {
         OpenedPlate out;
         WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
         out.reader = reader;
-        out.space = !plate.space.empty()        ? plate.space
-                    : reader->display_encoded() ? "srgb"
-                                                : "linear";
+        out.space = plate.space.empty() ? reader->color().space : plate.space;
         WEFT_TRY(space, parse_color_space(out.space));
         WEFT_TRY(srgb, make_color_transform(space, {"srgb"}));
         WEFT_TRY(linear, make_color_transform(space, {"linear"}));
@@ -334,8 +331,7 @@ void Session::take_plate() {
     player_ = std::make_shared<PlatePlayer>(reader_, opened->srgb, opened->linear,
                                             options_.plate_budget_bytes);
     view_.plate.space = opened->space;
-    const auto& frames = reader_->frames();
-    if (!std::binary_search(frames.begin(), frames.end(), frame_)) frame_ = frames.front();
+    playback_.open(reader_->frames());
     request_due_ = true;
     ++document_version_;
 }

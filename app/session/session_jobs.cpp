@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <mutex>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
-#include "app/session/preview_flicker.h"
+#include "app/base/background.h"
+#include "app/preview/preview_flicker.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
-#include "engine/core/frame_range.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/metrics/matte_chatter.h"
@@ -131,27 +130,14 @@ void Session::submit(const SubmitJob& action) {
         return;
     }
     end_stroke();
-    RenderRequest request;
-    auto frames = action.frames.empty() ? Expected<std::vector<int>>(reader_->frames())
-                                        : parse_frame_list(action.frames);
-    if (!frames) {
-        notify(NoticeKind::kError, frames.error().text());
+    auto request = render_request(action, resolve_paths(history_.current(), project_dir(path_)),
+                                  reader_->frames());
+    if (!request) {
+        notify(NoticeKind::kError, request.error().text());
         return;
     }
-    request.project = resolve_paths(history_.current(), project_dir(path_));
-    request.project.output.path = fs::absolute(action.output).string();
-    request.project.output.movie =
-        action.movie.empty() ? std::string() : fs::absolute(action.movie).string();
-    request.project.output.layers = action.layers;
-    request.project.output.layers_path =
-        action.layers_path.empty() ? std::string() : fs::absolute(action.layers_path).string();
-    request.frames = *frames;
-    request.overwrite = action.overwrite;
-    request.skip_existing = action.skip_existing;
-    request.foreseen_s = action.skip_existing ? 0 : action.foreseen_s;
-    request.label = (document().name.empty() ? "Shot" : document().name) + ", frames " +
-                    format_frame_list(*frames);
-    chores_.push_back(in_background([this, request]() -> Finish {
+    if (!may_render_to(request->project)) return;
+    chores_.push_back(in_background([this, request = std::move(*request)]() -> Finish {
         // What was painted last must be on the disk before the renderer reads it.
         shelf_.flush();
         const auto id = jobs_.submit(request);
@@ -160,7 +146,6 @@ void Session::submit(const SubmitJob& action) {
                 notify(NoticeKind::kError, id.error().text());
                 return;
             }
-            known_jobs_.emplace(*id, JobState::kWaiting);
             notify(NoticeKind::kInfo,
                    "Rendering " + std::to_string(request.frames.size()) + " frames to " +
                        fs::path(request.project.output.path).parent_path().filename().string() +
@@ -169,30 +154,14 @@ void Session::submit(const SubmitJob& action) {
     }));
 }
 
-void Session::command(const CommandJob& action) {
-    switch (action.command) {
-        case JobCommand::kCancel:
-            return jobs_.cancel(action.id);
-        case JobCommand::kPause:
-            return jobs_.pause(action.id);
-        case JobCommand::kResume:
-            return jobs_.resume(action.id);
-        case JobCommand::kRetry:
-            return jobs_.retry(action.id);
-        case JobCommand::kRemove:
-            return jobs_.remove(action.id);
-    }
-}
-
 void Session::watch_jobs() {
-    for (const JobView& job : view_.jobs) {
-        JobState& known = known_jobs_[job.id];
-        if (known == job.state) continue;
-        known = job.state;
-        if (job.state == JobState::kDone) notify(NoticeKind::kGood, "Rendered: " + job.label + ".");
-        if (job.state == JobState::kFailed)
+    for (const JobDesk::Ended& job : jobs_.look()) {
+        if (job.failed)
             notify(NoticeKind::kError, "Render failed. " + job.error);
+        else
+            notify(NoticeKind::kGood, "Rendered: " + job.label + ".");
     }
+    view_.jobs = jobs_.jobs();
 }
 
 void Session::measure(const std::string& pattern) {

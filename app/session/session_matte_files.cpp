@@ -1,10 +1,10 @@
 // Mattes out to files: exported for others, or frozen.
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
-#include "app/session/matte_layer.h"
-#include "app/session/output_check.h"
+#include "app/base/background.h"
+#include "app/exchange/input_files.h"
+#include "app/mattes/matte_layer.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -13,6 +13,22 @@
 namespace weft {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+WriteRule export_rule_of(const Project& absolute, const std::string& project_file) {
+    WriteRule rule;
+    rule.existing = Existing::kReplace;
+    // Without a root there is nothing that could fail.
+    if (const auto fence = make_fence(absolute, {{}, {project_file}})) rule.fence = *fence;
+    return rule;
+}
+
+}  // namespace
+
+WriteRule Session::export_rule() const {
+    return export_rule_of(resolved(), path_);
+}
 
 // Writes the region's matte of every frame of the played range; `then` is done with the frames.
 void Session::write_mattes(const std::string& pattern_text,
@@ -23,18 +39,19 @@ void Session::write_mattes(const std::string& pattern_text,
         return;
     }
     end_stroke();
-    const auto [first, last] = played_range();
+    const auto [first, last] = playback_.range();
     const std::vector<int> frames(reader_->frames().begin() + first,
                                   reader_->frames().begin() + last + 1);
     const Project absolute = resolve_paths(document(), project_dir(path_));
     const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
     chores_.push_back(in_background([this, pattern_text, frames, source, size = reader_->size(),
-                                     id = region->id, layer = layer_,
+                                     absolute, file = path_, id = region->id, layer = layer_,
                                      then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
             WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
-            WEFT_CHECK_OK(make_output_folder(pattern.path_for(frames.front())));
+            const WriteRule rule = export_rule_of(absolute, file);
+            WEFT_CHECK_OK(make_folder_of(pattern.path_for(frames.front()), rule));
             for (const int frame : frames) {
                 Expected<Matte> matte = Matte();
                 if (!source.files.empty()) {
@@ -47,7 +64,7 @@ void Session::write_mattes(const std::string& pattern_text,
                     matte = preview_.propagated_matte(id, layer, frame);
                 }
                 if (!matte) return tl::unexpected<Error>(matte.error());
-                WEFT_CHECK_OK(write_matte(pattern.path_for(frame), *matte));
+                WEFT_CHECK_OK(write_matte(pattern.path_for(frame), *matte, rule));
             }
             return {};
         };

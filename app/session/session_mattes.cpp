@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
-#include "app/session/matte_layer.h"
+#include "app/base/background.h"
+#include "app/mattes/matte_layer.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/core/hash.h"
 #include "engine/media/image_files.h"
@@ -40,12 +40,11 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
     RegionMatteView out;
     out.region = region.id;
     out.layer = layer;
-    if (painting_ && painting_->region == region.id && painting_->layer == layer &&
-        painting_->frame == frame) {
+    if (const auto stroke = painting_.at({region.id, layer, frame})) {
         out.kind = RegionMatteView::Kind::kPainted;
-        out.pixels = painting_->canvas.view();
-        out.version = painting_->version;
-        out.changed = painting_->changed;
+        out.pixels = stroke->pixels;
+        out.version = stroke->version;
+        out.changed = stroke->changed;
         return out;
     }
     const MatteSource& source = layer_source(region, layer);
@@ -116,54 +115,59 @@ bool Session::may_paint() {
                                          "' comes from files. Choose 'Paint instead' to make it "
                                          "your own.");
     } else if (!reader_) {
-        notify(NoticeKind::kWarning, "There is no plate to paint on yet.");
+        notify(NoticeKind::kWarning, "The plate is not open yet.");
     } else if (changing_) {
-        notify(NoticeKind::kWarning, "The last change of this matte is still being worked out.");
+        notify(NoticeKind::kWarning, "Updating matte…");
     } else {
         return true;
     }
     return false;
 }
 
-MattePtr Session::matte_to_paint_on() {
+std::optional<MattePtr> Session::matte_to_paint_on() {
     const Region* region = region_by_id(document(), selected_);
-    const RegionMatteView shown = matte_of(*region, layer_, frame_);
+    const RegionMatteView shown = matte_of(*region, layer_, playback_.frame());
     if (shown.keep) return shown.keep;
     if (shown.kind == RegionMatteView::Kind::kLoading &&
-        layer_source(*region, layer_).keyframes.contains(frame_)) {
+        layer_source(*region, layer_).keyframes.contains(playback_.frame())) {
         notify(NoticeKind::kWarning, "This keyframe is still being read. Try again in a moment.");
-        return nullptr;
+        return std::nullopt;
     }
-    return std::make_shared<const Matte>(reader_->size());
+    return nullptr;
+}
+
+// So that a stroke may begin at once where the playhead stands.
+void Session::prepare_stroke() {
+    const Region* region = painted_region();
+    const bool still = playback_.direction() == 0 && read_frame_ == playback_.frame();
+    if (!region || !reader_ || !still || changing_ || locked_.contains(selected_)) return;
+    const MatteSource& source = layer_source(*region, layer_);
+    if (!source.files.empty() || !source.select.crypto.empty()) return;
+    const auto& views = layer_ == 0 ? view_.mattes : view_.holdouts;
+    const auto shown = std::find_if(views.begin(), views.end(), [&](const RegionMatteView& view) {
+        return view.region == selected_ && view.layer == layer_;
+    });
+    if (shown == views.end() || shown->kind == RegionMatteView::Kind::kLoading) return;
+    painting_.prepare(shown->keep, reader_->size());
 }
 
 void Session::begin_stroke(const BeginStroke& action) {
     end_stroke();
     if (!open_ || !may_paint()) return;
-    const MattePtr before = matte_to_paint_on();
+    const auto before = matte_to_paint_on();
     if (!before) return;
-    playing_ = 0;
-    painting_.emplace();
-    painting_->region = selected_;
-    painting_->layer = layer_;
-    painting_->frame = frame_;
-    painting_->canvas = *before;
-    painting_->stroke.emplace(before, action.brush);
-    painting_->version = next_picture_id();
-    (void)painting_->stroke->move_to(action.at, action.pressure, painting_->canvas);
-    painting_->changed = rect_of(before->size());
+    playback_.stop();
+    painting_.begin(painted_place(), *before, reader_->size(), action.brush);
+    painting_.move_to(action.at, action.pressure);
 }
 
 void Session::end_stroke() {
-    if (!painting_) return;
-    Painting done = std::move(*painting_);
-    painting_.reset();
-    if (!done.stroke || done.stroke->touched().empty()) return;
-    const Region* region = region_by_id(document(), done.region);
+    const auto done = painting_.end();
+    const Region* region = done ? region_by_id(document(), done->place.region) : nullptr;
     if (!region) return;
-    keep_matte(
-        std::move(done.canvas), done.region, done.layer, done.frame,
-        "Paint " + layer_name(*region, done.layer) + " on frame " + std::to_string(done.frame));
+    keep_matte(done->matte, done->place,
+               "Paint " + layer_name(*region, done->place.layer) + " on frame " +
+                   std::to_string(done->place.frame));
 }
 
 std::string Session::new_matte_path(RegionId region, int frame) {
@@ -184,16 +188,17 @@ std::string Session::beside_project(const std::string& path) const {
     return path_.empty() ? path : fs::path(path).lexically_relative(project_dir(path_)).string();
 }
 
-void Session::keep_matte(Matte matte, RegionId region, int layer, int frame,
-                         const std::string& label, const Extras& extra) {
-    const Region* target = region_by_id(document(), region);
+void Session::keep_matte(MattePtr matte, const MattePlace& place, const std::string& label,
+                         const std::optional<RotoShape>& shape) {
+    const Region* target = region_by_id(document(), place.region);
     if (!target) return;
-    const std::string path = new_matte_path(region, frame);
-    shelf_.write(path, std::make_shared<const Matte>(std::move(matte)));
+    const std::string path = new_matte_path(place.region, place.frame);
+    shelf_.write(path, std::move(matte));
+    mattes_unwritten_ = true;
     // What an older keyframe here was made of does not describe the new one.
-    MatteSource source = layer_source(*target, layer);
-    source.keyframes[frame] = {beside_project(path), extra};
-    auto changed = apply_edit(history_.current(), set_layer(*target, layer, source));
+    MatteSource source = layer_source(*target, place.layer);
+    source.keyframes[place.frame] = {beside_project(path), shape};
+    auto changed = apply_edit(history_.current(), set_layer(*target, place.layer, source));
     if (!changed) {
         notify(NoticeKind::kError, changed.error().text());
         return;
@@ -204,15 +209,14 @@ void Session::keep_matte(Matte matte, RegionId region, int layer, int frame,
 void Session::change_matte(std::function<Matte(const Matte&)> change, std::string label) {
     end_stroke();
     if (!open_ || !may_paint()) return;
-    MattePtr before = matte_to_paint_on();
+    auto before = matte_to_paint_on();
     if (!before) return;
     changing_.emplace();
-    changing_->region = selected_;
-    changing_->layer = layer_;
-    changing_->frame = frame_;
+    changing_->place = painted_place();
     changing_->label = std::move(label);
-    changing_->matte = in_background(
-        [change = std::move(change), matte = std::move(before)] { return change(*matte); });
+    changing_->matte =
+        in_background([change = std::move(change), matte = std::move(*before),
+                       size = reader_->size()] { return change(matte ? *matte : Matte(size)); });
 }
 
 void Session::take_changed_matte() {
@@ -221,10 +225,8 @@ void Session::take_changed_matte() {
         return;
     Changing done = std::move(*changing_);
     changing_.reset();
-    const Region* region = region_by_id(document(), done.region);
-    if (!region) return;
-    keep_matte(done.matte.get(), done.region, done.layer, done.frame,
-               done.label + " on frame " + std::to_string(done.frame), done.extra);
+    keep_matte(std::make_shared<const Matte>(done.matte.get()), done.place,
+               done.label + " on frame " + std::to_string(done.place.frame), done.shape);
 }
 
 void Session::paint_instead() {
@@ -233,26 +235,27 @@ void Session::paint_instead() {
         (layer_source(*region, layer_).files.empty() &&
          layer_source(*region, layer_).select.crypto.empty()))
         return;
-    const RegionMatteView shown = matte_of(*region, layer_, frame_);
+    const RegionMatteView shown = matte_of(*region, layer_, playback_.frame());
     if (!shown.keep) {
         notify(NoticeKind::kWarning, "The matte of this frame is still being read.");
         return;
     }
-    const std::string path = new_matte_path(region->id, frame_);
+    const std::string path = new_matte_path(region->id, playback_.frame());
     shelf_.write(path, shown.keep);
+    mattes_unwritten_ = true;
     MatteSource painted;
-    painted.keyframes[frame_] = {beside_project(path), {}};
+    painted.keyframes[playback_.frame()] = {beside_project(path), {}};
     const std::string name = layer_name(*region, layer_);
     edit(set_layer(*region, layer_, painted), true);
     notify(NoticeKind::kInfo, "The matte of '" + name + "' is painted now: frame " +
-                                  std::to_string(frame_) +
+                                  std::to_string(playback_.frame()) +
                                   " is its keyframe, the other frames follow from it.");
 }
 
 void Session::copy_keyframe(int from, int to) {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !layer_source(*region, layer_).keyframes.contains(from)) {
-        notify(NoticeKind::kWarning, "There is no painted keyframe to copy.");
+        notify(NoticeKind::kWarning, "There is no painted keyframe before this frame.");
         return;
     }
     // Files are never changed once written, so both may name the same one.

@@ -1,8 +1,8 @@
 // The texture's size from what the artist knows of the surface.
 #include <cmath>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
+#include "app/base/background.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/media/image_files.h"
 #include "engine/synthesis/texture_period.h"
@@ -27,7 +27,7 @@ Expected<double> pitch_of(const std::string& path, Vec2 along) {
 void Session::scale_by_line(const ScaleByLine& action) {
     const Region* region = region_by_id(document(), selected_);
     if (!region || region->texture.sample.empty() || action.count <= 0) {
-        notify(NoticeKind::kWarning, "Choose a texture to be grown first.");
+        notify(NoticeKind::kWarning, "Choose a texture to synthesize first.");
         return;
     }
     const Vec2 line = action.to - action.from;

@@ -1,26 +1,14 @@
 // Mattes that are found or drawn rather than painted: scribbles, and shapes of curves.
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/background.h"
-#include "app/session/matte_layer.h"
+#include "app/base/background.h"
+#include "app/mattes/matte_layer.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/media/frame_writer.h"
 
 namespace weft {
 namespace {
-
-constexpr const char* kShapeKey = "shape";
-constexpr const char* kBetweenKey = "shape_between";
-
-std::optional<RotoShape> shape_of(const MatteKeyframe& key) {
-    const auto found = key.extra.find(kShapeKey);
-    return found == key.extra.end() ? std::nullopt : parse_shape(found->second);
-}
-
-bool is_between(const MatteKeyframe& key) {
-    return key.extra.contains(kBetweenKey);
-}
 
 Matte drawn(const std::vector<std::vector<Vec2>>& lines, Size size) {
     Matte out(size);
@@ -55,11 +43,9 @@ void Session::set_shape(const RotoShape& shape) {
     end_stroke();
     if (!open_ || !may_paint()) return;
     changing_.emplace();
-    changing_->region = selected_;
-    changing_->layer = layer_;
-    changing_->frame = frame_;
+    changing_->place = painted_place();
     changing_->label = "Shape";
-    changing_->extra[kShapeKey] = shape_text(shape);
+    changing_->shape = shape;
     changing_->matte =
         in_background([shape, size = reader_->size()] { return matte_of_shape(shape, size); });
 }
@@ -70,7 +56,7 @@ void Session::fill_between_shapes() {
     if (!region || !reader_ || !may_paint()) return;
     std::map<int, RotoShape> keys;
     for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)
-        if (auto shape = shape_of(key); shape && !is_between(key)) keys[frame] = std::move(*shape);
+        if (key.shape && !key.shape_between) keys[frame] = *key.shape;
     struct Made {
         int frame = 0;
         RotoShape shape;
@@ -105,18 +91,18 @@ void Session::fill_between_shapes() {
             std::error_code error;
             std::filesystem::create_directories(std::filesystem::path(one.path).parent_path(),
                                                 error);
-            if (written) written = write_matte(one.path, matte_of_shape(one.shape, size));
+            if (written)
+                written = write_matte(one.path, matte_of_shape(one.shape, size), WriteRule::own());
         }
         return [this, list, id, layer, written] {
             if (!written) return notify(NoticeKind::kError, written.error().text());
             const Region* now = region_by_id(document(), id);
             if (!now) return;
             MatteSource matte = layer_source(*now, layer);
-            std::erase_if(matte.keyframes, [](const auto& key) { return is_between(key.second); });
+            std::erase_if(matte.keyframes,
+                          [](const auto& key) { return key.second.shape_between; });
             for (const Made& one : list)
-                matte.keyframes[one.frame] = {
-                    beside_project(one.path),
-                    {{kShapeKey, shape_text(one.shape)}, {kBetweenKey, "true"}}};
+                matte.keyframes[one.frame] = {beside_project(one.path), one.shape, true};
             auto changed = apply_edit(history_.current(), set_layer(*now, layer, matte));
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
             commit(std::move(*changed), "Fill between the shapes of " + layer_name(*now, layer));
@@ -131,14 +117,14 @@ void Session::show_shape() {
     if (!region) return;
     const MatteSource& source = layer_source(*region, layer_);
     for (const auto& [frame, key] : source.keyframes) {
-        if (!key.extra.contains(kShapeKey)) continue;
-        if (!is_between(key)) view_.shape_frames.push_back(frame);
-        if (frame == frame_) view_.shape = shape_of(key);
+        if (!key.shape) continue;
+        if (!key.shape_between) view_.shape_frames.push_back(frame);
+        if (frame == playback_.frame()) view_.shape = key.shape;
     }
     // A shape of the frame before is where one begins on this one.
-    if (view_.shape || source.keyframes.contains(frame_)) return;
+    if (view_.shape || source.keyframes.contains(playback_.frame())) return;
     for (const int frame : view_.shape_frames)
-        if (frame < frame_) view_.shape = shape_of(source.keyframes.at(frame));
+        if (frame < playback_.frame()) view_.shape = source.keyframes.at(frame).shape;
 }
 
 }  // namespace weft

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/project/project_file.h"
-#include "app/session/matte_layer.h"
+#include "app/mattes/matte_layer.h"
+#include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
 #include "engine/media/frame_reader.h"
@@ -33,8 +33,8 @@ void Session::show_document() {
     view_.selected = selected_;
     view_.solo = solo_;
     view_.locked.assign(locked_.begin(), locked_.end());
-    view_.mark_in = mark_in_;
-    view_.mark_out = mark_out_;
+    view_.mark_in = playback_.mark_in();
+    view_.mark_out = playback_.mark_out();
     view_.recent = settings_->recent;
     view_.recovery.reset();
     if (!recoverable_.empty())
@@ -68,8 +68,9 @@ void Session::show_plate() {
     plate.budget_bytes = options_.plate_budget_bytes;
     if (opening_.valid()) plate.state = PlateView::State::kOpening;
     if (document().plate.path.empty()) plate.state = PlateView::State::kNone;
-    view_.frame = frame_;
-    view_.playing = playing_;
+    view_.frame = playback_.frame();
+    view_.playing = playback_.direction();
+    view_.play_fps = playback_.shown_fps();
     view_.frame_error.clear();
     view_.frame_file.clear();
     if (!reader_) {
@@ -88,7 +89,8 @@ void Session::show_plate() {
                 : reader_->fps() > 0     ? reader_->fps()
                                          : 24;
     // While a frame is decoded the last one stays: a black flash says nothing.
-    if (!player_->try_read(frame_, plate_reading_) && plate_reading_.frame != frame_) {
+    if (!player_->try_read(playback_.frame(), plate_reading_) &&
+        plate_reading_.frame != playback_.frame()) {
         plate_reading_.picture.reset();
         plate_reading_.error.clear();
     }
@@ -96,17 +98,17 @@ void Session::show_plate() {
     if (plate_reading_.picture) view_.plate_picture = plate_reading_.picture;
     view_.frame_error = plate_reading_.error;
     if (!view_.frame_error.empty()) view_.plate_picture.reset();
-    view_.frame_file = reader_->path_of(frame_);
+    view_.frame_file = reader_->path_of(playback_.frame());
 }
 
 void Session::show_mattes() {
     view_.mattes.clear();
-    view_.painting = painting_.has_value();
+    view_.painting = painting_.active();
     view_.matte_busy = changing_.has_value();
     view_.matte_layer = 0;
     if (!open_) return view_.holdouts.clear();
     for (const Leaf<Region>& region : document().regions)
-        view_.mattes.push_back(matte_of(*region, 0, frame_));
+        view_.mattes.push_back(matte_of(*region, 0, playback_.frame()));
     view_.holdouts.clear();
     const Region* region = painted_region();
     // An undo may have taken the layer away.
@@ -114,18 +116,19 @@ void Session::show_mattes() {
     if (layer_ > most + 1) layer_ = most;
     view_.matte_layer = layer_;
     for (int layer = 1; layer <= std::max(most, layer_); ++layer)
-        view_.holdouts.push_back(matte_of(*region, layer, frame_));
+        view_.holdouts.push_back(matte_of(*region, layer, playback_.frame()));
+    prepare_stroke();
 }
 
 void Session::act_now(const std::vector<Action>& actions) {
     for (const Action& action : actions)
         act(action);
     show_mattes();
-    if (painting_) painting_->changed = {};
+    painting_.shown();
 }
 
 void Session::show_result() {
-    if (!preview_.try_read(frame_, selected_, layer_, preview_reading_) &&
+    if (!preview_.try_read(playback_.frame(), selected_, layer_, preview_reading_) &&
         view_.frame != read_frame_)
         preview_reading_.frame = {};
     read_frame_ = view_.frame;
@@ -134,19 +137,19 @@ void Session::show_result() {
     view_.preview_quality = preview_quality_;
     view_.overlay = overlay_;
     view_.stages_shown = stages_;
-    view_.layer = layer_name_;
+    view_.layer = shown_layer_;
     view_.stages = preview_reading_.frame;
     const PicturePtr& final = view_.stages.stages[static_cast<std::size_t>(Stage::kFinal)];
     view_.result_current = final != nullptr;
     if (final) {
         last_result_ = final;
-        last_result_frame_ = frame_;
+        last_result_frame_ = playback_.frame();
     }
     // An older look at this very frame stays until the new one is there, marked as such.
     view_.result_picture =
-        view_.result_wanted && last_result_frame_ == frame_ ? last_result_ : nullptr;
+        view_.result_wanted && last_result_frame_ == playback_.frame() ? last_result_ : nullptr;
     view_.overlay_picture = preview_reading_.overlay;
-    if (view_.overlay_picture && view_.overlay_picture->frame != frame_)
+    if (view_.overlay_picture && view_.overlay_picture->frame != playback_.frame())
         view_.overlay_picture.reset();
     if (measuring_) {
         const std::lock_guard lock(measuring_->mutex);
@@ -160,6 +163,7 @@ void Session::show_marks() {
     view_.to_correct.clear();
     if (!reader_) return;
     const Region* region = region_by_id(document(), selected_);
+    const auto chosen = view_.preview.references.find(selected_);
     const std::map<int, float>& confidence = preview_reading_.confidence;
     const std::map<int, FrameHealth>& health = preview_reading_.health;
     for (const int frame : preview_reading_.there)
@@ -174,8 +178,11 @@ void Session::show_marks() {
         }
         if (!region) continue;
         mark.matte_key = layer_source(*region, layer_).keyframes.contains(frames[k]);
-        mark.reference = std::find(region->reference_frames.begin(), region->reference_frames.end(),
-                                   frames[k]) != region->reference_frames.end();
+        mark.reference =
+            region->reference_frames.empty()
+                ? chosen != view_.preview.references.end() && chosen->second == frames[k]
+                : std::find(region->reference_frames.begin(), region->reference_frames.end(),
+                            frames[k]) != region->reference_frames.end();
         if (const auto found = confidence.find(frames[k]); found != confidence.end())
             mark.confidence = found->second;
         if (const auto found = health.find(frames[k]); found != health.end()) {
@@ -207,7 +214,11 @@ void Session::show_marks() {
         painted.push_back(frame);
     for (const auto& [frame, pins] : region->corrections)
         anchored.push_back(frame);
-    if (anchored.empty()) anchored.push_back(painted.empty() ? frames.front() : painted.front());
+    if (anchored.empty()) {
+        anchored.push_back(chosen != view_.preview.references.end() ? chosen->second
+                           : painted.empty()                        ? frames.front()
+                                                                    : painted.front());
+    }
     std::sort(anchored.begin(), anchored.end());
     view_.to_correct = where_to_correct(frames, view_.marks, painted, anchored);
 }

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "app/base/picture.h"
+#include "app/mattes/matte_shelf.h"
+#include "app/mattes/roto_shape.h"
+#include "app/preview/preview.h"
 #include "app/project/project.h"
 #include "app/project/validate.h"
 #include "app/session/action.h"
 #include "app/session/child_jobs.h"
-#include "app/session/matte_shelf.h"
-#include "app/session/picture.h"
-#include "app/session/preview.h"
-#include "app/session/roto_shape.h"
 #include "app/session/where_to_correct.h"
 
 namespace weft {
@@ -79,6 +79,12 @@ struct RecoveryOffer {
     std::string when;          ///< "today at 14:02"
 };
 
+/// A project from a folder that is not trusted would write outside of it.
+struct TrustOffer {
+    std::string folder;  ///< The project's.
+    std::string output;  ///< The first path outside.
+};
+
 /// Quality over time, from measuring a finished render.
 struct QualityReport {
     enum class State : std::uint8_t { kNone, kMeasuring, kDone, kFailed };
@@ -138,7 +144,7 @@ struct SessionView {
     PreviewView preview;
     bool analysis_paused = false;
     Quality preview_quality = Quality::kDraft;
-    std::string layer;  ///< As ShowLayer::name.
+    std::optional<LayerKind> layer;  ///< As ShowLayer::layer.
     Overlay overlay = Overlay::kNone;
     std::shared_ptr<const OverlayPicture> overlay_picture;
     bool stages_shown = false;
@@ -157,6 +163,7 @@ struct SessionView {
     std::vector<JobView> jobs;
     std::vector<Notice> notices;
     std::optional<RecoveryOffer> recovery;
+    std::optional<TrustOffer> trust;
     QualityReport report;
     std::vector<std::string> recent;  ///< Project files, the newest first.
     std::string backend = "CPU";

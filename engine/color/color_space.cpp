@@ -1,14 +1,14 @@
 #include "engine/color/color_space.h"
 
-#include <algorithm>
-#include <cctype>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "engine/color/cineon_curve.h"
 #include "engine/color/ocio_bridge.h"
 #include "engine/color/srgb_curve.h"
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 
 namespace weft {
 namespace {
@@ -16,34 +16,41 @@ namespace {
 constexpr int kBandRows = 16;
 
 bool is_built_in(const std::string& name) {
-    return name == "srgb" || name == "linear";
+    return name == "srgb" || name == "linear" || name == "cineon";
 }
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
+// A curve on single values, in place; null: none.
+using Curve = void (*)(std::span<float>);
+
+Curve decoding(const std::string& built_in) {
+    if (built_in == "linear") return nullptr;
+    return built_in == "srgb" ? decode_srgb : decode_cineon;
 }
 
-enum class Curve { kNone, kDecode, kEncode };
+Curve encoding(const std::string& built_in) {
+    if (built_in == "linear") return nullptr;
+    return built_in == "srgb" ? encode_srgb : encode_cineon;
+}
 
+// Between two spaces with the same primaries: to linear light, and out of it again.
 class CurveTransform final : public ColorTransform {
   public:
-    explicit CurveTransform(Curve curve) : curve_(curve) {}
+    CurveTransform(Curve decode, Curve encode) : decode_(decode), encode_(encode) {}
 
     void apply(ImageView<float, 3> rgb) const override {
-        if (curve_ == Curve::kNone) return;
-        const auto convert = curve_ == Curve::kDecode ? decode_srgb : encode_srgb;
+        if (identity()) return;
         parallel_rows(rgb.height(), kBandRows, [&](int y0, int y1) {
             for (int y = y0; y < y1; ++y) {
-                convert(std::span(rgb.row(y), static_cast<std::size_t>(rgb.width()) * 3));
+                const std::span row(rgb.row(y), static_cast<std::size_t>(rgb.width()) * 3);
+                if (decode_) decode_(row);
+                if (encode_) encode_(row);
             }
         });
     }
-    bool identity() const override { return curve_ == Curve::kNone; }
+    bool identity() const override { return !decode_ && !encode_; }
 
   private:
-    Curve curve_;
+    Curve decode_, encode_;
 };
 
 class Chain final : public ColorTransform {
@@ -62,16 +69,21 @@ class Chain final : public ColorTransform {
 };
 
 Error unknown_space(const std::string& name, const OcioConfig* config) {
-    std::string message = "There is no colour space '" + name + "'. Built in are srgb and linear";
+    std::string message =
+        "Unknown colour space '" + name + "'. Built in are srgb, linear and cineon";
     message += config ? "; $OCIO has " + config->some_names() + "."
                       : "; set $OCIO to an OpenColorIO config for others.";
     return {ErrorCode::kUsage, message, {}};
 }
 
-/// The curve between two spaces with the same primaries, each linear or sRGB-encoded.
-Curve curve_between(bool from_encoded, bool to_encoded) {
-    if (from_encoded == to_encoded) return Curve::kNone;
-    return from_encoded ? Curve::kDecode : Curve::kEncode;
+std::shared_ptr<const ColorTransform> between(const std::string& from, const std::string& to) {
+    const bool same = from == to;
+    return std::make_shared<CurveTransform>(same ? nullptr : decoding(from),
+                                            same ? nullptr : encoding(to));
+}
+
+std::string name_of(const Meeting& meeting) {
+    return meeting.encoded ? "srgb" : "linear";
 }
 
 Error no_meeting_place(const std::string& from, const std::string& to) {
@@ -91,12 +103,10 @@ Expected<std::shared_ptr<const ColorTransform>> through_config(const OcioConfig&
     if (!meeting) return tl::unexpected(no_meeting_place(from.name, to.name));
     if (is_built_in(from.name)) {
         WEFT_TRY(rest, config.transform(meeting->space, to.name));
-        const Curve curve = curve_between(from.name == "srgb", meeting->encoded);
-        return std::make_shared<Chain>(std::make_shared<CurveTransform>(curve), rest);
+        return std::make_shared<Chain>(between(from.name, name_of(*meeting)), rest);
     }
     WEFT_TRY(first, config.transform(from.name, meeting->space));
-    const Curve curve = curve_between(meeting->encoded, to.name == "srgb");
-    return std::make_shared<Chain>(first, std::make_shared<CurveTransform>(curve));
+    return std::make_shared<Chain>(first, between(name_of(*meeting), to.name));
 }
 
 }  // namespace
@@ -105,15 +115,14 @@ Expected<ColorSpace> parse_color_space(const std::string& name) {
     if (is_built_in(name)) return ColorSpace{name};
     WEFT_TRY(config, load_ocio_config());
     if (config && config->knows(name)) return ColorSpace{name};
-    if (is_built_in(lower(name))) return ColorSpace{lower(name)};
+    if (is_built_in(lower_case(name))) return ColorSpace{lower_case(name)};
     return tl::unexpected(unknown_space(name, config.get()));
 }
 
 Expected<std::shared_ptr<const ColorTransform>> make_color_transform(const ColorSpace& from,
                                                                      const ColorSpace& to) {
     if (is_built_in(from.name) && is_built_in(to.name)) {
-        return std::make_shared<CurveTransform>(
-            curve_between(from.name == "srgb", to.name == "srgb"));
+        return between(from.name, to.name);
     }
     WEFT_TRY(config, load_ocio_config());
     for (const ColorSpace* space : {&from, &to}) {
@@ -137,7 +146,7 @@ Expected<std::vector<std::string>> list_color_spaces() {
 Expected<std::shared_ptr<const ScreenView>> make_screen_view(const ScreenName& name) {
     WEFT_TRY(config, load_ocio_config());
     if (!config) {
-        return fail(ErrorCode::kUsage, "There is no view '" + name.view +
+        return fail(ErrorCode::kUsage, "Unknown view '" + name.view +
                                            "': set $OCIO to an OpenColorIO config that has it.");
     }
     const auto meeting = config->rec709();
@@ -145,8 +154,7 @@ Expected<std::shared_ptr<const ScreenView>> make_screen_view(const ScreenName& n
     WEFT_TRY(view, config->screen(name, *meeting));
     if (!meeting->encoded) return view;
     auto encoded = std::make_shared<ScreenView>(*view);
-    encoded->pixels =
-        std::make_shared<Chain>(std::make_shared<CurveTransform>(Curve::kEncode), view->pixels);
+    encoded->pixels = std::make_shared<Chain>(between("linear", "srgb"), view->pixels);
     return std::shared_ptr<const ScreenView>(encoded);
 }
 

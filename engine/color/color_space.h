@@ -10,7 +10,9 @@
 namespace weft {
 
 /// "srgb" (sRGB primaries, encoded by the piecewise sRGB curve), "linear" (the same primaries,
-/// scene linear), or the name of a space, role or alias of the OpenColorIO config in $OCIO.
+/// scene linear), "cineon" (the same, encoded by the log curve of film scans: black at code 95 of
+/// 1023, white at 685, gamma 0.6), or the name of a space, role or alias of the OpenColorIO config
+/// in $OCIO.
 struct ColorSpace {
     std::string name = "srgb";
     bool operator==(const ColorSpace&) const = default;
@@ -18,8 +20,8 @@ struct ColorSpace {
 
 /// Reads a colour-space name. Errors: Usage when it is neither built in nor known to $OCIO; the
 /// message lists some names that are. Unreadable when the config of $OCIO cannot be loaded.
-/// "srgb" and "linear", written so, are always the built-in ones; "sRGB" is the config's, if it has
-/// such a name, else the built-in one too.
+/// "srgb", "linear" and "cineon", written so, are always the built-in ones; "sRGB" is the config's,
+/// if it has such a name, else the built-in one too.
 [[nodiscard]] Expected<ColorSpace> parse_color_space(const std::string& name);
 
 /// A fixed conversion of RGB pixels. Immutable; apply() may be called from several threads.
@@ -35,7 +37,7 @@ class ColorTransform {
 };
 
 /// Errors: Usage when either space is unknown or OpenColorIO has no conversion between them.
-/// "srgb" and "linear" meet OpenColorIO spaces through the config's space with linear Rec.709/sRGB
+/// The built-in spaces meet OpenColorIO spaces through the config's space with linear Rec.709/sRGB
 /// primaries, found under a usual name ("Linear Rec.709 (sRGB)", "lin_srgb", "lin_rec709",
 /// "Utility - Linear - sRGB", "Utility - Linear - Rec.709", …, or "linear" where that is the role
 /// scene_linear), else through its sRGB texture space ("sRGB - Texture", "srgb_tx",

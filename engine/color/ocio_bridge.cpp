@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <mutex>
 #include <utility>
 #include <vector>
 
+#include "engine/core/input_file.h"
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 
 namespace weft {
 namespace {
@@ -43,14 +44,6 @@ constexpr std::array kEncodedNames{"sRGB - Texture",
                                    "Utility - sRGB - Texture",
                                    "Input - Generic - sRGB - Texture",
                                    "sRGB"};
-
-bool same_name(const std::string& a, const char* b) {
-    const std::string other(b);
-    return std::equal(a.begin(), a.end(), other.begin(), other.end(), [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) ==
-               std::tolower(static_cast<unsigned char>(y));
-    });
-}
 
 // OpenColorIO's tables turn NaN and infinity into numbers; these components keep their values.
 struct Nonfinite {
@@ -189,7 +182,8 @@ class Config final : public OcioConfig {
         }
         // By long custom a config whose scene_linear is called just "linear" means these primaries.
         if (const auto scene = config_->getColorSpace(ocio::ROLE_SCENE_LINEAR)) {
-            if (same_name(scene->getName(), "linear")) return Meeting{scene->getName(), false};
+            if (same_ignoring_case(scene->getName(), "linear"))
+                return Meeting{scene->getName(), false};
         }
         for (const char* name : kEncodedNames) {
             if (knows(name)) return Meeting{name, true};
@@ -270,6 +264,10 @@ Expected<std::shared_ptr<const OcioConfig>> load_ocio_config() {
     const std::lock_guard lock(mutex);
     // Large configs take a good part of a second to load; a process uses one.
     if (loaded && loaded_path == variable) return loaded;
+    // "ocio://default" names a config that OpenColorIO has built in.
+    if (!std::string_view(variable).starts_with("ocio://")) {
+        WEFT_CHECK_OK(check_input_file(variable, "The OpenColorIO config of $OCIO"));
+    }
     try {
         ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
         loaded = std::make_shared<Config>(ocio::Config::CreateFromFile(variable));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/blur_inside.h"
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -30,7 +31,7 @@ ImageF1 lightness(ViewF3 linear) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < linear.width(); ++x) {
                 const float* p = linear.pixel(x, y);
-                const float v = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+                const float v = luma_709(p);
                 out.row(y)[x] = v > 0 ? std::sqrt(std::min(v, 1.0f)) : 0.0f;  // NaN: 0
             }
         }

@@ -29,7 +29,7 @@ struct EdgeBlur {
 /// inside the matte (their median). 0 where there are too few edges to tell.
 [[nodiscard]] float edge_blur_px(ViewF3 linear, ViewU8x1 matte);
 
-/// The blur that takes edges of `from_px` to `to_px`; 0 where they are no sharper than by a tenth.
+/// The blur that takes edges of `from_px` to `to_px`; 0 if they are sharper by at most a tenth.
 [[nodiscard]] float blur_between(float from_px, float to_px);
 
 /// The blur, in pixels, after which the texture's strong edges, of `own_px` now (edge_blur_px()),

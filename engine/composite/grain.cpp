@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 
@@ -11,10 +12,6 @@ namespace {
 
 constexpr int kReach = GrainModel::kRadius;
 constexpr int kBins = GrainModel::kBins;
-
-float luma_of(const float* p) {
-    return 0.299f * p[0] + 0.587f * p[1] + 0.114f * p[2];
-}
 
 // A random number of deviation 1 for a pixel and channel of the plate: the sum of four uniform ones
 // is normal enough, and needs no function whose last bit may differ between machines.
@@ -75,7 +72,7 @@ void add_grain(ImageView<float, 3> display, ViewU8x1 matte, Vec2i origin, const 
                 }
                 float* p = display.pixel(x, y);
                 const float at =
-                    std::clamp(luma_of(p) * kBins - 0.5f, 0.0f, static_cast<float>(kBins) - 1.0f);
+                    std::clamp(luma_601(p) * kBins - 0.5f, 0.0f, static_cast<float>(kBins) - 1.0f);
                 const auto b = static_cast<std::size_t>(at);
                 const std::size_t next = std::min<std::size_t>(b + 1, kBins - 1);
                 const float t = at - static_cast<float>(b);

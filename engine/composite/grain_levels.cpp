@@ -14,7 +14,7 @@ constexpr std::size_t kTerms = kBins + 1;  // variances and the share of detail
 constexpr int kRounds = 24;
 constexpr double kFirst = 0.15;  // share of the places below where the fit begins
 // Spreads from the fit at which a place counts half: above, what is more than chance is not grain;
-// below, a place that has been denoised or compressed flat says nothing either.
+// below, places that were denoised or compressed flat are ignored too.
 constexpr double kAbove = 0.6, kBelow = 4;
 constexpr double kLeastOfUsual = 0.02;  // of the first guess: a prediction is not below
 // The line over luma is stiff: how much its bends and slopes weigh beside all places.

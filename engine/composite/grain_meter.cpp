@@ -7,6 +7,7 @@
 #include "engine/composite/grain_levels.h"
 #include "engine/composite/grain_spectrum.h"
 #include "engine/composite/registered_block.h"
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -18,10 +19,10 @@ constexpr int kInner = kSide - 2 * kReach;  // whose neighbours within the reach
 constexpr double kMostBlocks = 600;         // of a frame: more say nothing new
 constexpr float kFewestInCell = 60;         // pixels
 constexpr double kFewest = 400;             // pixels in all
-// How many pixels of grain, whose neighbours hang together, say as much as one that is alone.
+// How many pixels of grain, whose neighbours are correlated, say as much as one that is alone.
 constexpr double kPixelsOfOne = 2.5;
 constexpr double kLeastDeviation = 0.35 / 255;  // less is not seen
-constexpr double kMostDeviation = 0.1;          // more is no grain
+constexpr double kMostDeviation = 0.1;          // more is not grain
 constexpr double kMostOfUsual = 2.5;            // deviation of one luma beside that of all
 // Squares of 10 px whose means hold more than this share of a block's variance: light that moves,
 // not grain. White noise leaves a hundredth, grain of a correlation of 1.2 px an eighth.
@@ -31,10 +32,6 @@ constexpr double kMostWide = 0.3;
 constexpr double kTaken = 4;
 // Two codes from black and white nothing is cut off.
 constexpr float kClippedCodes = 2;
-
-float luma_of(const float* p) {
-    return 0.299f * p[0] + 0.587f * p[1] + 0.114f * p[2];
-}
 
 double rounding_variance(float quantum) {
     return static_cast<double>(quantum) * quantum / 12;
@@ -64,7 +61,7 @@ float smooth_luma(const ImageF3& mean, int x, int y) {
     float sum = 0;
     for (int v = y - 2; v <= y + 2; ++v) {
         for (int u = x - 2; u <= x + 2; ++u)
-            sum += luma_of(mean.pixel(std::clamp(u, 0, kSide - 1), std::clamp(v, 0, kSide - 1)));
+            sum += luma_601(mean.pixel(std::clamp(u, 0, kSide - 1), std::clamp(v, 0, kSide - 1)));
     }
     return sum / 25.0f;
 }
@@ -130,7 +127,7 @@ std::vector<Cell> cells_of(const RegisteredBlock& block, float clipped) {
         cell.luma /= cell.count;
         for (std::size_t c = 0; c < 3; ++c) {
             cell.variance[c] /= cell.count, cell.detail[c] /= cell.count;
-            // Less than three deviations of what chance makes of grain is no detail.
+            // Less than three deviations of the chance deviation of grain is not detail.
             cell.detail[c] -= std::min(cell.detail[c], cell.variance[c] / std::sqrt(cell.count));
         }
         out.push_back(cell);

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -21,8 +22,7 @@ cv::Mat luma_of(ViewU8x3 display) {
         std::uint8_t* row = out.ptr(y);
         for (int x = 0; x < display.width(); ++x) {
             const std::uint8_t* p = display.pixel(x, y);
-            row[x] = static_cast<std::uint8_t>((6966 * p[0] + 23436 * p[1] + 2366 * p[2] + 16384) >>
-                                               15);  // Rec. 709
+            row[x] = static_cast<std::uint8_t>(luma_709_code(p[0], p[1], p[2]));
         }
     }
     return out;

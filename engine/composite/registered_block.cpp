@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "engine/core/linear_system.h"
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -20,16 +21,12 @@ constexpr float kLongestStep = 0.5f;
 constexpr std::size_t kTerms = 10;
 using Terms = std::array<float, kTerms>;
 
-float luma_of(const float* p) {
-    return 0.299f * p[0] + 0.587f * p[1] + 0.114f * p[2];
-}
-
 ImageF1 luma_picture(ViewF3 picture) {
     ImageF1 out(picture.size());
     parallel_rows(picture.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < picture.width(); ++x)
-                out.row(y)[x] = luma_of(picture.pixel(x, y));
+                out.row(y)[x] = luma_601(picture.pixel(x, y));
         }
     });
     return out;
@@ -203,8 +200,8 @@ void split(const Cuts& cuts, int channel, ImageF1& mean, ImageF1& difference) {
         for (int x = 0; x < kOuter; ++x) {
             const float* p = cuts.current.pixel(x, y);
             const float* q = cuts.previous.pixel(x, y);
-            const float a = channel < 3 ? p[channel] : luma_of(p);
-            const float b = channel < 3 ? q[channel] : luma_of(q);
+            const float a = channel < 3 ? p[channel] : luma_601(p);
+            const float b = channel < 3 ? q[channel] : luma_601(q);
             mean.row(y)[x] = 0.5f * (a + b);
             difference.row(y)[x] = a - b;
         }

@@ -1,5 +1,7 @@
 #include "engine/compute/backend_registry.h"
 
+#include "engine/core/setting.h"
+
 #include <algorithm>
 
 namespace weft {
@@ -42,13 +44,14 @@ Expected<BackendChoice> BackendRegistry::choose(const std::string& name) const {
             }
             choice.passed_over.push_back(entry.name + ": " + made.error().text());
         }
-        return fail(ErrorCode::kNoBackend, "No backend can be had: " + joined(choice.passed_over));
+        return fail(ErrorCode::kNoBackend,
+                    "No backend is available: " + joined(choice.passed_over));
     }
     const auto entry = std::find_if(entries_.begin(), entries_.end(),
                                     [&](const BackendEntry& e) { return e.name == name; });
     if (entry == entries_.end()) {
         return fail(ErrorCode::kUsage,
-                    "There is no backend '" + name + "'. Known are auto, " + joined(names()) + ".");
+                    "Unknown backend '" + name + "'. Choose auto, " + joined(names()) + ".");
     }
     auto made = entry->make();
     if (!made) {
@@ -56,8 +59,9 @@ Expected<BackendChoice> BackendRegistry::choose(const std::string& name) const {
         for (const auto& e : entries_) {
             if (e.name != name && e.make()) usable.push_back(e.name);
         }
-        return fail(ErrorCode::kNoBackend, made.error().text() + " Usable here: " + joined(usable) +
-                                               "; --backend auto takes the best of them.");
+        return fail(ErrorCode::kNoBackend, made.error().text() + " Available: " + joined(usable) +
+                                               ". Choose one of these or auto" +
+                                               by({{setting::kBackend}}) + ".");
     }
     choice.backend = *made;
     return choice;

@@ -13,7 +13,7 @@ namespace weft {
 struct BackendEntry {
     std::string name;
     int score = 0;  ///< `auto` takes the highest that can be made.
-    /// Makes it, or says in an Error (NoBackend) why it cannot be had here.
+    /// Creates it, or says in an Error (NoBackend) why it is not available.
     std::function<Expected<std::shared_ptr<const Backend>>()> make;
 };
 
@@ -30,7 +30,7 @@ class BackendRegistry {
     BackendRegistry();  ///< Holds "cpu".
     void add(BackendEntry entry);
     /// "auto" or a name. Errors: Usage for a name that no build knows (the message lists the known
-    /// ones), NoBackend when the named one cannot be had here (the message says why, and what there
+    /// ones), NoBackend when the named one is not available (the message says why, and what there
     /// is).
     [[nodiscard]] Expected<BackendChoice> choose(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> names() const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/wrap.h"
 
 namespace weft {
 namespace {
@@ -68,8 +69,7 @@ PlanePyramid::Level halve(const PlanePyramid::Level& in) {
 int wrapped_index(int i, int n, WrapMode wrap) {
     if (wrap == WrapMode::kClamp) return std::clamp(i, 0, n - 1);
     const int period = wrap == WrapMode::kMirror ? 2 * n : n;
-    i %= period;
-    if (i < 0) i += period;
+    i = wrapped(i, period);
     return i < n ? i : 2 * n - 1 - i;
 }
 

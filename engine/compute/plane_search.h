@@ -24,7 +24,7 @@ struct PlaneSearchSetup {
     bool torus = false;             ///< Positions wrap; else what lies outside is never filled.
     std::vector<ViewU8x3> samples;  ///< All that may be asked for.
     ViewU8x3 guide;                 ///< As large as the canvas, or empty.
-    ViewU8x1 guide_known;           ///< 0 where the guide says nothing.
+    ViewU8x1 guide_known;           ///< 0 where the guide is unknown.
     std::uint32_t fill_weight = 1, guide_weight = 0;
 };
 

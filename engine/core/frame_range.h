@@ -9,6 +9,13 @@
 
 namespace weft {
 
+/// Frame numbers go from −kMaxFrameNumber to kMaxFrameNumber, so that sums and differences of two
+/// of them fit into an int.
+inline constexpr int kMaxFrameNumber = 100'000'000;
+[[nodiscard]] constexpr bool is_frame_number(long long number) {
+    return number >= -kMaxFrameNumber && number <= kMaxFrameNumber;
+}
+
 /// Half-open range of frame numbers [first, last_plus_one). Numbers may be negative.
 struct FrameRange {
     int begin = 0;
@@ -21,7 +28,7 @@ struct FrameRange {
 
 /// Parses a frame list into ascending, distinct numbers. Accepts single numbers, `a-b` (inclusive)
 /// and `a-bxN` (every Nth), joined by commas. Errors: Usage on anything else, on b < a, on N < 1,
-/// and on more than a million frames.
+/// on numbers beyond kMaxFrameNumber and on more than a million frames.
 [[nodiscard]] Expected<std::vector<int>> parse_frame_list(std::string_view text);
 
 /// The shortest text that parse_frame_list() turns back into `frames` (ascending, distinct).

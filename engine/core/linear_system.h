@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace weft {
 
@@ -11,24 +12,37 @@ template <std::size_t N>
 using LinearSystem = std::array<std::array<double, N + 1>, N>;
 
 /// Gaussian elimination without a choice of pivots, for symmetric positive definite matrices (a
-/// ridge makes one of normal equations). The order of operations is fixed, so that the bits are the
-/// same everywhere.
-template <std::size_t N>
-[[nodiscard]] std::array<double, N> solve(LinearSystem<N> m) {
-    for (std::size_t k = 0; k < N; ++k) {
-        for (std::size_t i = k + 1; i < N; ++i) {
-            const double f = m[i][k] / m[k][k];
-            for (std::size_t j = k; j <= N; ++j)
-                m[i][j] -= f * m[k][j];
+/// ridge makes one of normal equations). `m(i, j)` is the coefficient of unknown j in equation i,
+/// `m(i, n)` its right side, and is changed; `x` is where the n unknowns go. The order of
+/// operations is fixed, so that the bits are the same everywhere.
+template <class Matrix>
+void eliminate(Matrix&& m, std::size_t n, double* x) {
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const double f = m(i, k) / m(k, k);
+            for (std::size_t j = k; j <= n; ++j)
+                m(i, j) -= f * m(k, j);
         }
     }
-    std::array<double, N> x{};
-    for (std::size_t k = N; k-- > 0;) {
-        double rest = m[k][N];
-        for (std::size_t j = k + 1; j < N; ++j)
-            rest -= m[k][j] * x[j];
-        x[k] = rest / m[k][k];
+    for (std::size_t k = n; k-- > 0;) {
+        double rest = m(k, n);
+        for (std::size_t j = k + 1; j < n; ++j)
+            rest -= m(k, j) * x[j];
+        x[k] = rest / m(k, k);
     }
+}
+
+template <std::size_t N>
+[[nodiscard]] std::array<double, N> solve(LinearSystem<N> m) {
+    std::array<double, N> x{};
+    eliminate([&](std::size_t i, std::size_t j) -> double& { return m[i][j]; }, N, x.data());
+    return x;
+}
+/// The same for a number of unknowns that is known only when it runs: n rows of n + 1 numbers.
+[[nodiscard]] inline std::vector<double> solve(std::vector<double> m, std::size_t n) {
+    std::vector<double> x(n, 0.0);
+    eliminate([&](std::size_t i, std::size_t j) -> double& { return m[i * (n + 1) + j]; }, n,
+              x.data());
     return x;
 }
 

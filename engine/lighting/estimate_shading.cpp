@@ -105,7 +105,7 @@ void remove_remains(ImageF1& light, const ImageF1& weight, float pattern, float 
         rest.data()[i] = light.data()[i] - smooth.data()[i];
     const ImageF1 none(light.size());
     const float deviation = deviation_between(rest, none, weight);
-    // Where the surface's light is no quadratic, nothing says what is faint.
+    // Where the light is not a quadratic, faint remains cannot be identified.
     const float fits = std::clamp(2.0f - deviation / std::max(1e-6f, most * pattern), 0.0f, 1.0f);
     const float limit = kRemains * deviation * fits;
     if (!(limit > 0)) return;

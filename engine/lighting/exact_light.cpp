@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-constexpr float kBlack = 0.004f;  // an 8-bit albedo says nothing below
+constexpr float kBlack = 0.004f;  // an 8-bit albedo is not reliable below
 constexpr float kBrightest = 64.0f;
 
 std::array<float, 3> light_at(const float* plate, const float* albedo) {

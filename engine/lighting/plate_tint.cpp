@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 
@@ -19,10 +20,6 @@ constexpr float kLeastOf = 0.01f;     // the share of pixels that may be of anot
 constexpr float kNoTint = 0.0f, kSureTint = 0.3f;  // ln B/R of the least coloured
 constexpr float kOtherShade = 0.1f;                // ln B/R the other way, in the shade
 constexpr float kMost = 1.0f;                      // ln units
-
-float luminance(const float* p) {
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
 
 struct Pixel {
     float luma = 0;
@@ -58,7 +55,7 @@ std::array<float, 3> plate_tint(ViewF3 plate) {
         for (int x = 0; x < plate.width(); x += kStep) {
             const float* p = plate.pixel(x, y);
             if (!std::isfinite(p[0] + p[1] + p[2]) || !(std::min({p[0], p[1], p[2]}) > 0)) continue;
-            const float luma = luminance(p);
+            const float luma = luma_709(p);
             if (luma < dark || std::max({p[0], p[1], p[2]}) > most) continue;
             pixels.push_back({luma, std::log(p[2] / p[0])});
             values.push_back(luma);
@@ -85,7 +82,7 @@ std::array<float, 3> plate_tint(ViewF3 plate) {
     std::array<float, 3> gain;
     for (std::size_t c = 0; c < 3; ++c)
         gain[c] = std::exp(share * (tint[c] - tint[1]));
-    const float level = luminance(gain.data());
+    const float level = luma_709(gain.data());
     for (std::size_t c = 0; c < 3; ++c)
         tint[c] = std::clamp(std::log(gain[c] / level), -kMost, kMost);
     return tint;
@@ -97,7 +94,7 @@ void apply_tint(ImageView<float, 3> texture, ViewU8x1 matte, const std::array<fl
     std::array<float, 3> gain;
     for (std::size_t c = 0; c < 3; ++c)
         gain[c] = std::exp(strength * tint[c]);
-    const float level = luminance(gain.data());
+    const float level = luma_709(gain.data());
     parallel_rows(texture.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < texture.width(); ++x) {

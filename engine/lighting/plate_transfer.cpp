@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/color/color_space.h"
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/shading_lookup.h"
@@ -21,10 +22,6 @@ constexpr float kGlossAbove = 1.15f;
 constexpr float kMaxCast = 1.0f;  // ln units
 constexpr float kDark = 1e-4f;
 
-float luminance(const float* p) {
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
-
 bool finite(const float* p) {
     return std::isfinite(p[0] + p[1] + p[2]);
 }
@@ -36,7 +33,7 @@ std::vector<float> lumas(ViewF3 picture, ViewU8x1 matte) {
         for (int x = 0; x < picture.width(); ++x) {
             const float* p = picture.pixel(x, y);
             if (matte.row(y)[x] >= kCovered && finite(p))
-                out.push_back(linear_to_srgb(std::max(0.0f, luminance(p))));
+                out.push_back(linear_to_srgb(std::max(0.0f, luma_709(p))));
         }
     }
     return out;
@@ -50,7 +47,7 @@ void change_luma(ImageView<float, 3> texture, ViewU8x1 matte, float strength, co
             for (int x = 0; x < texture.width(); ++x) {
                 float* p = texture.pixel(x, y);
                 if (matte.row(y)[x] == 0 || !finite(p)) continue;
-                const float was = luminance(p);
+                const float was = luma_709(p);
                 if (!(was > 1e-6f)) continue;
                 const float luma = linear_to_srgb(was);
                 const float is =
@@ -137,7 +134,7 @@ LightColour light_colour(ViewF3 plate, ViewU8x1 matte, const Shading& shading) {
         for (int x = 0; x < plate.width(); x += 2) {
             const float* p = plate.pixel(x, y);
             if (matte.row(y)[x] < 250 || !finite(p)) continue;
-            const float luma = luminance(p);
+            const float luma = luma_709(p);
             if (!(luma > kDark) || !(std::min({p[0], p[1], p[2]}) > 0.05f * luma)) continue;
             const double s = fast_log(std::max(kDark, light[static_cast<std::size_t>(x)]));
             sums.n += 1, sums.s += s, sums.ss += s * s;
@@ -153,7 +150,7 @@ LightColour light_colour(ViewF3 plate, ViewU8x1 matte, const Shading& shading) {
     const double mean = sums.s / sums.n, variance = sums.ss / sums.n - mean * mean;
     for (std::size_t c = 0; c < 3; ++c) {
         const double m = sums.c[c] / sums.n;
-        // The ridge: light that hardly varies says nothing of how its colour goes with it.
+        // The ridge: almost constant light does not determine its colour's slope.
         out.slope[c] = static_cast<float>((sums.cs[c] / sums.n - m * mean) / (variance + 0.01));
         out.mean[c] = static_cast<float>(m - static_cast<double>(out.slope[c]) * mean);
     }
@@ -180,7 +177,7 @@ void apply_cast(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const
                         reference_colour.mean[c] + reference_colour.slope[c] * reference_log;
                     gain[c] = fast_exp(strength * std::clamp(here - there, -kMaxCast, kMaxCast));
                 }
-                const float grey = luminance(gain.data());
+                const float grey = luma_709(gain.data());
                 float* p = texture.pixel(x, y);
                 for (std::size_t c = 0; c < 3; ++c)
                     p[c] *= gain[c] / grey;
@@ -199,7 +196,7 @@ void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, Vie
         for (int x = 0; x < texture.width(); ++x) {
             const float* p = plate.pixel(x, y);
             if (matte.row(y)[x] >= kCovered && finite(p) && light[static_cast<std::size_t>(x)] > 0)
-                ratios.push_back(luminance(p) / light[static_cast<std::size_t>(x)]);
+                ratios.push_back(luma_709(p) / light[static_cast<std::size_t>(x)]);
         }
     }
     if (ratios.size() < 64) return;
@@ -214,7 +211,7 @@ void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, Vie
             for (int x = 0; x < texture.width(); ++x) {
                 const float* p = plate.pixel(x, y);
                 if (matte.row(y)[x] == 0 || !finite(p)) continue;
-                const float luma = luminance(p);
+                const float luma = luma_709(p);
                 const float excess = luma - paint * row[static_cast<std::size_t>(x)];
                 if (!(excess > 0)) continue;
                 for (int c = 0; c < 3; ++c)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/core/linear_system.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -34,26 +35,6 @@ void fill_terms(int degree, double u, double v, Terms& out) {
         out[at + count] = out[before + count - 1] * v;
         before = at, at += count + 1;
     }
-}
-
-// Gaussian elimination without a pivot: the ridge keeps the matrix positive definite.
-std::vector<double> solve(std::vector<double> m, std::size_t n) {
-    const std::size_t row = n + 1;
-    for (std::size_t k = 0; k < n; ++k) {
-        for (std::size_t i = k + 1; i < n; ++i) {
-            const double f = m[i * row + k] / m[k * row + k];
-            for (std::size_t j = k; j <= n; ++j)
-                m[i * row + j] -= f * m[k * row + j];
-        }
-    }
-    std::vector<double> x(n, 0.0);
-    for (std::size_t k = n; k-- > 0;) {
-        double rest = m[k * row + n];
-        for (std::size_t j = k + 1; j < n; ++j)
-            rest -= m[k * row + j] * x[j];
-        x[k] = rest / m[k * row + k];
-    }
-    return x;
 }
 
 double value_of(const std::vector<double>& c, const Terms& t) {
@@ -104,6 +85,7 @@ PolynomialFit::PolynomialFit(const ImageF1& plane, const ImageF1& weight, int de
                 normal[i * (n + 1) + j] = normal[j * (n + 1) + i];
             if (i > 0) normal[i * (n + 1) + i] += kRidge * total;
         }
+        // The ridge keeps the matrix positive definite.
         coefficients_ = solve(std::move(normal), n);
     }
 }

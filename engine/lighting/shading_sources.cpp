@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
@@ -25,7 +26,7 @@ float mean_luminance(ViewF3 picture, float x0, float y0, float x1, float y1) {
     for (int y = c; y < e; ++y) {
         for (int x = a; x < b; ++x) {
             const float* p = picture.pixel(x, y);
-            const float light = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+            const float light = luma_709(p);
             if (!std::isfinite(light)) continue;
             sum += light, count += 1;
         }
@@ -42,21 +43,17 @@ bool any_visible(ViewU8x1 visible, int x0, int y0, int d) {
     return false;
 }
 
-float luminance(const float* p) {
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
-
-// A shading at full size from what `value` says of a pixel; not above 0: nothing.
+// Every value of the shading as `value(x, y)` says; negative: nothing, filled from around. `band`:
+// rows that one thread takes at a time.
 template <class Value>
-Shading full_shading(Size size, const Value& value) {
-    Shading shading{ImageF1(size, 1.0f), 1, size};
-    if (size.empty()) return shading;
+void measure(Shading& shading, int band, const Value& value) {
+    const Size size = shading.value.size();
     Matte known(size);
-    parallel_rows(size.height, 16, [&](int y0, int y1) {
+    parallel_rows(size.height, band, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < size.width; ++x) {
                 const float light = value(x, y);
-                if (!(std::isfinite(light) && light > 0)) continue;
+                if (light < 0) continue;
                 shading.value.row(y)[x] = light;
                 known.row(y)[x] = 255;
             }
@@ -65,6 +62,17 @@ Shading full_shading(Size size, const Value& value) {
     fill_unknown(shading.value, known);
     for (std::size_t i = 0; i < shading.value.size_bytes() / sizeof(float); ++i)
         shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
+}
+
+// A shading at full size from what `value` says of a pixel; not above 0: nothing.
+template <class Value>
+Shading full_shading(Size size, const Value& value) {
+    Shading shading{ImageF1(size, 1.0f), 1, size};
+    if (size.empty()) return shading;
+    measure(shading, 16, [&](int x, int y) {
+        const float light = value(x, y);
+        return std::isfinite(light) && light > 0 ? light : -1.0f;
+    });
     return shading;
 }
 
@@ -72,14 +80,14 @@ Shading full_shading(Size size, const Value& value) {
 
 Shading shading_from_lighting(ViewF3 lighting) {
     return full_shading(lighting.size(),
-                        [&](int x, int y) { return luminance(lighting.pixel(x, y)); });
+                        [&](int x, int y) { return luma_709(lighting.pixel(x, y)); });
 }
 
 Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo) {
-    constexpr float kBlack = 0.004f;  // an 8-bit albedo says nothing below
+    constexpr float kBlack = 0.004f;  // an 8-bit albedo is not reliable below
     return full_shading(linear_plate.size(), [&](int x, int y) {
-        const float paint = luminance(albedo.pixel(x, y));
-        return paint > kBlack ? luminance(linear_plate.pixel(x, y)) / paint : 0.0f;
+        const float paint = luma_709(albedo.pixel(x, y));
+        return paint > kBlack ? luma_709(linear_plate.pixel(x, y)) / paint : 0.0f;
     });
 }
 
@@ -104,23 +112,11 @@ Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full) {
         static_cast<float>(linear_picture.width()) / static_cast<float>(box.width());
     const float step_y =
         static_cast<float>(linear_picture.height()) / static_cast<float>(box.height());
-    Matte known(small);
-    parallel_rows(small.height, 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < small.width; ++x) {
-                const float left = static_cast<float>(x * d - box.x0) * step_x;
-                const float top = static_cast<float>(y * d - box.y0) * step_y;
-                const float light =
-                    mean_luminance(linear_picture, left, top, left + d * step_x, top + d * step_y);
-                if (light < 0) continue;
-                shading.value.row(y)[x] = light;
-                known.row(y)[x] = 255;
-            }
-        }
+    measure(shading, 8, [&](int x, int y) {
+        const float left = static_cast<float>(x * d - box.x0) * step_x;
+        const float top = static_cast<float>(y * d - box.y0) * step_y;
+        return mean_luminance(linear_picture, left, top, left + d * step_x, top + d * step_y);
     });
-    fill_unknown(shading.value, known);
-    for (std::size_t i = 0; i < shading.value.size_bytes() / sizeof(float); ++i)
-        shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
     return shading;
 }
 

@@ -15,7 +15,7 @@ namespace {
 // 2,500 K to 6,500 K over a sky of 7,000 K to 20,000 K). Paint seldom does both; white beside
 // indigo rises by more.
 constexpr float kFaintestSky = 0.03f, kSky = 0.08f, kBluestSky = 0.35f, kBluerThanSky = 0.5f;
-constexpr float kFaintShade = 0.08f, kShade = 0.2f;  // ln luma: less says nothing
+constexpr float kFaintShade = 0.08f, kShade = 0.2f;  // ln luma: not reliable below
 constexpr int kDetail = 4;                           // of the window: paint may be finer
 constexpr float kLeastWeight = 1e-3f;
 // Share of the wide differences' energy that is such shade: up to the first it is chance.

@@ -15,7 +15,7 @@ class SkyShade {
     SkyShade(const SurfaceSample& sample, const ImageF1& weight_mean, const ImageF1& luma_detail,
              int window_px);
 
-    /// The sample's weight, less where a difference is such shade and says nothing of paint.
+    /// The sample's weight, lower where a difference is such shade, not paint.
     [[nodiscard]] const ImageF1& weight_of_paint() const { return weight_of_paint_; }
     /// Takes the colour that this shade has, as far as there is any, out of chromaticities (ln R/G
     /// and ln B/G of the sample's size): what is left is the same in sun and shade.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/median.h"
@@ -97,10 +98,6 @@ void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
     });
 }
 
-float luminance(float r, float g, float b) {
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
-
 // A small part of the surface's luminance, so that it goes with the exposure.
 float floor_of(const SurfaceSample& s) {
     std::vector<float> values;
@@ -108,7 +105,7 @@ float floor_of(const SurfaceSample& s) {
         for (int x = 0; x < s.box.width(); ++x) {
             if (s.weight.row(y)[x] == 0) continue;
             values.push_back(
-                luminance(s.red_green.row(y)[x], s.luma.row(y)[x], s.blue_green.row(y)[x]));
+                luma_709(s.red_green.row(y)[x], s.luma.row(y)[x], s.blue_green.row(y)[x]));
         }
     }
     const float median = median_of(values, 0.0f);
@@ -144,7 +141,7 @@ SurfaceSample sample_surface(ViewF3 linear, ViewU8x1 visible, int downscale) {
                 float &r = s.red_green.row(y)[x], &g = s.luma.row(y)[x],
                       &b = s.blue_green.row(y)[x];
                 const float log_green = fast_log(g + s.floor);
-                const float y_linear = luminance(r, g, b);
+                const float y_linear = luma_709(r, g, b);
                 r = fast_log(r + s.floor) - log_green;
                 b = fast_log(b + s.floor) - log_green;
                 g = fast_log(y_linear + s.floor);

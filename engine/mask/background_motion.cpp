@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-constexpr int kStep = 4;  // motion is looked at on every fourth pixel
+constexpr int kStep = 4;  // motion is sampled at every fourth pixel
 constexpr int kRounds = 6;
 constexpr float kLeastScalePx = 0.1f;
 constexpr int kTerms = 8;

@@ -184,7 +184,7 @@ RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const Local
     hold_steady(result.phi, expected_phi, scale.band_px, steadiness);
     result.matte = edge_alpha(frame, result.phi, kEdgeWidthPx);
     result.evidence = weigh(expected_phi, result.phi, evidence, scale.band_px);
-    // The soft edge tells the boundary's place to a fraction of a pixel; carried on, slow motion is
+    // The soft edge tells the boundary's place to a fraction of a pixel; propagated, slow motion is
     // not lost to rounding.
     for (int y = 0; y < frame.height(); ++y) {
         float* phi = result.phi.row(y);

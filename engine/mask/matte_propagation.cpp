@@ -161,7 +161,7 @@ LocalColorField MatteWalker::State::learn_colors(ViewU8x3 part, const Transporte
     return {std::move(windows), sources, scale.window_half_px, scale.sample_stride, part.size()};
 }
 
-// Hair, fur and motion blur are where they were on the keyframe, carried along.
+// Hair, fur and motion blur are where they were on the keyframe, moved along.
 Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                  ViewF2 prev_from_cur, const Recti& area) const {
     if (!soft_edges) return found.matte;

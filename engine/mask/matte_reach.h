@@ -1,5 +1,5 @@
 #pragma once
-// Where painted mattes are carried to.
+// The range to which painted mattes are propagated.
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// Which way a painted matte is carried through the shot.
+/// The direction in which a painted matte is propagated.
 enum class CarryDirection { kBoth, kForward, kBackward };
 
 /// Beyond its reach a matte is empty; painted keyframes hold on their own frames in any case.

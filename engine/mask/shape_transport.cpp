@@ -123,7 +123,7 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
             }
         }
     });
-    // Motion that stretches leaves no true distances: measure anew, and keep the sub-pixel place.
+    // Stretching motion invalidates the distances: recompute them, and keep the sub-pixel place.
     shape.phi = signed_distance(inside, scale.limit_px);
     for (int y = 0; y < h; ++y) {
         float* phi = shape.phi.row(y);

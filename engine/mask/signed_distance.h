@@ -1,5 +1,5 @@
 #pragma once
-// Signed distances of a matte's boundary, the form in which a matte's shape is carried in time: it
+// Signed distances of a matte's boundary, the form in which a matte's shape is propagated: it
 // can be resampled every frame without the edge getting softer.
 
 #include "engine/core/geometry.h"
@@ -8,7 +8,7 @@
 namespace weft {
 
 /// Distance in pixels from every pixel centre of `inside` (H×W, non-zero inside) to the boundary,
-/// positive inside, clamped to ±`limit_px`. The frame's border is no boundary. Thread-safe.
+/// positive inside, clamped to ±`limit_px`. The frame's border is not a boundary. Thread-safe.
 [[nodiscard]] ImageF1 signed_distance(ViewU8x1 inside, float limit_px);
 
 /// The distances blurred by a small binomial kernel: the staircase of a binary label turns into a

@@ -136,7 +136,7 @@ class MattingSystem {
             colour[static_cast<std::size_t>(k)] = Vec3(c[0], c[1], c[2]) / 255.0f;
             mean += colour[static_cast<std::size_t>(k)] / 9.0f;
         }
-        // What grain and 8 bits leave of a plain surface is no line of colours.
+        // What grain and 8 bits leave of a plain surface does not span a line of colours.
         constexpr float kEpsilon = 2e-4f;
         glm::mat3 covariance(kEpsilon / 9.0f);
         for (Vec3& c : colour) {

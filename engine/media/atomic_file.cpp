@@ -1,115 +1,23 @@
 #include "engine/media/atomic_file.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cerrno>
 #include <charconv>
-#include <ctime>
 #include <filesystem>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <system_error>
 #include <utility>
 
-#include "engine/core/hash.h"
+#include "engine/media/temporary_names.h"
 
 namespace weft {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::string_view kMark = ".weft-";
-constexpr std::time_t kAbandonedAfter_s = 24 * 3600;
-
-// Temporaries of this process that are being written, so that those of an earlier process with the
-// same number (containers reuse them) can be told apart.
-// Never destroyed: abandon_temporaries() may run while the process ends.
-class LiveNames {
-  public:
-    static LiveNames& instance() {
-        static auto* const live = new LiveNames;
-        return *live;
-    }
-    void add(const std::string& path) {
-        const std::lock_guard lock(mutex_);
-        paths_[fs::path(path).filename().string()] = path;
-    }
-    void remove(const std::string& path) {
-        const std::lock_guard lock(mutex_);
-        paths_.erase(fs::path(path).filename().string());
-    }
-    bool has(const std::string& file_name) {
-        const std::lock_guard lock(mutex_);
-        return paths_.contains(file_name);
-    }
-    void abandon() {
-        mutex_.lock();  // and never unlocked
-        std::error_code ignored;
-        for (const auto& [name, path] : paths_)
-            fs::remove_all(path, ignored);
-    }
-
-  private:
-    std::mutex mutex_;
-    std::map<std::string, std::string> paths_;  // by file name, which is of this process alone
-};
-
-// Process numbers mean something on one host only, and a render farm shares folders.
-std::string host_tag() {
-    char host[256] = {};
-    gethostname(host, sizeof host - 1);
-    Hasher hasher;
-    hasher.text(host);
-    return hasher.finish().hex().substr(0, 8);
-}
-
-// ".plate.0012.weft-HOST-PID-COUNT.png", in the folder of `target`.
-std::string temporary_name(const std::string& target) {
-    static std::atomic<unsigned> counter{0};
-    const fs::path path(target);
-    const std::string extension = path.extension().string();
-    const std::string tail = std::string(kMark) + host_tag() + "-" + std::to_string(getpid()) +
-                             "-" + std::to_string(counter.fetch_add(1)) + extension;
-    constexpr std::size_t kNameMax = 255;
-    std::string stem = path.stem().string();
-    stem.resize(std::min(stem.size(), kNameMax - std::min(kNameMax, tail.size() + 1)));
-    return (path.parent_path() / ("." + stem + tail)).string();
-}
-
-struct Origin {
-    std::string host;
-    int pid = 0;
-};
-
-// Reads what temporary_name() wrote; nothing for any other file.
-std::optional<Origin> origin_of(const std::string& file_name) {
-    const std::size_t mark = file_name.rfind(kMark);
-    if (file_name.empty() || file_name[0] != '.' || mark == std::string::npos) return std::nullopt;
-    const std::size_t host = mark + kMark.size();
-    if (file_name.size() < host + 10 || file_name[host + 8] != '-') return std::nullopt;
-    Origin origin{file_name.substr(host, 8), 0};
-    const char* const end = file_name.data() + file_name.size();
-    const auto [after_pid, error] = std::from_chars(file_name.data() + host + 9, end, origin.pid);
-    if (error != std::errc() || after_pid == end || *after_pid != '-') return std::nullopt;
-    return origin;
-}
-
-bool is_stale(const fs::directory_entry& entry, mode_t kind) {
-    const std::string name = entry.path().filename().string();
-    const auto origin = origin_of(name);
-    struct stat status {};
-    if (!origin || LiveNames::instance().has(name)) return false;
-    if (lstat(entry.path().c_str(), &status) != 0 || (status.st_mode & S_IFMT) != kind)
-        return false;
-    if (std::time(nullptr) - status.st_mtime > kAbandonedAfter_s) return true;
-    if (origin->host != host_tag()) return false;
-    return origin->pid == getpid() || (kill(origin->pid, 0) != 0 && errno == ESRCH);
-}
 
 Status write_all(int file, std::span<const std::byte> bytes, const std::string& path) {
     while (!bytes.empty()) {
@@ -121,7 +29,7 @@ Status write_all(int file, std::span<const std::byte> bytes, const std::string& 
     return {};
 }
 
-// Pipes and devices cannot be flushed, which is no failure.
+// Pipes and devices cannot be flushed, which is not a failure.
 Status flush(int file, const std::string& path) {
     if (fsync(file) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP) {
         return tl::unexpected(system_error(path, "cannot be written", errno));
@@ -145,19 +53,27 @@ Status write_through(int file, std::span<const std::byte> bytes, const std::stri
     return status ? closed : status;
 }
 
-Status write_to_device(const std::string& path, std::span<const std::byte> bytes) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) return tl::unexpected(system_error(path, "cannot be written", errno));
-    return write_through(file, bytes, path);
+// The file descriptor that the path stands for: what lies behind it may be a file, which must be
+// written on, not replaced.
+std::optional<int> descriptor_in(const std::string& path) {
+    if (path == "/dev/stdout") return STDOUT_FILENO;
+    if (path == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        int number = -1;
+        if (!path.starts_with(folder)) continue;
+        const char* const end = path.data() + path.size();
+        const auto [at, error] = std::from_chars(path.data() + folder.size(), end, number);
+        if (error == std::errc() && at == end && number >= 0) return number;
+    }
+    return std::nullopt;
 }
 
-void remove_stale(const fs::path& folder, mode_t kind) {
-    std::error_code error;
-    fs::directory_iterator entry(folder, error);
-    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
-        std::error_code ignored;
-        if (is_stale(*entry, kind)) fs::remove_all(entry->path(), ignored);
-    }
+Status write_to_device(const std::string& path, std::span<const std::byte> bytes) {
+    const auto descriptor = descriptor_in(path);
+    const int file = descriptor ? ::fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
+                                : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) return tl::unexpected(system_error(path, "cannot be written", errno));
+    return write_through(file, bytes, path);
 }
 
 std::string resolved(const std::string& path) {
@@ -165,6 +81,40 @@ std::string resolved(const std::string& path) {
     if (!fs::is_symlink(path, error)) return path;
     const fs::path target = fs::canonical(path, error);
     return error ? path : target.string();
+}
+
+Error cannot_be_written(const std::string& path, int error_number) {
+    return system_error(path, "cannot be written", error_number);
+}
+
+// Whether the rule lets a file of this name appear in the folder `folder`, as things are now.
+Status check_target(int folder, const std::string& name, const std::string& real,
+                    const std::string& shown, const WriteRule& rule) {
+    if (rule.fence) WEFT_CHECK_OK(rule.fence->check(shown, real));
+    struct stat status {};
+    if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) {
+        if (errno == ENOENT) return {};
+        return tl::unexpected(cannot_be_written(shown, errno));
+    }
+    if (S_ISDIR(status.st_mode)) return tl::unexpected(cannot_be_written(shown, EISDIR));
+    if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode)) {
+        return fail(ErrorCode::kUsage, shown + " is a device or a pipe. Give a file name.");
+    }
+    if (rule.existing == Existing::kRefuse) return tl::unexpected(exists_already(shown));
+    return {};
+}
+
+// Gives the file its name without replacing another; EEXIST where there is one.
+int rename_new(int folder, const char* from, const char* to) {
+    if (::renameat2(folder, from, folder, to, RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;
+    // Network file systems know no such rename; most of them know links.
+    if (::linkat(folder, from, folder, to, 0) == 0) {
+        ::unlinkat(folder, from, 0);
+        return 0;
+    }
+    if (errno == EEXIST) return errno;
+    return ::renameat(folder, from, folder, to) == 0 ? 0 : errno;
 }
 
 }  // namespace
@@ -204,108 +154,148 @@ Error system_error(const std::string& path, std::string_view doing, int error_nu
     }
 }
 
-TemporaryFile::TemporaryFile(std::string name, std::string target)
-    : name_(std::move(name)), target_(std::move(target)) {
-    LiveNames::instance().add(name_);
+TemporaryFile::TemporaryFile(Place place) : place_(std::move(place)) {
+    LiveNames::instance().add(name());
 }
 
-TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
-    : name_(std::exchange(other.name_, {})), target_(std::move(other.target_)) {}
+TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept : place_(std::move(other.place_)) {
+    other.place_.folder = -1;
+}
 
 TemporaryFile::~TemporaryFile() {
-    if (name_.empty()) return;
-    ::unlink(name_.c_str());
-    LiveNames::instance().remove(name_);
+    if (place_.folder < 0) return;
+    if (!committed_) {
+        ::unlinkat(place_.folder, place_.temporary.c_str(), 0);
+        LiveNames::instance().remove(name());
+    }
+    ::close(place_.folder);
 }
 
-Expected<TemporaryFile> TemporaryFile::create(const std::string& path) {
-    const std::string target = resolved(path);
+std::string TemporaryFile::name() const {
+    return (fs::path(place_.real_folder) / place_.temporary).string();
+}
+
+Expected<TemporaryFile> TemporaryFile::create(const std::string& path, const WriteRule& rule) {
+    const fs::path target(rule.follow_link ? resolved(path) : path);
+    Place place;
+    place.shown = path;
+    place.rule = rule;
+    place.file = target.filename().string();
+    if (place.file.empty() || place.file == "." || place.file == "..")
+        return tl::unexpected(cannot_be_written(path, EISDIR));
+    place.real_folder = fs::path(real_path(target.string())).parent_path().string();
+    // By its real path, and kept open: what happens to links on the way there changes nothing.
+    place.folder = ::open(place.real_folder.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (place.folder < 0) return tl::unexpected(cannot_be_written(path, errno));
     std::error_code ignored;
-    if (fs::is_directory(target, ignored)) {
-        return tl::unexpected(system_error(path, "cannot be written", EISDIR));
-    }
+    const fs::path opened =
+        fs::read_symlink("/proc/self/fd/" + std::to_string(place.folder), ignored);
+    if (opened.is_absolute()) place.real_folder = opened.string();
     // Known as live before it exists: a clean-up in another thread must not take it.
-    TemporaryFile temporary(temporary_name(target), target);
-    const int file = ::open(temporary.name().c_str(),
-                            O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file < 0) return tl::unexpected(system_error(path, "cannot be written", errno));
+    place.temporary = temporary_name(place.file);
+    TemporaryFile temporary(std::move(place));
+    WEFT_CHECK_OK(temporary.check());
+    const int file = ::openat(temporary.place_.folder, temporary.place_.temporary.c_str(),
+                              O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0) return tl::unexpected(cannot_be_written(path, errno));
     WEFT_CHECK_OK(close_file(file, path));
     return temporary;
 }
 
+Status TemporaryFile::check() const {
+    const std::string real = (fs::path(place_.real_folder) / place_.file).string();
+    return check_target(place_.folder, place_.file, real, place_.shown, place_.rule);
+}
+
+Expected<int> TemporaryFile::open(int flags) const {
+    const int file = ::openat(place_.folder, place_.temporary.c_str(),
+                              O_WRONLY | O_NOFOLLOW | O_CLOEXEC | flags);
+    if (file < 0) return tl::unexpected(cannot_be_written(place_.shown, errno));
+    return file;
+}
+
+Status TemporaryFile::write(std::span<const std::byte> bytes) {
+    WEFT_TRY(file, open(O_TRUNC));
+    const Status written = write_all(file, bytes, place_.shown);
+    const Status closed = close_file(file, place_.shown);
+    return written ? closed : written;
+}
+
+Status TemporaryFile::check_disk() const {
+    static constexpr std::array<std::byte, 64 << 10> kBlock{};
+    WEFT_TRY(file, open(O_APPEND));
+    return write_through(file, kBlock, place_.shown);
+}
+
 Status TemporaryFile::commit() {
-    const int file = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) return tl::unexpected(system_error(target_, "cannot be written", errno));
-    WEFT_CHECK_OK(write_through(file, {}, target_));
+    WEFT_TRY(file, open(0));
+    WEFT_CHECK_OK(write_through(file, {}, place_.shown));
     return commit_unflushed();
 }
 
 Status TemporaryFile::commit_unflushed() {
-    if (::rename(name_.c_str(), target_.c_str()) != 0) {
-        return tl::unexpected(system_error(target_, "cannot be written", errno));
-    }
-    LiveNames::instance().remove(name_);
-    name_.clear();
+    // Once more: another file or a link may have come to lie there meanwhile.
+    WEFT_CHECK_OK(check());
+    const char* const from = place_.temporary.c_str();
+    const char* const to = place_.file.c_str();
+    const int error = place_.rule.existing == Existing::kRefuse
+                          ? rename_new(place_.folder, from, to)
+                      : ::renameat(place_.folder, from, place_.folder, to) == 0 ? 0
+                                                                                : errno;
+    if (error == EEXIST) return tl::unexpected(exists_already(place_.shown));
+    if (error != 0) return tl::unexpected(cannot_be_written(place_.shown, error));
+    LiveNames::instance().remove(name());
+    committed_ = true;
     return {};
 }
 
-Status write_file_atomically(const std::string& path, std::span<const std::byte> bytes) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
-        !S_ISDIR(status.st_mode)) {
-        return write_to_device(path, bytes);
-    }
-    WEFT_TRY(temporary, TemporaryFile::create(path));
-    const int file = ::open(temporary.name().c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) return tl::unexpected(system_error(path, "cannot be written", errno));
-    const Status written = write_all(file, bytes, path);
-    const Status closed = close_file(file, path);
-    if (!written) return written;
-    WEFT_CHECK_OK(closed);
+Status write_file_atomically(const std::string& path, std::span<const std::byte> bytes,
+                             const WriteRule& rule) {
+    if (rule.device && is_device(path)) return write_to_device(path, bytes);
+    WEFT_TRY(temporary, TemporaryFile::create(path, rule));
+    WEFT_CHECK_OK(temporary.write(bytes));
     return temporary.commit();
 }
 
-Status write_file_atomically(const std::string& path, std::string_view text) {
-    return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+Status write_file_atomically(const std::string& path, std::string_view text,
+                             const WriteRule& rule) {
+    return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())), rule);
 }
 
-void remove_stale_temporaries(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path();
-    remove_stale(folder.empty() ? fs::path(".") : folder, S_IFREG);
-}
-
-void abandon_temporaries() {
-    LiveNames::instance().abandon();
-}
-
-TemporaryFolder::TemporaryFolder(std::string path) : path_(std::move(path)) {
-    LiveNames::instance().add(path_);
-}
-
-TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
-    : path_(std::exchange(other.path_, {})) {}
-
-TemporaryFolder::~TemporaryFolder() {
-    if (path_.empty()) return;
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    LiveNames::instance().remove(path_);
-}
-
-Expected<TemporaryFolder> TemporaryFolder::create() {
+Status copy_file_atomically(const std::string& from, const std::string& to, const WriteRule& rule) {
+    WEFT_TRY(temporary, TemporaryFile::create(to, rule));
     std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    if (!error) {
-        remove_stale(parent, S_IFDIR);
-        TemporaryFolder folder(temporary_name((parent / "folder").string()));
-        if (fs::create_directory(folder.path(), error)) {
-            fs::permissions(folder.path(), fs::perms::owner_all, error);
-            if (!error) return folder;
-        }
-        if (!error) error = std::make_error_code(std::errc::file_exists);
-    }
-    return fail(ErrorCode::kNoSpace,
-                "No temporary folder can be made: " + error.message() + ". Set TMPDIR.");
+    fs::copy_file(from, temporary.name(), fs::copy_options::overwrite_existing, error);
+    if (error) return tl::unexpected(cannot_be_written(to, error.value()));
+    return temporary.commit();
+}
+
+bool is_device(const std::string& path) {
+    struct stat status {};
+    if (descriptor_in(path)) return true;
+    return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
+           !S_ISDIR(status.st_mode);
+}
+
+Status check_output(const std::string& path, const WriteRule& rule) {
+    if (rule.device && is_device(path)) return {};
+    const auto probe = TemporaryFile::create(path, rule);
+    if (!probe) return tl::unexpected(probe.error());
+    return {};
+}
+
+Status make_folder(const std::string& folder, const WriteRule& rule) {
+    if (folder.empty()) return {};
+    if (rule.fence) WEFT_CHECK_OK(rule.fence->check_folder(folder));
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!error) return {};
+    return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be made: " +
+                                            error.message() + ". Choose another.");
+}
+
+Status make_folder_of(const std::string& path, const WriteRule& rule) {
+    return make_folder(fs::path(path).parent_path().string(), rule);
 }
 
 }  // namespace weft

@@ -5,117 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
 
-#include "engine/media/exr_header.h"
+#include "engine/core/input_file.h"
+#include "engine/core/setting.h"
+#include "engine/core/text.h"
+#include "engine/media/picture_file.h"
 #include "engine/media/raster_errors.h"
 
 namespace weft {
 namespace {
-
-// ---- the manifest ------------------------------------------------------------------------------
-
-class ManifestReader {
-  public:
-    explicit ManifestReader(std::string_view text) : text_(text) {}
-
-    Expected<std::map<std::string, std::uint32_t>> read() {
-        std::map<std::string, std::uint32_t> out;
-        if (!take('{')) return wrong("it does not begin with {");
-        if (take('}')) return out;
-        do {
-            WEFT_TRY(name, string());
-            if (!take(':')) return wrong("a name has no value");
-            WEFT_TRY(hex, string());
-            std::uint32_t id = 0;
-            if (hex.empty() || hex.size() > 8) return wrong("a value has not 8 digits");
-            for (const char c : hex) {
-                const int digit = digit_of(c);
-                if (digit < 0) return wrong("a value is not hexadecimal");
-                id = id * 16 + static_cast<std::uint32_t>(digit);
-            }
-            out[std::move(name)] = id;
-        } while (take(','));
-        if (!take('}')) return wrong("it ends early");
-        return out;
-    }
-
-  private:
-    static tl::unexpected<Error> wrong(const char* why) {
-        return fail(ErrorCode::kUnreadable,
-                    std::string("The Cryptomatte manifest cannot be read: ") + why + ".");
-    }
-    static int digit_of(char c) {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-        return -1;
-    }
-    bool take(char wanted) {
-        while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])))
-            ++at_;
-        if (at_ >= text_.size() || text_[at_] != wanted) return false;
-        ++at_;
-        return true;
-    }
-    Expected<std::string> string() {
-        if (!take('"')) return wrong("a text is missing");
-        std::string out;
-        while (at_ < text_.size() && text_[at_] != '"') {
-            if (text_[at_] != '\\') {
-                out += text_[at_++];
-                continue;
-            }
-            if (++at_ >= text_.size()) break;
-            const char c = text_[at_++];
-            if (c == 'u') {
-                WEFT_CHECK_OK(unicode(out));
-            } else {
-                static constexpr std::string_view kFrom = "nrtbf", kTo = "\n\r\t\b\f";
-                const std::size_t k = kFrom.find(c);
-                out += k == std::string_view::npos ? c : kTo[k];
-            }
-        }
-        if (at_ >= text_.size()) return wrong("a text has no end");
-        ++at_;
-        return out;
-    }
-    // Four digits; of a surrogate pair each half is kept as three bytes, which is what a name's
-    // hash was not made of, but such names are not found in practice.
-    Status unicode(std::string& out) {
-        unsigned code = 0;
-        for (int k = 0; k < 4; ++k, ++at_) {
-            const int digit = at_ < text_.size() ? digit_of(text_[at_]) : -1;
-            if (digit < 0) return wrong("an escape is cut off");
-            code = code * 16 + static_cast<unsigned>(digit);
-        }
-        if (code < 0x80) {
-            out += static_cast<char>(code);
-        } else if (code < 0x800) {
-            out += static_cast<char>(0xC0 | (code >> 6));
-            out += static_cast<char>(0x80 | (code & 0x3F));
-        } else {
-            out += static_cast<char>(0xE0 | (code >> 12));
-            out += static_cast<char>(0x80 | ((code >> 6) & 0x3F));
-            out += static_cast<char>(0x80 | (code & 0x3F));
-        }
-        return {};
-    }
-
-    std::string_view text_;
-    std::size_t at_ = 0;
-};
-
-// ---- the layers --------------------------------------------------------------------------------
 
 struct Layer {
     std::string name;
@@ -124,16 +28,9 @@ struct Layer {
     std::map<std::string, std::uint32_t> ids;
 };
 
-bool same_text(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
-               return std::tolower(static_cast<unsigned char>(x)) ==
-                      std::tolower(static_cast<unsigned char>(y));
-           });
-}
-
 int channel_named(const OIIO::ImageSpec& spec, const std::string& name) {
     for (int c = 0; c < spec.nchannels; ++c) {
-        if (same_text(spec.channelnames[static_cast<std::size_t>(c)], name)) return c;
+        if (same_ignoring_case(spec.channelnames[static_cast<std::size_t>(c)], name)) return c;
     }
     return -1;
 }
@@ -155,14 +52,17 @@ std::vector<std::array<int, 2>> ranks_of(const OIIO::ImageSpec& spec, const std:
     return ranks;
 }
 
+// A feature film's set has some hundred thousand names.
+constexpr std::uint64_t kManifestLimit_bytes = std::uint64_t{64} << 20;
+
 // In the header, or in a file beside the picture.
 std::string manifest_text(const OIIO::ImageSpec& spec, const std::string& key,
                           const std::string& path) {
     const std::string inside(spec.get_string_attribute(key + "manifest"));
     const std::string file(spec.get_string_attribute(key + "manif_file"));
     if (!inside.empty() || file.empty() || file.find('/') != std::string::npos) return inside;
-    std::ifstream stream(std::filesystem::path(path).parent_path() / file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    const auto beside = std::filesystem::path(path).parent_path() / file;
+    return read_file(beside.string(), "The manifest", kManifestLimit_bytes).value_or(std::string());
 }
 
 void add_layers(const OIIO::ImageSpec& spec, int part, const std::string& path,
@@ -189,19 +89,19 @@ class CryptoFile {
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) {
             return fail(ErrorCode::kMissingFrames,
-                        "There is no file " + path + ". Supply it, or correct the name.");
+                        "File " + path + " not found. Supply it, or correct the name.");
         }
         CryptoFile file;
         file.path_ = path;
-        WEFT_CHECK_OK(check_exr_header(path));
-        file.input_ = OIIO::ImageInput::open(path);
-        if (!file.input_) return tl::unexpected(damaged(path, OIIO::geterror()));
+        WEFT_TRY(input, open_picture(path));
+        file.input_ = std::move(input);
         for (int k = 0; file.input_->seek_subimage(k, 0); ++k)
             add_layers(file.input_->spec(), k, path, file.layers_);
         static_cast<void>(file.input_->geterror());
         if (file.layers_.empty()) {
-            return tl::unexpected(unreadable(path, "it holds no Cryptomatte",
-                                             "Render one, or name its file (--crypto-files)."));
+            return tl::unexpected(
+                unreadable(path, "it has no Cryptomatte",
+                           "Render one, or name its file" + by({{setting::kCryptoFiles}}) + "."));
         }
         return file;
     }
@@ -338,30 +238,21 @@ Error no_such_name(const std::string& path, std::string_view name,
 
 }  // namespace
 
-std::uint32_t cryptomatte_id(std::string_view name) {
-    constexpr std::uint32_t c1 = 0xcc9e2d51, c2 = 0x1b873593;
-    std::uint32_t h = 0;
-    const auto mix = [&](std::uint32_t k) { return std::rotl(k * c1, 15) * c2; };
-    const std::size_t blocks = name.size() / 4;
-    for (std::size_t i = 0; i < blocks; ++i) {
-        std::uint32_t k = 0;
-        std::memcpy(&k, name.data() + 4 * i, 4);
-        h = std::rotl(h ^ mix(k), 13) * 5 + 0xe6546b64;
+std::vector<std::string> cryptomatte_manifest_files(const std::string& path) {
+    std::vector<std::string> out;
+    const auto opened = open_picture(path);
+    if (!opened) return out;
+    const auto& input = *opened;
+    for (int k = 0; input->seek_subimage(k, 0); ++k) {
+        for (const OIIO::ParamValue& entry : input->spec().extra_attribs) {
+            const std::string attribute(entry.name().string()), name = entry.get_string();
+            if (attribute.starts_with("cryptomatte/") && attribute.ends_with("/manif_file") &&
+                name.find('/') == std::string::npos)
+                out.push_back((std::filesystem::path(path).parent_path() / name).string());
+        }
     }
-    std::uint32_t tail = 0;
-    for (std::size_t i = name.size(); i > 4 * blocks; --i)
-        tail = (tail << 8) | static_cast<unsigned char>(name[i - 1]);
-    h ^= mix(tail);
-    h ^= static_cast<std::uint32_t>(name.size());
-    h = (h ^ (h >> 16)) * 0x85ebca6b;
-    h = (h ^ (h >> 13)) * 0xc2b2ae35;
-    h ^= h >> 16;
-    const std::uint32_t exponent = (h >> 23) & 255;
-    return exponent == 0 || exponent == 255 ? h ^ (1u << 23) : h;
-}
-
-Expected<std::map<std::string, std::uint32_t>> parse_cryptomatte_manifest(std::string_view text) {
-    return ManifestReader(text).read();
+    static_cast<void>(OIIO::geterror());
+    return out;
 }
 
 Expected<std::vector<CryptoObject>> list_cryptomatte(const std::string& path) {
@@ -392,14 +283,8 @@ Expected<Matte> read_cryptomatte(const std::string& path, std::string_view names
         Size size;
         for (const auto& [layer, ids] : wanted) {
             WEFT_TRY(samples, file.samples(*layer, size));
-            if (!expected.empty() && size != expected) {
-                return tl::unexpected(unreadable(
-                    path,
-                    "it is " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                        " but the plate is " + std::to_string(expected.width) + "x" +
-                        std::to_string(expected.height),
-                    "Both must have one size."));
-            }
+            WEFT_CHECK_OK(
+                check_plate_size(path, "it", size, expected, "render it at the plate's size"));
             const std::size_t count = 2 * layer->ranks.size();
             sum.resize(samples.size() / count);
             for (std::size_t i = 0; i < sum.size(); ++i) {
@@ -426,8 +311,7 @@ Expected<CryptoObject> pick_cryptomatte(const std::string& path, int x, int y) {
         WEFT_TRY(samples, file.samples(layer, size));
         if (x < 0 || y < 0 || x >= size.width || y >= size.height) {
             return fail(ErrorCode::kUsage, "The pixel " + std::to_string(x) + "," +
-                                               std::to_string(y) + " lies outside of " + path +
-                                               ".");
+                                               std::to_string(y) + "  is outside " + path + ".");
         }
         CryptoObject best{layer.name, "", 0, 0};
         const std::size_t count = 2 * layer.ranks.size();

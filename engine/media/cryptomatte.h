@@ -34,6 +34,10 @@ struct CryptoObject {
 /// nothing does. Errors: as list_cryptomatte(); Usage outside of the picture.
 [[nodiscard]] Expected<CryptoObject> pick_cryptomatte(const std::string& path, int x, int y);
 
+/// The manifests that lie beside the file at `path` and that it names; none when there is no such
+/// file or it is not an EXR.
+[[nodiscard]] std::vector<std::string> cryptomatte_manifest_files(const std::string& path);
+
 /// A manifest: one flat JSON object of name → id in 8 hexadecimal digits. Hostile text is an error,
 /// never a crash. Errors: Unreadable.
 [[nodiscard]] Expected<std::map<std::string, std::uint32_t>> parse_cryptomatte_manifest(

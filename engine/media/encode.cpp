@@ -3,13 +3,18 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <array>
 #include <exception>
 #include <memory>
 #include <new>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/media/atomic_file.h"
 #include "engine/media/metadata.h"
+#include "engine/media/picture_file.h"
+#include "engine/media/read_back.h"
 
 namespace weft {
 namespace {
@@ -32,6 +37,27 @@ OIIO::TypeDesc type_of(SampleKind kind) {
             return OIIO::TypeHalf;
         default:
             return OIIO::TypeFloat;
+    }
+}
+
+// What a DPX header says of the shot rather than of how the pixels are stored.
+constexpr std::array kShotAttributes{"smpte:TimeCode",        "smpte:KeyCode",
+                                     "dpx:TimeCode",          "dpx:FrameRate",
+                                     "dpx:TemporalFrameRate", "dpx:FramePosition",
+                                     "dpx:SequenceLength",    "dpx:HeldCount",
+                                     "dpx:FrameId",           "dpx:SlateInfo",
+                                     "dpx:ShutterAngle",      "dpx:Format",
+                                     "dpx:InputDevice",       "dpx:InputDeviceSerialNumber",
+                                     "dpx:FilmEdgeCode",      "dpx:FieldNumber"};
+
+void keep_shot_attributes(const std::string& source, ImageSpec& spec) {
+    const auto opened = open_picture(source);
+    if (!opened) return;
+    const auto& input = *opened;
+    if (std::string_view(input->format_name()) != "dpx") return;
+    for (const char* name : kShotAttributes) {
+        if (const OIIO::ParamValue* kept = input->spec().find_attribute(name))
+            spec.extra_attribs.add_or_replace(*kept);
     }
 }
 
@@ -62,9 +88,12 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
     } else if (format == "openexr") {
         spec.attribute("Compression",
                        options.exr_compression == "auto" ? "zip" : options.exr_compression);
-    } else if (format == "dpx" && samples.kind == SampleKind::kU16) {
-        spec.attribute("oiio:BitsPerSample", options.dpx_bits);
+    } else if (format == "dpx") {
+        if (samples.kind == SampleKind::kU16)
+            spec.attribute("oiio:BitsPerSample", options.dpx_bits);
+        if (!options.source.empty()) keep_shot_attributes(options.source, spec);
     }
+    if (format == "dpx" && options.dpx_log) spec.attribute("dpx:Transfer", "Logarithmic");
     return spec;
 }
 
@@ -90,6 +119,7 @@ Status encode(const std::string& path, const Samples& samples, const WriteOption
     auto output = ImageOutput::create(path);
     if (!output) return tl::unexpected(cannot_encode(path, OIIO::geterror()));
     const ImageSpec spec = spec_of(samples, options, output->format_name());
+    const std::array parts{WrittenPart{samples.size, samples.channels}};
     if (output->supports("ioproxy")) {
         // Encoded into memory first: then every failure of the disk is ours to name.
         std::vector<unsigned char> bytes;
@@ -98,10 +128,17 @@ Status encode(const std::string& path, const Samples& samples, const WriteOption
             return tl::unexpected(cannot_encode(path, output->geterror()));
         }
         WEFT_CHECK_OK(write_pixels(*output, path, spec, samples, path));
-        return write_file_atomically(path, std::as_bytes(std::span(bytes)));
+        WEFT_TRY(temporary, TemporaryFile::create(path, options.rule));
+        WEFT_CHECK_OK(temporary.write(std::as_bytes(std::span(bytes))));
+        WEFT_CHECK_OK(check_written_picture(temporary.name(), path, parts));
+        return temporary.commit();
     }
-    WEFT_TRY(temporary, TemporaryFile::create(path));
-    WEFT_CHECK_OK(write_pixels(*output, temporary.name(), spec, samples, path));
+    WEFT_TRY(temporary, TemporaryFile::create(path, options.rule));
+    if (Status written = write_pixels(*output, temporary.name(), spec, samples, path); !written) {
+        WEFT_CHECK_OK(temporary.check_disk());
+        return written;
+    }
+    WEFT_CHECK_OK(check_written_picture(temporary.name(), path, parts));
     return temporary.commit();
 }
 

@@ -1,20 +1,20 @@
 #include "engine/media/exr_frame.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/half.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <memory>
 #include <span>
 
+#include "engine/core/setting.h"
 #include "engine/media/atomic_file.h"
-#include "engine/media/exr_header.h"
+#include "engine/media/exr_part.h"
+#include "engine/media/picture_file.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
+#include "engine/media/read_back.h"
 
 namespace weft {
 namespace {
@@ -23,26 +23,6 @@ using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-
-// One part on its way out: native samples of every channel, interleaved.
-struct Part {
-    ImageSpec spec;
-    std::vector<unsigned char> bytes;
-
-    [[nodiscard]] std::size_t pixel_bytes() const { return spec.pixel_bytes(true); }
-    [[nodiscard]] std::size_t offset_of(int channel) const {
-        return channel == 0 ? 0 : spec.pixel_bytes(0, channel, true);
-    }
-    [[nodiscard]] Recti window() const {
-        return {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
-    }
-    [[nodiscard]] unsigned char* pixel(int x, int y) {
-        return bytes.data() +
-               (static_cast<std::size_t>(y - spec.y) * static_cast<std::size_t>(spec.width) +
-                static_cast<std::size_t>(x - spec.x)) *
-                   pixel_bytes();
-    }
-};
 
 Error cannot_write(const std::string& path, std::string reason) {
     reason = reason.substr(0, reason.find('\n'));
@@ -58,13 +38,11 @@ bool loses_nothing(const std::string& compression) {
     return std::find(kLossless.begin(), kLossless.end(), compression) != kLossless.end();
 }
 
-Expected<std::vector<Part>> read_parts(const std::string& path) {
-    WEFT_CHECK_OK(check_exr_header(path));
-    const auto input = ImageInput::open(path);
-    if (!input) return tl::unexpected(damaged(path, OIIO::geterror()));
-    std::vector<Part> parts;
+Expected<std::vector<ExrPart>> read_parts(const std::string& path) {
+    WEFT_TRY(input, open_picture(path));
+    std::vector<ExrPart> parts;
     for (int k = 0; input->seek_subimage(k, 0); ++k) {
-        Part part;
+        ExrPart part;
         part.spec = input->spec();
         if (part.spec.deep) {
             return tl::unexpected(unreadable(path, "it holds deep samples, which are not kept",
@@ -84,85 +62,24 @@ Expected<std::vector<Part>> read_parts(const std::string& path) {
     return parts;
 }
 
-void store(unsigned char* to, TypeDesc format, float value) {
-    if (format.basetype == TypeDesc::HALF) {
-        constexpr float kLargestHalf = 65504.0f;
-        const half h(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value);
-        std::memcpy(to, &h, sizeof h);
-    } else if (format.basetype == TypeDesc::FLOAT) {
-        std::memcpy(to, &value, sizeof value);
-    } else {
-        const auto n = static_cast<std::uint32_t>(std::clamp(value, 0.0f, 4e9f));
-        std::memcpy(to, &n, sizeof n);
-    }
-}
-
-// The same part with another data window; what it had not is 0.
-Part with_window(Part part, const Recti& window) {
-    if (window == part.window()) return part;
-    Part out;
-    out.spec = part.spec;
-    out.spec.x = window.x0;
-    out.spec.y = window.y0;
-    out.spec.width = window.width();
-    out.spec.height = window.height();
-    out.bytes.assign(out.pixel_bytes() * static_cast<std::size_t>(window.width()) *
-                         static_cast<std::size_t>(window.height()),
-                     0);
-    const Recti shared = window.intersected(part.window());
-    for (int y = shared.y0; y < shared.y1; ++y) {
-        std::memcpy(out.pixel(shared.x0, y), part.pixel(shared.x0, y),
-                    out.pixel_bytes() * static_cast<std::size_t>(shared.width()));
-    }
-    return out;
-}
-
-// Adds channels of 0.
-Part with_channels(Part part, const std::vector<ExrLayer>& layers) {
-    if (layers.empty()) return part;
-    Part out;
-    out.spec = part.spec;
-    out.spec.channelformats = part.spec.channelformats;
-    if (out.spec.channelformats.empty())
-        out.spec.channelformats.assign(static_cast<std::size_t>(part.spec.nchannels),
-                                       part.spec.format);
-    for (const ExrLayer& layer : layers) {
-        for (const std::string& name : layer.channels) {
-            out.spec.channelnames.push_back(name);
-            out.spec.channelformats.push_back(layer.full_float ? TypeDesc::FLOAT : TypeDesc::HALF);
-            ++out.spec.nchannels;
-        }
-    }
-    const auto pixels =
-        static_cast<std::size_t>(part.spec.width) * static_cast<std::size_t>(part.spec.height);
-    const std::size_t was = part.pixel_bytes(), is = out.pixel_bytes();
-    out.bytes.assign(is * pixels, 0);
-    for (std::size_t i = 0; i < pixels; ++i)
-        std::memcpy(out.bytes.data() + i * is, part.bytes.data() + i * was, was);
-    return out;
-}
-
 // `origin`: where the picture's (0, 0) lies in the part.
-void fill_layers(Part& part, const std::vector<ExrLayer>& layers, int first, Vec2i origin,
-                 Size size) {
+void fill_layers(ExrPart& part, const std::vector<ExrLayer>& layers, Vec2i origin, Size size) {
     for (const ExrLayer& layer : layers) {
-        const auto count = static_cast<int>(layer.channels.size());
-        for (int c = 0; c < count; ++c) {
-            const std::size_t offset = part.offset_of(first + c);
-            const TypeDesc format = part.spec.channelformat(first + c);
+        const std::size_t count = layer.channels.size();
+        for (std::size_t c = 0; c < count; ++c) {
+            const int channel = channel_named(part.spec, layer.channels[c]);
+            const std::size_t offset = part.offset_of(channel);
+            const TypeDesc format = part.spec.channelformat(channel);
             for (int y = 0; y < size.height; ++y) {
                 for (int x = 0; x < size.width; ++x) {
-                    const std::size_t at =
-                        (static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-                         static_cast<std::size_t>(x)) *
-                            static_cast<std::size_t>(count) +
-                        static_cast<std::size_t>(c);
-                    store(part.pixel(origin.x + x, origin.y + y) + offset, format,
-                          layer.samples[at]);
+                    const std::size_t pixel =
+                        static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                        static_cast<std::size_t>(x);
+                    store_sample(part.pixel(origin.x + x, origin.y + y) + offset, format,
+                                 layer.samples[pixel * count + c]);
                 }
             }
         }
-        first += count;
     }
 }
 
@@ -178,11 +95,10 @@ Recti touched_box(const ExrFrame& frame) {
     return box;
 }
 
-Part picture_over(Part part, const ExrFrame& frame, const std::array<int, 3>& rgb) {
+ExrPart picture_over(ExrPart part, const ExrFrame& frame, const std::array<int, 3>& rgb) {
     const Vec2i origin{part.spec.full_x, part.spec.full_y};
     const Recti display{origin.x, origin.y, origin.x + frame.rgb.width(),
                         origin.y + frame.rgb.height()};
-    const int first_layer = part.spec.nchannels;
     part = with_channels(std::move(part), frame.layers);
     Recti window = part.window();
     if (frame.touched.empty()) {
@@ -200,19 +116,19 @@ Part picture_over(Part part, const ExrFrame& frame, const std::array<int, 3>& rg
         for (int y = 0; y < frame.rgb.height(); ++y) {
             for (int x = 0; x < frame.rgb.width(); ++x) {
                 if (!frame.touched.empty() && frame.touched.row(y)[x] == 0) continue;
-                store(part.pixel(origin.x + x, origin.y + y) + offset, format,
-                      frame.rgb.pixel(x, y)[c]);
+                store_sample(part.pixel(origin.x + x, origin.y + y) + offset, format,
+                             frame.rgb.pixel(x, y)[c]);
             }
         }
     }
-    fill_layers(part, frame.layers, first_layer, origin, frame.rgb.size());
+    fill_layers(part, frame.layers, origin, frame.rgb.size());
     return part;
 }
 
 // A part of its own for a picture that has no source.
-Part fresh_part(const ExrFrame& frame, PixelDepth depth, double pixel_aspect) {
+ExrPart fresh_part(const ExrFrame& frame, PixelDepth depth, double pixel_aspect) {
     const bool alpha = !frame.alpha.empty();
-    Part part;
+    ExrPart part;
     part.spec = ImageSpec(frame.rgb.width(), frame.rgb.height(), alpha ? 4 : 3,
                           depth == PixelDepth::kFloat ? TypeDesc::FLOAT : TypeDesc::HALF);
     part.spec.attribute("DateTime", "1970:01:01 00:00:00");
@@ -224,8 +140,8 @@ Part fresh_part(const ExrFrame& frame, PixelDepth depth, double pixel_aspect) {
     if (alpha) {
         for (int y = 0; y < frame.rgb.height(); ++y) {
             for (int x = 0; x < frame.rgb.width(); ++x)
-                store(part.pixel(x, y) + part.offset_of(3), part.spec.format,
-                      frame.alpha.row(y)[x]);
+                store_sample(part.pixel(x, y) + part.offset_of(3), part.spec.format,
+                             frame.alpha.row(y)[x]);
         }
     }
     return part;
@@ -246,30 +162,66 @@ void finish_spec(ImageSpec& spec, const WriteOptions& options, bool main_part) {
         spec.attribute(name, text);
 }
 
-Status write_parts(const std::string& path, std::vector<Part>& parts) {
-    const auto output = ImageOutput::create(path);
-    if (!output) return tl::unexpected(cannot_write(path, OIIO::geterror()));
-    std::vector<unsigned char> file;
-    OIIO::Filesystem::IOVecOutput proxy(file);
-    if (!output->set_ioproxy(&proxy)) return tl::unexpected(cannot_write(path, output->geterror()));
+bool encode(ImageOutput& output, const std::string& name, std::vector<ExrPart>& parts) {
     std::vector<ImageSpec> specs;
-    for (const Part& part : parts)
+    for (const ExrPart& part : parts)
         specs.push_back(part.spec);
     const auto count = static_cast<int>(parts.size());
-    bool ok = count == 1 ? output->open(path, specs[0]) : output->open(path, count, specs.data());
+    bool ok = count == 1 ? output.open(name, specs[0]) : output.open(name, count, specs.data());
     for (int k = 0; ok && k < count; ++k) {
-        Part& part = parts[static_cast<std::size_t>(k)];
-        if (k > 0) ok = output->open(path, part.spec, ImageOutput::AppendSubimage);
-        ok = ok && output->write_image(TypeDesc::UNKNOWN, part.bytes.data());
+        ExrPart& part = parts[static_cast<std::size_t>(k)];
+        if (k > 0) ok = output.open(name, part.spec, ImageOutput::AppendSubimage);
+        ok = ok && output.write_image(TypeDesc::UNKNOWN, part.bytes.data());
         part.bytes = {};
     }
-    ok = ok && output->close();
-    if (!ok) return tl::unexpected(cannot_write(path, output->geterror()));
-    return write_file_atomically(path, std::as_bytes(std::span(file)));
+    return ok && output.close();
+}
+
+Status write_parts(const std::string& path, std::vector<ExrPart>& parts, const WriteRule& rule) {
+    auto output = ImageOutput::create(path);
+    if (!output) return tl::unexpected(cannot_write(path, OIIO::geterror()));
+    std::vector<WrittenPart> promised;
+    for (const ExrPart& part : parts)
+        promised.push_back({{part.spec.width, part.spec.height}, part.spec.nchannels});
+    WEFT_TRY(temporary, TemporaryFile::create(path, rule));
+    if (parts.size() == 1) {
+        // Encoded into memory first: then every failure of the disk is ours to name.
+        std::vector<unsigned char> file;
+        OIIO::Filesystem::IOVecOutput proxy(file);
+        if (!output->set_ioproxy(&proxy) || !encode(*output, path, parts))
+            return tl::unexpected(cannot_write(path, output->geterror()));
+        WEFT_CHECK_OK(temporary.write(std::as_bytes(std::span(file))));
+    } else if (!encode(*output, temporary.name(), parts)) {
+        // OpenImageIO 2.4 writes several parts by name only: it passes over the proxy.
+        const std::string reason = output->geterror();
+        output.reset();
+        WEFT_CHECK_OK(temporary.check_disk());
+        return tl::unexpected(cannot_write(path, reason));
+    }
+    output.reset();
+    WEFT_CHECK_OK(check_written_picture(temporary.name(), path, promised));
+    return temporary.commit();
+}
+
+// The channels of the picture itself do not belong to a layer.
+Status check_layer_names(const std::string& path, const ExrPart& part, const ExrFrame& frame,
+                         const std::array<int, 3>& rgb) {
+    for (const ExrLayer& layer : frame.layers) {
+        for (const int channel : rgb) {
+            const std::string& name = part.spec.channelnames[static_cast<std::size_t>(channel)];
+            if (std::find(layer.channels.begin(), layer.channels.end(), name) ==
+                layer.channels.end())
+                continue;
+            return fail(ErrorCode::kUsage, path + " cannot hold both the picture and a layer as " +
+                                               name + ". Write the layers to separate files" +
+                                               by({{setting::kLayersOutput}}) + ".");
+        }
+    }
+    return {};
 }
 
 Status write(const std::string& path, const ExrFrame& frame, const WriteOptions& options) {
-    std::vector<Part> parts;
+    std::vector<ExrPart> parts;
     std::size_t main = 0;
     std::array<int, 3> rgb{0, 1, 2};
     if (frame.source.empty()) {
@@ -286,10 +238,12 @@ Status write(const std::string& path, const ExrFrame& frame, const WriteOptions&
         }
         if (frame.touched.empty()) parts[main].spec.erase_attribute("chromaticities");
     }
+    WEFT_CHECK_OK(check_layer_names(path, parts[main], frame, rgb));
+    if (!frame.source.empty()) parts[main] = with_depth(std::move(parts[main]), rgb, options.depth);
     parts[main] = picture_over(std::move(parts[main]), frame, rgb);
     for (std::size_t k = 0; k < parts.size(); ++k)
         finish_spec(parts[k].spec, options, k == main);
-    return write_parts(path, parts);
+    return write_parts(path, parts, options.rule);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include "engine/media/exr_header.h"
 
+#include <array>
 #include <cstdint>
-#include <fstream>
 
+#include "engine/core/input_file.h"
 #include "engine/media/raster_errors.h"
 
 namespace weft {
@@ -13,38 +14,63 @@ constexpr std::uint32_t kMultiPart = 0x1000;  // flag in the version field
 constexpr std::size_t kLongestName = 255;     // with the long-name flag; else 31
 constexpr int kMostAttributes = 1'000'000;
 
-bool read_u32(std::ifstream& file, std::uint32_t& value) {
-    unsigned char b[4];
-    if (!file.read(reinterpret_cast<char*>(b), sizeof b)) return false;
-    value = b[0] | b[1] << 8 | b[2] << 16 | static_cast<std::uint32_t>(b[3]) << 24;
-    return true;
-}
+// Reads a file from its beginning in blocks.
+class Cursor {
+  public:
+    explicit Cursor(const InputFile& file) : file_(file) {}
 
-// A text that ends with a zero byte. False where none does in time.
-bool read_name(std::ifstream& file, std::string& name) {
-    name.clear();
-    for (char c = 0; file.get(c);) {
-        if (c == 0) return true;
-        if (name.size() == kLongestName) return false;
-        name += c;
+    [[nodiscard]] std::uint64_t bytes_left() const {
+        return at_ < file_.bytes() ? file_.bytes() - at_ : 0;
     }
-    return false;
-}
+    void skip(std::uint64_t bytes) { at_ += bytes; }
+    bool byte(unsigned char& value) {
+        if (at_ < start_ || at_ >= start_ + held_) {
+            start_ = at_;
+            held_ = file_.read_at(at_, block_.data(), block_.size()).value_or(0);
+            if (held_ == 0) return false;
+        }
+        value = block_[static_cast<std::size_t>(at_++ - start_)];
+        return true;
+    }
+    bool u32(std::uint32_t& value) {
+        value = 0;
+        for (int shift = 0; shift < 32; shift += 8) {
+            unsigned char b = 0;
+            if (!byte(b)) return false;
+            value |= static_cast<std::uint32_t>(b) << shift;
+        }
+        return true;
+    }
+    // A text that ends with a zero byte. False where none does in time.
+    bool name(std::string& text) {
+        text.clear();
+        for (unsigned char c = 0; byte(c);) {
+            if (c == 0) return true;
+            if (text.size() == kLongestName) return false;
+            text += static_cast<char>(c);
+        }
+        return false;
+    }
+
+  private:
+    const InputFile& file_;
+    std::array<unsigned char, 4096> block_{};
+    std::uint64_t at_ = 0, start_ = 0;
+    std::size_t held_ = 0;
+};
 
 }  // namespace
 
 Status check_exr_header(const std::string& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) return {};
-    const auto length = static_cast<std::int64_t>(file.tellg());
-    file.seekg(0);
+    WEFT_TRY(opened, InputFile::open(path));
+    Cursor file(opened);
     std::uint32_t magic = 0, version = 0;
-    if (!read_u32(file, magic) || magic != kMagic || !read_u32(file, version)) return {};
+    if (!file.u32(magic) || magic != kMagic || !file.u32(version)) return {};
     const auto cut_off = [&] { return tl::unexpected(damaged(path, "its header is cut off")); };
     std::string name, type;
     bool begun = false;  // some attribute of the present part was there
     for (int count = 0; count < kMostAttributes; ++count) {
-        if (!read_name(file, name)) return cut_off();
+        if (!file.name(name)) return cut_off();
         if (name.empty()) {
             // An empty name ends a header; a second one ends the headers of several parts.
             if ((version & kMultiPart) == 0 || !begun) return {};
@@ -53,13 +79,13 @@ Status check_exr_header(const std::string& path) {
         }
         begun = true;
         std::uint32_t bytes = 0;
-        if (!read_name(file, type) || !read_u32(file, bytes)) return cut_off();
-        if (static_cast<std::int64_t>(bytes) > length - static_cast<std::int64_t>(file.tellg())) {
+        if (!file.name(type) || !file.u32(bytes)) return cut_off();
+        if (bytes > file.bytes_left()) {
             return tl::unexpected(damaged(path, "its header claims " + std::to_string(bytes) +
                                                     " bytes for the attribute '" + name +
                                                     "', more than the file has"));
         }
-        file.seekg(bytes, std::ios::cur);
+        file.skip(bytes);
     }
     return tl::unexpected(damaged(path, "its header does not end"));
 }

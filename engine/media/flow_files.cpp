@@ -1,13 +1,12 @@
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "engine/core/input_file.h"
+#include "engine/media/decode_limit.h"
 #include "engine/media/encode.h"
 #include "engine/media/image_files.h"
 #include "engine/media/raster.h"
@@ -23,27 +22,8 @@ constexpr float kFloUnknown = 1e9f;      // larger magnitudes stand for unknown 
 constexpr float kKittiZero = 32768.0f;   // Menze & Geiger, KITTI 2015: code = d · 64 + 2^15
 constexpr float kKittiStep = 64.0f;
 
-std::string text_of(Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-Status check_size(const std::string& path, Size have, Size expected) {
-    if (expected.empty() || have == expected) return {};
-    return fail(ErrorCode::kUnreadable, path + " is " + text_of(have) + " but the plate is " +
-                                            text_of(expected) +
-                                            ". Both must have one size: use the plate's motion.");
-}
-
-Expected<std::vector<char>> read_bytes(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        return tl::unexpected(unreadable(path, "it cannot be opened", "Check its permissions."));
-    }
-    return std::vector<char>(std::istreambuf_iterator<char>(file), {});
-}
-
 Expected<FlowField> read_flo(const std::string& path, Size expected) {
-    WEFT_TRY(bytes, read_bytes(path));
+    WEFT_TRY(bytes, read_file(path, {}, static_cast<std::uint64_t>(decode_limit_bytes())));
     struct Header {
         float magic;
         std::int32_t width, height;
@@ -53,7 +33,7 @@ Expected<FlowField> read_flo(const std::string& path, Size expected) {
         return tl::unexpected(damaged(path, "not a .flo file"));
     }
     const Size size{header.width, header.height};
-    WEFT_CHECK_OK(check_size(path, size, expected));
+    WEFT_CHECK_OK(check_plate_size(path, "it", size, expected, "use the plate's motion"));
     const std::size_t need = sizeof header + static_cast<std::size_t>(size.width) *
                                                  static_cast<std::size_t>(size.height) * 8;
     if (bytes.size() < need) return tl::unexpected(damaged(path, "the file ends early"));
@@ -79,7 +59,8 @@ Expected<FlowField> read_kitti(const std::string& path, Size expected) {
             unreadable(path, "motion as a picture must be a 16-bit RGB PNG in the KITTI encoding",
                        "Write it so, or as .flo."));
     }
-    WEFT_CHECK_OK(check_size(path, raster.info.size, expected));
+    WEFT_CHECK_OK(
+        check_plate_size(path, "it", raster.info.size, expected, "use the plate's motion"));
     FlowField flow(raster.info.size);
     const std::uint16_t* in = codes->data();
     float* d = flow.d.data();
@@ -98,7 +79,7 @@ Expected<FlowField> read_flow(const std::string& path, Size expected) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
         return fail(ErrorCode::kMissingFrames,
-                    "There is no motion file " + path + ". Supply it, or leave the frame out.");
+                    "Motion file " + path + " not found. Supply it, or leave the frame out.");
     }
     if (path.ends_with(".flo") || path.ends_with(".FLO")) return read_flo(path, expected);
     return read_kitti(path, expected);

@@ -30,6 +30,7 @@ class CachedReader final : public FrameReader {
     [[nodiscard]] double fps() const override { return reader_->fps(); }
     [[nodiscard]] PixelDepth depth() const override { return reader_->depth(); }
     [[nodiscard]] bool display_encoded() const override { return reader_->display_encoded(); }
+    [[nodiscard]] FileColor color() const override { return reader_->color(); }
     [[nodiscard]] std::string path_of(int frame) const override { return reader_->path_of(frame); }
     [[nodiscard]] Expected<PlateFrame> read(int frame) const override;
     [[nodiscard]] Expected<Hash128> stamp(int frame) const override {

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/core/image.h"
+#include "engine/media/file_color.h"
 
 namespace weft {
 
@@ -22,6 +23,7 @@ struct PlateFrame {
     ImageF1 alpha;  ///< Empty when the file has none.
     PixelDepth depth = PixelDepth::kU8;
     std::int64_t nonfinite = 0;  ///< Pixels with a NaN or infinite component.
+    FileColor color = {};        ///< What the file says of its colours.
 };
 
 struct ReadOptions {
@@ -39,7 +41,11 @@ class FrameReader {
     [[nodiscard]] virtual double fps() const = 0;  ///< 0 when the files do not say.
     [[nodiscard]] virtual PixelDepth depth() const = 0;
     [[nodiscard]] virtual bool display_encoded()
-        const = 0;  ///< Default space is sRGB, else linear.
+        const = 0;  ///< Values are spread as a display or a film scan has them, not linear.
+    /// What the first frame says of its colours.
+    [[nodiscard]] virtual FileColor color() const {
+        return {display_encoded() ? "srgb" : "linear", {}};
+    }
     [[nodiscard]] virtual std::string path_of(int frame) const = 0;
     /// Errors: MissingFrames (no such file), Unreadable (truncated, not an image, another size than
     /// the first frame); each names the file and what to do.
@@ -55,9 +61,10 @@ class FrameReader {
     [[nodiscard]] virtual int shown_frame(int frame) const { return frame; }
 };
 
-/// Opens a pattern (a folder with exactly one numbered sequence counts as one), a movie file or a
-/// single picture (a plate of one frame). An EXR frame is its display window, 0 where it has no
-/// data. Opening a movie decodes it once to count its frames, since containers do not tell
+/// A photograph that its camera marked as lying on its side (the tag Orientation) is turned
+/// upright. Opens a pattern (a folder with exactly one numbered sequence counts as one), a movie
+/// file or a single picture (a plate of one frame). An EXR frame is its display window, 0 where it
+/// has no data. Opening a movie decodes it once to count its frames, since containers do not tell
 /// reliably. Errors: MissingFrames when a pattern matches no file, Unreadable for a movie without
 /// frames or a file that is neither, Usage when a folder holds several sequences (the message lists
 /// them) or the pattern has two numbers.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 #include "engine/media/encode.h"
 
 namespace weft {
@@ -21,9 +21,7 @@ constexpr int kBandRows = 32;
 constexpr float kLargestHalf = 65504.0f;
 
 Format format_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_case(std::filesystem::path(path).extension().string());
     if (extension == ".png") return Format::kPng;
     if (extension == ".jpg" || extension == ".jpeg") return Format::kJpeg;
     if (extension == ".tif" || extension == ".tiff") return Format::kTiff;
@@ -105,7 +103,7 @@ Status check_numbers(const std::string& path, const WriteOptions& options) {
         std::find(kCompressions.begin(), kCompressions.end(), options.exr_compression) ==
             kCompressions.end()) {
         return fail(ErrorCode::kUsage,
-                    path + ": there is no EXR compression '" + options.exr_compression +
+                    path + ": unknown EXR compression '" + options.exr_compression +
                         "'. Use auto, none, rle, zip, zips, piz, pxr24, b44, b44a, "
                         "dwaa or dwab.");
     }
@@ -209,7 +207,7 @@ Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha, const Writ
                                  [](float v) { return v; });
 }
 
-Status write_matte(const std::string& path, ViewU8x1 matte) {
+Status write_matte(const std::string& path, ViewU8x1 matte, const WriteRule& rule) {
     const Format format = format_of(path);
     if (format == Format::kUnknown) return tl::unexpected(unknown_extension(path));
     if (format != Format::kPng && format != Format::kTiff) {
@@ -222,7 +220,9 @@ Status write_matte(const std::string& path, ViewU8x1 matte) {
     for (int y = 0; y < matte.height(); ++y) {
         codes.insert(codes.end(), matte.row(y), matte.row(y) + matte.width());
     }
-    return write_samples(path, {matte.size(), 1, SampleKind::kU8, codes.data()}, {});
+    WriteOptions options;
+    options.rule = rule;
+    return write_samples(path, {matte.size(), 1, SampleKind::kU8, codes.data()}, options);
 }
 
 }  // namespace weft

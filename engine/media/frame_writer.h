@@ -1,5 +1,6 @@
 #pragma once
-// Writing results: every file appears whole or not at all (temporary name, fsync, rename).
+// Writing results: every file appears whole or not at all (temporary name, fsync, rename), where
+// its WriteRule lets it, and only after its header was read back and says what was to be written.
 
 #include <memory>
 #include <optional>
@@ -9,7 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
-#include "engine/media/atomic_file.h"  // remove_stale_temporaries()
+#include "engine/media/atomic_file.h"  // WriteRule, remove_stale_temporaries()
 #include "engine/media/frame_reader.h"
 
 namespace weft {
@@ -19,11 +20,16 @@ struct WriteOptions {
     PixelDepth depth = PixelDepth::kU8;
     int jpeg_quality = 95;  ///< 4:4:4
     std::string exr_compression =
-        "zip";          ///< auto (zip), none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
-    int dpx_bits = 10;  ///< A U16 DPX holds 10 bits (the film standard), 12 or 16.
+        "zip";             ///< auto (zip), none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
+    int dpx_bits = 10;     ///< A U16 DPX holds 10 bits (the film standard), 12 or 16.
+    bool dpx_log = false;  ///< The values are film log ("cineon"); a DPX says so in its header.
     double pixel_aspect = 1;  ///< Width of a pixel over its height.
     /// Texts for the file's header (engine/media/metadata.h).
     std::vector<std::pair<std::string, std::string>> metadata = {};
+    /// The plate's file, of whose header a DPX keeps what belongs to the shot: time code, key code,
+    /// frame rate, position in the sequence, camera. Empty, or no DPX: none.
+    std::string source = {};
+    WriteRule rule = {};
 };
 
 /// The depth to write when the user did not say: the plate's own where the format can hold it
@@ -38,12 +44,14 @@ struct WriteOptions {
 /// name beside `path`, and renames it. NaN becomes 0 in an integer file; a finite value beyond the
 /// range of half becomes the largest half, while infinity stays infinity. `alpha` may be empty;
 /// JPEG leaves it out. Nothing in the file depends on the time, so the same pixels give the same
-/// bytes. Errors: Usage (see check_format), NoSpace (disk full, quota), Unreadable (folder missing
-/// or not writable). On error no new file remains, and an older one at `path` is untouched.
+/// bytes. Errors: Usage (see check_format, and options.rule), NoSpace (disk full, quota),
+/// Unreadable (folder missing or not writable), RenderFailed (the file reads back as another). On
+/// error no new file remains, and an older one at `path` is untouched.
 [[nodiscard]] Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha,
                                  const WriteOptions& options);
-/// Coverage as 8-bit grey: PNG or TIFF (JPEG would blur it: Usage).
-[[nodiscard]] Status write_matte(const std::string& path, ViewU8x1 matte);
+/// Coverage as 8-bit grey: PNG or TIFF (JPEG would blur it: Usage). Errors as write_image().
+[[nodiscard]] Status write_matte(const std::string& path, ViewU8x1 matte,
+                                 const WriteRule& rule = {});
 
 /// A review movie: .mp4 (H.264 where the machine has x264, else MPEG-4; BT.709 matrix, limited
 /// range, 4:2:0, tagged, index in front) or .mkv (FFV1, lossless 8-bit RGB of any size). An .mp4
@@ -56,14 +64,15 @@ class MovieWriter {
     /// sRGB-encoded, clamped to [0, 1]. Errors: Usage for another size; NoSpace when the disk is
     /// full, then or a few frames later, and at the latest from close().
     [[nodiscard]] virtual Status add(ViewF3 display_rgb) = 0;
-    /// Errors: NoSpace, RenderFailed when no frame was added or the encoder wrote nothing.
+    /// Errors: NoSpace; RenderFailed when no frame was added, the encoder wrote nothing, or the
+    /// movie reads back with another size or number of frames; Usage as the rule says.
     [[nodiscard]] virtual Status close() = 0;
 };
 /// `fps` from 0.01 to 1000; 23.976, 29.97 and their multiples are taken as 24000/1001 and so on.
-/// Errors: Usage (another extension, an empty size, such an fps), Unreadable (the folder, or no
-/// encoder for this size), NoSpace.
+/// Errors: Usage (another extension, an empty size, such an fps, the rule), Unreadable (the folder,
+/// or no encoder for this size), NoSpace.
 [[nodiscard]] Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size,
-                                                                double fps,
-                                                                double pixel_aspect = 1);
+                                                                double fps, double pixel_aspect = 1,
+                                                                const WriteRule& rule = {});
 
 }  // namespace weft

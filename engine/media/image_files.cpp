@@ -2,7 +2,6 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/luma.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/raster.h"
@@ -18,17 +18,6 @@
 
 namespace weft {
 namespace {
-
-std::string text_of(Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-Status check_size(const std::string& path, Size have, Size expected) {
-    if (expected.empty() || have == expected) return {};
-    return fail(ErrorCode::kUnreadable, path + " is " + text_of(have) + " but the plate is " +
-                                            text_of(expected) +
-                                            ". Both must have one size: scale or crop it.");
-}
 
 std::uint8_t quantise(float v) {
     if (!(v > 0.0f)) return 0;  // NaN too
@@ -92,9 +81,7 @@ Matte coverage(const Raster& raster, Source source) {
         [&](const auto& samples) {
             for (std::size_t i = 0, at = 0; at < samples.size(); ++i, at += step) {
                 const auto* p = samples.data() + at;
-                // Rec. 709 luma (ITU-R BT.709-6, 3.2).
-                out[i] = quantise(source.luma ? 0.2126f * unit(p[0]) + 0.7152f * unit(p[1]) +
-                                                    0.0722f * unit(p[2])
+                out[i] = quantise(source.luma ? luma_709(unit(p[0]), unit(p[1]), unit(p[2]))
                                               : unit(p[channel]));
             }
         },
@@ -134,7 +121,7 @@ Status check_picture_exists(const std::string& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) return {};
     return fail(ErrorCode::kMissingFrames,
-                "There is no file " + path + ". Supply it, or correct the name.");
+                "File " + path + " not found. Supply it, or correct the name.");
 }
 
 Expected<PlateFrame> read_image(const std::string& path, const std::string& layer) {
@@ -154,7 +141,7 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     request.raw_codes = select.value.has_value();
     if (!by_color) request.channel = select.channel;
     WEFT_TRY(raster, read_raster(path, request));
-    WEFT_CHECK_OK(check_size(path, raster.info.size, expected));
+    WEFT_CHECK_OK(check_plate_size(path, "it", raster.info.size, expected, "scale or crop it"));
 
     Source source;
     if (by_color && !raster.palette_indices) {

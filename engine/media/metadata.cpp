@@ -1,11 +1,10 @@
 #include "engine/media/metadata.h"
+#include "engine/media/picture_file.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <sstream>
-
-#include "engine/media/exr_header.h"
 
 namespace weft {
 namespace {
@@ -36,12 +35,9 @@ std::string copyright_text(const NamedTexts& metadata) {
 
 std::map<std::string, std::string> read_recipe_metadata(const std::string& path) {
     std::map<std::string, std::string> out;
-    if (!check_exr_header(path)) return out;
-    const auto input = OIIO::ImageInput::open(path);
-    if (!input) {
-        static_cast<void>(OIIO::geterror());
-        return out;
-    }
+    const auto opened = open_picture(path);
+    if (!opened) return out;
+    const auto& input = *opened;
     for (const OIIO::ParamValue& entry : input->spec().extra_attribs) {
         const std::string name(entry.name().string());
         if (name.rfind(kPrefix, 0) == 0) out[name] = entry.get_string();

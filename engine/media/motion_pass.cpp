@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/setting.h"
 #include "engine/media/image_files.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
@@ -21,6 +22,8 @@ struct Convention {
     float forward_sign, backward_sign;
     bool premultiplied;
 };
+
+const char* const kRenderAlike = "render it at the plate's size";
 
 Convention convention_of(MotionConvention convention) {
     using C = Convention;
@@ -80,9 +83,9 @@ Expected<std::string> find_layer(const std::string& path, const Convention& conv
     std::string list;
     for (const std::string& name : names)
         list += (list.empty() ? "" : ", ") + name;
-    return tl::unexpected(
-        unreadable(path, "it has no motion pass in this convention",
-                   "Name its layer (--motion-layer); its channels are: " + list + "."));
+    return tl::unexpected(unreadable(
+        path, "it has no motion pass in this convention",
+        "Name its layer" + by({{setting::kMotionLayer}}) + "; its channels are: " + list + "."));
 }
 
 }  // namespace
@@ -102,14 +105,7 @@ Expected<FlowField> read_motion(const std::string& path, const MotionSelect& sel
     Size size;
     WEFT_TRY(u, read_channel(path, layer + channels[0], size));
     WEFT_TRY(v, read_channel(path, layer + channels[1], size));
-    if (!expected.empty() && size != expected) {
-        return tl::unexpected(unreadable(path,
-                                         "its motion is " + std::to_string(size.width) + "x" +
-                                             std::to_string(size.height) + " but the plate is " +
-                                             std::to_string(expected.width) + "x" +
-                                             std::to_string(expected.height),
-                                         "Both must have one size."));
-    }
+    WEFT_CHECK_OK(check_plate_size(path, "its motion", size, expected, kRenderAlike));
     std::vector<float> alpha;
     if (convention.premultiplied) {
         for (const std::string& name : {layer + "A", std::string("A")}) {
@@ -159,14 +155,7 @@ Expected<ImageF2> read_uv(const std::string& path, const std::string& layer, Siz
     Size size;
     WEFT_TRY(u, read_channel(path, prefix + channels[0], size));
     WEFT_TRY(v, read_channel(path, prefix + channels[1], size));
-    if (!expected.empty() && size != expected) {
-        return tl::unexpected(unreadable(path,
-                                         "its coordinates are " + std::to_string(size.width) + "x" +
-                                             std::to_string(size.height) + " but the plate is " +
-                                             std::to_string(expected.width) + "x" +
-                                             std::to_string(expected.height),
-                                         "Both must have one size."));
-    }
+    WEFT_CHECK_OK(check_plate_size(path, "its UV map", size, expected, kRenderAlike));
     ImageF2 out(size);
     for (std::size_t i = 0; i < u.size(); ++i) {
         out.data()[2 * i] = u[i];

@@ -7,8 +7,14 @@ extern "C" {
 #include <cmath>
 #include <cstdint>
 
+#include "engine/core/input_file.h"
+
 namespace weft {
 namespace {
+
+// Demuxers of the movies that are known by their extensions (sequence_folder.cpp). FFmpeg has
+// others that read lists of further files: concat, HLS, DASH. Plain sound is let in to be told.
+constexpr const char* kContainers = "mov,matroska,avi,mxf,mpeg,mpegvideo,mpegts,asf,ogg,wav,mp3";
 
 double as_double(AVRational r) {
     return r.den != 0 ? static_cast<double>(r.num) / r.den : 0.0;
@@ -20,16 +26,19 @@ bool MovieDecoder::rewind() {
     codec_.reset();
     input_.reset();
     stream_ = nullptr;
+    sound_only_ = false;
     discarded_ = 0;
     draining_ = false;
     frame_.reset(av_frame_alloc());
     packet_.reset(av_packet_alloc());
     if (!frame_ || !packet_) return false;
 
+    if (!check_input_file(path_)) return false;
     // A movie is one local file: a play list inside it must not reach for others or for the
     // network.
     AVDictionary* options = nullptr;
     av_dict_set(&options, "protocol_whitelist", "file", 0);
+    av_dict_set(&options, "format_whitelist", kContainers, 0);
     AVFormatContext* opened = nullptr;
     const int result = avformat_open_input(&opened, file_url(path_).c_str(), nullptr, &options);
     av_dict_free(&options);
@@ -38,7 +47,14 @@ bool MovieDecoder::rewind() {
     if (avformat_find_stream_info(input_.get(), nullptr) < 0) return false;
     const AVCodec* codec = nullptr;
     const int best = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-    if (best < 0) return false;
+    // A song's cover counts as a stream of pictures.
+    const bool cover =
+        best >= 0 && (input_->streams[best]->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
+    if (best < 0 || cover) {
+        sound_only_ =
+            av_find_best_stream(input_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0) >= 0;
+        return false;
+    }
     for (unsigned i = 0; i < input_->nb_streams; ++i) {
         if (static_cast<int>(i) != best) input_->streams[i]->discard = AVDISCARD_ALL;
     }
@@ -91,6 +107,10 @@ double MovieDecoder::fps() const {
     if (!(stored > 0 && stored < 10000)) return 0;
     const AVRational standard = standard_rate(stored, 1e-4);
     return standard.num > 0 ? as_double(standard) : stored;
+}
+
+double MovieDecoder::tick_s() const {
+    return as_double(stream_->time_base);
 }
 
 int MovieDecoder::claimed_frames() const {

@@ -13,16 +13,22 @@ class MovieDecoder {
   public:
     explicit MovieDecoder(std::string path) : path_(std::move(path)) {}
 
-    /// Starts again before the first frame. False when the file is no movie.
+    /// Starts again before the first frame. False when the file is not a movie.
     [[nodiscard]] bool rewind();
+    /// After rewind() was false: the file has sound, but no pictures.
+    [[nodiscard]] bool has_sound_only() const { return sound_only_; }
     /// The next frame, valid until the next call; null after the last. What cannot be decoded is
     /// passed over.
     [[nodiscard]] const AVFrame* next();
 
     // After rewind():
     [[nodiscard]] double fps() const;  ///< 0 when the file does not say.
+    /// Seconds between the units of a frame's time stamp.
+    [[nodiscard]] double tick_s() const;
     /// How many frames the container says it shows; 0 when it does not.
     [[nodiscard]] int claimed_frames() const;
+    /// True when that is only its duration times its rate, which does not detect a variable rate.
+    [[nodiscard]] bool claims_by_duration() const { return stream_->nb_frames <= 0; }
     /// Width of a pixel over its height.
     [[nodiscard]] double pixel_aspect() const;
     /// By how much the picture is to be turned clockwise for display: 0, 90, 180 or 270.
@@ -40,6 +46,7 @@ class MovieDecoder {
     AVStream* stream_ = nullptr;
     int discarded_ = 0;  // packets that the container's edit list leaves out
     bool draining_ = false;
+    bool sound_only_ = false;
 };
 
 }  // namespace weft

@@ -14,6 +14,7 @@ extern "C" {
 #include <utility>
 #include <vector>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -36,7 +37,7 @@ struct Ycc {
 };
 Ycc bt709(const float* rgb) {
     const float r = unit(rgb[0]), g = unit(rgb[1]), b = unit(rgb[2]);
-    const float y = 0.2126f * r + 0.7152f * g + 0.0722f * b;
+    const float y = luma_709(r, g, b);
     return {y, (b - y) / 1.8556f, (r - y) / 1.5748f};
 }
 

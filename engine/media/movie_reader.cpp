@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
 
+#include "engine/core/input_file.h"
+#include "engine/core/setting.h"
+#include "engine/core/text.h"
+#include "engine/media/frame_pacing.h"
 #include "engine/media/movie_decoder.h"
 #include "engine/media/movie_pixels.h"
 #include "engine/media/plate_decode.h"
@@ -24,7 +29,7 @@ std::size_t bytes_of(const Raster& raster) {
 }
 
 // The frames of one movie by number. Going back means decoding again from the start; on the way the
-// frames before the wanted one are kept, because whoever goes back one frame will go back another.
+// frames before the wanted one are kept, because stepping back usually continues.
 class MovieFrames {
   public:
     explicit MovieFrames(const std::string& path) : decoder_(path) {}
@@ -83,7 +88,16 @@ struct MovieFacts {
     int damaged = 0;        ///< Frames that were decoded with errors.
     int first_damaged = 0;  ///< Counted from 0.
     bool high_dynamic_range = false;
+    bool variable_rate = false;
+    double shortest_s = 0, longest_s = 0;  ///< For how long single frames are shown.
 };
+
+Error another_size(const std::string& path, int frame, Size size, Size first) {
+    return unreadable(path,
+                      "its frame " + std::to_string(frame) + " is " + size_text(size) +
+                          " but the first one is " + size_text(first),
+                      "All frames of a plate must have one size: export it with a constant size.");
+}
 
 bool is_damaged(const AVFrame& frame) {
     return (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
@@ -117,8 +131,7 @@ class MoviePlate final : public FrameReader {
                 damaged(path_, "frame " + std::to_string(frame) + " cannot be decoded any more"));
         }
         if (raster->info.size != facts_.size) {
-            return tl::unexpected(damaged(
-                path_, "frame " + std::to_string(frame) + " has another size than the first"));
+            return tl::unexpected(another_size(path_, frame, raster->info.size, facts_.size));
         }
         return to_plate(*raster);
     }
@@ -146,6 +159,18 @@ class MoviePlate final : public FrameReader {
                             " is an HDR movie (PQ or HLG), whose values are taken as they stand. "
                             "Convert it to numbered EXR frames to keep its colours.");
         }
+        if (facts_.variable_rate) {
+            char text[64];
+            std::snprintf(text, sizeof text, "%.1f to %.1f ms each", 1000 * facts_.shortest_s,
+                          1000 * facts_.longest_s);
+            char rate[32];
+            std::snprintf(rate, sizeof rate, "%.5g", facts_.fps);
+            found.push_back(
+                path_ + " has a variable frame rate (" + text +
+                "). Its frames are taken by number and the result runs at a constant " + rate +
+                " fps. To keep its timing, convert it first: ffmpeg -i IN -vf fps=" + rate +
+                " OUT.");
+        }
         return found;
     }
 
@@ -155,7 +180,8 @@ class MoviePlate final : public FrameReader {
         return fail(ErrorCode::kMissingFrames,
                     "Frame " + std::to_string(frame) + " is missing in " + path_ + ", which has " +
                         std::to_string(frames_.front()) + " to " + std::to_string(frames_.back()) +
-                        ". Leave it out of the frames, or change --movie-start.");
+                        ". Render other frames, or change the number of the first frame" +
+                        by({{setting::kFrames}, {setting::kMovieStart}}) + ".");
     }
 
     std::string path_;
@@ -165,14 +191,47 @@ class MoviePlate final : public FrameReader {
     mutable MovieFrames decoded_;
 };
 
+// Containers lie about their number of frames, so they are counted. `frame` is the first one.
+Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::string& path,
+                    MovieFacts& facts) {
+    FramePacing pacing;
+    for (; frame; frame = decoder.next(), ++facts.frames) {
+        if (frame->interlaced_frame) {
+            return tl::unexpected(
+                unreadable(path, "it is interlaced: each frame holds two moments in time",
+                           "Deinterlace it first, for instance: ffmpeg -i IN -vf bwdif OUT."));
+        }
+        if (frame->best_effort_timestamp == AV_NOPTS_VALUE)
+            pacing.add_unknown();
+        else
+            pacing.add(frame->best_effort_timestamp);
+        if (!is_damaged(*frame)) continue;
+        if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
+    }
+    facts.claimed = decoder.claimed_frames();
+    // Frames that could not be decoded leave gaps, which have a warning of their own.
+    const bool all_there = facts.claimed <= facts.frames || decoder.claims_by_duration();
+    facts.variable_rate = facts.damaged == 0 && all_there && pacing.varies();
+    if (facts.variable_rate) facts.claimed = facts.frames;
+    const auto [shortest, longest] = pacing.durations();
+    facts.shortest_s = static_cast<double>(shortest) * decoder.tick_s();
+    facts.longest_s = static_cast<double>(longest) * decoder.tick_s();
+    return {};
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<const FrameReader>> open_movie_plate(const std::string& path,
                                                               const ReadOptions& options) {
     silence_video_library();
     WEFT_CHECK_OK(stamp_file(path, 0));
+    WEFT_CHECK_OK(check_input_file(path));
     MovieDecoder decoder(path);
     if (!decoder.rewind()) {
+        if (decoder.has_sound_only()) {
+            return tl::unexpected(unreadable(path, "it has sound but no pictures",
+                                             "Give the movie with the pictures."));
+        }
         return tl::unexpected(unreadable(path, "it is not a movie, or is cut off before its index",
                                          "Copy or export it again."));
     }
@@ -189,17 +248,7 @@ Expected<std::shared_ptr<const FrameReader>> open_movie_plate(const std::string&
     facts.pixel_aspect = decoder.pixel_aspect();
     facts.high_dynamic_range =
         frame->color_trc == AVCOL_TRC_SMPTE2084 || frame->color_trc == AVCOL_TRC_ARIB_STD_B67;
-    // Containers lie about their number of frames, so they are counted.
-    for (; frame; frame = decoder.next(), ++facts.frames) {
-        if (frame->interlaced_frame) {
-            return tl::unexpected(
-                unreadable(path, "it is interlaced: each frame holds two moments in time",
-                           "Deinterlace it first, for instance: ffmpeg -i IN -vf bwdif OUT."));
-        }
-        if (!is_damaged(*frame)) continue;
-        if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
-    }
-    facts.claimed = decoder.claimed_frames();
+    WEFT_CHECK_OK(count_frames(decoder, frame, path, facts));
     return std::make_shared<MoviePlate>(path, options.movie_start, facts);
 }
 

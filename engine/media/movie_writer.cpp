@@ -11,8 +11,10 @@ extern "C" {
 #include <string>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/movie_pixels.h"
+#include "engine/media/read_back.h"
 #include "engine/media/video_library.h"
 
 namespace weft {
@@ -112,7 +114,7 @@ class VideoFile final : public MovieWriter {
         if (!open_codec(frame_rate(fps))) {
             return fail(ErrorCode::kUnreadable,
                         path_ + " cannot be written: this machine has no encoder for a movie of " +
-                            std::to_string(size_.width) + "x" + std::to_string(size_.height) +
+                            size_text(size_) +
                             " pixels. Write numbered frames or the other kind of movie (.mp4, "
                             ".mkv).");
         }
@@ -146,6 +148,8 @@ class VideoFile final : public MovieWriter {
         WEFT_CHECK_OK(encode(nullptr));
         WEFT_CHECK_OK(check(av_write_trailer(output_.get())));
         WEFT_CHECK_OK(check(avio_closep(&output_->pb)));
+        WEFT_CHECK_OK(check_written_movie(temporary_.name(), path_, {codec_->width, codec_->height},
+                                          frames_));
         return temporary_.commit();
     }
 
@@ -240,7 +244,7 @@ class VideoFile final : public MovieWriter {
 }  // namespace
 
 Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size, double fps,
-                                                  double pixel_aspect) {
+                                                  double pixel_aspect, const WriteRule& rule) {
     silence_video_library();
     const std::string extension = std::filesystem::path(path).extension().string();
     const bool lossless = extension == ".mkv";
@@ -251,7 +255,7 @@ Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size 
         return fail(ErrorCode::kUsage,
                     path + ": a movie needs a size and a frame rate between 0.01 and 1000.");
     }
-    WEFT_TRY(temporary, TemporaryFile::create(path));
+    WEFT_TRY(temporary, TemporaryFile::create(path, rule));
     auto file = std::make_unique<VideoFile>(path, std::move(temporary), size, lossless,
                                             pixel_aspect > 0 ? pixel_aspect : 1.0);
     WEFT_CHECK_OK(file->open(fps));

@@ -80,6 +80,7 @@ bool is_display_encoded(SampleKind kind) {
 PlateFrame to_plate(const Raster& raster) {
     PlateFrame frame;
     frame.depth = depth_of(raster.info.kind);
+    frame.color = raster.info.color;
     frame.rgb = ImageF3(raster.info.size);
     if (raster.has_alpha) frame.alpha = ImageF1(raster.info.size);
     std::visit([&](const auto& samples) { split(samples, raster, frame); }, raster.samples);

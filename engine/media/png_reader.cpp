@@ -2,21 +2,18 @@
 
 #include <png.h>
 
+#include <array>
 #include <bit>
-#include <cstdio>
-#include <memory>
+#include <cstdint>
 #include <new>
 #include <utility>
 
+#include "engine/core/input_file.h"
+#include "engine/media/orientation.h"
 #include "engine/media/raster_errors.h"
 
 namespace weft {
 namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
 
 // libpng leaves by calling the error handler, which must not return. An exception passes through
 // its frames (Debian builds it with unwind tables) and, unlike longjmp, runs our destructors.
@@ -29,17 +26,31 @@ struct PngFailure {
 }
 void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
+// Where libpng stands in the file.
+struct Source {
+    const InputFile& file;
+    std::uint64_t at = 0;
+};
+
+void on_read(png_structp png, png_bytep to, png_size_t count) {
+    auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+    const auto got = source.file.read_at(source.at, to, count);
+    if (!got || *got < count) throw PngFailure{"Read Error"};
+    source.at += count;
+}
+
 class PngHandle {
   public:
-    explicit PngHandle(std::FILE* file)
-        : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning)) {
+    explicit PngHandle(const InputFile& file)
+        : source_{file},
+          png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning)) {
         if (!png_) throw std::bad_alloc();
         info_ = png_create_info_struct(png_);
         if (!info_) {
             png_destroy_read_struct(&png_, nullptr, nullptr);
             throw std::bad_alloc();
         }
-        png_init_io(png_, file);
+        png_set_read_fn(png_, &source_, on_read);
     }
     ~PngHandle() { png_destroy_read_struct(&png_, &info_, nullptr); }
     PngHandle(const PngHandle&) = delete;
@@ -54,6 +65,20 @@ class PngHandle {
         if (!png_get_pHYs(png_, info_, &x, &y, &unit) || x == 0) return 1;
         return sane_pixel_aspect(static_cast<double>(y) / static_cast<double>(x));
     }
+    [[nodiscard]] int orientation() const {
+        png_bytep exif = nullptr;
+        png_uint_32 bytes = 0;
+        if (!png_get_eXIf_1(png_, info_, &bytes, &exif)) return 1;
+        return orientation_of_exif(exif, bytes);
+    }
+    [[nodiscard]] std::string color_note() const;
+    [[nodiscard]] RasterInfo info_as_seen() const {
+        const int turned = orientation();
+        const double aspect = pixel_aspect();
+        return {
+            upright(size(), turned), kind(), 0.0, lies_on_its_side(turned) ? 1 / aspect : aspect,
+            {"srgb", color_note()},  turned};
+    }
     [[nodiscard]] Size size() const {
         return {static_cast<int>(png_get_image_width(png_, info_)),
                 static_cast<int>(png_get_image_height(png_, info_))};
@@ -63,9 +88,30 @@ class PngHandle {
     }
 
   private:
+    Source source_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
 };
+
+// The chunk sRGB settles it; a profile goes before gAMA and cHRM (PNG 1.2, 11.3.3).
+std::string PngHandle::color_note() const {
+    if (png_get_valid(png_, info_, PNG_INFO_sRGB) != 0) return {};
+    png_charp name = nullptr;
+    png_bytep profile = nullptr;
+    png_uint_32 bytes = 0;
+    int compression = 0;
+    if (png_get_iCCP(png_, info_, &name, &compression, &profile, &bytes) != 0)
+        return note_of_profile(icc_profile_name(profile, bytes));
+    double gamma = 0;
+    if (png_get_gAMA(png_, info_, &gamma) != 0) {
+        if (auto note = note_of_gamma(gamma); !note.empty()) return note;
+    }
+    std::array<double, 8> xy{};
+    if (png_get_cHRM(png_, info_, &xy[6], &xy[7], &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5]) ==
+        0)
+        return {};
+    return note_of_primaries(xy);
+}
 
 void set_transforms(const PngHandle& handle, bool raw_codes) {
     png_structp png = handle.png();
@@ -94,12 +140,12 @@ std::vector<T> read_rows(const PngHandle& handle, int channels) {
     return samples;
 }
 
-Expected<Raster> read_open(std::FILE* file, const std::string& path, bool raw_codes) {
+Expected<Raster> read_open(const InputFile& file, const std::string& path, bool raw_codes) {
     const PngHandle handle(file);
     png_read_info(handle.png(), handle.info());
     WEFT_CHECK_OK(check_memory(path, handle.size(), 4));
     Raster raster;
-    raster.info = {handle.size(), handle.kind(), 0.0, handle.pixel_aspect()};
+    raster.info = handle.info_as_seen();
     raster.palette_indices =
         raw_codes && png_get_color_type(handle.png(), handle.info()) == PNG_COLOR_TYPE_PALETTE;
     set_transforms(handle, raw_codes);
@@ -107,21 +153,21 @@ Expected<Raster> read_open(std::FILE* file, const std::string& path, bool raw_co
     raster.has_alpha =
         (png_get_color_type(handle.png(), handle.info()) & PNG_COLOR_MASK_ALPHA) != 0;
     if (raster.info.kind == SampleKind::kU16) {
-        raster.samples = read_rows<std::uint16_t>(handle, raster.channels);
+        raster.samples = upright(read_rows<std::uint16_t>(handle, raster.channels), handle.size(),
+                                 raster.channels, raster.info.orientation);
     } else {
-        raster.samples = read_rows<std::uint8_t>(handle, raster.channels);
+        raster.samples = upright(read_rows<std::uint8_t>(handle, raster.channels), handle.size(),
+                                 raster.channels, raster.info.orientation);
     }
     return raster;
 }
 
 template <class F>
-auto with_file(const std::string& path, const F& body) -> decltype(body(nullptr)) {
-    const File file(std::fopen(path.c_str(), "rb"));
-    if (!file) {
-        return tl::unexpected(unreadable(path, "it cannot be opened", "Check its permissions."));
-    }
+auto with_file(const std::string& path, const F& body)
+    -> decltype(body(std::declval<const InputFile&>())) {
+    WEFT_TRY(file, InputFile::open(path));
     try {
-        return body(file.get());
+        return body(file);
     } catch (const PngFailure& failure) {
         return tl::unexpected(damaged(path, "PNG, " + failure.reason));
     } catch (const std::bad_alloc&) {
@@ -132,22 +178,22 @@ auto with_file(const std::string& path, const F& body) -> decltype(body(nullptr)
 }  // namespace
 
 bool is_png(const std::string& path) {
-    const File file(std::fopen(path.c_str(), "rb"));
+    const auto file = InputFile::open(path);
     png_byte signature[8] = {};
-    return file && std::fread(signature, 1, sizeof signature, file.get()) == sizeof signature &&
+    return file && file->read_at(0, signature, sizeof signature) == sizeof signature &&
            png_sig_cmp(signature, 0, sizeof signature) == 0;
 }
 
 Expected<RasterInfo> probe_png(const std::string& path) {
-    return with_file(path, [](std::FILE* file) -> Expected<RasterInfo> {
+    return with_file(path, [](const InputFile& file) -> Expected<RasterInfo> {
         const PngHandle handle(file);
         png_read_info(handle.png(), handle.info());
-        return RasterInfo{handle.size(), handle.kind(), 0.0, handle.pixel_aspect()};
+        return handle.info_as_seen();
     });
 }
 
 Expected<Raster> read_png(const std::string& path, bool raw_codes) {
-    return with_file(path, [&](std::FILE* file) { return read_open(file, path, raw_codes); });
+    return with_file(path, [&](const InputFile& file) { return read_open(file, path, raw_codes); });
 }
 
 }  // namespace weft

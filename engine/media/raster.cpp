@@ -1,19 +1,20 @@
 #include "engine/media/raster.h"
 
 #include <OpenImageIO/imageio.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
-#include <set>
 #include <string_view>
 
-#include "engine/media/exr_header.h"
+#include "engine/media/channel_choice.h"
+#include "engine/media/orientation.h"
+#include "engine/media/picture_file.h"
+#include "engine/media/plate_decode.h"
 #include "engine/media/png_reader.h"
 #include "engine/media/raster_errors.h"
 
@@ -44,22 +45,9 @@ void single_threaded() {
 
 Expected<std::unique_ptr<ImageInput>> open_input(const std::string& path) {
     single_threaded();
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) {
-        return tl::unexpected(unreadable(path, "there is no such file", "Check the path."));
-    }
-    if (!S_ISREG(status.st_mode)) {
-        return tl::unexpected(unreadable(path, "it is not a file", "Give the name of a picture."));
-    }
-    if (status.st_size == 0) {
-        return tl::unexpected(unreadable(path, "it is empty (0 bytes)", "Write or copy it again."));
-    }
-    WEFT_CHECK_OK(check_exr_header(path));
     ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);  // the samples as they stand in the file
-    auto input = ImageInput::open(path, &config);
-    if (!input) return tl::unexpected(damaged(path, OIIO::geterror()));
-    return input;
+    return open_picture(path, config);
 }
 
 SampleKind kind_of(OIIO::TypeDesc type) {
@@ -104,133 +92,42 @@ Recti display_window(const ImageInput& input, const ImageSpec& spec) {
             spec.full_y + spec.full_height};
 }
 
-bool same_name(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
-               return std::tolower(static_cast<unsigned char>(x)) ==
-                      std::tolower(static_cast<unsigned char>(y));
-           });
-}
-
-int find_channel(const ImageSpec& spec, const std::string& prefix,
-                 std::initializer_list<std::string_view> names) {
-    for (const std::string_view name : names) {
-        for (int c = 0; c < spec.nchannels; ++c) {
-            const std::string& have = spec.channelnames[static_cast<std::size_t>(c)];
-            if (same_name(have, prefix + std::string(name))) return c;
-        }
-    }
-    return -1;
-}
-
-Pick pick_of(int subimage, std::vector<int> absolute, int alpha) {
+Pick pick_of(const ChannelChoice& choice) {
     Pick pick;
-    pick.subimage = subimage;
-    if (alpha >= 0) {
-        absolute.push_back(alpha);
-        pick.has_alpha = true;
-    }
-    const auto [low, high] = std::minmax_element(absolute.begin(), absolute.end());
+    pick.subimage = choice.part;
+    pick.has_alpha = choice.has_alpha;
+    const auto [low, high] = std::minmax_element(choice.channels.begin(), choice.channels.end());
     pick.begin = *low;
     pick.end = *high + 1;
-    for (const int c : absolute)
+    for (const int c : choice.channels)
         pick.channels.push_back(c - pick.begin);
     return pick;
 }
 
-// prefix.R, prefix.G, prefix.B, else a single grey channel under the prefix.
-std::optional<Pick> pick_colors(const ImageSpec& spec, int subimage, const std::string& prefix) {
-    const int alpha = find_channel(spec, prefix, {"A", "alpha"});
-    const int r = find_channel(spec, prefix, {"R", "red"});
-    const int g = find_channel(spec, prefix, {"G", "green"});
-    const int b = find_channel(spec, prefix, {"B", "blue"});
-    if (r >= 0 && g >= 0 && b >= 0) return pick_of(subimage, {r, g, b}, alpha);
-    const int y = find_channel(spec, prefix, {"Y", "I", "L", "Z", "V"});
-    if (y >= 0) return pick_of(subimage, {y}, alpha);
-    return std::nullopt;
-}
-
-// For files whose channels have no telling names: by their number.
-std::optional<Pick> pick_by_count(const ImageSpec& spec, int subimage) {
-    const int alpha = spec.alpha_channel;
-    std::vector<int> colors;
-    for (int c = 0; c < spec.nchannels && c < 4; ++c) {
-        if (c != alpha) colors.push_back(c);
-    }
-    if (colors.size() == 1 || spec.nchannels == 2) return pick_of(subimage, {colors[0]}, alpha);
-    if (colors.size() < 3) return std::nullopt;
-    return pick_of(subimage, {colors[0], colors[1], colors[2]}, alpha);
-}
-
-std::optional<Pick> pick_in(const ImageInput& input, const ImageSpec& spec, int subimage,
-                            const RasterRequest& request) {
-    if (!request.channel.empty()) {
-        const int c = find_channel(spec, "", {request.channel});
-        return c < 0 ? std::nullopt : std::optional(pick_of(subimage, {c}, -1));
-    }
-    if (!request.layer.empty()) {
-        if (auto pick = pick_colors(spec, subimage, request.layer + ".")) return pick;
-        // A part of a multi-part file carries the layer's name itself.
-        if (!same_name(spec.get_string_attribute("oiio:subimagename"), request.layer)) {
-            return std::nullopt;
-        }
-        return pick_colors(spec, subimage, "");
-    }
-    if (auto pick = pick_colors(spec, subimage, "")) return pick;
-    // An EXR with other channels only holds layers, and which one to take is for the user to say.
-    if (is_exr(input) && spec.nchannels != 1) return std::nullopt;
-    return pick_by_count(spec, subimage);
-}
-
-std::string list_layers(ImageInput& input, bool channels) {
-    std::set<std::string> names;
-    for (int part = 0; input.seek_subimage(part, 0); ++part) {
+std::vector<PartNames> names_of(ImageInput& input) {
+    // Only EXR parts can be pictures of the same frame; elsewhere subimages are pages or
+    // thumbnails.
+    const int most = is_exr(input) ? 1000 : 1;
+    std::vector<PartNames> parts;
+    for (int part = 0; part < most && input.seek_subimage(part, 0); ++part) {
         const ImageSpec& spec = input.spec();
-        const std::string part_name(spec.get_string_attribute("oiio:subimagename"));
-        if (!part_name.empty() && !channels) names.insert(part_name);
-        for (const std::string& name : spec.channelnames) {
-            const std::size_t dot = name.rfind('.');
-            if (channels) {
-                names.insert(name);
-            } else if (dot != std::string::npos) {
-                names.insert(name.substr(0, dot));
-            }
-        }
+        parts.push_back({std::string(spec.get_string_attribute("oiio:subimagename")),
+                         spec.channelnames, spec.alpha_channel, spec.deep});
     }
-    constexpr std::size_t kShown = 12;
-    std::string list;
-    std::size_t shown = 0;
-    for (const std::string& name : names) {
-        if (shown++ == kShown) return list + ", …";
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    return list;
-}
-
-Error nothing_picked(ImageInput& input, const std::string& path, const RasterRequest& request) {
-    const bool channel = !request.channel.empty();
-    const std::string list = list_layers(input, channel);
-    if (channel) {
-        return unreadable(path, "it has no channel '" + request.channel + "'",
-                          "Its channels are: " + list + ".");
-    }
-    const std::string reason = request.layer.empty() ? "it has no channels R, G, B"
-                                                     : "it has no layer '" + request.layer + "'";
-    return unreadable(
-        path, reason,
-        list.empty() ? "It has no layers: leave the layer out." : "Its layers are: " + list + ".");
+    static_cast<void>(input.geterror());
+    return parts;
 }
 
 Expected<Pick> find_pick(ImageInput& input, const std::string& path, const RasterRequest& request) {
-    // Only EXR parts can be pictures of the same frame; elsewhere subimages are pages or
-    // thumbnails.
-    const int parts = is_exr(input) ? 1000 : 1;
-    for (int part = 0; part < parts && input.seek_subimage(part, 0); ++part) {
-        if (auto pick = pick_in(input, input.spec(), part, request)) {
-            input.seek_subimage(pick->subimage, 0);
-            return *pick;
-        }
+    WEFT_TRY(choice, choose_channels(path, names_of(input), request, is_exr(input)));
+    input.seek_subimage(choice.part, 0);
+    const Pick pick = pick_of(choice);
+    const bool as_picture = request.channel.empty() && !request.raw_codes;
+    if (is_exr(input) && as_picture && kind_of(input.spec(), pick) == SampleKind::kU32) {
+        return tl::unexpected(unreadable(path, "it holds whole numbers (ids), not a picture",
+                                         "Choose another layer."));
     }
-    return tl::unexpected(nothing_picked(input, path, request));
+    return pick;
 }
 
 // libjpeg fills the missing rest of a file with grey and merely warns. Stray bytes between markers,
@@ -319,6 +216,39 @@ double pixel_aspect_of(const ImageInput& input) {
     return sane_pixel_aspect(inverse ? 1 / aspect : aspect);
 }
 
+// EXR has no such tag; other programs ignore what some write there.
+int orientation_of(const ImageInput& input) {
+    if (is_exr(input)) return 1;
+    const int orientation = input.spec().get_int_attribute("Orientation", 1);
+    return orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+std::string note_of(const ImageInput& input) {
+    const ImageSpec& spec = input.spec();
+    if (is_exr(input)) {
+        std::array<float, 8> xy{};
+        const OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, 8);
+        if (!spec.getattribute("chromaticities", type, xy.data())) return {};
+        std::array<double, 8> wide{};
+        std::copy(xy.begin(), xy.end(), wide.begin());
+        return note_of_primaries(wide);
+    }
+    const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+    if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return {};
+    return note_of_profile(icc_profile_name(static_cast<const unsigned char*>(profile->data()),
+                                            static_cast<std::size_t>(profile->datasize())));
+}
+
+FileColor color_of(const ImageInput& input, SampleKind kind) {
+    const std::string_view format = input.format_name();
+    const std::string transfer(input.spec().get_string_attribute("dpx:Transfer"));
+    const bool log =
+        format == "cineon" ||
+        (format == "dpx" && (transfer == "Logarithmic" || transfer == "Printing density"));
+    if (log) return {"cineon", {}};
+    return {is_display_encoded(kind) ? "srgb" : "linear", note_of(input)};
+}
+
 Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, const Pick& pick) {
     const ImageSpec& spec = input.spec();
     const Size size = display_window(input, spec).size();
@@ -326,7 +256,15 @@ Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, c
         return tl::unexpected(damaged(path, "it has no pixels"));
     }
     if (spec.depth > 1) return tl::unexpected(damaged(path, "it is a volume, not a picture"));
-    return RasterInfo{size, kind_of(spec, pick), fps_of(spec), pixel_aspect_of(input)};
+    const SampleKind kind = kind_of(spec, pick);
+    const int orientation = orientation_of(input);
+    const double aspect = pixel_aspect_of(input);
+    return RasterInfo{upright(size, orientation),
+                      kind,
+                      fps_of(spec),
+                      lies_on_its_side(orientation) ? 1 / aspect : aspect,
+                      color_of(input, kind),
+                      orientation};
 }
 
 Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request) {
@@ -337,6 +275,7 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
     const ImageSpec& spec = input->spec();
     WEFT_CHECK_OK(check_memory(path, {spec.width, spec.height}, pick.end - pick.begin));
     WEFT_CHECK_OK(check_memory(path, info.size, 4));
+    const Size stored = info.orientation == 1 ? info.size : upright(info.size, info.orientation);
     raster.info = info;
     raster.channels = static_cast<int>(pick.channels.size());
     raster.has_alpha = pick.has_alpha;
@@ -354,6 +293,11 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
             WEFT_CHECK_OK(fill<float>(raster, *input, path, pick, OIIO::TypeFloat));
             break;
     }
+    std::visit(
+        [&](auto& samples) {
+            samples = upright(std::move(samples), stored, raster.channels, info.orientation);
+        },
+        raster.samples);
     return raster;
 }
 
@@ -376,7 +320,7 @@ Expected<ColourPlace> locate_colour(const std::string& path, const std::string& 
         WEFT_TRY(input, open_input(path));
         WEFT_TRY(pick, find_pick(*input, path, {layer, {}, false}));
         if (!is_exr(*input) || pick.channels.size() < 3) {
-            return tl::unexpected(unreadable(path, "it is no EXR with R, G and B",
+            return tl::unexpected(unreadable(path, "it is not an EXR with R, G and B",
                                              "Give one, or write another format."));
         }
         ColourPlace place;

@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/geometry.h"
+#include "engine/media/file_color.h"
 
 namespace weft {
 
@@ -17,10 +18,12 @@ namespace weft {
 enum class SampleKind { kU8, kU16, kU32, kHalf, kFloat, kOther };
 
 struct RasterInfo {
-    Size size;                          ///< The display window.
+    Size size;                          ///< The display window, as it is to be seen.
     SampleKind kind = SampleKind::kU8;  ///< Of the channels that were asked for; mixed: the widest.
     double fps = 0;                     ///< 0 when the file does not say.
     double pixel_aspect = 1;            ///< Width of a pixel over its height.
+    FileColor color = {};
+    int orientation = 1;  ///< How the file stores it (orientation.h); already applied.
 };
 
 /// 1 where a file states what no lens has.
@@ -42,7 +45,7 @@ struct Raster {
 };
 
 struct RasterRequest {
-    std::string layer;  ///< "beauty" takes beauty.R, .G, .B, .A; empty: R, G, B, A or the grey one.
+    std::string layer;    ///< "beauty" takes beauty.R, .G, .B, .A; empty: choose_channels().
     std::string channel;  ///< One channel by its full name, instead of a layer.
     /// Integer codes as they stand: palette indices instead of colours, and 1, 2 and 4 bits without
     /// scaling them to 8.
@@ -54,7 +57,7 @@ struct ColourPlace {
     int part = 0;
     std::array<int, 3> rgb{};
 };
-/// Errors: Unreadable when the file is no EXR or the layer has no three colours.
+/// Errors: Unreadable when the file is not an EXR or the layer has no three colours.
 [[nodiscard]] Expected<ColourPlace> locate_colour(const std::string& path,
                                                   const std::string& layer);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/core/setting.h"
+#include "engine/core/text.h"
 #include "engine/media/decode_limit.h"
 
 namespace weft {
@@ -23,13 +25,22 @@ Error damaged(const std::string& path, const std::string& reason) {
 Status check_memory(const std::string& path, Size size, int channels) {
     const double bytes = static_cast<double>(size.width) * size.height * channels * sizeof(float);
     if (bytes <= static_cast<double>(decode_limit_bytes())) return {};
-    return fail(
-        ErrorCode::kNoSpace,
-        path + " does not fit into memory: it has " + std::to_string(size.width) + "x" +
-            std::to_string(size.height) + " pixels, and a picture may take " +
-            std::to_string(decode_limit_bytes() >> 20) +
-            " MB decoded (a quarter of this machine's memory, or half of --memory). Scale it "
-            "down, or give more memory.");
+    return fail(ErrorCode::kNoSpace,
+                path + " does not fit into memory: it has " + size_text(size) +
+                    " pixels, and a picture may take " +
+                    std::to_string(decode_limit_bytes() >> 20) +
+                    " MB decoded (a quarter of this machine's memory, or half of the memory "
+                    "limit). Scale it "
+                    "down, or allow more memory" +
+                    by({{setting::kMemory}}) + ".");
+}
+
+Status check_plate_size(const std::string& path, const std::string& what, Size have, Size plate,
+                        const std::string& advice) {
+    if (plate.empty() || have == plate) return {};
+    return tl::unexpected(
+        unreadable(path, what + " is " + size_text(have) + " but the plate is " + size_text(plate),
+                   "Both must have one size: " + advice + "."));
 }
 
 }  // namespace weft

@@ -20,6 +20,11 @@ namespace weft {
 /// than killed by the system half way.
 [[nodiscard]] Status check_memory(const std::string& path, Size size, int channels);
 
+/// Errors: Unreadable when `have`, the size of what is called `what` ("its motion"), is not the
+/// plate's. An empty plate's size allows any.
+[[nodiscard]] Status check_plate_size(const std::string& path, const std::string& what, Size have,
+                                      Size plate, const std::string& advice);
+
 /// `body()`, with what the libraries below OpenImageIO throw as errors about the file.
 template <class F>
 auto guarded(const std::string& path, const F& body) -> decltype(body()) {

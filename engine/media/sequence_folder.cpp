@@ -6,6 +6,8 @@
 #include <map>
 #include <system_error>
 
+#include "engine/core/frame_range.h"
+#include "engine/core/text.h"
 #include "engine/media/plates.h"
 
 namespace weft {
@@ -18,9 +20,7 @@ bool is_digit(char c) {
 
 template <std::size_t N>
 bool has_extension(const std::string& path, const std::array<const char*, N>& known) {
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_case(fs::path(path).extension().string());
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
@@ -87,7 +87,7 @@ std::optional<int> number_in_name(const std::string& path) {
     if (!split_name(name, parts)) return std::nullopt;
     const char* const end = parts.digits.data() + parts.digits.size();
     const auto [stop, error] = std::from_chars(parts.digits.data(), end, number);
-    if (error != std::errc() || stop != end) return std::nullopt;
+    if (error != std::errc() || stop != end || !is_frame_number(number)) return std::nullopt;
     return name.size() > parts.prefix.size() && name[parts.prefix.size()] == '-' ? -number : number;
 }
 
@@ -106,7 +106,7 @@ bool has_picture_extension(const std::string& path) {
 
 Expected<SequencePattern> find_sequence(const std::string& folder) {
     WEFT_TRY(groups, group_files(folder));
-    // A lone picture with a number in its name beside a real sequence is no second sequence.
+    // A lone picture with a number in its name beside a real sequence is not a second sequence.
     const bool real = std::any_of(groups.begin(), groups.end(),
                                   [](const auto& group) { return group.second.files > 1; });
     if (real) std::erase_if(groups, [](const auto& group) { return group.second.files == 1; });

@@ -4,7 +4,10 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <limits>
 #include <system_error>
+
+#include "engine/core/frame_range.h"
 
 namespace weft {
 namespace {
@@ -16,6 +19,7 @@ struct Placeholder {
 };
 
 constexpr int kMaxPadding = 12;
+constexpr std::int64_t kBeyond = std::numeric_limits<std::int64_t>::max();
 
 /// A run of # or of @, or %d, %04d, that starts at `i`; length 0 when there is none.
 Placeholder placeholder_at(std::string_view s, std::size_t i) {
@@ -47,9 +51,8 @@ std::vector<Placeholder> placeholders_in(std::string_view s) {
     return found;
 }
 
-std::string padded(int frame, int padding) {
-    const std::int64_t magnitude = frame < 0 ? -static_cast<std::int64_t>(frame) : frame;
-    std::string digits = std::to_string(magnitude);
+std::string padded(std::int64_t frame, int padding) {
+    std::string digits = std::to_string(frame < 0 ? -frame : frame);
     if (static_cast<int>(digits.size()) < padding) {
         digits.insert(0, static_cast<std::size_t>(padding) - digits.size(), '0');
     }
@@ -70,7 +73,7 @@ Expected<SequencePattern> SequencePattern::parse(std::string_view text) {
         if (p.length == 1) continue;
         return fail(ErrorCode::kUsage, "'" + whole +
                                            "' has a frame number in its folder part. Only the file "
-                                           "name can carry one, such as plate.####.exr.");
+                                           "name can have one, such as plate.####.exr.");
     }
     const auto found = placeholders_in(text.substr(name_at));
     if (found.size() > 1) {
@@ -102,18 +105,26 @@ std::string SequencePattern::path_for(int frame) const {
     return numbered_ ? prefix_ + padded(frame, padding_) + suffix_ : text_;
 }
 
-std::optional<int> SequencePattern::frame_of(std::string_view path) const {
+std::optional<std::int64_t> SequencePattern::number_in(std::string_view path) const {
     if (!numbered_ || path.size() <= prefix_.size() + suffix_.size()) return std::nullopt;
     if (!path.starts_with(prefix_) || !path.ends_with(suffix_)) return std::nullopt;
     const std::string_view number =
         path.substr(prefix_.size(), path.size() - prefix_.size() - suffix_.size());
-    int frame = 0;
+    std::int64_t frame = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), frame);
-    if (error != std::errc() || end != number.data() + number.size()) return std::nullopt;
+    if (end != number.data() + number.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range || frame < -kBeyond) return kBeyond;
+    if (error != std::errc()) return std::nullopt;
     // 00012 is not a name that #### would write, nor is -0: one file for each number, one number
     // for each file.
     if (padded(frame, padding_) != number) return std::nullopt;
     return frame;
+}
+
+std::optional<int> SequencePattern::frame_of(std::string_view path) const {
+    const auto number = number_in(path);
+    if (!number || !is_frame_number(*number)) return std::nullopt;
+    return static_cast<int>(*number);
 }
 
 Expected<std::vector<int>> SequencePattern::list_frames() const {
@@ -125,9 +136,15 @@ Expected<std::vector<int>> SequencePattern::list_frames() const {
     std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
     for (const std::filesystem::directory_iterator end; !error && entry != end;
          entry.increment(error)) {
-        if (const auto frame = frame_of(folder + entry->path().filename().string())) {
-            frames.push_back(*frame);
+        const std::string path = folder + entry->path().filename().string();
+        const auto number = number_in(path);
+        if (!number) continue;
+        if (!is_frame_number(*number)) {
+            return fail(ErrorCode::kUnreadable, path + " has a frame number beyond " +
+                                                    std::to_string(kMaxFrameNumber) +
+                                                    ". Renumber it, or take it out of the folder.");
         }
+        frames.push_back(static_cast<int>(*number));
     }
     if (error) {
         return fail(ErrorCode::kUnreadable, "The folder " + (folder.empty() ? "." : folder) +

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,13 +24,17 @@ class SequencePattern {
     /// Negative numbers are written as -0012: the sign comes before the padding. A single file has
     /// the same path for every frame.
     [[nodiscard]] std::string path_for(int frame) const;
-    /// The number in a path that this pattern would write, or nothing: path_for(*frame_of(p)) == p.
+    /// The frame number in a path that this pattern would write, or nothing:
+    /// path_for(*frame_of(p)) == p. Numbers beyond kMaxFrameNumber are none.
     [[nodiscard]] std::optional<int> frame_of(std::string_view path) const;
     /// The frames whose files are in the folder now, ascending; none for a single file. Error:
-    /// Unreadable folder.
+    /// Unreadable folder, or a file in it numbered beyond kMaxFrameNumber.
     [[nodiscard]] Expected<std::vector<int>> list_frames() const;
 
   private:
+    // The number that stands in the path, however large (at most kBeyond), or nothing.
+    [[nodiscard]] std::optional<std::int64_t> number_in(std::string_view path) const;
+
     std::string text_, prefix_,
         suffix_;  // whole, before and after the number (prefix has the folder)
     int padding_ = 0;

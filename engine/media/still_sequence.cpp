@@ -1,10 +1,10 @@
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
 #include "engine/media/raster.h"
@@ -16,13 +16,9 @@ namespace {
 Error missing_frame(const SequencePattern& pattern, int frame) {
     const std::string file = pattern.path_for(frame);
     return {ErrorCode::kMissingFrames,
-            "Frame " + std::to_string(frame) + " is missing in " + pattern.text() +
-                ": there is no file " + file + ". Supply it, or leave it out of the frames.",
+            "Frame " + std::to_string(frame) + " is missing in " + pattern.text() + ": file " +
+                file + " not found. Supply it, or leave it out of the frames.",
             {}};
-}
-
-std::string text_of(Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 class StillSequence final : public FrameReader {
@@ -40,6 +36,7 @@ class StillSequence final : public FrameReader {
     double pixel_aspect() const override { return first_.pixel_aspect; }
     PixelDepth depth() const override { return depth_of(first_.kind); }
     bool display_encoded() const override { return is_display_encoded(first_.kind); }
+    FileColor color() const override { return first_.color; }
     std::string path_of(int frame) const override { return pattern_.path_for(frame); }
 
     Expected<PlateFrame> read(int frame) const override {
@@ -48,8 +45,9 @@ class StillSequence final : public FrameReader {
         WEFT_TRY(raster, read_raster(path, {options_.layer, {}, false}));
         if (raster.info.size != first_.size) {
             return tl::unexpected(unreadable(path,
-                                             "it is " + text_of(raster.info.size) +
-                                                 " but the first frame is " + text_of(first_.size),
+                                             "it is " + size_text(raster.info.size) +
+                                                 " but the first frame is " +
+                                                 size_text(first_.size),
                                              "All frames of a plate must have one size."));
         }
         return to_plate(raster);

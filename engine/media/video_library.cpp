@@ -11,8 +11,20 @@ extern "C" {
 #include <mutex>
 
 #include "engine/media/atomic_file.h"
+#include "engine/media/movies.h"
 
 namespace weft {
+
+std::string movie_library() {
+    const unsigned v = avcodec_version();
+    return "FFmpeg's libavcodec " + std::to_string(AV_VERSION_MAJOR(v)) + "." +
+           std::to_string(AV_VERSION_MINOR(v)) + "." + std::to_string(AV_VERSION_MICRO(v)) + ", " +
+           avcodec_license();
+}
+
+Status require_movies(const std::string& /*path*/) {
+    return {};
+}
 
 void silence_video_library() {
     static std::once_flag once;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/wrap.h"
 #include "engine/metrics/region.h"
 
 namespace weft {
@@ -19,11 +20,6 @@ double decode(double encoded) {
 
 double encode(double linear) {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-int wrapped(int i, int n) {
-    const int r = i % n;
-    return r < 0 ? r + n : r;
 }
 
 // Where the pixel's centre lies on the plane, and what one pixel to the right and down adds.

@@ -9,7 +9,7 @@
 namespace weft {
 
 /// The reference filter: each pixel is the plain mean over its area of samples_per_axis² lookups of
-/// the plane with `kernel`, the area carried to the plane by the local affine part of the motion
+/// the plane with `kernel`, the area mapped to the plane by the local affine part of the motion
 /// and the placement. Where a pixel covers more than samples_per_axis / 2 texels along an axis,
 /// more samples are taken (at most 64 an axis), so a minified texture does not alias.
 struct IdealFilter {

@@ -18,7 +18,7 @@ Part part_of(std::uint8_t matte) {
     return matte >= kSoftFrom ? Part::kSoftEdge : Part::kOutside;
 }
 
-// Expected − seen in levels; 0 where either is no number.
+// Expected − seen in levels; 0 if either is NaN.
 ImageF3 error_of(ViewF3 expected, ViewF3 seen) {
     ImageF3 out(expected.size());
     for (int y = 0; y < out.height(); ++y) {

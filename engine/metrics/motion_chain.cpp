@@ -126,6 +126,22 @@ void draw(const Triangle& t, ViewU8x1 inside, FlowField& out) {
     }
 }
 
+// `step(from, here, motion)` for every point that is still followed: where it began, where it is,
+// and its motion from there to here, which it carries on. False: the point is lost.
+template <class Step>
+void follow(FlowField& chain, const Step& step) {
+    parallel_rows(chain.d.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < chain.d.width(); ++x) {
+                std::uint8_t& alive = chain.valid.at(x, y);
+                if (alive == 0) continue;
+                const Vec2 from = centre(x, y);
+                alive = step(from, from + motion_at(chain, x, y), chain.d.pixel(x, y)) ? 255 : 0;
+            }
+        }
+    });
+}
+
 // A pixel of the surface that has spread over more than this is a tear, not a surface.
 constexpr float kMostSpreadPx = 8.0f;
 
@@ -213,21 +229,14 @@ MotionChain::MotionChain(ViewU8x1 matte, int edge_margin_px)
 void MotionChain::advance(const FlowField& next_from_cur, ViewU8x1 next_matte) {
     const Matte single = landing_is_single(next_from_cur, cur_inside_);
     Matte next_inside = eroded_inside(next_matte, margin_px_);
-    parallel_rows(cur_from_ref_.d.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < cur_from_ref_.d.width(); ++x) {
-                std::uint8_t& alive = cur_from_ref_.valid.at(x, y);
-                if (alive == 0) continue;
-                const Vec2 here = centre(x, y) + motion_at(cur_from_ref_, x, y);
-                Vec2 w{0, 0};
-                alive = inside_at(single, here) && lookup_motion(next_from_cur, single, here, w) &&
-                                inside_at(next_inside, here + w)
-                            ? 255
-                            : 0;
-                cur_from_ref_.d.at(x, y, 0) += w.x;
-                cur_from_ref_.d.at(x, y, 1) += w.y;
-            }
-        }
+    follow(cur_from_ref_, [&](Vec2, Vec2 here, float* motion) {
+        Vec2 w{0, 0};
+        if (!inside_at(single, here) || !lookup_motion(next_from_cur, single, here, w) ||
+            !inside_at(next_inside, here + w))
+            return false;
+        motion[0] += w.x;
+        motion[1] += w.y;
+        return true;
     });
     cur_inside_ = std::move(next_inside);
 }
@@ -236,24 +245,15 @@ void MotionChain::advance_inverse(const FlowField& cur_from_next, ViewU8x1 next_
     Matte next_inside = eroded_inside(next_matte, margin_px_);
     const Matte single = landing_is_single(cur_from_next, next_inside);
     const Image<std::int32_t, 1> lands = landings(cur_from_next, single);
-    parallel_rows(cur_from_ref_.d.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < cur_from_ref_.d.width(); ++x) {
-                std::uint8_t& alive = cur_from_ref_.valid.at(x, y);
-                if (alive == 0) continue;
-                const Vec2 here = centre(x, y) + motion_at(cur_from_ref_, x, y);
-                alive = 0;
-                Vec2 guess;
-                if (!inside_at(cur_inside_, here) || !first_guess(lands, here, guess)) continue;
-                Vec2 there;
-                if (!invert_at(cur_from_next, single, here, guess, there)) continue;
-                if (!inside_at(next_inside, there)) continue;
-                alive = 255;
-                const Vec2 d = there - centre(x, y);
-                cur_from_ref_.d.at(x, y, 0) = d.x;
-                cur_from_ref_.d.at(x, y, 1) = d.y;
-            }
-        }
+    follow(cur_from_ref_, [&](Vec2 from, Vec2 here, float* motion) {
+        Vec2 guess, there;
+        if (!inside_at(cur_inside_, here) || !first_guess(lands, here, guess) ||
+            !invert_at(cur_from_next, single, here, guess, there) || !inside_at(next_inside, there))
+            return false;
+        const Vec2 d = there - from;
+        motion[0] = d.x;
+        motion[1] = d.y;
+        return true;
     });
     cur_inside_ = std::move(next_inside);
 }

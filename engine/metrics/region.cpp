@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -14,7 +15,7 @@ ImageF1 luma_8bit(ViewF3 encoded) {
             const float* rgb = encoded.row(y);
             float* o = out.row(y);
             for (int x = 0; x < encoded.width(); ++x, rgb += 3)
-                o[x] = 255.0f * (0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2]);
+                o[x] = 255.0f * luma_601(rgb);
         }
     });
     return out;

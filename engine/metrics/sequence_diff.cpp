@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 
 namespace weft {
 namespace {
@@ -44,18 +45,14 @@ RowDiff diff_row(ViewF3 a, ViewF3 b, const ViewU8x1* where, int y) {
     return r;
 }
 
-std::string text(Size s) {
-    return std::to_string(s.width) + "x" + std::to_string(s.height);
-}
-
 Expected<FrameDiff> diff(ViewF3 a, ViewF3 b, const ViewU8x1* where) {
     if (!(a.size() == b.size())) {
-        return fail(ErrorCode::kDiffers, "The frames differ in size: " + text(a.size()) + " and " +
-                                             text(b.size()) + ".");
+        return fail(ErrorCode::kDiffers, "The frames differ in size: " + size_text(a.size()) +
+                                             " and " + size_text(b.size()) + ".");
     }
     if (where != nullptr && !(where->size() == a.size())) {
-        return fail(ErrorCode::kUnreadable, "The matte is " + text(where->size()) +
-                                                " but the frame is " + text(a.size()) +
+        return fail(ErrorCode::kUnreadable, "The matte is " + size_text(where->size()) +
+                                                " but the frame is " + size_text(a.size()) +
                                                 ". Give a matte of the frame's size.");
     }
     std::vector<RowDiff> rows(static_cast<std::size_t>(a.height()));

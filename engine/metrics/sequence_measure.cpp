@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 #include "engine/metrics/matte_chatter.h"
 #include "engine/metrics/region.h"
 #include "engine/metrics/sequence_diff.h"
@@ -14,15 +15,11 @@
 namespace weft {
 namespace {
 
-std::string text(Size s) {
-    return std::to_string(s.width) + "x" + std::to_string(s.height);
-}
-
 Status check_size(const char* what, int frame, Size got, Size expected) {
     if (got == expected) return {};
     return fail(ErrorCode::kUnreadable, std::string(what) + " of frame " + std::to_string(frame) +
-                                            " is " + text(got) + " but the first result is " +
-                                            text(expected) + ". Give files of one size.");
+                                            " is " + size_text(got) + " but the first result is " +
+                                            size_text(expected) + ". Give files of one size.");
 }
 
 Matte owned(ViewU8x1 m) {

@@ -17,7 +17,7 @@ namespace weft {
 
 struct TemporalError {
     double tde = 0;           ///< Mean |Y_source(p) − Y_target(p + d(p))|, 8-bit units.
-    std::int64_t pixels = 0;  ///< How many were visible in both; 0 means that `tde` says nothing.
+    std::int64_t pixels = 0;  ///< How many were visible in both; 0 means that `tde` is undefined.
 };
 
 /// The error along `target_from_source`, measured in the source frame's pixels: for a forward field

@@ -6,6 +6,7 @@
 
 #include "engine/color/color_space.h"
 #include "engine/core/blur_inside.h"
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/metrics/region.h"
 
@@ -13,7 +14,7 @@ namespace weft {
 namespace {
 
 constexpr double kShade = 0.6;    // of the median luminance: less is a cast shadow
-constexpr int kShadeOpening = 2;  // px: specks are no shadow
+constexpr int kShadeOpening = 2;  // px: specks are not shadows
 
 ImageF3 to_linear(ViewF3 encoded) {
     ImageF3 out(encoded.size());
@@ -26,15 +27,11 @@ ImageF3 to_linear(ViewF3 encoded) {
     return out;
 }
 
-float luminance(const float* p) {
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
-
 double median_inside(const ImageF3& linear, ViewU8x1 matte) {
     std::vector<float> values;
     for (int y = 0; y < matte.height(); ++y) {
         for (int x = 0; x < matte.width(); ++x) {
-            if (matte.row(y)[x] >= kInsideCoverage) values.push_back(luminance(linear.pixel(x, y)));
+            if (matte.row(y)[x] >= kInsideCoverage) values.push_back(luma_709(linear.pixel(x, y)));
         }
     }
     if (values.empty()) return 0;
@@ -69,7 +66,7 @@ Matte shade_of(const ImageF3& truth, ViewU8x1 matte) {
     for (int y = 0; y < dark.height(); ++y) {
         for (int x = 0; x < dark.width(); ++x) {
             if (matte.row(y)[x] >= kInsideCoverage &&
-                static_cast<double>(luminance(truth.pixel(x, y))) < kShade * lit)
+                static_cast<double>(luma_709(truth.pixel(x, y))) < kShade * lit)
                 dark.row(y)[x] = 255;
         }
     }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/frame_range.h"
+
 namespace weft {
 namespace {
 
@@ -39,8 +41,8 @@ bool read_number(std::string_view word, double& out) {
 
 bool read_frame(std::string_view word, int& out) {
     double number = 0;
-    constexpr double kMost = 1e8;
-    if (!read_number(word, number) || number != std::floor(number) || std::abs(number) > kMost)
+    if (!read_number(word, number) || number != std::floor(number) ||
+        std::abs(number) > kMaxFrameNumber)
         return false;
     out = static_cast<int>(number);
     return true;
@@ -75,7 +77,9 @@ Expected<CornerTrack> joined(const std::array<Path, 4>& paths) {
 
 Expected<CornerTrack> parse_lines(std::string_view text) {
     CornerTrack track;
+    int number = 0;
     for (const std::string_view line : lines_of(text)) {
+        ++number;
         const auto numbers = words(line.substr(0, line.find('#')), " \t,;");
         if (numbers.empty()) continue;
         int frame = 0;
@@ -86,8 +90,10 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
                    read_number(numbers[2 + 2 * k], quad[k].y);
         }
         if (!good) {
-            return unreadable("'" + std::string(line.substr(0, 60)) +
-                              "' is not a frame and the x and y of four corners");
+            return unreadable(
+                "Its line " + std::to_string(number) +
+                " is not a frame and the x and y of four corners. Write nine numbers on each "
+                "line: the frame, then x and y of the four corners");
         }
         if (!track.emplace(frame, quad).second)
             return unreadable("Frame " + std::to_string(frame) + " is there twice");

@@ -214,7 +214,7 @@ LatticeField inverse(const LatticeField& field) {
             Vec2 p = target - field.at(target);
             for (int k = 0; k < 12; ++k)
                 p += 0.8f * (target - (p + field.at(p)));
-            // A turn by more than 60 degrees is no contraction.
+            // A rotation by more than 60 degrees is not a contraction.
             if (!(glm::length(target - (p + field.at(p))) < kSettledPx)) {
                 if (!whole) whole = mean_affine(field);
                 p = newton_root(field, target, p, *whole);

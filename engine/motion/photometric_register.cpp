@@ -14,8 +14,9 @@ namespace {
 using Vec8 = std::array<double, 8>;
 using Mat8 = std::array<Vec8, 8>;
 
-// Solves a symmetric positive system in place (Cholesky). False when it is not positive definite.
-bool solve(Mat8& a, Vec8& b) {
+// Solves a symmetric positive definite system in place. Returns false if it is not positive
+// definite.
+bool solve_cholesky(Mat8& a, Vec8& b) {
     for (std::size_t j = 0; j < 8; ++j) {
         for (std::size_t k = 0; k < j; ++k)
             a[j][j] -= a[j][k] * a[j][k];
@@ -97,7 +98,7 @@ bool start_from(const LatticeField& field, const std::vector<RegistrationSample>
     a[7][7] += ridge;
     for (std::size_t i = 0; i < 8; ++i)
         a[i][i] += 1e-12 * static_cast<double>(samples.size());
-    if (!solve(a, b)) return false;
+    if (!solve_cholesky(a, b)) return false;
     map.h = b;
     return true;
 }
@@ -159,7 +160,7 @@ double planar_step(const RegistrationPicture& anchor,
     b[7] -= prior * map.h[7];
     for (std::size_t i = 0; i < 8; ++i)
         a[i][i] *= 1 + 1e-9;
-    if (!solve(a, b)) return -1;
+    if (!solve_cholesky(a, b)) return -1;
     double most = 0;
     for (std::size_t i = 0; i < 8; ++i) {
         map.h[i] += b[i];

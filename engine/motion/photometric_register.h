@@ -47,7 +47,7 @@ struct PlanarRegistration {
 
 /// `initial` plus a smooth correction: the maximum a posteriori displacement of a coarse lattice
 /// under the photometric residuals and the prior that second differences are of the order of
-/// `stiffness_px`; where the picture tells nothing the correction of the surroundings goes on.
+/// `stiffness_px`; where the picture has no information the correction is extrapolated.
 /// Pure; deterministic.
 [[nodiscard]] LatticeField register_lattice(const RegistrationPicture& anchor,
                                             const RegistrationPicture& cur,

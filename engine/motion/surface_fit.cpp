@@ -33,7 +33,8 @@ float robust_scale(const std::vector<Sample>& samples, const std::vector<Vec2>& 
 // Solves the symmetric n×n system in place by Gaussian elimination with a ridge already added;
 // `rhs` holds two right-hand sides. Returns false when it is singular.
 template <std::size_t N>
-bool solve(std::array<std::array<double, N>, N>& a, std::array<std::array<double, 2>, N>& rhs) {
+bool solve_with_pivots(std::array<std::array<double, N>, N>& a,
+                       std::array<std::array<double, 2>, N>& rhs) {
     for (std::size_t k = 0; k < N; ++k) {
         std::size_t pivot = k;
         for (std::size_t r = k + 1; r < N; ++r) {
@@ -144,7 +145,7 @@ Quadratic fit_quadratic(const std::vector<Sample>& samples, const Frame2D& frame
                 a[j][k] = a[k][j];
             a[j][j] += kRidge[j] * total;
         }
-        if (!solve<6>(a, rhs)) return model;
+        if (!solve_with_pivots<6>(a, rhs)) return model;
         model = rhs;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             residuals[i] = samples[i].d - evaluate(model, frame.local(samples[i].p));
@@ -208,7 +209,7 @@ Vec2 affine_at_node(const double* m, Vec2 node, double sigma) {
         {{m[kU], m[kV]},
          {(m[kUx] - qx * m[kU]) / sigma, (m[kVx] - qx * m[kV]) / sigma},
          {(m[kUy] - qy * m[kU]) / sigma, (m[kVy] - qy * m[kV]) / sigma}}};
-    if (!solve<3>(a, rhs)) return Vec2(0);
+    if (!solve_with_pivots<3>(a, rhs)) return Vec2(0);
     return {static_cast<float>(rhs[0][0]), static_cast<float>(rhs[0][1])};
 }
 
@@ -339,7 +340,7 @@ LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitO
     subtract(samples, field, residuals);
 
     // The noise of the raw motion is what even the finest fit leaves. Half of it again, because the
-    // estimator's errors hang together over about the width of that fit and are partly followed.
+    // estimator's errors are correlated over about the width of that fit and are partly followed.
     const int finest =
         std::max(options.spacing_px / 2, static_cast<int>(std::lround(options.finest_px / 2)));
     const float spread = std::max(options.noise_floor_px, robust_scale(samples, residuals));
@@ -371,7 +372,7 @@ Matte motion_weights(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 valid, int border
                        static_cast<std::size_t>(v.stride()));
     };
     cv::Mat inside = as_mat(visible) >= 128;
-    // The border of the frame is no border of the surface: only the matte's own edge is avoided.
+    // The frame's border is not the surface's border: only the matte's own edge is avoided.
     cv::Mat distance, framed;
     cv::copyMakeBorder(inside, framed, 1, 1, 1, 1, cv::BORDER_REPLICATE);
     cv::distanceTransform(framed, distance, cv::DIST_L2, 3);

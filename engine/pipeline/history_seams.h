@@ -10,7 +10,7 @@ namespace weft {
 /// The seams in space and time of a region in locked mode: one for each interval between two
 /// references on which the histories do not agree (AnalysisKind::kHistoryAfter), and one, outside
 /// of those, after each frame on which a texture stretched past the limit was let go. They depend
-/// on the texture, so they are no part of the analysis. Errors: those of the source and the store.
+/// on the texture, so they are not part of the analysis. Errors: those of the source and the store.
 [[nodiscard]] Expected<std::vector<HistorySeam>> make_history_seams(const ShotSource& source,
                                                                     const ShotPlan& plan,
                                                                     const AnalysisStore& store,

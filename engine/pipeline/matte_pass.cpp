@@ -147,7 +147,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
     return {};
 }
 
-// Where a matte is not carried to, it is empty.
+// A matte is empty where it is not propagated to.
 Status fill_the_rest(const PassContext& context, AnalysisStore& store,
                      const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {

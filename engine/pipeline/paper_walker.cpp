@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/core/parallel.h"
+#include "engine/core/setting.h"
 #include "engine/pipeline/synthesis_inputs.h"
 
 namespace weft {
@@ -44,8 +45,9 @@ Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
     if (!(extent.x < kLargestPlane && extent.y < kLargestPlane)) {
         return fail(
             ErrorCode::kUsage,
-            "The placement needs a texture of more than 8192 texels a side for every frame. "
-            "Raise the scale, or use --temporal locked, which repeats its plane.");
+            "The placement needs a texture of more than 8192 texels per side for every frame. "
+            "Raise the scale, or use the locked mode, which repeats its plane" +
+                by({{setting::kTemporalMode, "locked"}}) + ".");
     }
     const Vec2i origin(static_cast<int>(std::floor(low.x)), static_cast<int>(std::floor(low.y)));
     return FramePlane{origin,

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -43,8 +44,7 @@ PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_p
             for (int x = 0; x < plate.width(); ++x, in += 3, out += 3) {
                 for (int c = 0; c < 3; ++c)
                     out[c] = code(in[c]);
-                luma[x] = static_cast<std::uint8_t>(
-                    (out[0] * 6966 + out[1] * 23436 + out[2] * 2366 + 16384) >> 15);
+                luma[x] = static_cast<std::uint8_t>(luma_709_code(out[0], out[1], out[2]));
             }
         }
     });

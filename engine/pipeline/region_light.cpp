@@ -1,15 +1,17 @@
 #include "engine/pipeline/region_light.h"
 
+#include "engine/lighting/painted_light.h"
+
 namespace weft {
 
 Expected<ImageF3> ShotSource::light_pass(int /*region*/, int frame) const {
     return fail(ErrorCode::kRenderFailed,
-                "There is no lighting pass for frame " + std::to_string(frame) + ".");
+                "The lighting pass of frame " + std::to_string(frame) + " is missing.");
 }
 
 Expected<ImageF2> ShotSource::uv(int /*region*/, int frame) const {
     return fail(ErrorCode::kRenderFailed,
-                "There is no UV pass for frame " + std::to_string(frame) + ".");
+                "The UV pass of frame " + std::to_string(frame) + " is missing.");
 }
 
 Expected<std::optional<Shading>> region_shading(const ShotSource& source, const RegionPlan& region,

@@ -11,8 +11,9 @@
 #include "engine/color/color_space.h"
 #include "engine/compute/backend.h"
 #include "engine/core/image.h"
+#include "engine/core/keyed_numbers.h"
+#include "engine/lighting/lamp.h"
 #include "engine/lighting/light_source.h"
-#include "engine/lighting/painted_light.h"
 #include "engine/lighting/shading.h"
 #include "engine/mask/matte_reach.h"
 #include "engine/motion/corner_track.h"
@@ -66,10 +67,10 @@ struct RegionPlan {
     /// The placement as it is on a frame, always with respect to the reference frame.
     [[nodiscard]] PlanePlacement placement_at(int frame) const {
         PlanePlacement out = placement;
-        if (!scale_keys.empty()) out.scale = scale_keys.at(frame)[0];
-        if (!rotate_keys.empty()) out.rotate_deg = rotate_keys.at(frame)[0];
+        if (!scale_keys.empty()) out.scale = scale_keys.float_at(frame)[0];
+        if (!rotate_keys.empty()) out.rotate_deg = rotate_keys.float_at(frame)[0];
         if (!offset_keys.empty())
-            out.offset_px = {offset_keys.at(frame)[0], offset_keys.at(frame)[1]};
+            out.offset_px = {offset_keys.float_at(frame)[0], offset_keys.float_at(frame)[1]};
         return out;
     }
     // Texture.
@@ -102,7 +103,7 @@ struct RegionPlan {
     bool has_uv = false;            ///< A UV pass says which place of the plane each pixel shows.
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {
-        return strength_keys.empty() ? light.strength : strength_keys.at(frame)[0];
+        return strength_keys.empty() ? light.strength : strength_keys.float_at(frame)[0];
     }
     [[nodiscard]] bool lights() const {
         return light_source != LightSource::kNone &&

@@ -85,7 +85,7 @@ class FrameRenderer {
         return result;
     }
     // The region's ink, from its pass or found in the plate, over the lit texture.
-    // The old surface gets it too: ink that lies across the edge is no part of either.
+    // The old surface gets it too: ink across the edge belongs to neither.
     Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture,
                    ImageF3& old_surface);
 

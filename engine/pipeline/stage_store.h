@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// Thread-safe. What cannot be kept is made again: neither function fails.
+/// Thread-safe. What cannot be stored is computed again: neither function fails.
 class StageStore {
   public:
     virtual ~StageStore() = default;

@@ -4,9 +4,10 @@
 #include <optional>
 #include <set>
 
+#include "engine/core/smooth_step.h"
 #include "engine/pipeline/light_pass.h"
-#include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/surface_job.h"
 #include "engine/temporal/held_frames.h"
 #include "engine/temporal/history_seam.h"
 #include "engine/temporal/shutter.h"
@@ -15,125 +16,19 @@
 namespace weft {
 namespace {
 
-// One region on its way through the sweeps.
-struct Job {
-    int region = 0;
-    const RegionPlan* plan = nullptr;
-    FrameSpan span;
-    std::vector<int> references;  // ascending
-    int primary = 0;              // the reference that holds the placement
-    bool coords = false, shading = false, paper = false, grain = false, shutter = false;
-
-    std::optional<SurfaceWalker> walker;
-    int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
-    HeldFrames held;
-    bool held_now = false;
-    std::set<int> held_frames;  // whose drawing is that of the frame before in time
-    std::optional<Shading> last_shading;
-    std::optional<PaperWalker> painter;
-    Matte last_visible, extent_now;
-    ShutterMeter shutter_meter;
-    std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
-    ImageF3 last_display;
-    Matte last_metered;
-
-    [[nodiscard]] bool is_reference(int frame) const {
-        return std::binary_search(references.begin(), references.end(), frame);
-    }
-    // Light is estimated from several frames at once, after the legs.
-    [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }
-    // Between two references what the first leg finds is not final: blend() makes it so.
-    [[nodiscard]] AnalysisKind coords_kind(int frame) const {
-        const bool between =
-            frame > references.front() && frame < references.back() && !is_reference(frame);
-        return between ? AnalysisKind::kCoordsOneWay : AnalysisKind::kCoords;
-    }
-    [[nodiscard]] bool complete(const AnalysisStore& store) const {
-        for (int f = span.first; f <= span.last; ++f) {
-            if (coords && !store.has({region, f, AnalysisKind::kCoords})) return false;
-            if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
-            if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
-        }
-        if (shutter && !store.has({region, primary, AnalysisKind::kShutter})) return false;
-        return !grain || store.has({region, primary, AnalysisKind::kGrain});
-    }
-};
-
-std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
-    std::vector<Job> jobs;
-    for (std::size_t k = 0; k < plan.regions.size(); ++k) {
-        const RegionPlan& region = plan.regions[k];
-        Job job;
-        job.region = static_cast<int>(k);
-        job.plan = &region;
-        job.span = analysed_span(plan, region);
-        job.references = region.reference_frames;
-        job.primary = job.references.front();
-        std::sort(job.references.begin(), job.references.end());
-        job.coords = region.temporal == TemporalMode::kLocked;
-        // Further references anchor coordinates; nothing else is carried from them.
-        if (!job.coords) job.references = {job.primary};
-        job.paper = region.temporal == TemporalMode::kPaper;
-        job.shading = region.estimates_light();
-        job.grain = region.grain > 0 && !region.grain_frames.empty();
-        job.shutter = region.estimates_shutter();
-        if ((job.coords || job.paper || job.shading || job.grain || job.shutter) &&
-            !job.complete(store)) {
-            jobs.push_back(std::move(job));
-        }
-    }
-    return jobs;
-}
-
-// The three sweeps over all jobs. An empty one has first == last with nothing to do.
-struct Legs {
-    std::optional<SweepOptions> forward;   // from the primary references to the ends
-    std::optional<SweepOptions> backward;  // from the last references to the begins
-    std::optional<SweepOptions> again;     // from references before a primary up to it
-};
-
-Legs legs_of(const std::vector<Job>& jobs) {
-    Legs legs;
-    const auto widen = [](std::optional<SweepOptions>& leg, int first, int last, bool motion) {
-        if (!leg) {
-            leg = SweepOptions{first, last, motion};
-            return;
-        }
-        const bool up = last >= first;
-        leg->first = up ? std::min(leg->first, first) : std::max(leg->first, first);
-        leg->last = up ? std::max(leg->last, last) : std::min(leg->last, last);
-        leg->motion |= motion;
-    };
-    for (const Job& job : jobs) {
-        const bool motion = !job.plan->true_motion && job.plan->track.empty();
-        widen(legs.forward, job.primary, job.span.last, motion);
-        if (job.span.first < job.primary || job.references.back() > job.primary) {
-            widen(legs.backward, job.references.back(), job.span.first, motion);
-        }
-        if (job.references.front() < job.primary) {
-            widen(legs.again, job.references.front(), job.primary, motion);
-        }
-    }
-    return legs;
-}
-
-int length(const std::optional<SweepOptions>& leg) {
-    return leg ? std::abs(leg->last - leg->first) + 1 : 0;
-}
-
 // What all three legs do at a stop.
 class Follower {
   public:
     Follower(const PassContext& context, AnalysisStore& store) : context_(context), store_(store) {}
 
-    void begin_leg(const SweepOptions& leg, std::vector<Job>& jobs) {
+    void begin_leg(const SweepOptions& leg, std::vector<SurfaceJob>& jobs) {
         walking_back_ = leg.last < leg.first;
-        for (Job& job : jobs)
+        for (SurfaceJob& job : jobs)
             job.held = HeldFrames();
     }
 
     // Leg 1: out of the primary reference.
-    Status forward(Job& job, const SweepFrame& at) {
+    Status forward(SurfaceJob& job, const SweepFrame& at) {
         if (at.frame < job.primary || at.frame > job.span.last) return {};
         WEFT_TRY(visible, visible_at(job, at));
         WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
@@ -144,7 +39,7 @@ class Follower {
     }
 
     // Leg 2: down from the references after the primary one, through it, to the begin.
-    Status backward(Job& job, const SweepFrame& at) {
+    Status backward(SurfaceJob& job, const SweepFrame& at) {
         if (at.frame > job.references.back() || at.frame < job.span.first) return {};
         WEFT_TRY(visible, visible_at(job, at));
         if (at.frame >= job.primary && job.is_reference(at.frame)) {
@@ -163,7 +58,7 @@ class Follower {
     }
 
     // Leg 3: up from the references before the primary one.
-    Status again(Job& job, const SweepFrame& at) {
+    Status again(SurfaceJob& job, const SweepFrame& at) {
         if (at.frame < job.references.front() || at.frame >= job.primary) return {};
         WEFT_TRY(visible, visible_at(job, at));
         if (job.is_reference(at.frame)) return restart(job, at, visible);
@@ -173,7 +68,7 @@ class Follower {
 
   private:
     // Also says whether the drawing of the frame before is held: job.held_now.
-    [[nodiscard]] Expected<Matte> visible_at(Job& job, const SweepFrame& at) const {
+    [[nodiscard]] Expected<Matte> visible_at(SurfaceJob& job, const SweepFrame& at) const {
         WEFT_TRY(extent,
                  extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
         WEFT_TRY(holdout,
@@ -186,7 +81,8 @@ class Follower {
         return visible;
     }
 
-    Status start(Job& job, const SweepFrame& at, const Matte& visible, const LatticeField* base) {
+    Status start(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
+                 const LatticeField* base) {
         SurfaceWalkerOptions options;
         options.quality = context_.plan.quality;
         options.exact_motion = job.plan->true_motion;
@@ -211,20 +107,20 @@ class Follower {
     }
 
     // What the artist put right on this frame, or null.
-    [[nodiscard]] static const std::vector<SurfacePin>* pins_at(const Job& job, int frame) {
+    [[nodiscard]] static const std::vector<SurfacePin>* pins_at(const SurfaceJob& job, int frame) {
         const auto pins = job.plan->corrections.find(frame);
         return job.coords && pins != job.plan->corrections.end() ? &pins->second : nullptr;
     }
 
     // At a reference frame whose coordinates an earlier leg found.
-    Status restart(Job& job, const SweepFrame& at, const Matte& visible) {
+    Status restart(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
         if (!job.coords || at.frame == job.primary) return start(job, at, visible, nullptr);
         WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kCoords}));
         WEFT_TRY(base, decode_lattice(bytes));
         return start(job, at, visible, &base);
     }
 
-    Status advance(Job& job, const SweepFrame& at, const Matte& visible) {
+    Status advance(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
         if (!job.plan->track.empty()) {
             follow_track(job, at, visible);
         } else if (job.plan->true_motion) {
@@ -258,7 +154,7 @@ class Follower {
     }
 
     // Frames that have been passed and are known better now.
-    Status keep_found_late(Job& job, int frame) {
+    Status keep_found_late(SurfaceJob& job, int frame) {
         const auto found = job.walker->take_found_late();
         if (!job.coords && !job.gathers_light()) return {};
         for (const LatticeField& ref_from_frame : found) {
@@ -279,7 +175,7 @@ class Follower {
     }
 
     // The track gives the motion to any frame at once: nothing adds up.
-    void follow_track(Job& job, const SweepFrame& at, const Matte& visible) const {
+    void follow_track(SurfaceJob& job, const SweepFrame& at, const Matte& visible) const {
         const auto motion_to = [&](int frame) {
             return plane_motion(job.plan->track.at(at.frame), job.plan->track.at(frame),
                                 context_.source.size(), job.walker->ref_from_cur().spacing());
@@ -290,7 +186,7 @@ class Follower {
 
     // prev_from_cur from the files, which point one way in time: the other way is inverted, by what
     // was visible of the surface in the frame before, or an occluder's motion would land on it.
-    [[nodiscard]] Expected<FlowField> true_motion(const Job& job, int frame) const {
+    [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame) const {
         const bool direct = job.plan->motion_forward == walking_back_;
         if (direct) return context_.source.motion(job.region, frame);
         WEFT_TRY(cur_from_prev,
@@ -300,7 +196,7 @@ class Follower {
     }
 
     // While a seam hides that a stretched texture was let go, both are kept for it to choose.
-    Status keep_stretched(const Job& job, int frame) {
+    Status keep_stretched(const SurfaceJob& job, int frame) {
         const LatticeField* stretched = job.walker->stretched();
         if (!stretched || !job.coords) return {};
         const LatticeField& relaxed = job.walker->ref_from_cur();
@@ -313,7 +209,7 @@ class Follower {
         return keep(job, frame, AnalysisKind::kHistoryAfter, encode(back ? *stretched : relaxed));
     }
 
-    Status keep_all(Job& job, const SweepFrame& at, const Matte& visible) {
+    Status keep_all(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
         WEFT_CHECK_OK(keep_stretched(job, at.frame));
         if (job.coords || job.gathers_light()) {
             WEFT_CHECK_OK(
@@ -338,7 +234,7 @@ class Follower {
     }
 
     // Grain is the camera's: all of the plate shows it.
-    Status measure_grain(Job& job, const SweepFrame& at) {
+    Status measure_grain(SurfaceJob& job, const SweepFrame& at) {
         if (!job.grain || at.frame > job.plan->grain_frames.back()) return {};
         ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
         Matte metered(display.size(), 255);
@@ -358,7 +254,7 @@ class Follower {
         return keep(job, job.primary, AnalysisKind::kGrain, encode(grain));
     }
 
-    Status measure_shutter(Job& job, const SweepFrame& at, const Matte& visible) {
+    Status measure_shutter(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
         const std::vector<int>& frames = job.plan->shutter_evidence;
         if (!job.shutter || at.frame > frames.back()) return {};
         if (at.frame > job.primary)
@@ -368,7 +264,7 @@ class Follower {
     }
 
     // Where a frame lies between two references, 0 to 1: frames of one drawing lie at one place.
-    static float position_between(const Job& job, int frame, int before, int after) {
+    static float position_between(const SurfaceJob& job, int frame, int before, int after) {
         int first = frame, last = frame + 1;
         while (first > before && job.held_frames.contains(first))
             --first;
@@ -378,19 +274,18 @@ class Follower {
         return static_cast<float>(first - before) / static_cast<float>(after - before);
     }
 
-    // Between two references the histories from both are carried. Their difference is spread over
+    // Between two references the tracks from both are kept. Their difference is spread over
     // the interval; where it is too large for that, both are kept for a seam to choose.
-    Status blend(Job& job, int frame, const Matte& visible, const LatticeField& mine) {
+    Status blend(SurfaceJob& job, int frame, const Matte& visible, const LatticeField& mine) {
         if (!job.coords) return {};
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
-        const float s = position_between(job, frame, *(after - 1), *after);
-        const float smooth = s * s * (3 - 2 * s);
+        const float smooth = smooth_rise(position_between(job, frame, *(after - 1), *after));
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
         // Walking back, the walker comes from the reference after.
         const LatticeField& from_before = walking_back_ ? other : mine;
         const LatticeField& from_after = walking_back_ ? mine : other;
-        constexpr float kSlowestPx = 0.2f;  // a frame, at a plate 854 px wide: nobody sees it move
+        constexpr float kSlowestPx = 0.2f;  // per frame, at a plate 854 px wide: not visible
         const float limit_px = kSlowestPx * static_cast<float>(context_.source.size().width) /
                                854.0f * static_cast<float>(*after - *(after - 1));
         const HistoryLayers layers =
@@ -405,7 +300,7 @@ class Follower {
                     encode(mix(from_before, from_after, smooth)));
     }
 
-    Status keep(const Job& job, int frame, AnalysisKind kind, const Bytes& bytes) {
+    Status keep(const SurfaceJob& job, int frame, AnalysisKind kind, const Bytes& bytes) {
         return store_.put({job.region, frame, kind}, bytes);
     }
 
@@ -424,23 +319,23 @@ ShadingOptions shading_options(const ShotPlan& plan, Size plate) {
 }
 
 int count_surface_steps(const ShotPlan& plan, const AnalysisStore& store) {
-    const std::vector<Job> jobs = jobs_of(plan, store);
+    const std::vector<SurfaceJob> jobs = surface_jobs(plan, store);
     if (jobs.empty()) return 0;
-    const Legs legs = legs_of(jobs);
-    return length(legs.forward) + length(legs.backward) + length(legs.again);
+    const SurfaceLegs legs = surface_legs(jobs);
+    return legs.steps();
 }
 
 Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
-    std::vector<Job> jobs = jobs_of(context.plan, store);
+    std::vector<SurfaceJob> jobs = surface_jobs(context.plan, store);
     if (jobs.empty()) return {};
-    const Legs legs = legs_of(jobs);
+    const SurfaceLegs legs = surface_legs(jobs);
     Follower follower(context, store);
-    using Stop = Status (Follower::*)(Job&, const SweepFrame&);
+    using Stop = Status (Follower::*)(SurfaceJob&, const SweepFrame&);
     const auto run = [&](const std::optional<SweepOptions>& leg, Stop stop) -> Status {
         if (!leg) return {};
         follower.begin_leg(*leg, jobs);
         return sweep(context, *leg, [&](const SweepFrame& at) -> Status {
-            for (Job& job : jobs)
+            for (SurfaceJob& job : jobs)
                 WEFT_CHECK_OK((follower.*stop)(job, at));
             return {};
         });
@@ -448,7 +343,7 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     WEFT_CHECK_OK(run(legs.forward, &Follower::forward));
     WEFT_CHECK_OK(run(legs.backward, &Follower::backward));
     WEFT_CHECK_OK(run(legs.again, &Follower::again));
-    for (const Job& job : jobs) {
+    for (const SurfaceJob& job : jobs) {
         if (job.gathers_light())
             WEFT_CHECK_OK(
                 estimate_light(context, job.region, {job.span.first, job.span.last}, store));

@@ -1,11 +1,11 @@
 #include "engine/pipeline/sweep.h"
 
-#include <chrono>
 #include <future>
 #include <optional>
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 
 namespace weft {
 namespace {
@@ -21,10 +21,6 @@ Expected<Loaded> load(const PassContext& context, int frame) {
     WEFT_TRY(plate, context.source.plate(frame));
     Loaded loaded{frame, plate, make_views(*plate, *context.plan.display_from_plate), {}};
     return loaded;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -52,7 +48,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
     ProgressEvent event{"motion", 0, static_cast<std::int64_t>(frames.size()), 0, 0};
     std::optional<std::pair<int, Loaded>> last;
     for (const int frame : frames) {
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = Clock::now();
         if (cancel.cancelled()) return cancelled(cancel);
         if (frame > span.first) {
             if (!last || last->first != frame - 1) {
@@ -97,7 +93,7 @@ Status sweep(const PassContext& context, const SweepOptions& options, const Swee
     Loaded previous, current;
     auto next = std::async(std::launch::async, load_next, options.first, nullptr);
     for (int frame = options.first;; frame += step) {
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = Clock::now();
         WEFT_TRY(here, next.get());
         current = std::move(here);
         if (context.cancel.cancelled()) return cancelled(context.cancel);

@@ -123,7 +123,7 @@ class OuterBorder {
                            [&](Vec2i n) { return !takes_part(x + n.x, y + n.y); });
     }
 
-    // Tied pixels away from the border must hang together with a tied border pixel of their kind;
+    // Tied pixels away from the border must be connected to a tied border pixel of their kind;
     // otherwise their terminal is not on the outer face.
     [[nodiscard]] bool ties_reach_border() const {
         std::vector<Vec2i> inner;

@@ -11,7 +11,7 @@ namespace {
 
 // Kept texels get a rim as wide as a seam needs to find a way through.
 constexpr int kLeastRim_px = 12;
-// What is made again may move its seams a little outwards.
+// Regenerated texels may move their seams a little outwards.
 constexpr int kAgainRim_px = 6;
 
 class Amender {
@@ -104,7 +104,7 @@ class Amender {
         PlaneOptions options = options_;
         options.amendments.clear();
         options.guide.reset();
-        // In the first round of refinement the cuts are made again; further ones would look at the
+        // In the first round of refinement all seams are cut again; further ones would look at the
         // whole plane.
         options.refine_passes = std::min(options.refine_passes, 1);
         if (salt != 0) options.seed = mix64(options.seed + mix64(salt + (index << 32)));

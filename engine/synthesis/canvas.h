@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/core/image.h"
+#include "engine/core/wrap.h"
 
 namespace weft {
 
@@ -22,7 +23,7 @@ class Canvas {
     /// The stored position of (x, y), or nothing outside of a plane.
     [[nodiscard]] std::optional<Vec2i> resolve(int x, int y) const {
         const Size s = size();
-        if (torus_) return Vec2i{wrap(x, s.width), wrap(y, s.height)};
+        if (torus_) return Vec2i{wrapped(x, s.width), wrapped(y, s.height)};
         if (x < 0 || y < 0 || x >= s.width || y >= s.height) return std::nullopt;
         return Vec2i{x, y};
     }
@@ -68,11 +69,6 @@ class Canvas {
     [[nodiscard]] const Image<std::int32_t, 2>& source() const { return source_; }
 
   private:
-    static int wrap(int i, int n) {
-        i %= n;
-        return i < 0 ? i + n : i;
-    }
-
     bool torus_;
     ImageU8x3 pixels_;
     Image<std::int32_t, 2> source_;

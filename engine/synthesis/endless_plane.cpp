@@ -34,7 +34,7 @@ Expected<std::unique_ptr<EndlessPlane>> EndlessPlane::make(ImageU8x3 sample,
         if (!plane->grow_strips(cancel)) return stopped(cancel);
         return plane;
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, "There is not enough memory for a texture plane.");
+        return fail(ErrorCode::kNoSpace, "Not enough memory for a texture plane.");
     }
 }
 
@@ -183,8 +183,7 @@ Expected<EndlessPlane::Part> EndlessPlane::read(const Recti& rect,
         }
         return out;
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace,
-                    "There is not enough memory for this part of a texture plane.");
+        return fail(ErrorCode::kNoSpace, "Not enough memory for this part of a texture plane.");
     }
 }
 

@@ -4,13 +4,10 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/core/wrap.h"
 
 namespace weft {
 namespace {
-
-int wrapped(int i, int n) {
-    return ((i % n) + n) % n;
-}
 
 // 1 within `radius` (in both axes) of a texel whose right or lower neighbour comes from elsewhere.
 Image<std::uint8_t, 1> near_seams(ImageView<const std::int32_t, 2> source, int radius, bool wrap) {

@@ -8,12 +8,10 @@
 #include <array>
 #include <cmath>
 
-#include "engine/synthesis/fftw_memory.h"
+#include "engine/synthesis/scratch.h"
 
 namespace weft {
 namespace {
-
-using Floats = FftwFloats;
 
 // Sums over rectangles of exact integers.
 class Integral {
@@ -45,35 +43,8 @@ class Integral {
 
 }  // namespace
 
-struct FftCorrelation::Plans {
-    FftwPlan forward, backward;
-    std::size_t padded_row = 0, count = 0;  ///< Floats of an in-place row, of the whole.
-
-    explicit Plans(Size fft)
-        : padded_row(2 * static_cast<std::size_t>(fft.width / 2 + 1)),
-          count(padded_row * static_cast<std::size_t>(fft.height)) {
-        const Floats work = make_fftw_floats(count);
-        auto* spectrum = reinterpret_cast<fftwf_complex*>(work.get());
-        forward = make_fftw_plan([&] {
-            return fftwf_plan_dft_r2c_2d(fft.height, fft.width, work.get(), spectrum,
-                                         FFTW_ESTIMATE);
-        });
-        backward = make_fftw_plan([&] {
-            return fftwf_plan_dft_c2r_2d(fft.height, fft.width, spectrum, work.get(),
-                                         FFTW_ESTIMATE);
-        });
-    }
-    void run_forward(float* data) const {
-        fftwf_execute_dft_r2c(forward.get(), data, reinterpret_cast<fftwf_complex*>(data));
-    }
-    void run_backward(float* data) const {
-        fftwf_execute_dft_c2r(backward.get(), reinterpret_cast<fftwf_complex*>(data), data);
-    }
-};
-
-// A block's weighted channels and weights as floats, their Euclidean lengths, and the exact sums.
+// The Euclidean lengths of a block's weighted channels and weights, and the exact sums.
 struct FftCorrelation::Weighted {
-    std::vector<Spectrum> data;
     std::array<double, 4> norms{};
     Integral weights, lengths;
 };
@@ -84,9 +55,8 @@ FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     const auto size = [](int s, int b, int l, int h) {
         return fast_fft_size(std::max({b, s + std::max(h, 0), b - l}));
     };
-    fft_ = {size(sample.width(), block.width, lo.x, hi.x),
-            size(sample.height(), block.height, lo.y, hi.y)};
-    plans_ = std::make_unique<Plans>(fft_);
+    fft_ = std::make_unique<PlaneFft>(Size{size(sample.width(), block.width, lo.x, hi.x),
+                                           size(sample.height(), block.height, lo.y, hi.y)});
 
     std::array<std::int64_t, 3> total{};
     for (int y = 0; y < sample.height(); ++y) {
@@ -98,11 +68,10 @@ FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     for (std::size_t c = 0; c < 3; ++c)
         mean_[c] = static_cast<int>(total[c] / area);
 
+    std::vector<float> plane(static_cast<std::size_t>(area));
     for (std::size_t c = 0; c < 4; ++c) {
-        Floats data = make_fftw_floats(plans_->count);
-        std::fill_n(data.get(), plans_->count, 0.0f);
+        float* out = plane.data();
         for (int y = 0; y < sample.height(); ++y) {
-            float* out = data.get() + static_cast<std::size_t>(y) * plans_->padded_row;
             for (int x = 0; x < sample.width(); ++x) {
                 const std::uint8_t* p = sample.pixel(x, y);
                 int v = 0;
@@ -112,29 +81,29 @@ FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
                     for (std::size_t k = 0; k < 3; ++k)
                         v += (p[k] - mean_[k]) * (p[k] - mean_[k]);
                 }
-                out[x] = static_cast<float>(v);
+                *out++ = static_cast<float>(v);
                 norms_[c] += static_cast<double>(v) * v;
             }
         }
         norms_[c] = std::sqrt(norms_[c]);
-        plans_->run_forward(data.get());
-        spectra_.push_back(std::move(data));
+        spectra_[c].resize(fft_->spectrum_size());
+        fft_->forward_rows(plane.data(), sample_size_, spectra_[c].data());
+        fft_->forward_columns(spectra_[c].data());
     }
 }
 
 FftCorrelation::~FftCorrelation() = default;
 
-FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target) const {
-    Weighted out{{}, {}, Integral(block_), Integral(block_)};
-    for (int c = 0; c < 4; ++c) {
-        out.data.push_back(make_fftw_floats(plans_->count));
-        std::fill_n(out.data.back().get(), plans_->count, 0.0f);
-    }
+// Writes the channels and the weights to four planes of the block's size.
+FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target, float* planes) const {
+    Weighted out{{}, Integral(block_), Integral(block_)};
+    const auto area =
+        static_cast<std::size_t>(block_.width) * static_cast<std::size_t>(block_.height);
     std::vector<std::uint64_t> weight_row(static_cast<std::size_t>(block_.width));
     std::vector<std::uint64_t> length_row(weight_row.size());
     const bool guided = !target.guide.empty();
     for (int y = 0; y < block_.height; ++y) {
-        const std::size_t base = static_cast<std::size_t>(y) * plans_->padded_row;
+        float* row = planes + static_cast<std::size_t>(y) * weight_row.size();
         for (int x = 0; x < block_.width; ++x) {
             const auto i = static_cast<std::size_t>(x);
             std::array<std::int64_t, 4> v{};  // Weighted channels, and the weight.
@@ -153,9 +122,8 @@ FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target) const 
             }
             weight_row[i] = static_cast<std::uint64_t>(v[3]);
             length_row[i] = length;
-            if (v[3] == 0) continue;
             for (std::size_t c = 0; c < 4; ++c) {
-                out.data[c][base + i] = static_cast<float>(v[c]);
+                row[c * area + i] = static_cast<float>(v[c]);
                 out.norms[c] += static_cast<double>(v[c]) * static_cast<double>(v[c]);
             }
         }
@@ -167,53 +135,60 @@ FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target) const 
     return out;
 }
 
-// F(w)·conj(F(|S|²)) − 2 Σ F(w·C)·conj(F(S)) and back, in data[0].
-void FftCorrelation::correlate(std::vector<Spectrum>& data) const {
-    for (const Floats& d : data)
-        plans_->run_forward(d.get());
-    for (std::size_t i = 0; i < plans_->count; i += 2) {
-        float re = 0, im = 0;
-        for (std::size_t c = 0; c < 4; ++c) {
-            const float ar = data[c][i], ai = data[c][i + 1];
-            const float br = spectra_[c][i], bi = spectra_[c][i + 1];
-            const float k = c < 3 ? -2.0f : 1.0f;
-            re += k * (ar * br + ai * bi);
-            im += k * (ai * br - ar * bi);
-        }
-        data[0][i] = re;
-        data[0][i + 1] = im;
+// w ⋆ |S|² − 2 Σ w·C ⋆ S at the translations asked for, as PlaneFft::backward_rows() leaves it.
+void FftCorrelation::correlate(const float* planes, float* out) const {
+    const std::size_t size = fft_->spectrum_size();
+    const auto area =
+        static_cast<std::size_t>(block_.width) * static_cast<std::size_t>(block_.height);
+    Scratch<std::vector<FftLanes>> rows(4 * size);
+    std::array<PlaneFft::Product, 4> products{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        FftLanes* to = (*rows).data() + c * size;
+        fft_->forward_rows(planes + c * area, block_, to);
+        products[c] = {to, spectra_[c].data(), c < 3 ? -2.0f : 1.0f};
     }
-    plans_->run_backward(data[0].get());
+    FftLanes* sum = (*rows).data();
+    fft_->correlate(products, sum);
+    const int height = fft_->size().height;
+    if (lo_.y < 0) fft_->backward_rows(sum, lo_.y + height, std::min(hi_.y, -1) + 1 + height, out);
+    if (hi_.y >= 0) fft_->backward_rows(sum, std::max(lo_.y, 0), hi_.y + 1, out);
 }
 
-FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) const {
-    Weighted block = weigh(target);
-    correlate(block.data);
-
-    Estimate out;
-    // A convolution by FFT of size N is off by at most ‖a‖‖b‖·((1+u)^3n·(1+u√5)^(3n+1)·(1+μ)^3n −
-    // 1), n = log2 N, u = 2^-24 (Brent, Percival & Zimmermann 2007, theorem 5.1), below 14·(n+1)·u
-    // for μ ≤ u. That is for radix 2; the factor 4 covers FFTW's mixed radices, the rounding of
-    // inputs and of the sum over four products.
-    const double points = static_cast<double>(fft_.width) * fft_.height;
+// A convolution by FFT of size N is off by at most ‖a‖‖b‖·((1+u)^3n·(1+u√5)^(3n+1)·(1+μ)^3n − 1),
+// n = log2 N, u = 2^-24 (Brent, Percival & Zimmermann 2007, theorem 5.1), below 14·(n+1)·u for
+// μ ≤ u. That is for radix 2; docs/decisions/0008-fft.md says why the factor 4 covers radices 3 to
+// 5, the split of real rows, the rounding of inputs and the sum over four products.
+double FftCorrelation::error_bound(const Weighted& block) const {
+    const double points = static_cast<double>(fft_->size().width) * fft_->size().height;
     double size = block.norms[3] * norms_[3];
     for (std::size_t c = 0; c < 3; ++c)
         size += 2 * block.norms[c] * norms_[c];
-    out.error = 4 * 14 * (std::log2(points) + 1) * 0x1.0p-24 * size + 1.0;
+    return 4 * 14 * (std::log2(points) + 1) * 0x1.0p-24 * size + 1.0;
+}
 
-    const float scale = 1.0f / static_cast<float>(points);
+FftCorrelation::Estimate FftCorrelation::estimate(const MatchTarget& target) const {
+    const Size fft = fft_->size();
+    const std::size_t stride = fft_->row_stride();
+    Scratch<std::vector<float>> values(stride * static_cast<std::size_t>(fft_->padded_height()));
+    Scratch<std::vector<float>> planes(4 * static_cast<std::size_t>(block_.width) *
+                                       static_cast<std::size_t>(block_.height));
+    const Weighted block = weigh(target, (*planes).data());
+    correlate((*planes).data(), (*values).data());
+
+    Estimate out;
+    out.error = error_bound(block);
+    const float scale = 1.0f / (4 * static_cast<float>(fft.width) * static_cast<float>(fft.height));
     const Recti all = rect_of(block_);
     for (int ty = lo_.y; ty <= hi_.y; ++ty) {
-        const int row = ty < 0 ? ty + fft_.height : ty;
-        const float* values =
-            block.data[0].get() + static_cast<std::size_t>(row) * plans_->padded_row;
+        const int row = ty < 0 ? ty + fft.height : ty;
+        const float* at = (*values).data() + static_cast<std::size_t>(row) * stride;
         for (int tx = lo_.x; tx <= hi_.x; ++tx) {
             const Recti reach =
                 all.intersected({tx, ty, tx + sample_size_.width, ty + sample_size_.height});
             const double fixed = reach.empty() ? 0 : static_cast<double>(block.lengths.sum(reach));
             out.weight.push_back(reach.empty() ? 0 : block.weights.sum(reach));
             out.ssd.push_back(fixed +
-                              static_cast<double>(values[tx < 0 ? tx + fft_.width : tx] * scale));
+                              static_cast<double>(at[tx < 0 ? tx + fft.width : tx] * scale));
         }
     }
     return out;

@@ -8,6 +8,7 @@
 
 #include "engine/core/image.h"
 #include "engine/synthesis/overlap_cost.h"
+#include "engine/synthesis/plane_fft.h"
 
 namespace weft {
 
@@ -31,18 +32,18 @@ class FftCorrelation {
     [[nodiscard]] Estimate estimate(const MatchTarget& target) const;
 
   private:
-    struct Plans;
     struct Weighted;
-    using Spectrum = std::unique_ptr<float[], void (*)(void*)>;
 
-    [[nodiscard]] Weighted weigh(const MatchTarget& target) const;
-    void correlate(std::vector<Spectrum>& data) const;
+    [[nodiscard]] Weighted weigh(const MatchTarget& target, float* planes) const;
+    [[nodiscard]] double error_bound(const Weighted& block) const;
+    void correlate(const float* planes, float* out) const;
 
-    std::unique_ptr<Plans> plans_;
-    Size sample_size_, block_, fft_;
+    std::unique_ptr<PlaneFft> fft_;
+    Size sample_size_, block_;
     Vec2i lo_, hi_;
     std::array<int, 3> mean_{};
-    std::vector<Spectrum> spectra_;  ///< Channels 0…2 less their mean, and their squared length.
+    /// Of channels 0…2 less their mean, and of their squared length.
+    std::array<std::vector<FftLanes>, 4> spectra_;
     std::array<double, 4> norms_{};  ///< Euclidean lengths of what the spectra are of.
 };
 

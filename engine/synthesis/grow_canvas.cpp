@@ -1,15 +1,15 @@
 #include "engine/synthesis/grow_canvas.h"
 
+#include "engine/core/stopwatch.h"
 #include "engine/synthesis/device_search.h"
 #include "engine/synthesis/plane_energy.h"
 #include "engine/synthesis/refine.h"
-#include "engine/synthesis/stage_timer.h"
 #include "engine/synthesis/sweep.h"
 
 namespace weft {
 namespace {
 
-// The baselines stay what they are, and a guided plane (made anew for each frame) what its guide
+// The baselines stay what they are, and a guided plane (synthesized for each frame) what its guide
 // asks.
 bool refines(const PlaneOptions& o) {
     return o.refine_passes > 0 && o.seam == SeamMethod::kGraphCut &&
@@ -29,7 +29,7 @@ bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& 
     if (!sweep.run(stats, cancel, progress)) return false;
     if (!again) return true;
 
-    const StageTimer timer(stats.refine_s);
+    const ScopeTimer timer(stats.refine_s);
     if (!sweep.cut_again(*again, kRefineGradientFloor, stats, cancel)) return false;
     if (recount_energy(atlas, again->source(), canvas.torus()).energy <
         recount_energy(atlas, canvas.source(), canvas.torus()).energy) {

@@ -1,5 +1,5 @@
 #pragma once
-// The whole of growing: the first sweep, cuts made again, further blocks over the worst seams.
+// The whole of growing: the first sweep, seams cut again, further blocks over the worst seams.
 
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"

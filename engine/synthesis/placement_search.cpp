@@ -13,20 +13,22 @@
 namespace weft {
 namespace {
 
-// Measured on x86-64 with samples of 96 to 200 px: a transform's nominal operation, and one byte of
-// a direct comparison.
-constexpr double kFftOperation_ns = 0.055;
-constexpr int kTransforms = 5;
-double direct_byte_ns() {
+// Measured on x86-64: one byte of a direct comparison (samples of 96 to 200 px), and one of the
+// 5·n·log2 n nominal operations of a transform (planes of 120² to 500²).
+struct SearchTimes {
+    double direct_byte_ns, fft_operation_ns;
+};
+SearchTimes search_times() {
     switch (current_isa()) {
         case Isa::kAvx512:
-            return 0.009;
+            return {0.009, 0.025};
         case Isa::kAvx2:
-            return 0.016;
+            return {0.016, 0.029};
         default:
-            return 0.045;
+            return {0.045, 0.036};
     }
 }
+constexpr int kTransforms = 5;
 
 bool better(const OverlapCost& a, const OverlapCost& b) {
     return !at_most(b, a);
@@ -82,8 +84,9 @@ bool PlacementSearch::direct_is_faster(const MatchTarget& target,
                 static_cast<double>(std::accumulate(mask.row(y), mask.row(y) + mask.width(), 0));
     }
     const double n = static_cast<double>(sample_.width() + hi_.x) * (sample_.height() + hi_.y);
-    const double fft_ns = kFftOperation_ns * kTransforms * 5 * n * std::log2(n);
-    return direct_byte_ns() * 3 * pixels * compared < fft_ns;
+    const SearchTimes times = search_times();
+    const double fft_ns = times.fft_operation_ns * kTransforms * 5 * n * std::log2(n);
+    return times.direct_byte_ns * 3 * pixels * compared < fft_ns;
 }
 
 Shortlist PlacementSearch::find_direct(const MatchTarget& target,

@@ -1,13 +1,12 @@
 #include "engine/synthesis/repetition.h"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
 
-#include "engine/synthesis/fftw_memory.h"
+#include "engine/core/luma.h"
+#include "engine/synthesis/plane_fft.h"
 
 namespace weft {
 namespace {
@@ -26,43 +25,37 @@ Recti middle(Size s) {
 // Σ a(p)·a(p + d) for |dx| ≤ reach.x, 0 ≤ dy ≤ reach.y, divided by the number of pairs.
 Image<double, 1> autocovariance(ViewU8x3 picture, Vec2i reach) {
     const int w = picture.width(), h = picture.height();
-    const int fw = fast_fft_size(w + reach.x + 1), fh = fast_fft_size(h + reach.y + 1);
-    const std::size_t row = 2 * static_cast<std::size_t>(fw / 2 + 1);
-    const FftwFloats data = make_fftw_floats(row * static_cast<std::size_t>(fh));
-    std::fill_n(data.get(), row * static_cast<std::size_t>(fh), 0.0f);
+    const PlaneFft fft({fast_fft_size(w + reach.x + 1), fast_fft_size(h + reach.y + 1)});
     double sum = 0;
     const auto luma = [&](int x, int y) {
         const std::uint8_t* p = picture.pixel(x, y);
-        return 0.2126f * static_cast<float>(p[0]) + 0.7152f * static_cast<float>(p[1]) +
-               0.0722f * static_cast<float>(p[2]);
+        return luma_709(static_cast<float>(p[0]), static_cast<float>(p[1]),
+                        static_cast<float>(p[2]));
     };
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x)
             sum += static_cast<double>(luma(x, y));
     }
     const auto mean = static_cast<float>(sum / (static_cast<double>(w) * h));
+    std::vector<float> plane;
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x)
-            data[static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x)] =
-                luma(x, y) - mean;
+            plane.push_back(luma(x, y) - mean);
     }
-    auto* spectrum = reinterpret_cast<fftwf_complex*>(data.get());
-    const FftwPlan forward = make_fftw_plan(
-        [&] { return fftwf_plan_dft_r2c_2d(fh, fw, data.get(), spectrum, FFTW_ESTIMATE); });
-    const FftwPlan backward = make_fftw_plan(
-        [&] { return fftwf_plan_dft_c2r_2d(fh, fw, spectrum, data.get(), FFTW_ESTIMATE); });
-    fftwf_execute(forward.get());
-    for (std::size_t i = 0; i < row * static_cast<std::size_t>(fh); i += 2) {
-        data[i] = data[i] * data[i] + data[i + 1] * data[i + 1];
-        data[i + 1] = 0;
-    }
-    fftwf_execute(backward.get());
+    std::vector<FftLanes> rows(fft.spectrum_size());
+    fft.forward_rows(plane.data(), picture.size(), rows.data());
+    std::vector<FftLanes> spectrum = rows;
+    fft.forward_columns(spectrum.data());
+    const PlaneFft::Product itself{rows.data(), spectrum.data(), 1.0f};
+    fft.correlate({&itself, 1}, rows.data());
+    std::vector<float> data(fft.row_stride() * static_cast<std::size_t>(fft.padded_height()));
+    fft.backward_rows(rows.data(), 0, reach.y + 1, data.data());
     Image<double, 1> out(2 * reach.x + 1, reach.y + 1);
-    const double scale = 1.0 / (static_cast<double>(fw) * fh);
+    const double scale = 1.0 / (4.0 * fft.size().width * fft.size().height);
     for (int dy = 0; dy <= reach.y; ++dy) {
         for (int dx = -reach.x; dx <= reach.x; ++dx) {
-            const std::size_t at = static_cast<std::size_t>(dy) * row +
-                                   static_cast<std::size_t>(dx < 0 ? dx + fw : dx);
+            const std::size_t at = static_cast<std::size_t>(dy) * fft.row_stride() +
+                                   static_cast<std::size_t>(dx < 0 ? dx + fft.size().width : dx);
             const double pairs = static_cast<double>(w - std::abs(dx)) * (h - dy);
             out.at(dx + reach.x, dy) = static_cast<double>(data[at]) * scale / pairs;
         }

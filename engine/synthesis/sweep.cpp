@@ -6,8 +6,8 @@
 #include <mutex>
 
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/synthesis/contact.h"
-#include "engine/synthesis/stage_timer.h"
 
 namespace weft {
 namespace {
@@ -80,7 +80,7 @@ void Sweep::make_bands() {
 }
 
 bool Sweep::run(PlaneStats& stats, const CancelToken& cancel, const ProgressFn& progress) {
-    const double start_s = stage_clock_s();
+    const auto start = Clock::now();
     cancel_ = &cancel;
     std::mutex progress_mutex;
     const Size size = canvas_.size();
@@ -99,7 +99,7 @@ bool Sweep::run(PlaneStats& stats, const CancelToken& cancel, const ProgressFn& 
         stats.placements += band.count;
         stats.peak_graph_bytes = std::max(stats.peak_graph_bytes, band.peak_bytes);
     }
-    const double share = busy_s > 0 ? std::min(1.0, (stage_clock_s() - start_s) / busy_s) : 0;
+    const double share = busy_s > 0 ? std::min(1.0, seconds_since(start) / busy_s) : 0;
     stats.search_s += search_s * share;
     stats.seam_s += seam_s * share;
     stats.period = period_;
@@ -171,7 +171,7 @@ void Sweep::grow_band(std::size_t index) {
         if (cancel_->cancelled()) stopped_ = true;
         if (stopped_) break;
         if (column_filled(band, x)) continue;
-        const StageTimer busy(band.busy_s);
+        const ScopeTimer busy(band.busy_s);
         x = lay(index, x) - 1;
         band.done_x.store(x - x_.overlap, std::memory_order_release);
         band.done_x.notify_all();
@@ -350,13 +350,13 @@ int Sweep::lay(std::size_t index, int x) {
             (static_cast<std::uint64_t>(index) << 32) + static_cast<std::uint64_t>(number));
     Choice choice;
     {
-        const StageTimer timer(band.search_s);
+        const ScopeTimer timer(band.search_s);
         choice = choose(index, x, rng);
     }
     Patch patch{choice.block.rect.intersected(choice.window), choice.origin};
     if (!canvas_.torus()) patch.rect = patch.rect.intersected(rect_of(canvas_.size()));
     {
-        const StageTimer timer(band.seam_s);
+        const ScopeTimer timer(band.seam_s);
         const std::size_t bytes =
             lay_patch(canvas_, choice.block, atlas_.pixels(), patch, options_);
         band.peak_bytes = std::max(band.peak_bytes, bytes);

@@ -83,7 +83,7 @@ Image<double, 1> self_mismatch(ViewU8x3 s, Vec2i reach) {
 }
 
 // Moves that are better than all around them, and much better than what lies between them and no
-// move at all: the slope around the origin is no repetition.
+// move at all: the slope around the origin is not repetition.
 std::vector<Candidate> local_minima(const Image<double, 1>& m, Vec2i reach) {
     std::vector<Candidate> out;
     const auto at = [&](int dx, int dy) {

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <new>
 
+#include "engine/core/stopwatch.h"
+#include "engine/core/text.h"
 #include "engine/synthesis/amend_canvas.h"
 #include "engine/synthesis/canvas.h"
 #include "engine/synthesis/feather.h"
 #include "engine/synthesis/grow_canvas.h"
 #include "engine/synthesis/plane_energy.h"
 #include "engine/synthesis/sample_atlas.h"
-#include "engine/synthesis/stage_timer.h"
 
 namespace weft {
 namespace {
@@ -19,25 +20,21 @@ constexpr std::size_t kMostSamples = 64;
 constexpr int kLargestSide = 16384;
 constexpr float kLargestGuideWeight = 1000.0f;
 
-std::string text_of(Size s) {
-    return std::to_string(s.width) + "x" + std::to_string(s.height);
-}
-
 Status check(const std::vector<ViewU8x3>& samples, const PlaneOptions& o) {
     if (samples.empty() || samples.size() > kMostSamples) {
-        return fail(ErrorCode::kUsage, "A texture plane grows from 1 to 64 samples, not from " +
+        return fail(ErrorCode::kUsage, "A texture plane needs 1 to 64 samples, not " +
                                            std::to_string(samples.size()) + ".");
     }
     for (const ViewU8x3& sample : samples)
         WEFT_CHECK_OK(check_sample(sample.size(), o.overlap_px));
     if (o.size.width < 1 || o.size.height < 1 || o.size.width > kLargestSide ||
         o.size.height > kLargestSide) {
-        return fail(ErrorCode::kUsage, "The texture plane's size is " + text_of(o.size) +
+        return fail(ErrorCode::kUsage, "The texture plane's size is " + size_text(o.size) +
                                            ". Use 1 to 16384 px on each side.");
     }
     if (o.guide && (o.guide->target.size() != o.size || o.guide->known.size() != o.size)) {
-        return fail(ErrorCode::kUsage, "The guide picture is " + text_of(o.guide->target.size()) +
-                                           " px and the texture plane " + text_of(o.size) +
+        return fail(ErrorCode::kUsage, "The guide picture is " + size_text(o.guide->target.size()) +
+                                           " px and the texture plane " + size_text(o.size) +
                                            " px. They must have the same size.");
     }
     if (o.guide && !(o.guide->weight >= 0 && o.guide->weight <= kLargestGuideWeight)) {
@@ -70,7 +67,7 @@ Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, const PlaneOpt
     TexturePlane plane;
     PlaneStats& stats = plane.stats;
     {
-        const StageTimer total(stats.total_s);
+        const ScopeTimer total(stats.total_s);
         const SampleAtlas atlas(samples, options.orientations);
         Canvas canvas(options.size, options.tileable);
         if (!grow_canvas(atlas, options, canvas, stats, cancel, progress) ||
@@ -109,8 +106,9 @@ Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas, const TexturePl
 
 Status check_sample(Size sample, int overlap_px) {
     if (sample.width < 2 * kLeastOverlap || sample.height < 2 * kLeastOverlap) {
-        return fail(ErrorCode::kUsage, "The texture sample is " + text_of(sample) +
-                                           " px, too small to grow. Use one of at least 24x24 px.");
+        return fail(ErrorCode::kUsage,
+                    "The texture sample is " + size_text(sample) +
+                        " px, too small for synthesis. Use one of at least 24x24 px.");
     }
     if (overlap_px < kLeastOverlap) {
         return fail(ErrorCode::kUsage,
@@ -118,7 +116,7 @@ Status check_sample(Size sample, int overlap_px) {
     }
     if (std::min(sample.width, sample.height) < overlap_px) {
         return fail(ErrorCode::kUsage,
-                    "The texture sample is " + text_of(sample) +
+                    "The texture sample is " + size_text(sample) +
                         " px, smaller than the overlap of " + std::to_string(overlap_px) +
                         " px. Use a larger sample, or an overlap of at most " +
                         std::to_string(std::min(sample.width, sample.height) / 2) + " px.");
@@ -132,8 +130,8 @@ Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples, const Pl
     try {
         return grow(samples, options, cancel, progress);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, "There is not enough memory for a texture plane of " +
-                                             text_of(options.size) + " px. Use a smaller size.");
+        return fail(ErrorCode::kNoSpace, "Not enough memory for a texture plane of " +
+                                             size_text(options.size) + " px. Use a smaller size.");
     }
 }
 

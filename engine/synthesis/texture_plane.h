@@ -24,7 +24,7 @@ namespace weft {
 /// wanted illumination): enters placement costs and the data terms of the cut with `weight` (λ_t).
 struct PlaneGuide {
     ViewU8x3 target;  ///< As large as the plane.
-    ViewU8x1 known;   ///< 0 where the target says nothing.
+    ViewU8x1 known;   ///< 0 where the target is unknown.
     float weight = 1.0f;
 
     /// Weights are integers in placement costs: of a filled pixel, and of a guided one.

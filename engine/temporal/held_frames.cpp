@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kBlock = 8;
 constexpr std::int64_t kLeastPixels = 64;
-// A block with fewer pixels of the surface is judged by the whole only: one pixel is no evidence.
+// A block with fewer pixels of the surface is judged by the whole only: one pixel is not reliable.
 constexpr int kLeastInBlock = 4;
 
 struct Difference {

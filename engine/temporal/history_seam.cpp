@@ -8,6 +8,7 @@
 #include <opencv2/imgproc/detail/gcgraph.hpp>
 
 #include "engine/core/rng.h"
+#include "engine/core/smooth_step.h"
 
 namespace weft {
 namespace {
@@ -190,7 +191,7 @@ HistoryLayers spread_disagreement(const LatticeField& before, const LatticeField
             const Vec2 d = after.node(i, j) - before.node(i, j);
             const float beyond =
                 std::clamp(std::hypot(d.x, d.y) / std::max(limit_px, 1e-6f) - 1.0f, 0.0f, 1.0f);
-            const float slides = 1.0f - beyond * beyond * (3.0f - 2.0f * beyond);
+            const float slides = 1.0f - smooth_rise(beyond);
             out.before.set_node(i, j, before.node(i, j) + weight * slides * d);
             // The same expression where both meet, so that they agree to the bit.
             if (slides == 1.0f)

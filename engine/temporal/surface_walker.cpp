@@ -43,7 +43,7 @@ struct SurfaceWalker::State {
     int since_older_tried = 0;     // frames
 
     // While nothing of the surface is to be seen, and then until it is found again.
-    // After the texture was let go back to its own shape: how it lay before, carried on for the
+    // After the texture was released to its own shape: its previous track, continued for the
     // frames over which a seam hides the change.
     LatticeField relaxed_at_event, stretched_at_event, stretched;
     int hiding_left = 0;  // frames
@@ -137,7 +137,7 @@ struct SurfaceWalker::State {
 
 bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
     largest_px = std::max(largest_px, visible_px);
-    // A sliver tells nothing of the whole.
+    // A narrow strip does not determine the whole.
     return visible_px < std::max<std::int64_t>(64, largest_px / 100);
 }
 
@@ -240,7 +240,7 @@ bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int genera
 }
 
 // Where much of the surface is past the limit the texture goes back to its own shape at once, and
-// what it was is carried on beside it for a while.
+// the previous track continues beside it for a while.
 bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
     if (!hide_reanchoring || hiding_left > 0) return false;
     std::optional<LatticeField> relaxed = relaxed_stretch(ref_from_cur, visible);
@@ -264,7 +264,7 @@ void SurfaceWalker::State::carry_stretched() {
 void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8x1 visible) {
     const Registered found =
         register_against(anchors.present(), cur, anchor_from_cur, options.quality);
-    // The chain is steady but drifts, the registration does not drift but trembles: the gains of
+    // The chain is steady but drifts, the registration does not drift but jitters: the gains of
     // the (stationary) Kalman filters between them.
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
     correct(anchors.present_index(),

@@ -2,7 +2,7 @@
 
 namespace weft {
 
-/// How a texture is carried through time (method: "Temporal consistency").
+/// The temporal mode of a texture (method: "Temporal consistency").
 enum class TemporalMode {
     kLocked,  ///< Texture coordinates follow the surface.
     kPaper,   ///< eq. 4–6: λ_t in the cut, then the α blend with the warped previous result.

@@ -51,7 +51,8 @@ WEFT_HD void lit_texture(const LayerArgs& a, int x, int y, float* rgb) {
     if (!a.shading) return;
     const float light = shading_at(a, a.origin_x + x, a.origin_y + y);
     if (!(finite(light) && light > 0)) return;
-    const float gain = held(1.0f + a.strength * (light * a.inverse_reference - 1.0f), a.least_gain, a.most_gain);
+    const float gain =
+        held(1.0f + a.strength * (light * a.inverse_reference - 1.0f), a.least_gain, a.most_gain);
     for (int c = 0; c < 3; ++c)
         rgb[c] *= gain;
 }

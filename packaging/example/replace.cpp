@@ -1,8 +1,8 @@
 // Renders a project with another texture on its first region: replace PROJECT TEXTURE OUTPUT
 #include <cstdio>
 
-#include "app/project/project_file.h"
-#include "app/session/render_job.h"
+#include "app/project/codec/project_file.h"
+#include "app/render/render_job.h"
 
 int main(int argc, char** argv) {
     if (argc != 4) {

@@ -1,6 +1,7 @@
 #include "tests/architecture/include_rules.h"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 
 namespace weft::architecture {
@@ -71,8 +72,10 @@ bool is_header(std::string_view path) {
 
 std::string check_own(std::string_view path, const Include& include, const Floor& floor,
                       std::span<const Floor> floors) {
-    if (lies_in(include.name, floor.folder) || lies_in_any(include.name, floor.may_use)) return {};
-    if (!floor_of(include.name, floors))
+    const Floor* named = floor_of(include.name, floors);
+    // A folder inside of this one that has a floor of its own is another one.
+    if (named == &floor || lies_in_any(include.name, floor.may_use)) return {};
+    if (!named)
         return "\"" + std::string(include.name) +
                "\" is no file of a known folder; write the path from the root";
     return std::string(floor.folder) + " may not use \"" + std::string(include.name) + "\"" +
@@ -116,6 +119,37 @@ std::vector<std::string> broken_rules(std::string_view path, std::string_view co
         if (what.empty() && include.quoted) what = check_own(path, include, *floor, floors);
         if (!what.empty())
             out.push_back(std::string(path) + ":" + std::to_string(include.line) + ": " + what);
+    }
+    return out;
+}
+
+std::vector<std::string> broken_reads(std::string_view path, std::string_view contents,
+                                      std::span<const ReadRule> rules) {
+    std::vector<std::string> out;
+    std::size_t number = 0;
+    for (std::size_t start = 0; start < contents.size(); ++number) {
+        const std::size_t end = std::min(contents.find('\n', start), contents.size());
+        std::string_view line = contents.substr(start, end - start);
+        start = end + 1;
+        line = line.substr(0, line.find("//"));
+        for (const ReadRule& rule : rules) {
+            const std::size_t at = line.find(rule.call);
+            if (at == std::string_view::npos) continue;
+            // "Library::open(" is a function of ours; "::open(" is the system's.
+            const bool qualified = at > 0 && rule.call.starts_with("::") &&
+                                   (std::isalnum(static_cast<unsigned char>(line[at - 1])) != 0 ||
+                                    line[at - 1] == '_');
+            const bool guarded = !rule.guard.empty() && contents.find(rule.guard) != contents.npos;
+            const bool allowed =
+                std::any_of(rule.exceptions.begin(), rule.exceptions.end(),
+                            [&](const ReadRule::Exception& e) { return e.file == path; });
+            if (qualified || guarded || allowed) continue;
+            out.push_back(std::string(path) + ":" + std::to_string(number + 1) + ": " +
+                          std::string(rule.call) + " may not be used here; read by " +
+                          (rule.guard.empty()
+                               ? "engine/core/input_file.h"
+                               : "name only after " + std::string(rule.guard) + ")"));
+        }
     }
     return out;
 }

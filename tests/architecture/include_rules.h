@@ -28,4 +28,19 @@ struct Library {
                                                     std::span<const Floor> floors,
                                                     std::span<const Library> libraries);
 
+/// A way of opening files, and where it may stand.
+struct ReadRule {
+    std::string_view call;
+    std::string_view guard;  ///< Allowed where this stands in the same file; empty: nowhere.
+    struct Exception {
+        std::string_view file, reason;
+    };
+    std::vector<Exception> exceptions;
+};
+
+/// The lines of `contents` that open a file in another way; comments do not count.
+[[nodiscard]] std::vector<std::string> broken_reads(std::string_view path,
+                                                    std::string_view contents,
+                                                    std::span<const ReadRule> rules);
+
 }  // namespace weft::architecture

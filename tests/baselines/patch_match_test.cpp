@@ -1,4 +1,4 @@
-#include "engine/baselines/patch_match.h"
+#include "bench/baselines/patch_match.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

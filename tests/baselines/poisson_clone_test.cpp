@@ -1,4 +1,4 @@
-#include "engine/baselines/poisson_clone.h"
+#include "bench/baselines/poisson_clone.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

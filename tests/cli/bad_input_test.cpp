@@ -71,6 +71,17 @@ TEST_F(BadInput, MatteMissingForAFrame) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
+// Leaving the frame out does not help where the surface is followed through it.
+TEST_F(BadInput, MatteGapBetweenTheReferenceAndTheFrames) {
+    make_shot(6);
+    fs::remove(folder_ / "masks/0003.png");
+    expect_failure(run_replace({"--frames", "4-6", "--reference-frame", "1"}), 4,
+                   {"matte", "frame 3", "reference frame 1", "--reference-frame 4"});
+    expect_failure(run_replace({"--frames", "1-2", "--reference-frame", "5"}), 4,
+                   {"matte", "frame 3", "reference frame 5", "--reference-frame 1"});
+    expect_success(run_replace({"--frames", "4-6", "--reference-frame", "4"}));
+}
+
 TEST_F(BadInput, MatteForNoFrameOfThePlate) {
     make_shot(3);
     expect_failure(run_replace({"--matte", "elsewhere/####.png"}), 2, {"second matte"});
@@ -108,16 +119,98 @@ TEST_F(BadInput, MatteEmptyOnEveryFrameLeavesThePlate) {
     expect_success(run({"diff", "frames/####.png", "out/####.png"}));
 }
 
-TEST_F(BadInput, MatteEmptyOnTheReferenceFrame) {
+TEST_F(BadInput, MatteEmptyOnTheFirstFramesMovesTheReference) {
+    make_shot(4);
+    for (const char* name : {"masks/0001.png", "masks/0002.png"})
+        put_matte(name, Matte(Card::kPlate));
+    const Outcome outcome = run_replace({"--report", "report.json"});
+    expect_success(outcome);
+    EXPECT_THAT(outcome.err, HasSubstr("the reference frame is 3"));
+    EXPECT_THAT(outcome.err, HasSubstr("empty on frames 1-2:"));
+    EXPECT_THAT(bytes("report.json"), HasSubstr("\"frame\": 3,\n      \"chosen\": true"));
+    const auto by_default = contents("out");
+    expect_success(run_replace({"--reference-frame", "3", "-o", "given/####.png"}));
+    EXPECT_EQ(contents("given"), by_default);
+    // A part of the shot has the same reference.
+    expect_success(run_replace({"--frames", "4", "-o", "part/####.png"}));
+    EXPECT_EQ(contents("part").at("0004.png"), by_default.at("0004.png"));
+}
+
+TEST_F(BadInput, MatteEmptyOnTheGivenReferenceFrameNamesABetterOne) {
     make_shot(4);
     put_matte("masks/0001.png", Matte(Card::kPlate));
-    const Outcome outcome = run_replace();
-    expect_success(outcome);
-    EXPECT_THAT(outcome.err, HasSubstr("reference frame 1"));
-    EXPECT_THAT(outcome.err, HasSubstr("--reference-frame"));
-    EXPECT_THAT(outcome.err, HasSubstr("empty on frame 1:"));
+    const Words words = replace({"--reference-frame", "1"});
+    for (const bool dry : {true, false}) {
+        Words all = words;
+        if (dry) all.push_back("--dry-run");
+        const Outcome outcome = run(all);
+        expect_success(outcome);
+        EXPECT_THAT(outcome.err, HasSubstr("empty on the reference frame 1."));
+        EXPECT_THAT(outcome.err, HasSubstr("(--reference-frame 2)."));
+    }
     EXPECT_EQ(run({"diff", "frames/####.png", "out/####.png", "--frames", "1"}).exit, 0);
-    EXPECT_EQ(run({"diff", "frames/####.png", "out/####.png", "--frames", "2-4"}).exit, 8);
+}
+
+TEST_F(BadInput, ReferenceFrameThatThePlateHasNot) {
+    make_shot(4, 1001);
+    expect_failure(run_replace({"--reference-frame", "99"}), 4,
+                   {"reference frame 99 is not in the plate (1001-1004)", "--reference-frame"});
+    EXPECT_THAT(names("out"), IsEmpty());
+}
+
+TEST_F(BadInput, AGapInTheMatteNamesTheSideToRender) {
+    make_shot(6);
+    fs::remove(folder_ / "masks/0003.png");
+    fs::remove(folder_ / "masks/0004.png");
+    expect_failure(
+        run_replace(), 4,
+        {"no file for frames 3-4", "reference frame 1", "render only frames 1-2", "--frames"});
+    expect_failure(run_replace({"--frames", "5-6"}), 4,
+                   {"no file for frames 3-4", "--reference-frame 5"});
+    expect_success(run_replace({"--frames", "5-6", "--reference-frame", "5"}));
+    EXPECT_EQ(names("out"), (Words{"0005.png", "0006.png"}));
+}
+
+TEST_F(BadInput, AGapInThePlateNamesTheSideToRender) {
+    make_shot(6);
+    fs::remove(folder_ / "frames/0003.png");
+    expect_failure(run_replace({"--frames", "4-6"}), 4,
+                   {"no frame 3", "reference frame 1", "--reference-frame 4"});
+    expect_failure(run_replace(), 4, {"no frame 3", "render only frames 1-2"});
+}
+
+// Frame numbers near the ends of an int, far apart, and negative ones: no time and no memory by the
+// size of the numbers.
+TEST_F(BadInput, FrameNumbersBeyondTheRange) {
+    make_shot(2);
+    for (const char* number : {"2147483647", "-2147483648", "100000001", "99999999999999999999"}) {
+        const std::string file = "frames/" + std::string(number) + ".png";
+        fs::copy_file(folder_ / "frames/0001.png", folder_ / file);
+        expect_failure(run_replace(), 3, {file, "frame number beyond 100000000"});
+        fs::remove(folder_ / file);
+        if (std::string(number).size() > 11) continue;
+        const std::string list = number;
+        expect_failure(run_replace({"--frames", "1," + list}), 2, {list, "100000000"});
+        expect_failure(run_replace({"--reference-frame=" + list}), 2, {"100000000"});
+        expect_failure(run_replace({"--movie-start=" + list}), 2, {"100000000"});
+    }
+    EXPECT_THAT(names("out"), IsEmpty());
+}
+
+TEST_F(BadInput, FrameNumbersFarApart) {
+    make_shot(2, 99999999);  // up to the very last number
+    expect_success(run_replace());
+    EXPECT_EQ(names("out"), (Words{"100000000.png", "99999999.png"}));
+    for (const char* folder : {"frames/0001.png", "masks/0001.png"})
+        fs::copy_file((folder_ / folder).parent_path() / "99999999.png", folder_ / folder);
+    for (const char* missing : {"error", "hold", "skip"}) {
+        expect_failure(run_replace({"--missing", missing, "-o", "far/####.png"}), 4,
+                       {"no frames 2-99999998", "--frames"});
+    }
+    make_shot(3, -100000000);
+    expect_success(run_replace({"--frames", "-100000000--99999998", "--reference-frame",
+                                "-100000000", "-o", "low/####.png"}));
+    EXPECT_EQ(names("low").size(), 3u);
 }
 
 TEST_F(BadInput, SampleSmallerThanTheOverlap) {
@@ -157,6 +250,7 @@ TEST_F(BadInput, SampleThatIsNoPicture) {
 }
 
 TEST_F(BadInput, MovieWithoutFrames) {
+    WEFT_NEEDS_MOVIES();
     make_shot(1);
     put("empty.mp4", "");
     put("noise.mp4", std::string(4000, 'x'));
@@ -191,6 +285,7 @@ TEST_F(BadInput, HostileProjects) {
 }
 
 TEST_F(BadInput, ContradictoryOptions) {
+    WEFT_NEEDS_MOVIES();
     make_shot(2);
     const std::vector<std::pair<Words, Words>> cases{
         {{"--overwrite", "--skip-existing"}, {"--overwrite", "--skip-existing"}},

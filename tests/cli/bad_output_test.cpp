@@ -14,8 +14,9 @@ using BadOutput = CliTest;
 TEST_F(BadOutput, FolderThatCannotBeMade) {
     make_shot(2);
     put("occupied", "a file");
-    expect_failure(run_replace({"-o", "occupied/####.png"}), 3, {"occupied", "-o"});
-    expect_failure(run_replace({"-o", "/proc/no-such/####.png"}), 3, {"/proc/no-such", "-o"});
+    expect_failure(run_replace({"-o", "occupied/####.png"}), 3, {"occupied", "Choose another"});
+    expect_failure(run_replace({"-o", "/proc/no-such/####.png"}), 3,
+                   {"/proc/no-such", "Choose another"});
     EXPECT_EQ(bytes("occupied"), "a file");
 }
 
@@ -54,6 +55,7 @@ TEST_F(BadOutput, FullDiskKeepsTheOlderFrames) {
 }
 
 TEST_F(BadOutput, FullDiskForTheMovieAndTheCache) {
+    WEFT_NEEDS_MOVIES();
     make_shot(2);
     expect_success(run_replace());
     options_.largest_file_bytes = 8192;
@@ -72,7 +74,7 @@ TEST_F(BadOutput, FullDiskForTheMovieAndTheCache) {
 
 TEST_F(BadOutput, ReportThatCannotBeWrittenStopsBeforeTheWork) {
     make_shot(2);
-    expect_failure(run_replace({"--report", "no-such-folder/r.json"}), 3, {"no-such-folder"});
+    expect_failure(run_replace({"--report", "tile.png/r.json"}), 3, {"tile.png"});
     EXPECT_THAT(names("out"), IsEmpty());
 }
 

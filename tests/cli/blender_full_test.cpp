@@ -9,6 +9,7 @@
 #include "engine/media/cryptomatte.h"
 #include "engine/media/image_files.h"
 #include "tests/cli/cli_fixture.h"
+#include "tests/support/places.h"
 
 namespace weft::test {
 namespace {
@@ -40,9 +41,10 @@ ImageF3 smooth_picture(std::uint64_t seed) {
 class BlenderShot : public CliTest {
   protected:
     bool blender(const std::string& output, const std::string& picture) const {
-        const std::string command =
-            "blender -b --factory-startup -P " WEFT_SOURCE_DIR "/tests/data/studio_shot.py -- '" +
-            in(output) + "' 320 180 4 16 '" + in(picture) + "' > '" + in("blender.log") + "' 2>&1";
+        const std::string command = "blender -b --factory-startup -P " + source_folder() +
+                                    "/tests/data/studio_shot.py -- '" + in(output) +
+                                    "' 320 180 4 16 '" + in(picture) + "' > '" + in("blender.log") +
+                                    "' 2>&1";
         return std::system(command.c_str()) == 0;
     }
 };
@@ -84,7 +86,7 @@ TEST_F(BlenderShot, FromThePickToTheExportedFrames) {
                                   "--light-exact",
                                   "--grain",
                                   "0",
-                                  "--focus",
+                                  "--defocus",
                                   "0",
                                   "--shutter",
                                   "0",

@@ -100,12 +100,13 @@ void CliTest::put(const std::string& name, const std::string& bytes) const {
 void CliTest::put_picture(const std::string& name, const ImageF3& image, PixelDepth depth) const {
     WriteOptions options;
     options.depth = depth;
+    options.rule = WriteRule::own();
     const Status status = write_image(in(name), image, {}, options);
     ASSERT_TRUE(status) << status.error().text();
 }
 
 void CliTest::put_matte(const std::string& name, const Matte& matte) const {
-    const Status status = write_matte(in(name), matte);
+    const Status status = write_matte(in(name), matte, WriteRule::own());
     ASSERT_TRUE(status) << status.error().text();
 }
 

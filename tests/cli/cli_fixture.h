@@ -12,12 +12,17 @@
 
 #include "engine/core/image.h"
 #include "engine/media/frame_writer.h"
+#include "engine/media/movies.h"
 #include "tests/cli/card_scene.h"
 #include "tests/cli/weft_process.h"
 
 namespace weft::test {
 
 using Words = std::vector<std::string>;
+
+/// For tests that read or write movies.
+#define WEFT_NEEDS_MOVIES() \
+    if (movie_library().empty()) GTEST_SKIP() << "this build has no movies"
 
 /// `words` and `more`, whose options replace those of the same name (but --matte, which repeats).
 Words with_options(Words words, const Words& more);

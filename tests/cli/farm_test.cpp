@@ -17,6 +17,10 @@ using ::testing::Not;
 
 class Farm : public CliTest {
   protected:
+    void SetUp() override {
+        CliTest::SetUp();
+        WEFT_NEEDS_MOVIES();
+    }
     // A shot with a grown texture, estimated motion and a movie.
     void make_project() {
         make_shot(7);
@@ -27,7 +31,7 @@ class Farm : public CliTest {
     }
     Json submitted(const std::string& engine) {
         const Outcome outcome = run({"submit", "shot.weft", "--to", engine, "-o", "farm", "--chunk",
-                                     "3", "--threads", "1", "--json"});
+                                     "3", "--threads", "1", "--json", "--overwrite"});
         expect_success(outcome);
         return outcome.exit == 0 ? Json::parse(outcome.out)["files"] : Json();
     }
@@ -60,6 +64,125 @@ TEST_F(Farm, TasksGiveTheBytesOfOneMachine) {
     EXPECT_EQ(bytes("out.mkv"), movie);
     EXPECT_EQ(task("frames", 3), 2);
     EXPECT_EQ(task("paint", 0), 2);
+}
+
+// Frames of one job have one set of settings, whatever becomes of the project meanwhile.
+TEST_F(Farm, TasksRenderTheProjectThatWasSubmitted) {
+    make_project();
+    expect_success(run({"render", "shot.weft", "--no-cache", "--backend", "cpu"}));
+    const auto whole = contents("out");
+    fs::remove_all(folder_ / "out");
+    fs::remove(folder_ / "out.mkv");
+    submitted("slurm");
+    for (const char* stage : {"motion", "analyse", "planes"}) {
+        for (int k = 0; k < (std::string(stage) == "motion" ? 3 : 1); ++k)
+            ASSERT_EQ(task(stage, k), 0) << stage << k;
+    }
+    ASSERT_EQ(task("frames", 0), 0);
+    expect_success(run({"region", "set", "shot.weft", "card", "--rotate", "33"}));
+    ASSERT_EQ(task("frames", 1), 0);
+    fs::remove(folder_ / "shot.weft");
+    ASSERT_EQ(task("frames", 2), 0);
+    EXPECT_EQ(contents("out"), whole);
+}
+
+TEST_F(Farm, ATaskRefusesWhatWasNotSubmitted) {
+    make_project();
+    submitted("slurm");
+    const std::string name =
+        Json::parse(bytes("farm/job.json"))["snapshot"]["file"].get<std::string>();
+    const std::string snapshot = bytes("farm/" + name), sample = bytes("sample.png");
+    std::string changed = snapshot;
+    changed.replace(changed.find("\"draft\""), 7, "\"final\"");
+    put("farm/" + name, changed);
+    expect_failure(run({"task", "farm/job.json", "frames", "0", "--progress", "none"}), 3,
+                   {name, "Submit again"});
+    put("farm/" + name, snapshot);
+    fs::copy_file(folder_ / "tile.png", folder_ / "sample.png",
+                  fs::copy_options::overwrite_existing);
+    expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 3,
+                   {"texture", "Submit again"});
+    put("sample.png", sample);
+    EXPECT_EQ(task("planes", 0), 0);
+    fs::remove(folder_ / "farm" / name);
+    expect_failure(run({"task", "farm/job.json", "frames", "0", "--progress", "none"}), 3,
+                   {name, "Submit again"});
+    EXPECT_FALSE(fs::exists(folder_ / "out/0001.png"));
+}
+
+TEST_F(Farm, SubmitRefusesWhatRenderRefuses) {
+    make_project();
+    const auto refused = [&](const std::string& name, int exit, const Words& parts) {
+        SCOPED_TRACE(name);
+        expect_failure(run({"render", "shot.weft"}), exit, parts);
+        expect_failure(run({"submit", "shot.weft", "--to", "slurm", "-o", "farm_" + name}), exit,
+                       parts);
+        EXPECT_FALSE(fs::exists(folder_ / ("farm_" + name)));
+    };
+    const std::string good = bytes("shot.weft");
+    const auto with = [&](const std::function<void(Json&)>& edit) {
+        Json shot = Json::parse(good);
+        edit(shot);
+        put("shot.weft", shot.dump());
+    };
+    with([](Json& shot) { shot["regions"] = Json::array(); });
+    refused("regions", 2, {"no region"});
+    with([](Json& shot) { shot["output"]["path"] = "out/####.xyz"; });
+    refused("format", 2, {"xyz"});
+    with([](Json& shot) { shot["output"]["path"] = ""; });
+    refused("output", 2, {"No output"});
+    with([](Json& shot) { shot["output"]["path"] = "one.png"; });
+    refused("number", 2, {"one.png", "frame number"});
+    with([](Json& shot) { shot["output"]["path"] = "frames/####.png"; });
+    refused("input", 2, {"input"});
+    put("shot.weft", good);
+    fs::create_directories(folder_ / "out");
+    put("out/0003.png", "there already");
+    refused("existing", 2, {"out/0003.png", "--resume"});
+    fs::remove(folder_ / "out/0003.png");
+    fs::rename(folder_ / "masks/0005.png", folder_ / "five.png");
+    refused("matte", 4, {"masks/####.png", "5"});
+    fs::rename(folder_ / "five.png", folder_ / "masks/0005.png");
+    fs::remove(folder_ / "sample.png");
+    refused("texture", 3, {"sample.png"});
+}
+
+TEST_F(Farm, AnotherJobsFolderIsLeftAlone) {
+    make_project();
+    submitted("slurm");
+    const auto before = contents("farm");
+    expect_success(run({"region", "set", "shot.weft", "card", "--rotate", "33"}));
+    expect_failure(run({"submit", "shot.weft", "--to", "slurm", "-o", "farm"}), 2,
+                   {"job.json", "--resume"});
+    EXPECT_EQ(contents("farm"), before);
+    expect_success(run({"submit", "shot.weft", "--to", "slurm", "-o", "farm", "--resume"}));
+    EXPECT_EQ(Json::parse(bytes("farm/job.json"))["existing"], "resume");
+    expect_success(run({"submit", "shot.weft", "--to", "slurm", "-o", "farm", "--overwrite"}));
+    EXPECT_EQ(Json::parse(bytes("farm/job.json"))["existing"], "overwrite");
+    // A file of that name that is no job is not gone on with.
+    fs::create_directory(folder_ / "mine");
+    put("mine/job.json", "{}");
+    expect_failure(run({"submit", "shot.weft", "--to", "slurm", "-o", "mine", "--resume"}), 2,
+                   {"job.json"});
+    EXPECT_EQ(bytes("mine/job.json"), "{}");
+}
+
+TEST_F(Farm, TasksWriteBelowTheJobsRootsOnly) {
+    make_project();
+    submitted("slurm");
+    Json job = Json::parse(bytes("farm/job.json"));
+    ASSERT_FALSE(job["output_roots"].empty());
+    for (const Json& root : job["output_roots"])
+        EXPECT_THAT(root.get<std::string>(), ::testing::StartsWith(folder_.string()));
+    job["output_roots"] = Words{in("another")};
+    put("farm/job.json", job.dump());
+    expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 2,
+                   {"another"});
+    EXPECT_FALSE(fs::exists(folder_ / "out/0001.png"));
+    job["output_roots"] = Words();
+    put("farm/job.json", job.dump());
+    expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 3,
+                   {"job.json"});
 }
 
 TEST_F(Farm, EncodingWaitsForAllFrames) {
@@ -187,7 +310,14 @@ TEST_F(Farm, VersionAndDoctorSayWhatIsThere) {
     EXPECT_THAT(run({"--version"}).out, HasSubstr("backends: cpu"));
     const Outcome doctor = run({"doctor", "--json"});
     expect_success(doctor);
-    EXPECT_TRUE(Json::parse(doctor.out).is_array());
+    bool cuda = false;
+    for (const Json& finding : Json::parse(doctor.out)["findings"])
+        cuda = cuda || (finding["what"] == "backend cuda" && finding["available"]);
+    // What this machine lacks is not called "ok", and has its reason.
+    const std::string told = run({"doctor"}).out;
+    EXPECT_THAT(told, HasSubstr(cuda ? "ok   backend cuda: "
+                                     : "--   backend cuda: not available: CUDA cannot be used"));
+    EXPECT_THAT(told, Not(HasSubstr("--backend auto")));
 }
 
 }  // namespace

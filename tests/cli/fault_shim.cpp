@@ -37,13 +37,25 @@ const char* kind() {
     return plan.kind;
 }
 
-bool strikes(const char* name, int file) {
-    char link[64], path[PATH_MAX] = "";
+// False when the descriptor has no path.
+bool path_of(int file, char (&path)[PATH_MAX]) {
+    char link[64];
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     const ssize_t n = readlink(link, path, sizeof path - 1);
-    if (n < 0) return false;
-    path[n] = 0;
-    return strikes(name, path);
+    path[n < 0 ? 0 : n] = 0;
+    return n >= 0;
+}
+
+bool strikes(const char* name, int file) {
+    char path[PATH_MAX];
+    return path_of(file, path) && strikes(name, path);
+}
+
+bool strikes_in(const char* name, int folder, const char* file) {
+    char path[PATH_MAX], whole[2 * PATH_MAX];
+    if (!path_of(folder, path)) return strikes(name, file);
+    std::snprintf(whole, sizeof whole, "%s/%s", path, file);
+    return strikes(name, whole);
 }
 
 // False when the call is to go on.
@@ -96,6 +108,21 @@ int fsync(int file) {
 int rename(const char* from, const char* to) {
     static const auto real = next<int (*)(const char*, const char*)>("rename");
     if (!strikes("rename", to) || !fail_or_wait()) return real(from, to);
+    return -1;
+}
+
+int renameat(int from_folder, const char* from, int to_folder, const char* to) {
+    static const auto real = next<int (*)(int, const char*, int, const char*)>("renameat");
+    if (!strikes_in("rename", to_folder, to) || !fail_or_wait())
+        return real(from_folder, from, to_folder, to);
+    return -1;
+}
+
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+    static const auto real =
+        next<int (*)(int, const char*, int, const char*, unsigned)>("renameat2");
+    if (!strikes_in("rename", to_folder, to) || !fail_or_wait())
+        return real(from_folder, from, to_folder, to, flags);
     return -1;
 }
 }

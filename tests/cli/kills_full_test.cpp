@@ -29,6 +29,7 @@ class Kills : public CliTest {
 };
 
 TEST_F(Kills, AtRandomMomentsAreResumedToTheSameBytes) {
+    WEFT_NEEDS_MOVIES();
     make_shot(8);
     const auto start = std::chrono::steady_clock::now();
     expect_success(run(shot({"-o", "whole/####.png", "--movie", "whole.mkv"})));

@@ -64,7 +64,7 @@ TEST_F(ProjectFile, SettingsAndActionsChangeIt) {
 
     const Outcome list = run({"region", "list", kProject, "--json"});
     expect_success(list);
-    EXPECT_EQ(Json::parse(list.out)[0]["name"], "wall");
+    EXPECT_EQ(Json::parse(list.out)["regions"][0]["name"], "wall");
     const Outcome info = run({"info", kProject, "--json"});
     expect_success(info);
     const Json facts = Json::parse(info.out);
@@ -81,7 +81,7 @@ TEST_F(ProjectFile, AFlagCanBeTakenBack) {
     add_card();
     const auto enabled = [&] {
         const Outcome list = run({"region", "list", kProject, "--json"});
-        return Json::parse(list.out)[0]["enabled"].get<bool>();
+        return Json::parse(list.out)["regions"][0]["enabled"].get<bool>();
     };
     expect_success(run({"region", "set", kProject, "card", "--enabled=false"}));
     EXPECT_FALSE(enabled());
@@ -112,7 +112,7 @@ TEST_F(ProjectFile, ARefusedChangeLeavesTheFile) {
     put("half.json",
         R"([{"action": "rename_region", "region": "card", "name": "wall"},
             {"action": "set_region_parameter", "region": "wall", "key": "placement.scale", "value": -1}])");
-    expect_failure(run({"apply", kProject, "half.json"}), 2, {"half.json", "placement.scale"});
+    expect_failure(run({"apply", kProject, "half.json"}), 2, {"half.json", "--scale"});
     put("slip.json",
         R"([{"action": "rename_region", "region": "card", "name": "a", "nmae": "b"}])");
     expect_failure(run({"apply", kProject, "slip.json"}), 3, {"slip.json", "nmae"});

@@ -1,6 +1,7 @@
 // --resume, --memory, and the recipe that frames carry and 'weft verify' proves.
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "engine/media/image_files.h"
 #include "engine/media/metadata.h"
@@ -23,6 +24,7 @@ class Resume : public CliTest {
         texts[key] = text;
         WriteOptions options;
         options.metadata.assign(texts.begin(), texts.end());
+        options.rule = WriteRule::own();
         const PlateFrame frame = picture(name);
         ASSERT_TRUE(write_image(in(name), frame.rgb, {}, options));
     }
@@ -61,6 +63,7 @@ TEST_F(Resume, AnotherBackendIsRefusedUnlessAllIsRenderedAgain) {
 }
 
 TEST_F(Resume, TheMovieOfAResumedRunIsThatOfAnUninterruptedOne) {
+    WEFT_NEEDS_MOVIES();
     make_shot(4);
     expect_success(run_replace({"--movie", "whole.mp4", "-o", "whole/####.png"}));
     expect_success(run_replace({"--frames", "1-2"}));
@@ -109,6 +112,27 @@ TEST_F(Resume, VerifyProvesARenderAndFindsWhatChanged) {
 
     put("rubbish.json", "{}");
     expect_failure(run({"verify", "rubbish.json"}), 3, {"rubbish.json", "weft.recipe/1"});
+}
+
+// As a fresh delivery of the plate would, in the middle of a run.
+TEST_F(Resume, AnInputThatIsReplacedDuringTheRunIsAnError) {
+    make_shot(12);
+    put_picture("new.png", pattern_picture({160, 120}, 9));
+    std::thread delivery([this] {
+        for (int k = 0; k < 20000 && !fs::exists(folder_ / "out/0001.png"); ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::error_code ignored;
+        fs::rename(folder_ / "new.png", folder_ / "frames/0002.png", ignored);
+    });
+    const Outcome outcome = run_replace({"--threads", "1", "--report", "report.json", "--recipe",
+                                         "recipe.json", "--progress", "none"});
+    delivery.join();
+    expect_failure(outcome, 3, {"frames/0002.png", "mixed", "--overwrite"});
+    EXPECT_EQ(names("out").size(), 12u);
+    EXPECT_EQ(Json::parse(bytes("report.json"))["changed_inputs"], (Words{in("frames/0002.png")}));
+    EXPECT_FALSE(fs::exists(folder_ / "recipe.json"));
+    expect_success(run_replace({"--overwrite", "--recipe", "recipe.json"}));
+    expect_success(run({"verify", "recipe.json", "--quick"}));
 }
 
 TEST_F(Resume, MemoryLimitsHowManyFramesAreWorkedOnAndSaysWhenNoneFits) {

@@ -83,6 +83,7 @@ TEST_F(Studio, LayersNeedAnExr) {
 }
 
 TEST_F(Studio, VersionUpTakesTheNextFreeOne) {
+    WEFT_NEEDS_MOVIES();
     make_shot(2);
     const std::string pattern = "v002/shot_v002.####.png";
     expect_success(run_replace({"-o", pattern, "--version-up"}));
@@ -132,6 +133,7 @@ TEST_F(Studio, ACutIsWarnedOf) {
 }
 
 TEST_F(Studio, BurnInWritesIntoTheMovieAlone) {
+    WEFT_NEEDS_MOVIES();
     make_shot(2);
     expect_success(run_replace({"-o", "a_v012.####.png", "--movie", "plain.mkv"}));
     expect_success(run_replace({"-o", "b_v012.####.png", "--movie", "burnt.mkv", "--burn-in"}));
@@ -146,6 +148,7 @@ TEST_F(Studio, BurnInWritesIntoTheMovieAlone) {
 }
 
 TEST_F(Studio, APlatesPixelAspectIsKept) {
+    WEFT_NEEDS_MOVIES();
     make_shot(2);
     for (int frame = 1; frame <= 2; ++frame) {
         WriteOptions options;

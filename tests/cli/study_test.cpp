@@ -34,6 +34,7 @@ TEST_F(StudyCommand, NamesAMethodThatIsNotThere) {
     expect_failure(run({"study", "--plate", in("frames/####.png"), "--matte", in("masks/####.png"),
                         "--plane", in("tile.png"), "--methods", "magic", "-o", in("study")}),
                    2, {"magic", "poisson"});
+    EXPECT_TRUE(names("study").empty());
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ TEST_F(LibraryTexture, IsKeptBesideTheProjectWhichNeedsNoLibraryThen) {
 
     fs::remove(folder_ / "lib.db");
     fs::rename(folder_ / "shots", folder_ / "moved");
+    expect_success(run({"trust", "moved"}));
     expect_success(run({"render", "moved/shot.weft", "--report", "report.json"}));
     const Json used = Json::parse(bytes("report.json"))["textures"][0];
     EXPECT_EQ(used["licence"], "GPL-2+");

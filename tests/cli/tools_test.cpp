@@ -7,6 +7,7 @@
 
 #include "engine/media/image_files.h"
 #include "tests/cli/cli_fixture.h"
+#include "tests/support/places.h"
 
 namespace weft::test {
 namespace {
@@ -22,7 +23,7 @@ TEST_F(Tools, ThePublishedSchemasAreThoseOfTheProgram) {
     for (const char* name : {"project", "actions", "report"}) {
         const Outcome outcome = run({"schema", name});
         expect_success(outcome);
-        std::ifstream file(std::string(WEFT_SOURCE_DIR "/docs/schemas/") + name + ".schema.json");
+        std::ifstream file((source_folder() + "/docs/schemas/") + name + ".schema.json");
         const std::string published{std::istreambuf_iterator<char>(file), {}};
         EXPECT_EQ(Json::parse(outcome.out, nullptr, false), Json::parse(published, nullptr, false))
             << name << ": weft schema " << name << " > docs/schemas/" << name << ".schema.json";
@@ -258,6 +259,7 @@ TEST_F(Tools, MattePrintsAConfidenceForEachFrame) {
 }
 
 TEST_F(Tools, MoviesGoOutAndComeIn) {
+    WEFT_NEEDS_MOVIES();
     make_shot(3, 12);
     expect_success(run_replace({"--movie", "review.mkv"}));
     expect_success(run_replace({"-o", "again/####.png", "--movie", "review.mp4"}));

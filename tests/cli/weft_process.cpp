@@ -12,6 +12,8 @@
 #include <iterator>
 #include <thread>
 
+#include "tests/support/places.h"
+
 namespace weft::test {
 namespace {
 
@@ -80,7 +82,7 @@ int wait_for(pid_t child, const ProcessOptions& options) {
 }  // namespace
 
 Outcome run_weft(const std::vector<std::string>& arguments, const ProcessOptions& options) {
-    std::vector<std::string> words{WEFT_PROGRAM};
+    std::vector<std::string> words{weft_program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<std::string> variables = environment_with(options.environment);
     const std::vector<char*> argv = pointers(words), environment = pointers(variables);

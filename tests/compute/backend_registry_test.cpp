@@ -73,7 +73,7 @@ TEST(BackendRegistry, ANamedOneThatIsMissingIsAnError) {
     ASSERT_FALSE(choice);
     EXPECT_EQ(choice.error().code, ErrorCode::kNoBackend);
     EXPECT_EQ(choice.error().text(),
-              "No driver. Usable here: cpu; --backend auto takes the best of them.");
+              "No driver. Available: cpu. Choose one of these or auto (run.backend).");
 }
 
 TEST(BackendRegistry, AnUnknownNameListsTheKnownOnes) {

@@ -12,13 +12,15 @@ TEST(FrameList, ReadsWhatArtistsWrite) {
     EXPECT_EQ(parse_frame_list("1-4").value(), (Frames{1, 2, 3, 4}));
     EXPECT_EQ(parse_frame_list("1-10x4").value(), (Frames{1, 5, 9}));
     EXPECT_EQ(parse_frame_list("-5--3").value(), (Frames{-5, -4, -3}));
+    EXPECT_EQ(parse_frame_list("-100000000,100000000").value(), (Frames{-100000000, 100000000}));
     EXPECT_EQ(parse_frame_list("-1-1").value(), (Frames{-1, 0, 1}));
     EXPECT_EQ(parse_frame_list("9,1,4-5,4").value(), (Frames{1, 4, 5, 9}));
 }
 
 TEST(FrameList, RefusesWhatMeansNothing) {
     for (const char* text : {"", "a", "1-", "4-1", "1-5x0", "1-5x", "1,,2", "1 - 4", "1-9999999999",
-                             "0-2000000", "1x2", "1-600000,1-600000"}) {
+                             "0-2000000", "1x2", "1-600000,1-600000", "100000001", "-100000001",
+                             "2147483647", "-2147483648--2147483647"}) {
         const auto frames = parse_frame_list(text);
         ASSERT_FALSE(frames) << text;
         EXPECT_EQ(frames.error().code, ErrorCode::kUsage) << text;

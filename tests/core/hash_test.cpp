@@ -32,7 +32,8 @@ TEST(Rng, DependsOnKeyAndPositionOnly) {
 TEST(Rng, BelowStaysBelow) {
     Rng rng(9);
     int counts[7] = {};
-    for (int i = 0; i < 7000; ++i) ++counts[rng.below(7)];
+    for (int i = 0; i < 7000; ++i)
+        ++counts[rng.below(7)];
     for (const int c : counts) {
         EXPECT_GT(c, 850);
         EXPECT_LT(c, 1150);

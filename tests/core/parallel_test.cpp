@@ -20,7 +20,8 @@ TEST_F(Parallel, CallsEveryIndexOnce) {
         set_thread_count(threads);
         std::vector<std::atomic<int>> calls(1000);
         parallel_for(calls.size(), [&](std::size_t i) { ++calls[i]; });
-        for (const auto& c : calls) EXPECT_EQ(c, 1);
+        for (const auto& c : calls)
+            EXPECT_EQ(c, 1);
     }
 }
 
@@ -37,10 +38,12 @@ TEST_F(Parallel, CallersFromSeveralThreadsDoNotMix) {
     std::atomic<int> sum{0};
     for (int t = 0; t < 4; ++t) {
         callers.emplace_back([&] {
-            for (int k = 0; k < 50; ++k) parallel_for(10, [&](std::size_t) { ++sum; });
+            for (int k = 0; k < 50; ++k)
+                parallel_for(10, [&](std::size_t) { ++sum; });
         });
     }
-    for (auto& c : callers) c.join();
+    for (auto& c : callers)
+        c.join();
     EXPECT_EQ(sum, 4 * 50 * 10);
 }
 
@@ -60,9 +63,11 @@ TEST_F(Parallel, RowsComeInBandsThatDoNotDependOnThreads) {
     set_thread_count(2);
     std::vector<int> band_of(25, -1);
     parallel_rows(25, 8, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) band_of[static_cast<std::size_t>(y)] = y0;
+        for (int y = y0; y < y1; ++y)
+            band_of[static_cast<std::size_t>(y)] = y0;
     });
-    for (int y = 0; y < 25; ++y) EXPECT_EQ(band_of[static_cast<std::size_t>(y)], y / 8 * 8);
+    for (int y = 0; y < 25; ++y)
+        EXPECT_EQ(band_of[static_cast<std::size_t>(y)], y / 8 * 8);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 #include "tests/editor/desktop.h"
 
 namespace weft::test {

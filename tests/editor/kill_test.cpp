@@ -9,10 +9,11 @@
 #include <random>
 #include <thread>
 
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "tests/editor/program.h"
+#include "tests/support/places.h"
 
 namespace weft::test {
 namespace {
@@ -54,7 +55,7 @@ void make_shot(const Sandbox& sandbox) {
                "regions": [{"id": 1, "name": "floor",
                             "matte": {"keyframes": [{"frame": 1, "path": "matte.png"}]},
                             "texture": {"sample": ")"
-        << WEFT_SOURCE_DIR << R"(/assets/demo/textures/brick.png"}}]})";
+        << source_folder() << R"(/assets/demo/textures/brick.png"}}]})";
 }
 
 // Begins a region of its own and paints; `between` follows every stroke.

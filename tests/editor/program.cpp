@@ -11,6 +11,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "tests/support/places.h"
+
 extern char** environ;
 
 namespace weft::test {
@@ -40,7 +42,7 @@ pid_t start(const Sandbox& sandbox, const std::vector<std::string>& arguments,
     environment.push_back("HOME=" + sandbox.in("home"));
     if (!display.empty()) environment.push_back("DISPLAY=" + display);
     std::vector<char*> argv, envp;
-    std::string program = WEFT_PROGRAM;
+    std::string program = weft_program();
     argv.push_back(program.data());
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));
@@ -80,7 +82,7 @@ Finished run(const Sandbox& sandbox, const std::vector<std::string>& arguments) 
 }
 
 bool cannot_draw(const Finished& ended) {
-    return ended.errors.find("No OpenGL") != std::string::npos ||
+    return ended.errors.find("OpenGL 3.3 is not available") != std::string::npos ||
            ended.errors.find("cannot draw without a display") != std::string::npos;
 }
 

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 #include "engine/media/image_files.h"
 #include "tests/editor/desktop.h"
 
@@ -93,7 +93,7 @@ TEST_F(WholeJob, FromTheWelcomeScreenToFrames) {
     rest(4);
     focus();
     picture("01_welcome");
-    click_item(welcome, "Open the demo shot");
+    click_item(welcome, "Open demo shot");
     rest(8);
     picture("02_demo");
     press("ctrl+shift+n");

@@ -32,7 +32,7 @@ TEST(CudaBackend, TheRegistryRepeatsTheReason) {
         EXPECT_EQ(choice.error().code, ErrorCode::kNoBackend);
         EXPECT_THAT(choice.error().text(), HasSubstr("CUDA cannot be used here: "));
         EXPECT_THAT(choice.error().text(), HasSubstr(device.error().text()));
-        EXPECT_THAT(choice.error().text(), HasSubstr("Usable here: cpu;"));
+        EXPECT_THAT(choice.error().text(), HasSubstr("Available: cpu."));
     }
 }
 

@@ -41,11 +41,11 @@ TEST(PaintedLight, MistakesAreNamed) {
 }
 
 TEST(PaintedLight, StrengthMayHaveKeys) {
-    const auto keys = parse_keyed_number("1:1  11:0.5");
+    const auto keys = parse_keyed_numbers("1:1  11:0.5");
     ASSERT_TRUE(keys) << keys.error().message;
-    EXPECT_FLOAT_EQ(keys->at(6)[0], 0.75f);
-    EXPECT_TRUE(parse_keyed_number("")->empty());
-    EXPECT_FALSE(parse_keyed_number("1:1 1:2"));
+    EXPECT_FLOAT_EQ(keys->float_at(6)[0], 0.75f);
+    EXPECT_TRUE(parse_keyed_numbers("")->empty());
+    EXPECT_FALSE(parse_keyed_numbers("1:1 1:2"));
 }
 
 }  // namespace

@@ -9,11 +9,12 @@
 #include "engine/color/color_space.h"
 #include "engine/lighting/shading.h"
 #include "tests/lighting/lighting_scene.h"
+#include "tests/support/places.h"
 
 namespace weft {
 namespace {
 
-const std::string kClip = std::string(WEFT_SHARED_DATA_DIR) + "/sequences/blender_fox_gt/";
+const std::string kClip = test::shared_data_folder() + "/sequences/blender_fox_gt/";
 
 ImageF3 read_linear(const std::string& path) {
     const cv::Mat m = cv::imread(path, cv::IMREAD_COLOR);

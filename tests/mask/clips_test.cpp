@@ -13,6 +13,7 @@
 
 #include "engine/mask/matte_propagation.h"
 #include "tests/mask/moving_disc.h"
+#include "tests/support/places.h"
 
 namespace weft {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 class Clip {
   public:
     explicit Clip(const std::string& name)
-        : root_(std::filesystem::path(WEFT_SHARED_DATA_DIR) / "sequences" / name) {}
+        : root_(std::filesystem::path(test::shared_data_folder()) / "sequences" / name) {}
 
     [[nodiscard]] bool present() const { return std::filesystem::exists(root_ / "masks"); }
     [[nodiscard]] ImageU8x3 frame(int t) const {

@@ -77,17 +77,24 @@ void write_bars(const std::string& path, const CodedMovie& movie, const std::vec
     frame->format = movie.format;
     frame->width = movie.size.width;
     frame->height = movie.size.height;
-    frame->pts = 0;
     frame->interlaced_frame = frame->top_field_first = movie.interlaced ? 1 : 0;
     need(av_frame_get_buffer(frame, 0) >= 0, "frame");
     fill_bars(*frame, bars);
     AVPacket* packet = av_packet_alloc();
-    need(avcodec_send_frame(codec, frame) >= 0, "send");
+    const auto write_packets = [&] {
+        while (avcodec_receive_packet(codec, packet) >= 0) {
+            packet->duration = 1;
+            av_packet_rescale_ts(packet, codec->time_base, stream->time_base);
+            need(av_write_frame(file, packet) >= 0, "write");
+        }
+    };
+    for (const int stamp : movie.stamps) {
+        frame->pts = stamp;
+        need(avcodec_send_frame(codec, frame) >= 0, "send");
+        write_packets();
+    }
     need(avcodec_send_frame(codec, nullptr) >= 0, "flush");
-    need(avcodec_receive_packet(codec, packet) >= 0, "receive");
-    packet->duration = 1;
-    av_packet_rescale_ts(packet, codec->time_base, stream->time_base);
-    need(av_write_frame(file, packet) >= 0, "write");
+    write_packets();
     need(av_write_trailer(file) >= 0, "trailer");
     av_packet_free(&packet);
     av_frame_free(&frame);

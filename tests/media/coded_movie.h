@@ -22,12 +22,13 @@ struct CodedMovie {
     AVColorTransferCharacteristic transfer = AVCOL_TRC_UNSPECIFIED;
     int rotation_deg = 0;  ///< Clockwise; QuickTime (.mov) only.
     bool interlaced = false;
+    std::vector<int> stamps{0};  ///< When each frame is shown, in 24ths of a second.
 };
 
 /// Codes of the components in the order of the format's description: Y, Cb, Cr or R, G, B, A.
 using Codes = std::array<int, 4>;
 
-/// One frame of equal vertical bars, each filled with its codes; FFV1, which keeps them.
+/// Frames of equal vertical bars, each filled with its codes; FFV1, which keeps them.
 void write_bars(const std::string& path, const CodedMovie& movie, const std::vector<Codes>& bars);
 
 struct MovieTags {

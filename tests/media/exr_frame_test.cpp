@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/core/setting.h"
 #include "engine/media/exr_frame.h"
 #include "engine/media/image_files.h"
 #include "engine/media/metadata.h"
@@ -189,6 +190,113 @@ TEST_F(ExrFrameTest, ANamedLayerIsReplacedAndTheOthersStay) {
     EXPECT_THAT(bad.error().message, HasSubstr("beauty"));
     EXPECT_FALSE(is_exr_with_colour(in("plate.exr"), "beauty"));
     EXPECT_TRUE(is_exr_with_colour(in("plate.exr"), ""));
+}
+
+// Beauty and depth in parts of their own, as renderers and `oiiotool --siappend` write them.
+TEST_F(ExrFrameTest, SeveralPartsAreWrittenWhole) {
+    ImageSpec beauty(16, 10, 3, TypeDesc::HALF), depth(16, 10, 1, TypeDesc::HALF);
+    beauty.attribute("oiio:subimagename", "beauty");
+    depth.attribute("oiio:subimagename", "depth");
+    depth.channelnames = {"Z"};
+    const std::vector<ImageSpec> specs{beauty, depth};
+    const std::vector<float> half_grey(16u * 10 * 3, 0.5f), far(16u * 10, 7.0f);
+    auto output = ImageOutput::create(in("plate.exr"));
+    ASSERT_TRUE(output->open(in("plate.exr"), 2, specs.data()));
+    ASSERT_TRUE(output->write_image(TypeDesc::FLOAT, half_grey.data()));
+    ASSERT_TRUE(output->open(in("plate.exr"), depth, ImageOutput::AppendSubimage));
+    ASSERT_TRUE(output->write_image(TypeDesc::FLOAT, far.data()));
+    ASSERT_TRUE(output->close());
+    const ImageF3 rgb(16, 10, 0.25f);
+    ASSERT_TRUE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", {}, {}}, {}));
+    EXPECT_GT(bytes_of(in("out.exr")).size(), 300u);
+    const auto input = ImageInput::open(in("out.exr"));
+    ASSERT_TRUE(input);
+    std::vector<float> colour(16u * 10 * 3), z(16u * 10);
+    ASSERT_TRUE(input->read_image(0, 0, 0, 3, TypeDesc::FLOAT, colour.data()));
+    ASSERT_TRUE(input->read_image(1, 0, 0, 1, TypeDesc::FLOAT, z.data()));
+    EXPECT_THAT(colour, ::testing::Each(0.25f));
+    EXPECT_THAT(z, ::testing::Each(7.0f));
+    // One that is there stays whole when it may not be replaced.
+    const auto before = bytes_of(in("out.exr"));
+    EXPECT_FALSE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", {}, {}}, {}));
+    EXPECT_TRUE(bytes_of(in("out.exr")) == before);
+    EXPECT_EQ(names(), (std::vector<std::string>{"out.exr", "plate.exr"}));
+}
+
+TEST_F(ExrFrameTest, ASecondPassReplacesTheLayersOfTheFirst) {
+    const ImageF3 rgb(6, 5, 0.5f);
+    const auto layers = [](float value) {
+        return std::vector<ExrLayer>{{{"st.R", "st.G"}, true, std::vector<float>(60, value)},
+                                     {{"seam.A"}, false, std::vector<float>(30, value)}};
+    };
+    WriteOptions options;
+    options.depth = PixelDepth::kHalf;
+    ASSERT_TRUE(write_exr(in("first.exr"), {rgb, {}, "", "", {}, layers(0.1f)}, options));
+    auto again = layers(0.7f);
+    again.push_back({{"id.Y"}, true, std::vector<float>(30, 3.0f)});
+    Matte touched(6, 5);
+    touched.at(2, 2) = 255;
+    ASSERT_TRUE(
+        write_exr(in("second.exr"), {rgb, {}, in("first.exr"), "", touched, again}, options));
+    const auto input = ImageInput::open(in("second.exr"));
+    ASSERT_TRUE(input);
+    const ImageSpec& spec = input->spec();
+    EXPECT_THAT(spec.channelnames,
+                ::testing::UnorderedElementsAre("R", "G", "B", "st.R", "st.G", "seam.A", "id.Y"));
+    const auto count = static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> all(30 * count);
+    ASSERT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeFloat, all.data()));
+    for (std::size_t c = 0; c < count; ++c) {
+        const std::string name = spec.channel_name(static_cast<int>(c));
+        const float wanted = name == "id.Y"            ? 3.0f
+                             : name == "seam.A"        ? static_cast<float>(half(0.7f))
+                             : name.starts_with("st.") ? 0.7f
+                                                       : 0.5f;
+        for (std::size_t i = 0; i < 30; ++i)
+            ASSERT_EQ(all[i * count + c], wanted) << name;
+    }
+}
+
+TEST_F(ExrFrameTest, AnotherDepthKeepsMetadataAndLayers) {
+    put_source("plate.exr");
+    const ImageF3 rgb(16, 10, 0.1f);
+    Matte touched(16, 10);
+    touched.at(5, 4) = 255;
+    WriteOptions options;
+    options.depth = PixelDepth::kFloat;
+    ASSERT_TRUE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", touched, {}}, options));
+    const auto input = ImageInput::open(in("out.exr"));
+    ASSERT_TRUE(input);
+    const ImageSpec& spec = input->spec();
+    EXPECT_EQ(spec.get_string_attribute("studio/shot"), "sq010_sh020");
+    EXPECT_NE(spec.find_attribute("smpte:TimeCode"), nullptr);
+    EXPECT_EQ(spec.x, -2);
+    ASSERT_EQ(spec.nchannels, 5);
+    for (int c = 0; c < 5; ++c)
+        EXPECT_EQ(spec.channelformat(c), TypeDesc::FLOAT) << spec.channel_name(c);
+    std::vector<float> out(5u * 14 * 8);
+    ASSERT_TRUE(input->read_image(0, 0, 0, 5, TypeDesc::FLOAT, out.data()));
+    // Pixel (5, 4) of the display is (7, 3) of the data.
+    const std::size_t painted = 3 * 14 + 7;
+    EXPECT_EQ(out[5 * painted], 0.1f);
+    for (std::size_t i = 0; i < 14 * 8; ++i) {
+        EXPECT_EQ(out[5 * i + 4], 1.0f / static_cast<float>(i + 3));
+        if (i != painted && i != 2) {
+            EXPECT_EQ(out[5 * i], static_cast<float>(half(static_cast<float>(i) / 64.0f)));
+        }
+    }
+}
+
+TEST_F(ExrFrameTest, ALayerIsNotThePicture) {
+    const ImageF3 rgb(6, 5, 0.5f);
+    const std::vector<ExrLayer> layers{
+        {{"light.R", "light.G", "light.B"}, false, std::vector<float>(90, 0.1f)}};
+    ASSERT_TRUE(write_exr(in("first.exr"), {rgb, {}, "", "", {}, layers}, {}));
+    const auto bad =
+        write_exr(in("second.exr"), {rgb, {}, in("first.exr"), "light", {}, layers}, {});
+    ASSERT_FALSE(bad);
+    EXPECT_EQ(bad.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(bad.error().message, HasSubstr(std::string(setting::kLayersOutput)));
 }
 
 }  // namespace

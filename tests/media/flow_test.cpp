@@ -6,6 +6,7 @@
 
 #include "engine/media/image_files.h"
 #include "tests/media/media_fixture.h"
+#include "tests/support/places.h"
 
 namespace weft {
 namespace {
@@ -84,7 +85,7 @@ TEST_F(FlowFile, BadFilesAreNamed) {
 }
 
 TEST(FlowData, RendererAndSintel) {
-    const std::string data = std::string(WEFT_SHARED_DATA_DIR) + "/sequences/";
+    const std::string data = test::shared_data_folder() + "/sequences/";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no evaluation data";
     const FlowField fox =
         read_flow(data + "blender_fox_gt/flow_fwd_kitti16/00000.png", {854, 480}).value();

@@ -7,6 +7,7 @@
 
 #include "engine/media/image_files.h"
 #include "tests/media/media_fixture.h"
+#include "tests/support/places.h"
 
 namespace weft {
 namespace {
@@ -156,7 +157,7 @@ TEST_F(MatteFile, WrittenMatteComesBack) {
 
 TEST(MatteData, IdsOfTheRenderedClip) {
     const std::string ids =
-        std::string(WEFT_SHARED_DATA_DIR) + "/sequences/blender_fox_gt/masks_ids/00000.png";
+        test::shared_data_folder() + "/sequences/blender_fox_gt/masks_ids/00000.png";
     if (!std::filesystem::exists(ids)) GTEST_SKIP() << "no evaluation data";
     std::int64_t covered = 0;
     for (int id = 0; id <= 5; ++id) {

@@ -81,6 +81,7 @@ inline void put_frame(const std::string& path, const ImageF3& image,
                       PixelDepth depth = PixelDepth::kU8) {
     WriteOptions options;
     options.depth = depth;
+    options.rule = WriteRule::own();
     const Status status = write_image(path, image, {}, options);
     ASSERT_TRUE(status) << status.error().text();
 }

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <fstream>
 
 #include "engine/core/parallel.h"
 #include "engine/media/frame_reader.h"
@@ -13,12 +14,13 @@
 namespace weft {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 class MovieFile : public MediaTest {
   protected:
     void write(const std::string& name, Size size, int frames, double fps) {
-        auto movie = open_movie(in(name), size, fps);
+        auto movie = open_movie(in(name), size, fps, 1, WriteRule::own());
         ASSERT_TRUE(movie) << movie.error().text();
         for (int f = 0; f < frames; ++f)
             ASSERT_TRUE((*movie)->add(picture(size, f)));
@@ -76,6 +78,15 @@ TEST_F(MovieFile, OneFrameIsAMovie) {
     }
 }
 
+// FFmpeg would open the files that such a list names.
+TEST_F(MovieFile, AListOfMoviesIsNone) {
+    write("a.mkv", {64, 48}, 2, 24);
+    const std::string list = "ffconcat version 1.0\nfile a.mkv\n";
+    put_bytes(in("b.mkv"), {list.begin(), list.end()}, list.size());
+    EXPECT_TRUE(open_plate(in("a.mkv"), {}));
+    EXPECT_FALSE(open_plate(in("b.mkv"), {}));
+}
+
 TEST_F(MovieFile, SameFramesSameBytes) {
     for (const std::string kind : {".mp4", ".mkv"}) {
         set_thread_count(1);
@@ -100,7 +111,7 @@ TEST_F(MovieFile, FullDiskIsNoticedWhileWriting) {
     getrlimit(RLIMIT_FSIZE, &before);
     for (const char* name : {"a.mkv", "a.mp4"}) {
         put_bytes(in(name), {'o', 'l', 'd'}, 3);
-        auto movie = open_movie(in(name), {256, 256}, 24);
+        auto movie = open_movie(in(name), {256, 256}, 24, 1, WriteRule::own());
         ASSERT_TRUE(movie);
         const auto handler = std::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{400000, before.rlim_max};
@@ -139,6 +150,19 @@ TEST_F(MovieFile, NothingIsSaidOnStderr) {
     put_bytes(in("c.mp4"), std::vector<char>(5000, 'x'), 5000);
     EXPECT_FALSE(open_plate(in("c.mp4"), {}));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(MovieFile, SoundWithoutPicturesIsSaid) {
+    std::string wav(
+        "RIFF\x24\x08\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x40\x1f\0\0\x80\x3e\0\0\2\0\x10\0"
+        "data\0\x08\0\0",
+        44);
+    wav += std::string(2048, '\0');
+    std::ofstream(in("a.mov"), std::ios::binary) << wav;
+    const auto plate = open_plate(in("a.mov"), {});
+    ASSERT_FALSE(plate);
+    EXPECT_EQ(plate.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(plate.error().message, HasSubstr("sound but no pictures"));
 }
 
 }  // namespace

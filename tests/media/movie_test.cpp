@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 class Movie : public MediaTest {
   protected:
     void write(const std::string& name, Size size, int frames, double fps = 24) {
-        auto movie = open_movie(in(name), size, fps);
+        auto movie = open_movie(in(name), size, fps, 1, WriteRule::own());
         ASSERT_TRUE(movie) << movie.error().text();
         for (int f = 0; f < frames; ++f)
             ASSERT_TRUE((*movie)->add(picture(size, f)));
@@ -194,7 +194,7 @@ TEST_F(Movie, FullDiskIsNoticedAtTheEnd) {
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     for (const char* name : {"a.mkv", "a.mp4"}) {
-        auto movie = open_movie(in(name), {256, 256}, 24);
+        auto movie = open_movie(in(name), {256, 256}, 24, 1, WriteRule::own());
         ASSERT_TRUE(movie);
         const auto handler = std::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{20000, before.rlim_max};

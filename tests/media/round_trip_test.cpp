@@ -241,5 +241,34 @@ TEST(WriteFormat, ImpossibleRequestsAreUsage) {
     EXPECT_EQ(check_format("a.exr", options).error().code, ErrorCode::kUsage);
 }
 
+TEST_F(RoundTrip, ADpxKeepsTimeCodeAndFrameRateOfItsPlate) {
+    OIIO::ImageSpec spec(16, 12, 3, OIIO::TypeUInt16);
+    const unsigned int code[2] = {0x01020304, 0};
+    spec.attribute("smpte:TimeCode", OIIO::TypeTimeCode, code);
+    spec.attribute("dpx:FrameRate", 23.976f);
+    spec.attribute("dpx:TemporalFrameRate", 23.976f);
+    spec.attribute("dpx:InputDevice", "camera A");
+    spec.attribute("oiio:BitsPerSample", 10);
+    const std::vector<std::uint16_t> grey(16u * 12 * 3, 0x8000);
+    const auto output = OIIO::ImageOutput::create(in("plate.dpx"));
+    ASSERT_TRUE(output->open(in("plate.dpx"), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeUInt16, grey.data()));
+    ASSERT_TRUE(output->close());
+    WriteOptions options;
+    options.depth = PixelDepth::kU16;
+    options.source = in("plate.dpx");
+    ASSERT_TRUE(write_image(in("out.dpx"), ImageF3(16, 12, 0.25f), {}, options));
+    const auto input = OIIO::ImageInput::open(in("out.dpx"));
+    ASSERT_TRUE(input);
+    for (const char* name : {"smpte:TimeCode", "dpx:TimeCode"}) {
+        const auto* kept = input->spec().find_attribute(name);
+        ASSERT_NE(kept, nullptr) << name;
+        EXPECT_EQ(kept->get_string(), "01:02:03:04") << name;
+    }
+    EXPECT_EQ(input->spec().get_float_attribute("dpx:FrameRate"), 23.976f);
+    EXPECT_EQ(input->spec().get_float_attribute("dpx:TemporalFrameRate"), 23.976f);
+    EXPECT_EQ(input->spec().get_string_attribute("dpx:InputDevice"), "camera A");
+}
+
 }  // namespace
 }  // namespace weft

@@ -34,9 +34,10 @@ TEST(SequencePattern, ReadsOnlyWhatItWouldWrite) {
     const SequencePattern p = pattern("x/p.####.png");
     EXPECT_EQ(p.frame_of("x/p.0007.png"), 7);
     EXPECT_EQ(p.frame_of("x/p.12345.png"), 12345);
-    for (const char* other : {"x/p.007.png", "x/p.00007.png", "x/p.-000.png", "x/p.-0000.png",
-                              "x/p.+007.png", "x/p.00a7.png", "x/q.0007.png", "x/p.0007.jpg",
-                              "x/p..png", "x/p.99999999999.png", "p.0007.png"}) {
+    for (const char* other :
+         {"x/p.007.png", "x/p.00007.png", "x/p.-000.png", "x/p.-0000.png", "x/p.+007.png",
+          "x/p.00a7.png", "x/q.0007.png", "x/p.0007.jpg", "x/p..png", "x/p.99999999999.png",
+          "x/p.100000001.png", "x/p.-2147483648.png", "p.0007.png"}) {
         EXPECT_FALSE(p.frame_of(other)) << other;
     }
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "engine/media/decode_limit.h"
 #include "engine/media/image_files.h"
@@ -15,8 +16,11 @@ using ::testing::HasSubstr;
 
 class Truncation : public MediaTest {
   protected:
-    void expect_never_read(const std::string& name, PixelDepth depth) {
-        put_frame(in("whole_" + name), picture({160, 120}, 3), depth);
+    void expect_never_read(const std::string& name, PixelDepth depth, int dpx_bits = 10) {
+        WriteOptions options;
+        options.depth = depth;
+        options.dpx_bits = dpx_bits;
+        ASSERT_TRUE(write_image(in("whole_" + name), picture({160, 120}, 3), {}, options));
         const auto bytes = bytes_of(in("whole_" + name));
         ASSERT_TRUE(read_image(in("whole_" + name)));
         for (std::size_t i = 0; i < 40; ++i)
@@ -63,6 +67,27 @@ TEST_F(Truncation, ExrAttributeBeyondTheFile) {
     ASSERT_FALSE(frame);
     EXPECT_THAT(frame.error().message, HasSubstr("bytes for the attribute 'compression'"));
 }
+// OpenImageIO would try all its readers: that of DICOM reads to the end of an endless file, that of
+// FFmpeg follows a list to other files.
+TEST_F(Truncation, WhatIsNoPictureIsNotSearchedForOne) {
+    put_frame(in("whole.png"), picture({32, 24}, 3), PixelDepth::kU8);
+    const std::string list = "ffconcat version 1.0\nfile whole.png\n";
+    put_bytes(in("list.png"), {list.begin(), list.end()}, list.size());
+    put_bytes(in("zeros.png"), std::vector<char>(64), 64);
+    std::filesystem::resize_file(in("zeros.png"), std::uintmax_t{8} << 30);
+    for (const char* name : {"list.png", "zeros.png"}) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto frame = read_image(in(name));
+        ASSERT_FALSE(frame) << name;
+        EXPECT_THAT(frame.error().message, HasSubstr("no known kind of picture"));
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << name;
+    }
+}
+TEST_F(Truncation, ExtensionsAreNotBelieved) {
+    put_frame(in("a.jpg"), picture({32, 24}, 3), PixelDepth::kU8);
+    std::filesystem::rename(in("a.jpg"), in("a.tif"));
+    EXPECT_TRUE(read_image(in("a.tif")));
+}
 TEST_F(Truncation, ExrFloat) {
     expect_never_read("b.exr", PixelDepth::kFloat);
 }
@@ -74,6 +99,10 @@ TEST_F(Truncation, TiffFloat) {
 }
 TEST_F(Truncation, Dpx) {
     expect_never_read("a.dpx", PixelDepth::kU8);
+}
+TEST_F(Truncation, DpxOfTenTwelveAndSixteenBits) {
+    for (const int bits : {10, 12, 16})
+        expect_never_read("a" + std::to_string(bits) + ".dpx", PixelDepth::kU16, bits);
 }
 
 TEST_F(Truncation, DamagedPngIsUnreadableInOneLine) {

@@ -12,13 +12,14 @@
 #include "engine/metrics/region.h"
 #include "engine/metrics/sharpness.h"
 #include "engine/metrics/tde.h"
+#include "tests/support/places.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kClip = fs::path(WEFT_SHARED_DATA_DIR) / "sequences/blender_fox_gt";
+const fs::path kClip = fs::path(test::shared_data_folder()) / "sequences/blender_fox_gt";
 constexpr int kBall = 3;
 
 std::string file(const char* folder, int frame) {
@@ -53,7 +54,7 @@ FlowField true_motion(int frame) {
 
 ImageU8x3 brick() {
     const fs::path path =
-        fs::path(WEFT_SHARED_DATA_DIR) / "textures/brick/ufoai_wall_bricks005.jpg";
+        fs::path(test::shared_data_folder()) / "textures/brick/ufoai_wall_bricks005.jpg";
     const cv::Mat bgr = cv::imread(path.string());
     ImageU8x3 out(bgr.cols, bgr.rows);
     for (int y = 0; y < bgr.rows; ++y) {

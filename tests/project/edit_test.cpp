@@ -1,8 +1,9 @@
-#include "app/project/edit.h"
+#include "app/project/codec/edit_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/project/region_names.h"
 #include "tests/project/sample_project.h"
 
 namespace weft {
@@ -126,6 +127,32 @@ TEST(Edits, IdsAreNeverGivenTwice) {
     EXPECT_FALSE(apply_edit(project, AddRegion{taken, {}}));
 }
 
+TEST(Edits, NoTwoRegionsGetTheSameName) {
+    Project project;
+    for (const char* name : {"a", "b"}) {
+        Region region;
+        region.name = name;
+        project = apply_edit(project, AddRegion{region, {}}).value();
+    }
+    const RegionRef b{2, {}};
+    Region another;
+    another.name = "a";
+    for (const Edit& edit : {Edit(AddRegion{another, {}}), Edit(RenameRegion{b, "a"}),
+                             Edit(SetRegionParameter{b, "name", std::string("a")})}) {
+        const auto refused = apply_edit(project, edit);
+        ASSERT_FALSE(refused) << edit_label(project, edit);
+        EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+        EXPECT_THAT(refused.error().text(), testing::HasSubstr("'a' already (id 1)"));
+    }
+    EXPECT_TRUE(apply_edit(project, RenameRegion{b, "b"})) << "its own name";
+    EXPECT_EQ(free_region_name(project, "a"), "a 2");
+    EXPECT_EQ(free_region_name(project, "c"), "c");
+    // Written elsewhere, two have one name: either gets another.
+    project.regions[1] = project.regions[1].with([](Region& region) { region.name = "a"; });
+    EXPECT_TRUE(apply_edit(project, RenameRegion{b, "c"}));
+    EXPECT_TRUE(apply_edit(project, SetRegionParameter{b, "placement.scale", 2.0}));
+}
+
 TEST(Edits, RegionsMoveToThePlaceThatIsNamed) {
     Project project;
     for (const char* name : {"a", "b", "c"}) {
@@ -179,7 +206,7 @@ TEST(Edits, RefusalsSayWhy) {
                 HasSubstr("0.001 to 1000"));
     Plate plate;
     plate.fps = -1;
-    EXPECT_THAT(says(SetPlate{plate}), HasSubstr("--fps"));
+    EXPECT_THAT(says(SetPlate{plate}), HasSubstr("plate.fps"));
     const auto list = apply_edits(project, {RenameRegion{{2, {}}, "x"}, RemoveRegion{{99, {}}}});
     ASSERT_FALSE(list);
     EXPECT_THAT(list.error().text(), HasSubstr("Action 2: "));
@@ -204,7 +231,7 @@ TEST(ActionFile, SlipsAreRefusedWithTheirPlace) {
         return edits ? std::string("read") : edits.error().text();
     };
     EXPECT_THAT(says(R"([{"action": "explode"}])"),
-                HasSubstr("actions[0].action: There is no action 'explode'"));
+                HasSubstr("actions[0].action: Unknown action 'explode'"));
     EXPECT_THAT(says(R"([{"action": "remove_region", "region": 1, "indx": 2}])"),
                 HasSubstr("actions[0].indx: "));
     EXPECT_THAT(says(R"([{"action": "remove_region"}])"),

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/project/edit.h"
-#include "app/project/project_json.h"
+#include "app/project/codec/edit_json.h"
+#include "app/project/codec/project_json.h"
 #include "engine/core/rng.h"
 #include "tests/project/sample_project.h"
 
@@ -31,7 +31,10 @@ INSTANTIATE_TEST_SUITE_P(
     Json, HostileFile,
     testing::Values(
         Hostile{"empty", "", "not valid JSON"}, Hostile{"not_json", "PK\x03\x04", "not valid JSON"},
-        Hostile{"cut_off", R"({"schema":"weft.project/1","name":"a)", "not valid JSON"},
+        Hostile{"cut_off", R"({"schema":"weft.project/1","name":"a)",
+                "not valid JSON at line 1, column "},
+        Hostile{"place", "{\"schema\":\n  \"weft.project/1\",\n  secret}",
+                "not valid JSON at line 3, column 3; correct it or restore a backup"},
         Hostile{"list", "[]", "a list"}, Hostile{"null", "null", "null"},
         Hostile{"no_schema", "{}", "schema: "},
         Hostile{"schema_number", R"({"schema":1})", "schema: "},
@@ -40,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"huge_version", R"({"schema":"weft.project/99999999999"})",
                 "weft.project/99999999999"},
         Hostile{"plate_text", R"({"schema":"weft.project/1","plate":"x"})",
-                "plate: This is a text"},
+                "plate: This is a string"},
         Hostile{"regions_object", R"({"schema":"weft.project/1","regions":{}})",
                 "regions: This is an object"},
         Hostile{"region_number", R"({"schema":"weft.project/1","regions":[3]})",
@@ -56,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "regions[1].placement.scale: "},
         Hostile{"offset_short", WEFT_REGION(R"("placement":{"offset_px":[1]})"), "two numbers"},
         Hostile{"offset_texts", WEFT_REGION(R"("placement":{"offset_px":["1","2"]})"),
-                "must hold numbers"},
+                "must be numbers"},
         Hostile{"corners_seven", WEFT_REGION(R"("placement":{"corners_px":[1,2,3,4,5,6,7]})"),
                 "four points"},
         Hostile{"overlap_half", WEFT_REGION(R"("synthesis":{"overlap_px":12.5})"), "whole number"},
@@ -69,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"also_text", WEFT_REGION(R"("texture":{"also":"moss.jpg"})"), "a list of paths"},
         Hostile{"also_numbers", WEFT_REGION(R"("texture":{"also":[1]})"), "a list of paths"},
         Hostile{"also_mixed", WEFT_REGION(R"("texture":{"also":["a.jpg",1]})"),
-                "must hold numbers"},
+                "must contain numbers"},
         Hostile{"also_empty", WEFT_REGION(R"("texture":{"also":[""]})"), "empty"},
         Hostile{"reference_wraps", WEFT_REGION(R"("reference_frames":[4294967297])"),
                 "regions[1].reference_frames: "},
@@ -102,12 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "regions[2].id: Two regions have the id 1"},
         Hostile{"id_negative", WEFT_REGION(R"("name":"x"},{"id":-1)"), "regions[2].id: "},
         Hostile{"id_wraps", WEFT_REGION(R"("name":"x"},{"id":4294967297)"), "regions[2].id: "},
-        Hostile{"key_twice", WEFT_REGION(R"("name":"x","name":"y")"), "stands twice"},
+        Hostile{"key_twice", WEFT_REGION(R"("name":"x","name":"y")"), "occurs twice"},
         Hostile{"not_utf8", WEFT_REGION("\"name\":\"\xff\""), "not valid JSON"},
         Hostile{"version_0_matte", R"({"schema":"weft.project/0","regions":[{"matte":3}]})",
                 "regions[0].matte: "},
         Hostile{"version_0_frame", R"({"schema":"weft.project/0","regions":[{"matte":{"x":"a"}}]})",
-                "no frame number"},
+                "not a frame number"},
         Hostile{"version_0_group",
                 R"({"schema":"weft.project/0","regions":[{"scale":1,"placement":3}]})",
                 "placement: "}),

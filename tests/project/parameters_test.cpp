@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 #include <set>
 
 namespace weft {
@@ -74,7 +75,7 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(text("--temporal-blend"), "0.2");
     EXPECT_EQ(text("--temporal-weight"), "1");
     EXPECT_EQ(text("--light"), "plate");
-    EXPECT_EQ(text("--light-form"), "gain");
+    EXPECT_EQ(text("--blend-mode"), "gain");
     EXPECT_EQ(text("--light-strength"), "1");
     const auto movie_start = find_parameter(project_parameters(), "--movie-start");
     ASSERT_TRUE(movie_start);
@@ -91,7 +92,7 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--matte-value",
                              "--matte-channel",
                              "--matte-invert",
-                             "--matte-steadiness",
+                             "--matte-stabilize",
                              "--matte-frozen",
                              "--matte-frozen-files",
                              "--frames",
@@ -115,7 +116,7 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--temporal-blend",
                              "--temporal-weight",
                              "--light",
-                             "--light-form",
+                             "--blend-mode",
                              "--light-strength",
                              "--lines",
                              "--lines-invert",
@@ -129,6 +130,14 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--working-space",
                              "--out-space"})
         EXPECT_TRUE(flags.contains(flag)) << flag;
+}
+
+// The editor shows it as a tooltip, the command line beside the flag.
+TEST(Parameters, HelpNamesNoFlag) {
+    const std::regex flag("--[a-z]");
+    for (const ParameterInfo& p : all_parameters())
+        EXPECT_FALSE(std::regex_search(std::string(p.help), flag))
+            << p.full_key() << ": " << p.help;
 }
 
 TEST(Parameters, TextsReachTheRightMember) {
@@ -217,14 +226,14 @@ TEST_P(WrongText, NamesParameterValueAndRange) {
     const auto status = set_parameter_text(region, p, GetParam().text);
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(status.error().text(), HasSubstr(GetParam().flag));
+    EXPECT_THAT(status.error().text(), HasSubstr(p.full_key()));
     EXPECT_THAT(status.error().text(), HasSubstr(GetParam().says));
     EXPECT_EQ(region, Region()) << "a refused value must change nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Parameters, WrongText,
-    testing::Values(Wrong{"--scale", "0", "is 0, but must be 0.001 to 1000 plate px"},
+    testing::Values(Wrong{"--scale", "0", "must be 0.001 to 1000 plate px per sample px, not 0"},
                     Wrong{"--scale", "nan", "0.001 to 1000"},
                     Wrong{"--scale", "inf", "0.001 to 1000"}, Wrong{"--scale", "2,5", "'2,5'"},
                     Wrong{"--scale", "", "a number"}, Wrong{"--scale", "1e999", "a number"},

@@ -1,4 +1,4 @@
-#include "app/project/project_file.h"
+#include "app/project/codec/project_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,8 +34,9 @@ class ProjectFile : public testing::Test {
 
 TEST_F(ProjectFile, SavesAndLoadsPathsAsTheyAreWritten) {
     const Project project = test::full_project();
-    ASSERT_TRUE(save_project(path("shot.weft"), project));
-    ASSERT_TRUE(save_project(path("shot.weft"), project)) << "saving again replaces the file";
+    ASSERT_TRUE(save_project(path("shot.weft"), project, in_place()));
+    ASSERT_TRUE(save_project(path("shot.weft"), project, in_place()))
+        << "saving again replaces the file";
     EXPECT_EQ(files(), 1u) << "no temporary file may stay";
     const auto loaded = load_project(path("shot.weft"));
     ASSERT_TRUE(loaded) << loaded.error().text();
@@ -43,12 +44,12 @@ TEST_F(ProjectFile, SavesAndLoadsPathsAsTheyAreWritten) {
 }
 
 TEST_F(ProjectFile, AFailedSaveLeavesTheOldFile) {
-    ASSERT_TRUE(save_project(path("shot.weft"), test::full_project()));
+    ASSERT_TRUE(save_project(path("shot.weft"), test::full_project(), in_place()));
     Project bad = test::full_project();
     bad.name = "\xff";
-    EXPECT_FALSE(save_project(path("shot.weft"), bad));
+    EXPECT_FALSE(save_project(path("shot.weft"), bad, in_place()));
     EXPECT_EQ(load_project(path("shot.weft")).value(), test::full_project());
-    EXPECT_FALSE(save_project(path("nowhere/shot.weft"), test::full_project()));
+    EXPECT_FALSE(save_project(path("nowhere/shot.weft"), test::full_project(), in_place()));
     EXPECT_EQ(files(), 1u);
 }
 
@@ -59,8 +60,8 @@ TEST_F(ProjectFile, WhatCannotBeReadIsNamed) {
         EXPECT_EQ(project ? ErrorCode::kUsage : project.error().code, ErrorCode::kUnreadable);
         return project ? std::string() : project.error().text();
     };
-    EXPECT_THAT(says(path("none.weft")), HasSubstr("none.weft: There is no such project file"));
-    EXPECT_THAT(says(dir_.string()), HasSubstr("not a project file"));
+    EXPECT_THAT(says(path("none.weft")), HasSubstr("no such file"));
+    EXPECT_THAT(says(dir_.string()), HasSubstr("it is a folder"));
     EXPECT_THAT(says("/dev/zero"), HasSubstr("/dev/zero"));
     std::ofstream(path("newer.weft")) << R"({"schema": "weft.project/9"})";
     EXPECT_THAT(says(path("newer.weft")),

@@ -1,4 +1,4 @@
-#include "app/project/project_json.h"
+#include "app/project/codec/project_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(ProjectJson, EverythingSurvivesARoundTrip) {
 TEST(ProjectJson, TheSameProjectGivesTheSameBytes) {
     const std::string once = write(full_project());
     EXPECT_EQ(write(read(once)), once);
-    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/1\",\n")) << once.substr(0, 60);
+    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/2\",\n")) << once.substr(0, 60);
     EXPECT_TRUE(once.ends_with("}\n"));
     EXPECT_THAT(once, HasSubstr("\"scale\": 0.1,"));
     EXPECT_THAT(once, HasSubstr("\"seed\": 9007199254740991"));
@@ -134,15 +134,43 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     expected.regions = {Leaf(wall), Leaf(second)};
     expected.next_region_id = 3;
     EXPECT_EQ(project, expected);
-    EXPECT_THAT(write(project), HasSubstr("\"weft.project/1\""));
+    EXPECT_THAT(write(project), HasSubstr("\"weft.project/2\""));
+}
+
+TEST(ProjectJson, UpgradesTheTextsOfVersion1) {
+    const Project project = read(R"({
+        "schema": "weft.project/1", "output": {"layers": "patch,st"},
+        "regions": [{"id": 1,
+          "matte": {"keyframes": [{"frame": 3, "path": "a.png", "shape_between": true,
+                     "shape": {"points": [[1, 2, 0, 0, 0, 0, 4], [9, 2, 0, 0, 1, 0, 4], [5, 8, 0, 0, 0, 0, 0]]}}]},
+          "placement": {"scale_keys": "1:1 24:1.5", "offset_keys": "1:0,0 24:10,5", "future": 1},
+          "light": {"strength_keys": "1:1 24:1.5", "lamps": "point 320,180 200 1.5"}}]})");
+    const Region& region = *project.regions[0];
+    EXPECT_EQ(project.output.layers, (std::vector{LayerKind::kPatch, LayerKind::kSt}));
+    EXPECT_EQ(region.placement.scale_keys, *parse_keyed_numbers("1:1 24:1.5"));
+    EXPECT_EQ(region.placement.offset_keys, *parse_keyed_numbers("1:0,0 24:10,5", 2));
+    EXPECT_EQ(region.light.strength_keys, *parse_keyed_numbers("1:1 24:1"));
+    EXPECT_EQ(region.light.lamps, *parse_lamps("point 320,180 200 1.5"));
+    const MatteKeyframe& key = region.matte->keyframes.at(3);
+    ASSERT_TRUE(key.shape);
+    EXPECT_TRUE(key.shape_between);
+    EXPECT_EQ(key.shape->points[1], (RotoPoint{{9, 2}, {0, 0}, {1, 0}, 4}));
+    EXPECT_EQ(read(write(project)), project);
+}
+
+TEST(ProjectJson, WhatVersion1CouldNotRenderIsAnErrorWithItsPlace) {
+    const auto refused = project_from_json(
+        R"({"schema": "weft.project/1", "regions": [{"light": {"lamps": "torch 1 2"}}]})");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().text(), HasSubstr("regions[0].light.lamps"));
 }
 
 TEST(ProjectJson, ANewerVersionIsRefusedWithWhatToDo) {
-    const auto project = project_from_json(R"({"schema": "weft.project/2"})");
+    const auto project = project_from_json(R"({"schema": "weft.project/3"})");
     ASSERT_FALSE(project);
     EXPECT_EQ(project.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(project.error().text(), HasSubstr("version 2"));
-    EXPECT_THAT(project.error().text(), HasSubstr("up to version 1"));
+    EXPECT_THAT(project.error().text(), HasSubstr("version 3"));
+    EXPECT_THAT(project.error().text(), HasSubstr("up to version 2"));
     EXPECT_THAT(project.error().text(), HasSubstr("update Weft"));
 }
 

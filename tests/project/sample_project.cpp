@@ -33,9 +33,9 @@ Region full_region() {
     r.placement.offset_px = {3, -4.25};
     r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
     r.placement.fit = false;
-    r.placement.scale_keys = "1:1 24:1.5";
-    r.placement.rotate_keys = "1:0 24:90";
-    r.placement.offset_keys = "1:0,0 24:10,5";
+    r.placement.scale_keys = {{{1, {1}}, {24, {1.5}}}};
+    r.placement.rotate_keys = {{{1, {0}}, {24, {90}}}};
+    r.placement.offset_keys = {{{1, {0, 0}}, {24, {10, 5}}}};
     r.reference_frames = {12, 40};
     r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
     r.amendments = std::vector<PlaneAmendment>{
@@ -56,8 +56,9 @@ Region full_region() {
     r.light.image = "light.png";
     r.light.form = LightForm::kDetail;
     r.light.strength = 0.75;
-    r.light.strength_keys = "1:1 24:0.3";
-    r.light.lamps = "point 320,180 200 1.5";
+    r.light.strength_keys = {{{1, {1}}, {24, {0.3}}}};
+    r.light.lamps = {{LampKind::kPoint, {{{0, {320, 180, 200, 1.5}}}}},
+                     {LampKind::kGradient, {{{1, {0, 0, 0, 9, 1, 2}}, {11, {0, 0, 0, 9, 1, 4}}}}}};
     r.light.cast = 0.25;
     r.light.highlights = 0.5;
     r.light.albedo = "albedo/####.exr";
@@ -77,8 +78,15 @@ Project full_project() {
     p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, MissingFrames::kHold, {}};
     p.color = {"linear", "srgb", "linear", {}};
     p.settings = {Quality::kDraft, 9007199254740991, "1-40", "GPL, CC-BY-NC", {}};
-    p.output = {"out/####.exr", OutputDepth::kHalf, 80, "piz", "review.mp4", true,
-                "patch,st",     "layers/####.exr",  {}};
+    p.output = {"out/####.exr",
+                OutputDepth::kHalf,
+                80,
+                "piz",
+                "review.mp4",
+                true,
+                {LayerKind::kPatch, LayerKind::kSt},
+                "layers/####.exr",
+                {}};
     p.regions.emplace_back(full_region());
     Region second;
     second.id = 2;
@@ -90,7 +98,7 @@ Project full_project() {
 
 std::string json_with_unknown_keys() {
     return R"({
-  "schema": "weft.project/1",
+  "schema": "weft.project/2",
   "future_top": {"deep": [1, {"x": null}], "big": 1e300},
   "plate": {"path": "frames/####.png", "future_plate": "p"},
   "color": {"future_color": 0.1},

@@ -53,16 +53,16 @@ TEST(Validate, FindsWhatIsMissing) {
     EXPECT_TRUE(has_errors(issues));
     EXPECT_EQ(issues.size(), 3u);  // plate, output, regions
     expect_one(good_project([](Region& r) { r.texture.sample.clear(); }),
-               "E regions[0] 'wall': texture", "--texture");
+               "E regions[0] 'wall': texture", "texture.sample");
     expect_one(good_project([](Region& r) { r.matte = MatteSource{}; }),
                "E regions[0] 'wall': matte", "No matte");
     expect_one(good_project([](Region& r) { r.light.source = LightSource::kImage; }),
-               "E regions[0] 'wall': light.image", "--light");
+               "E regions[0] 'wall': light.image", "light.source");
     expect_one(good_project([](Region& r) { r.holdouts = std::vector<MatteSource>(1); }),
                "E regions[0] 'wall': holdouts[0]", "No matte");
     Project no_output = good_project();
     no_output.output.path.clear();
-    expect_one(no_output, "W output.path", "-o");
+    expect_one(no_output, "W output.path", "Set one");
     EXPECT_FALSE(has_errors(validate(no_output)));
 }
 
@@ -124,7 +124,7 @@ TEST(Validate, FindsRegionsThatShareANameOrAnId) {
     EXPECT_THAT(found[0], HasSubstr("id 1"));
     EXPECT_THAT(found[1], HasSubstr("'wall'"));
     Project off = good_project([](Region& r) { r.enabled = false; });
-    expect_one(off, "W regions", "switched off");
+    expect_one(off, "W regions", "disabled");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/image.h"
+#include "tests/support/places.h"
 
 namespace weft::test {
 
@@ -15,7 +16,7 @@ namespace weft::test {
 inline std::vector<std::string> photographs() {
     namespace fs = std::filesystem;
     std::vector<std::string> paths;
-    const fs::path root = fs::path(WEFT_SHARED_DATA_DIR) / "textures";
+    const fs::path root = fs::path(shared_data_folder()) / "textures";
     if (!fs::exists(root)) return paths;
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (entry.path().extension() == ".jpg") paths.push_back(entry.path().string());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 
 #include "engine/core/parallel.h"
@@ -222,11 +223,22 @@ TEST(TexturePlane, StopsWhenCancelledAndReportsProgress) {
 }
 
 TEST(TexturePlane, StatisticsAreHonest) {
-    const TexturePlane plane = grow(blob_sample(96, 96, 8), sized(256, 256));
+    PlaneOptions o = sized(256, 256);
+    o.refine_passes = 1;
+    const auto begin = std::chrono::steady_clock::now();
+    const TexturePlane plane = grow(blob_sample(96, 96, 8), o);
+    const double measured_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const PlaneStats& s = plane.stats;
     EXPECT_GT(s.search_s, 0);
     EXPECT_GT(s.seam_s, 0);
-    EXPECT_NEAR(s.search_s + s.seam_s + s.refine_s + s.other_s, s.total_s, 1e-9);
+    EXPECT_GT(s.refine_s, 0);
+    // The total is that of the whole call, and no part of it is counted twice: what remains is not
+    // negative.
+    EXPECT_LE(s.total_s, measured_s);
+    EXPECT_GT(s.total_s, 0.5 * measured_s);
+    EXPECT_GE(s.other_s, 0);
+    EXPECT_LT(s.other_s, s.total_s - s.search_s - s.refine_s);
     EXPECT_GE(s.placements, 9);
     // The graph is confined to one patch's overlap.
     EXPECT_GT(s.peak_graph_bytes, 10'000u);

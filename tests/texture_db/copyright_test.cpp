@@ -1,4 +1,4 @@
-#include "texture_db/copyright_file.h"
+#include "texture_db/sources/copyright_file.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "texture_db/material_words.h"
-#include "texture_db/picture_corrections.h"
+#include "texture_db/describe/material_words.h"
+#include "texture_db/sources/picture_corrections.h"
 
 namespace weft::test {
 namespace {
@@ -17,8 +17,8 @@ TEST(PictureCorrections, NameTheMaterialThatWasSeenOrNone) {
     EXPECT_EQ(corrected_material("nexuiz-textures", "textures/terraintex/grass2.tga"), "-");
     EXPECT_EQ(corrected_material("nexuiz-textures", "textures/nowhere/brick.jpg"), std::nullopt);
     EXPECT_EQ(corrected_material("other", "textures/terraintex/sand01.tga"), std::nullopt);
-    EXPECT_TRUE(was_looked_at("ufoai-textures"));
-    EXPECT_FALSE(was_looked_at("redeclipse-data"));
+    EXPECT_TRUE(was_inspected("ufoai-textures"));
+    EXPECT_FALSE(was_inspected("redeclipse-data"));
 }
 
 TEST(PictureCorrections, AreWellFormedAndOfKnownMaterials) {

@@ -5,10 +5,10 @@
 #include <fstream>
 
 #include "tests/texture_db/scratch.h"
-#include "texture_db/packages.h"
-#include "texture_db/picture_file.h"
-#include "texture_db/sample_codec.h"
-#include "texture_db/zip_reader.h"
+#include "texture_db/describe/picture_file.h"
+#include "texture_db/describe/sample_codec.h"
+#include "texture_db/sources/packages.h"
+#include "texture_db/sources/zip_reader.h"
 
 namespace weft {
 namespace {
@@ -26,23 +26,48 @@ struct Member {
     std::string path, data;
     std::uint32_t claimed_bytes = 0;  ///< 0: the truth.
     std::uint32_t crc = 0;
+    std::uint32_t flags = 0, method = 0;
 };
 
-// A zip of stored (not packed) members.
-std::string zip_of(const std::vector<Member>& members) {
+std::string long_number(std::uint64_t v) {
+    return number(static_cast<std::uint32_t>(v), 4) +
+           number(static_cast<std::uint32_t>(v >> 32), 4);
+}
+
+// The two records by which zip64 counts its entries in 64 bits, and then the end record.
+std::string zip64_end(std::uint64_t count, std::uint64_t bytes, std::uint64_t offset) {
+    return number(0x06064b50, 4) + long_number(44) + number(45, 2) + number(45, 2) + number(0, 4) +
+           number(0, 4) + long_number(count) + long_number(count) + long_number(bytes) +
+           long_number(offset) + number(0x07064b50, 4) + number(0, 4) +
+           long_number(offset + bytes) + number(1, 4) + number(0x06054b50, 4) + number(0, 4) +
+           number(0xffff, 2) + number(0xffff, 2) + number(0xffffffff, 4) + number(0xffffffff, 4) +
+           number(0, 2);
+}
+
+struct ZipParts {
+    std::string members, directory;
+};
+
+// Stored (not packed) members.
+ZipParts zip_parts(const std::vector<Member>& members) {
     std::string out, directory;
     for (const Member& m : members) {
         const auto size = static_cast<std::uint32_t>(m.data.size());
         const std::uint32_t claimed = m.claimed_bytes ? m.claimed_bytes : size;
-        const std::string common = number(20, 2) + number(0, 2) + number(0, 2) + number(0, 4) +
-                                   number(m.crc, 4) + number(size, 4) + number(claimed, 4) +
-                                   number(static_cast<std::uint32_t>(m.path.size()), 2) +
-                                   number(0, 2);
+        const std::string common =
+            number(20, 2) + number(m.flags, 2) + number(m.method, 2) + number(0, 4) +
+            number(m.crc, 4) + number(size, 4) + number(claimed, 4) +
+            number(static_cast<std::uint32_t>(m.path.size()), 2) + number(0, 2);
         directory += number(0x02014b50, 4) + number(20, 2) + common + number(0, 2) + number(0, 2) +
                      number(0, 2) + number(0, 4) +
                      number(static_cast<std::uint32_t>(out.size()), 4) + m.path;
         out += number(0x04034b50, 4) + common + m.path + m.data;
     }
+    return {out, directory};
+}
+
+std::string zip_of(const std::vector<Member>& members) {
+    const auto [out, directory] = zip_parts(members);
     const auto offset = static_cast<std::uint32_t>(out.size()),
                count = static_cast<std::uint32_t>(members.size());
     return out + directory + number(0x06054b50, 4) + number(0, 4) + number(count, 2) +
@@ -80,6 +105,70 @@ TEST(Zip, BombsAndWrongChecksumsAreRefused) {
     const auto data = zip->read(zip->entries()[0]);
     ASSERT_FALSE(data);
     EXPECT_THAT(data.error().message, HasSubstr("checksum"));
+}
+
+TEST(Zip, MoreThan65535EntriesAreAllRead) {
+    const Scratch scratch;
+    std::vector<Member> members;
+    for (int i = 0; i < 70'000; ++i)
+        members.push_back({"t/" + std::to_string(i) + ".png", "", 0, 0});
+    members.push_back({"last.png", "abc", 0, 0x352441c2});
+    const auto [out, directory] = zip_parts(members);
+    write(scratch.at("many.zip"),
+          out + directory + zip64_end(members.size(), directory.size(), out.size()));
+    auto zip = ZipReader::open(scratch.at("many.zip"));
+    ASSERT_TRUE(zip) << zip.error().text();
+    ASSERT_EQ(zip->entries().size(), members.size());
+    EXPECT_EQ(zip->entries()[69'999].path, "t/69999.png");
+    const auto data = zip->read(zip->entries().back());
+    ASSERT_TRUE(data) << data.error().text();
+    EXPECT_EQ(*data, "abc");
+}
+
+TEST(Zip, CountsThatCannotBeTrueAreErrors) {
+    const Scratch scratch;
+    const auto [out, directory] = zip_parts({{"a.png", "abc", 0, 0x352441c2}});
+    // The larger ones would take gigabytes if anybody made room for them.
+    for (const std::uint64_t count :
+         {std::uint64_t{2}, std::uint64_t{2'000'000}, std::uint64_t{1} << 28,
+          std::uint64_t{1} << 31, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+        write(scratch.at("lie.zip"),
+              out + directory + zip64_end(count, directory.size(), out.size()));
+        EXPECT_FALSE(ZipReader::open(scratch.at("lie.zip"))) << count;
+    }
+    for (const std::uint64_t offset : {std::uint64_t{1} << 40, ~std::uint64_t{0} - 60}) {
+        write(scratch.at("lie.zip"), out + directory + zip64_end(1, directory.size(), offset));
+        EXPECT_FALSE(ZipReader::open(scratch.at("lie.zip"))) << offset;
+    }
+}
+
+TEST(Zip, EncryptedAndStrangelyPackedEntriesAreRefused) {
+    const Scratch scratch;
+    constexpr std::uint32_t kEncrypted = 1, kBzip2 = 12, kZstd = 93;
+    write(scratch.at("a.zip"), zip_of({{"plain.png", "abc", 0, 0x352441c2},
+                                       {"secret.png", "abc", 0, 0x352441c2, kEncrypted, 0},
+                                       {"bzip2.png", "abc", 0, 0x352441c2, 0, kBzip2},
+                                       {"zstd.png", "abc", 0, 0x352441c2, 0, kZstd}}));
+    auto zip = ZipReader::open(scratch.at("a.zip"));
+    ASSERT_TRUE(zip) << zip.error().text();
+    EXPECT_THAT(zip->refused(), testing::ElementsAre("secret.png", "bzip2.png", "zstd.png"));
+    ASSERT_EQ(zip->entries().size(), 1u);
+    EXPECT_EQ(zip->read(zip->entries()[0]).value_or(""), "abc");
+}
+
+// What is stored is shorter, or longer, than the table of contents says.
+TEST(Zip, WrongSizesAreErrorsWhenRead) {
+    const Scratch scratch;
+    for (const std::uint32_t claimed : {2u, 4u, 400u}) {
+        write(scratch.at("a.zip"), zip_of({{"a.png", "abc", claimed, 0x352441c2}}));
+        auto zip = ZipReader::open(scratch.at("a.zip"));
+        if (!zip) continue;
+        for (const ZipEntry& entry : zip->entries()) {
+            const auto data = zip->read(entry);
+            ASSERT_FALSE(data) << claimed;
+            EXPECT_EQ(data.error().code, ErrorCode::kUnreadable);
+        }
+    }
 }
 
 TEST(Zip, CutOrForeignFilesAreErrors) {

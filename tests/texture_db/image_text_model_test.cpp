@@ -1,4 +1,4 @@
-#include "texture_db/image_text_model.h"
+#include "texture_db/describe/image_text_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(ImageTextModel, SaysWhatIsWrongWithItsFolder) {
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code, ErrorCode::kUnreadable);
     EXPECT_THAT(missing.error().text(), HasSubstr("model.json is missing"));
-    EXPECT_THAT(fault("json", "{", kWords), HasSubstr("model.json: "));
+    EXPECT_THAT(fault("json", "{", kWords), HasSubstr("model.json is not JSON"));
     EXPECT_THAT(fault("out", R"({"image": "../image.onnx", "words": "words.json"})", kWords),
                 HasSubstr("out of its range"));
     EXPECT_THAT(fault("length", kModel, R"({"a": [1, 0], "b": [0, 1]})"),

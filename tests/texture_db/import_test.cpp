@@ -1,4 +1,4 @@
-#include "texture_db/import.h"
+#include "texture_db/sources/import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "tests/texture_db/scratch.h"
-#include "texture_db/near_duplicates.h"
-#include "texture_db/picture_choice.h"
-#include "texture_db/sample_codec.h"
+#include "texture_db/describe/near_duplicates.h"
+#include "texture_db/describe/sample_codec.h"
+#include "texture_db/sources/picture_choice.h"
 
 namespace weft {
 namespace {

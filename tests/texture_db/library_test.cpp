@@ -1,4 +1,4 @@
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -128,7 +128,7 @@ TEST(Library, RefusesForeignNewerAndDamagedFiles) {
     run_sql(scratch.at("foreign.db"), "CREATE TABLE t(x)");
     const auto foreign = TextureLibrary::open(scratch.at("foreign.db"));
     ASSERT_FALSE(foreign);
-    EXPECT_THAT(foreign.error().message, HasSubstr("no texture library"));
+    EXPECT_THAT(foreign.error().message, HasSubstr("not a texture library"));
 
     { ASSERT_TRUE(open_or_die(scratch.at("newer.db"))); }
     run_sql(scratch.at("newer.db"), "PRAGMA user_version = 99");

@@ -1,4 +1,4 @@
-#include "texture_db/licence.h"
+#include "texture_db/catalogue/licence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,6 +41,24 @@ TEST(Policy, RefusesWithTheExitCodeAndNamesTheTextures) {
                 testing::AllOf(testing::HasSubstr("bricks"), testing::HasSubstr("wall"),
                                testing::HasSubstr("Jane")));
     EXPECT_THAT(refused.error().message, testing::Not(testing::HasSubstr("oak")));
+}
+
+TEST(Policy, RefusesNamesThatNobodyKnows) {
+    const std::vector<TextureCredit> used{
+        {"wall", "1", "bricks", "brick", "Jane", "Studio-internal", "x"}};
+    for (const char* known : {"gpl", "GPL-2+", "BSD-3-Clause", "CC-BY-NC-SA-4.0", "copyleft",
+                              "unknown", "public-domain"})
+        EXPECT_TRUE(check_licences(used, {known})) << known;
+    const Status slip = check_licences(used, {"GPL", "GLP"});
+    ASSERT_FALSE(slip);
+    EXPECT_EQ(slip.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(slip.error().message,
+                testing::AllOf(testing::HasSubstr("'GLP'"), testing::HasSubstr("CC-BY-SA"),
+                               testing::HasSubstr("non-commercial")));
+    // A studio's own licence is known where a texture has it.
+    const Status own = check_licences(used, {"Studio-internal"});
+    ASSERT_FALSE(own);
+    EXPECT_EQ(own.error().code, ErrorCode::kRefused);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "texture_db/recommend.h"
+#include "texture_db/recommend/recommend.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "tests/texture_db/small_library.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 #include "texture_db/starter/starter.h"
 
 namespace weft {
@@ -85,19 +85,35 @@ TEST(Recommend, OffersWhatServesAsTheRegion) {
     EXPECT_LE(share_of("wall", worn), 1);
 }
 
-TEST(Recommend, IsDiverseOnlyWhenAsked) {
+// Sums over the scheme "In harmony".
+struct Variety {
+    std::set<std::string> materials;
+    float score = 0;
+    bool best_first = true;
+};
+
+TEST(Recommend, VarietyIsPaidForWithScoreByTheMeasureThatIsAsked) {
     const Frame frame;
     RecommendRequest request = request_for(frame);
-    const auto materials = [&](float diversity) {
+    const auto variety = [&](float diversity) {
         request.diversity = diversity;
-        std::set<std::string> out;
         const auto advice = small_library()->recommend(request);
-        for (const Suggestion& s : advice->regions[0].schemes[1].suggestions)
-            out.insert(s.material);
-        return out.size();
+        Variety out;
+        float before = 1;
+        for (const Suggestion& s : advice->regions[0].schemes[1].suggestions) {
+            out.materials.insert(s.material);
+            out.score += s.score;
+            out.best_first = out.best_first && s.score <= before;
+            before = s.score;
+        }
+        return out;
     };
-    EXPECT_GE(materials(0.8f), materials(0.0f));
-    EXPECT_GE(materials(0.8f), 4u);
+    const Variety none = variety(0), little = variety(0.05f), much = variety(0.9f);
+    EXPECT_TRUE(none.best_first);
+    EXPECT_GT(none.score, little.score);
+    EXPECT_GT(little.score, much.score);
+    EXPECT_GT(much.materials.size(), none.materials.size());
+    EXPECT_GT(much.materials.size(), little.materials.size());
 }
 
 TEST(Recommend, WishesAreMet) {

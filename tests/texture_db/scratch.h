@@ -8,7 +8,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/rng.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft {
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "tests/texture_db/small_library.h"
-#include "texture_db/material_words.h"
-#include "texture_db/wordnet.h"
+#include "texture_db/describe/material_words.h"
+#include "texture_db/search/wordnet.h"
 
 namespace weft {
 namespace {

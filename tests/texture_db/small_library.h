@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft {
 

@@ -7,11 +7,11 @@
 
 #include "engine/core/parallel.h"
 #include "tests/texture_db/scratch.h"
-#include "texture_db/features.h"
-#include "texture_db/index.h"
-#include "texture_db/library.h"
-#include "texture_db/region_look.h"
-#include "texture_db/suggestions.h"
+#include "texture_db/catalogue/index.h"
+#include "texture_db/describe/features.h"
+#include "texture_db/library/library.h"
+#include "texture_db/recommend/region_look.h"
+#include "texture_db/recommend/suggestions.h"
 
 namespace weft {
 namespace {
@@ -127,7 +127,7 @@ TEST(Speed, OfTwoHundredThousandDescriptors) {
             matte.at(x, y) = 255;
     RecommendRequest request;
     request.plate = plate;
-    const RegionToSuit region{"r", matte.view(), "", ""};
+    const RegionRequest region{"r", matte.view(), "", ""};
     DescriptorModel model;
     model.outputs = index.descriptor_size;
     for (int m = 0; m < index.materials.size(); ++m) {

@@ -7,8 +7,8 @@
 
 #include "engine/core/parallel.h"
 #include "tests/texture_db/scratch.h"
-#include "texture_db/near_duplicates.h"
-#include "texture_db/sample_codec.h"
+#include "texture_db/describe/near_duplicates.h"
+#include "texture_db/describe/sample_codec.h"
 
 namespace weft {
 namespace {

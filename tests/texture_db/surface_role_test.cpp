@@ -1,10 +1,10 @@
-#include "texture_db/surface_role.h"
+#include "texture_db/describe/surface_role.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "texture_db/material_words.h"
+#include "texture_db/describe/material_words.h"
 
 namespace weft {
 namespace {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/texture_db/scratch.h"
-#include "texture_db/attributes.h"
-#include "texture_db/import.h"
-#include "texture_db/material_words.h"
-#include "texture_db/wordnet.h"
+#include "texture_db/describe/attributes.h"
+#include "texture_db/describe/material_words.h"
+#include "texture_db/search/wordnet.h"
+#include "texture_db/sources/import.h"
 
 namespace weft {
 namespace {

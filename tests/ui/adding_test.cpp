@@ -3,7 +3,7 @@
 
 #include "engine/media/frame_writer.h"
 #include "tests/ui/ui_harness.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft::test {
 namespace {
@@ -90,7 +90,7 @@ TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
 
 TEST_F(Adding, AFolderCanAlsoOnlyBeShown) {
     open_with_a_library();
-    ASSERT_TRUE(robot->click("Add textures/Only show the folder"));
+    ASSERT_TRUE(robot->click("Add textures/Browse folder only"));
     robot->frames(2);
     ASSERT_TRUE(robot->click("Add textures/Add"));
     robot->frames(3);

@@ -1,7 +1,7 @@
 // What an artist keeps, corrects, picks and sends out: what the panels emit.
-#include "app/session/paint.h"
-#include "app/session/piece_pick.h"
+#include "app/mattes/paint.h"
 #include "app/session/where_to_correct.h"
+#include "app/textures/piece_pick.h"
 #include "tests/ui/canvas_fixture.h"
 #include "ui/pen.h"
 
@@ -86,7 +86,7 @@ TEST_F(Choices, AltLetsGoOfItAgain) {
 TEST_F(Choices, TheSamePlaceMadeAgainIsAnotherTry) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
-    ASSERT_TRUE(robot->click("Keep/Make again"));
+    ASSERT_TRUE(robot->click("Keep/Regenerate"));
     robot->frames(2);
     ASSERT_TRUE(robot->click("Keep/Seam"));
     robot->frames(2);
@@ -136,7 +136,7 @@ TEST_F(Choices, ThePiecesGoWithTheTool) {
 
 TEST_F(Choices, APictureOfOnesOwnIsLookedFor) {
     go("Texture", Tool::kPan);
-    ASSERT_TRUE(robot->click("Materials/Like a picture…"));
+    ASSERT_TRUE(robot->click("Materials/Find by picture…"));
     robot->frames(1);
     EXPECT_EQ(shell->state().browser.purpose, BrowserState::Purpose::kSimilar);
 }
@@ -181,7 +181,7 @@ TEST_F(Choices, LayersAreChosenForAJob) {
     robot->frames();
     const auto jobs = emitted<SubmitJob>();
     ASSERT_THAT(jobs, SizeIs(1));
-    EXPECT_EQ(jobs[0].layers, "patch,st");
+    EXPECT_EQ(jobs[0].layers, (std::vector{LayerKind::kPatch, LayerKind::kSt}));
     EXPECT_THAT(jobs[0].layers_path, testing::EndsWith("/layers/####.exr"))
         << "PNG frames cannot hold them";
 }

@@ -4,7 +4,7 @@
 #include <random>
 #include <thread>
 
-#include "app/project/project_json.h"
+#include "app/project/codec/project_json.h"
 #include "tests/ui/ui_harness.h"
 
 namespace weft::test {

@@ -1,5 +1,5 @@
 // What is in front of a surface, painted by hand, and which way mattes are carried.
-#include "app/session/matte_layer.h"
+#include "app/mattes/matte_layer.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
 
@@ -23,10 +23,10 @@ class PaintedLayers : public SessionTest {
     }
     [[nodiscard]] const Region& region() const { return *session->view().project.regions.back(); }
     void paint_holdout() {
-        ASSERT_TRUE(robot->click("In front of it"));
+        ASSERT_TRUE(robot->click("Holdouts"));
         robot->wheel(-30);
         robot->frames(3);
-        ASSERT_TRUE(robot->click("Holdouts/Paint what is in front"));
+        ASSERT_TRUE(robot->click("Holdouts/Paint a holdout"));
         robot->frames(3);
         EXPECT_EQ(session->view().matte_layer, 1);
         EXPECT_THAT(*region().holdouts, IsEmpty());
@@ -83,7 +83,7 @@ TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
     robot->frames(3);
     ASSERT_THAT(region().holdouts->front().keyframes, SizeIs(2));
     EXPECT_TRUE(session->view().marks[1].matte_key);
-    ASSERT_TRUE(robot->click("Matte/Remove key"));
+    ASSERT_TRUE(robot->click("Matte/Remove keyframe"));
     robot->frames(2);
     EXPECT_THAT(region().holdouts->front().keyframes, SizeIs(1));
     EXPECT_THAT(region().matte->keyframes, SizeIs(1));

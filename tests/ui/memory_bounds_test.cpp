@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "app/session/matte_shelf.h"
-#include "app/session/plate_player.h"
+#include "app/mattes/matte_shelf.h"
+#include "app/preview/plate_player.h"
 
 namespace weft::test {
 namespace {

@@ -1,7 +1,7 @@
 // What the preview shows at full size is what a render writes, byte for byte: with what is kept by
 // hand, pins, and a placement that changes over time.
-#include "app/session/piece_pick.h"
-#include "app/session/render_job.h"
+#include "app/render/render_job.h"
+#include "app/textures/piece_pick.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
 

@@ -1,5 +1,5 @@
 // What the strips below the ruler say of neighbouring frames, on pictures with known answers.
-#include "app/session/preview_flicker.h"
+#include "app/preview/preview_flicker.h"
 
 #include <gtest/gtest.h>
 

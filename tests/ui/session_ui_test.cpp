@@ -3,7 +3,8 @@
 #include <fstream>
 #include <thread>
 
-#include "app/project/project_file.h"
+#include "app/base/trust.h"
+#include "app/project/codec/project_file.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
 
@@ -11,6 +12,7 @@ namespace weft::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 class EditorSession : public SessionTest {
   protected:
@@ -48,6 +50,25 @@ TEST_F(EditorSession, AStrokeBecomesAKeyframeWithItsFile) {
     ASSERT_TRUE(written) << written.error().text();
     EXPECT_GT(written->at(40, 32), 200);
     EXPECT_EQ(written->at(2, 2), 0);
+}
+
+// The preview takes it from memory: it waits for no disk, and not for one that is broken.
+TEST_F(EditorSession, AStrokeIsPreviewedThoughItCannotBeWritten) {
+    fs::create_directories(folder / "state");
+    std::ofstream(folder / "state" / "unsaved") << "in the place of the folder";
+    open();
+    paint();
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    ASSERT_TRUE(wait([&] {
+        return session->view().result_current ||
+               session->view().preview.state == PreviewView::State::kFailed;
+    }));
+    EXPECT_TRUE(session->view().result_current) << session->view().preview.error;
+    EXPECT_FALSE(fs::exists(matte().keyframes.at(1).path));
+    const auto& notices = session->view().notices;
+    EXPECT_TRUE(std::any_of(notices.begin(), notices.end(), [](const Notice& n) {
+        return n.kind == NoticeKind::kError;
+    })) << "and the artist is told";
 }
 
 // A frame of the screen is all that lies between the pen and its trace: what the pointer did before
@@ -185,7 +206,7 @@ TEST_F(EditorSession, AMissingFrameIsSaidAndTheOthersPlay) {
     robot->key("Right");
     robot->key("Right");
     ASSERT_TRUE(wait([&] { return !session->view().frame_error.empty(); }));
-    EXPECT_THAT(session->view().frame_error, testing::HasSubstr("0003.png"));
+    EXPECT_THAT(session->view().frame_error, HasSubstr("0003.png"));
     robot->key("Right");
     ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }));
     EXPECT_EQ(session->view().frame, 4);
@@ -205,9 +226,58 @@ TEST_F(EditorSession, ThePreviewShowsTheResultAndNeverAWrongOne) {
     session->act(GoToFrame{3});
     robot->frames(1);
     // Until the frame is there, no other frame's result stands in for it.
-    if (!session->view().result_current) {
-        EXPECT_EQ(session->view().result_picture, nullptr);
-    }
+    std::vector<PicturePtr> shown;
+    ASSERT_TRUE(wait([&] {
+        shown.push_back(session->view().result_picture);
+        return session->view().frame == 3 && session->view().result_current;
+    })) << session->view().preview.error;
+    EXPECT_NE(shown.back(), nullptr);
+    EXPECT_NE(shown.back(), first);
+    shown.pop_back();
+    EXPECT_THAT(shown, testing::Each(testing::IsNull()));
+}
+
+TEST_F(EditorSession, AProjectFromElsewhereWritesOutsideOfItsFolderOnceItIsTrusted) {
+    open();
+    paint();
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    fs::create_directories(folder / "from_elsewhere");
+    const std::string path = (folder / "from_elsewhere" / "shot.weft").string();
+    const std::string outside = (folder / "outside" / "####.png").string();
+    session->act(DoEdit{SetOutput{[&] {
+        Output output;
+        output.path = outside;
+        return output;
+    }()}});
+    session->act(SaveAs{path});
+    ASSERT_TRUE(wait([&] { return !session->view().saving; }));
+    // What was made here is trusted; what came from somebody is not.
+    EXPECT_FALSE(session->view().trust);
+    EXPECT_TRUE(TrustList((folder / "trusted.json").string()).trusts(path));
+    fs::remove(folder / "trusted.json");
+    restart_session();
+    session->act(OpenProject{path});
+    ASSERT_TRUE(wait([&] { return session->view().plate_picture != nullptr; }));
+    ASSERT_TRUE(session->view().trust);
+    EXPECT_EQ(session->view().trust->output, outside);
+    ASSERT_TRUE(robot->click("Not now"));
+    EXPECT_FALSE(session->view().trust);
+    session->act(SubmitJob{"1-2", outside, "", false, false});
+    robot->frames(2);
+    EXPECT_TRUE(session->view().jobs.empty());
+    ASSERT_FALSE(session->view().notices.empty());
+    EXPECT_THAT(session->view().notices.back().text, HasSubstr(outside));
+    // The user's own choice of a place is no matter of trust.
+    session->act(SubmitJob{"1-2", (folder / "chosen" / "####.png").string(), "", false, false});
+    ASSERT_TRUE(wait([&] { return session->view().jobs.size() == 1; }));
+    ASSERT_TRUE(session->view().trust);
+    ASSERT_TRUE(robot->click("Trust"));
+    EXPECT_FALSE(session->view().trust);
+    session->act(SubmitJob{"1-2", outside, "", false, false});
+    ASSERT_TRUE(wait([&] { return session->view().jobs.size() == 2; }));
+    restart_session();
+    session->act(OpenProject{path});
+    EXPECT_FALSE(session->view().trust);
 }
 
 TEST_F(EditorSession, AFailedJobSaysWhy) {

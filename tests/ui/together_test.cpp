@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tests/ui/ui_harness.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft::test {
 namespace {
@@ -61,7 +61,7 @@ class Together : public SessionTest {
         return session->view().project.regions[region]->texture.sample;
     }
     bool offered() {
-        return wait([&] { return robot->find("Together/Use set 1") != nullptr; });
+        return wait([&] { return robot->find("Together/Apply set 1") != nullptr; });
     }
     std::string library_path_;
 };
@@ -70,7 +70,7 @@ TEST_F(Together, ASetIsTakenInOneStepAndPartOfItKept) {
     make_library();
     open_two_regions();
     ASSERT_TRUE(offered());
-    ASSERT_TRUE(robot->click("Together/Use set 1"));
+    ASSERT_TRUE(robot->click("Together/Apply set 1"));
     ASSERT_TRUE(wait([&] { return !texture(0).empty() && !texture(1).empty(); }));
     const std::string first = texture(0), second = texture(1);
     const std::size_t steps = session->view().history_position;
@@ -84,7 +84,7 @@ TEST_F(Together, ASetIsTakenInOneStepAndPartOfItKept) {
         robot->frames(2);
         ASSERT_TRUE(offered());
     }
-    ASSERT_TRUE(robot->click("Together/Use set 1"));
+    ASSERT_TRUE(robot->click("Together/Apply set 1"));
     ASSERT_TRUE(wait([&] { return session->view().history_position > steps; }));
     EXPECT_EQ(texture(0), first) << "it was to be kept";
     EXPECT_NE(texture(1), second);
@@ -106,7 +106,7 @@ TEST_F(Together, OneRegionAloneIsToldWhatIsMissing) {
     session->act(
         DoEdit{SetRegionParameter{{session->view().project.regions[1]->id, {}}, "enabled", false}});
     robot->frames(3);
-    EXPECT_EQ(robot->find("Together/Use set 1"), nullptr);
+    EXPECT_EQ(robot->find("Together/Apply set 1"), nullptr);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
-#include "app/session/background.h"
-#include "app/session/render_job.h"
+#include "app/base/background.h"
+#include "app/render/render_job.h"
 #include "engine/media/frame_writer.h"
 #include "ui/view_map.h"
 
@@ -141,6 +141,7 @@ SessionView failing_view() {
     v.report.error = "There are no frames to measure.";
     v.notices.push_back({1, NoticeKind::kError, "The project could not be saved.", 0});
     v.recovery = RecoveryOffer{"/shots/shot.weft", "21 November at 14:02"};
+    v.trust = TrustOffer{"/shots", "/elsewhere/out/####.png"};
     return v;
 }
 
@@ -209,6 +210,7 @@ void SessionTest::restart_session(const std::string& texture_library) {
     options.state_folder = (folder / "state").string();
     options.cache.folder = (folder / "cache").string();
     options.texture_library = texture_library;
+    options.trust_file = (folder / "trusted.json").string();
     session = std::make_unique<Session>(options, &settings);
 }
 

@@ -1,8 +1,7 @@
 // Values over time, smaller pictures of a shot, and where a pixel comes from.
-#include "app/session/keyed_text.h"
-#include "app/session/piece_pick.h"
-#include "app/session/provenance.h"
-#include "app/session/proxy_shot.h"
+#include "app/preview/proxy_shot.h"
+#include "app/textures/piece_pick.h"
+#include "app/textures/provenance.h"
 #include "tests/ui/ui_harness.h"
 #include "ui/view_map.h"
 
@@ -11,20 +10,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
-
-TEST(KeyedText, GoesInAStraightLineBetweenKeysAndStaysOutside) {
-    const KeyedValues keys = read_keyed("1001:1 1011:2", 1);
-    ASSERT_THAT(keys, SizeIs(2));
-    EXPECT_THAT(keyed_at(keys, 990), ElementsAre(1));
-    EXPECT_THAT(keyed_at(keys, 1006), ElementsAre(1.5));
-    EXPECT_THAT(keyed_at(keys, 2000), ElementsAre(2));
-}
-
-TEST(KeyedText, IsReadBackAsItWasWritten) {
-    const KeyedValues keys{{-3, {1.25, -7}}, {12, {0, 0.5}}};
-    EXPECT_EQ(read_keyed(keyed_text(keys), 2), keys);
-    EXPECT_TRUE(read_keyed("nonsense", 1).empty());
-}
 
 TEST(Proxy, AFieldOfMotionIsTheSameButSmaller) {
     LatticeField field({101, 75}, 8);
@@ -184,7 +169,7 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     EXPECT_THAT(viewer.provenance,
                 ElementsAre("brick.png", "Texture 0123456789ab", "Patch 2, sample at 106, 43",
                             "Inside a patch", "From 46, 35 on frame 1001",
-                            "History of frame 1001, weight 1.00"));
+                            "Track from frame 1001, weight 1.00"));
     // A seam has the numbers of the patches that it joins.
     plane->energy.at(4, 3) = 60;
     robot->move(map.to_screen({44.5f, 35.5f}));
@@ -207,20 +192,20 @@ TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
     const auto* set = std::get_if<SetRegionParameter>(&edits[0].edit);
     ASSERT_NE(set, nullptr);
     EXPECT_EQ(set->key, "placement.scale_keys");
-    EXPECT_EQ(std::get<std::string>(set->value), "1003:1");
+    EXPECT_EQ(std::get<KeyedNumbers>(set->value), *parse_keyed_numbers("1003:1"));
     view.project.regions[0] =
-        view.project.regions[0].with([](Region& r) { r.placement.scale_keys = "1003:1"; });
+        view.project.regions[0].with([](Region& r) { r.placement.scale_keys.set(1003, {1}); });
     robot->frames(2);
     clear();
     ASSERT_TRUE(robot->click("Unkey Scale"));
     const auto after = emitted<DoEdit>();
     ASSERT_THAT(after, SizeIs(1));
-    EXPECT_EQ(std::get<std::string>(std::get<SetRegionParameter>(after[0].edit).value), "");
+    EXPECT_TRUE(std::get<KeyedNumbers>(std::get<SetRegionParameter>(after[0].edit).value).empty());
 }
 
 TEST_F(PanelTest, AKeyedSliderChangesTheKeyOfThisFrame) {
-    view.project.regions[0] =
-        view.project.regions[0].with([](Region& r) { r.placement.scale_keys = "1001:1 1005:3"; });
+    view.project.regions[0] = view.project.regions[0].with(
+        [](Region& r) { r.placement.scale_keys = *parse_keyed_numbers("1001:1 1005:3"); });
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     clear();
@@ -229,8 +214,8 @@ TEST_F(PanelTest, AKeyedSliderChangesTheKeyOfThisFrame) {
     ASSERT_THAT(edits, SizeIs(1));
     const auto& set = std::get<SetRegionParameter>(edits[0].edit);
     EXPECT_EQ(set.key, "placement.scale_keys");
-    const KeyedValues keys = read_keyed(std::get<std::string>(set.value), 1);
-    ASSERT_TRUE(keys.contains(1003));
+    const auto& keys = std::get<KeyedNumbers>(set.value);
+    ASSERT_TRUE(keys.has(1003));
     EXPECT_GT(keys.at(1003)[0], 2);
     EXPECT_THAT(keys.at(1001), ElementsAre(1));
 }
@@ -258,7 +243,7 @@ TEST_F(PanelTest, CornersInPerspectiveAreDraggedOnTheCanvas) {
 TEST_F(PanelTest, ALineSaysHowLargeTheBricksAre) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
-    ASSERT_TRUE(robot->click("Size by a line"));
+    ASSERT_TRUE(robot->click("Scale by reference line"));
     robot->frames(2);
     const DrawnItem* canvas = robot->find("Viewer/Canvas");
     const ImVec2 middle((canvas->min.x + canvas->max.x) / 2, (canvas->min.y + canvas->max.y) / 2);

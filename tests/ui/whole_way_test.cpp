@@ -4,12 +4,12 @@
 
 #include <bit>
 
-#include "app/session/larger_original.h"
-#include "app/session/piece_pick.h"
+#include "app/textures/larger_original.h"
+#include "app/textures/piece_pick.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
-#include "texture_db/library.h"
+#include "texture_db/library/library.h"
 
 namespace weft::test {
 namespace {
@@ -120,21 +120,21 @@ TEST_F(WholeWay, AKeptPieceStaysWhenTheVariationChanges) {
 TEST_F(WholeWay, LayersForCompositingAreShownInPlaceOfTheResult) {
     open();
     paint_and_texture();
-    for (const char* name : {"matte", "patch", "st", "id", "seam", "light", "edge"}) {
-        session->act(ShowLayer{name});
+    for (const LayerInfo& layer : kLayers) {
+        session->act(ShowLayer{layer.kind});
         ASSERT_TRUE(wait([&] {
             const PreviewFrame& shown = session->view().stages;
-            return shown.layer_name == name && shown.layer;
-        })) << name;
+            return shown.layer_kind == layer.kind && shown.layer;
+        })) << layer.name;
     }
-    session->act(ShowLayer{"matte"});
-    ASSERT_TRUE(wait([&] { return session->view().stages.layer_name == "matte"; }));
+    session->act(ShowLayer{LayerKind::kMatte});
+    ASSERT_TRUE(wait([&] { return session->view().stages.layer_kind == LayerKind::kMatte; }));
     const PicturePtr matte = session->view().stages.layer;
     EXPECT_GT(matte->at(45, 25).x, 0.9f);
     EXPECT_LT(matte->at(3, 3).x, 0.1f);
-    session->act(ShowLayer{""});
+    session->act(ShowLayer{});
     robot->frames(3);
-    EXPECT_TRUE(session->view().layer.empty());
+    EXPECT_FALSE(session->view().layer);
 }
 
 TEST_F(WholeWay, DriftStretchAndSeamsAreFoundWhileOneWorks) {

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "engine/core/setting.h"
+
+namespace weft {
+
+/// The command line's name of a setting: "--reference-frame 1012", "'weft texture build'"; empty
+/// where it has none. A SettingNamer. Thread-safe.
+[[nodiscard]] std::string setting_flag(const SettingRef& setting);
+
+}  // namespace weft

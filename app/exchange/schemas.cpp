@@ -1,0 +1,273 @@
+#include "app/exchange/schemas.h"
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "app/project/codec/project_json.h"
+#include "app/project/parameters.h"
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json any_of_type(const char* type) {
+    return {{"type", type}};
+}
+
+Json numbers(const ParameterInfo& info, std::size_t count) {
+    Json item{{"type", "number"}, {"minimum", info.min}, {"maximum", info.max}};
+    Json out{{"type", "array"}, {"items", std::move(item)}};
+    if (count > 0) out["minItems"] = out["maxItems"] = count;
+    return out;
+}
+
+// Keys over time, each with a value of this schema.
+Json keys(Json value) {
+    return {{"type", "array"},
+            {"items",
+             {{"type", "object"},
+              {"required", {"frame", "value"}},
+              {"properties", {{"frame", any_of_type("integer")}, {"value", std::move(value)}}}}}};
+}
+
+Json schema_of(const ParameterInfo& info) {
+    Json out;
+    switch (info.kind) {
+        case ParameterKind::kFlag:
+            out = any_of_type("boolean");
+            break;
+        case ParameterKind::kInteger:
+        case ParameterKind::kNumber:
+            out = any_of_type(info.kind == ParameterKind::kInteger ? "integer" : "number");
+            out["minimum"] = info.min;
+            out["maximum"] = info.max;
+            break;
+        case ParameterKind::kChoice:
+            out["enum"] = info.choices;
+            break;
+        case ParameterKind::kText:
+        case ParameterKind::kPath:
+            out = any_of_type("string");
+            break;
+        case ParameterKind::kPoint:
+            out = numbers(info, 2);
+            break;
+        case ParameterKind::kPaths:
+            out = {{"type", "array"}, {"items", any_of_type("string")}};
+            break;
+        case ParameterKind::kCorners:
+            out = numbers(info, 8);
+            break;
+        case ParameterKind::kFrames:
+            out = {{"type", "array"}, {"items", any_of_type("integer")}};
+            break;
+        case ParameterKind::kNames:
+            out = {{"type", "array"}, {"items", {{"enum", info.choices}}}};
+            break;
+        case ParameterKind::kKeys:
+            out =
+                keys(info.components == 1 ? any_of_type("number") : numbers(info, info.components));
+            break;
+        case ParameterKind::kLamps:
+            out = {{"type", "array"},
+                   {"items",
+                    {{"type", "object"},
+                     {"required", {"kind", "keys"}},
+                     {"properties",
+                      {{"kind", {{"enum", {"point", "directional", "gradient"}}}},
+                       {"keys", keys({{"type", "array"}, {"items", any_of_type("number")}})}}}}}};
+            break;
+    }
+    out["description"] =
+        std::string(info.help) + (info.unit.empty() ? "" : " (" + std::string(info.unit) + ")");
+    return out;
+}
+
+// A table's groups as objects; keys without a group go into `object` itself.
+template <class Owner>
+void add_table(Json& object, std::span<const Parameter<Owner>> table) {
+    for (const Parameter<Owner>& parameter : table) {
+        Json* into = &object["properties"];
+        if (!parameter.group.empty()) {
+            Json& group = (*into)[std::string(parameter.group)];
+            group["type"] = "object";
+            into = &group["properties"];
+        }
+        (*into)[std::string(parameter.key)] = schema_of(parameter);
+    }
+}
+
+Json point() {
+    return {{"type", "array"}, {"items", any_of_type("number")}, {"minItems", 2}, {"maxItems", 2}};
+}
+
+Json region_schema() {
+    Json region{{"type", "object"}, {"properties", Json::object()}};
+    region["properties"]["id"] = {{"type", "integer"}, {"minimum", 1}};
+    add_table(region, region_parameters());
+    Json matte = region["properties"]["matte"];
+    matte["properties"]["keyframes"] = {
+        {"type", "array"},
+        {"items",
+         {{"type", "object"},
+          {"properties", {{"frame", any_of_type("integer")}, {"path", any_of_type("string")}}},
+          {"required", {"frame", "path"}}}}};
+    region["properties"]["matte"] = matte;
+    region["properties"]["holdouts"] = {{"type", "array"}, {"items", matte}};
+    const Json pin{{"type", "object"},
+                   {"properties", {{"from", point()}, {"to", point()}}},
+                   {"required", {"from", "to"}}};
+    region["properties"]["corrections"] = {
+        {"type", "array"},
+        {"items",
+         {{"type", "object"},
+          {"properties",
+           {{"frame", any_of_type("integer")}, {"pins", {{"type", "array"}, {"items", pin}}}}}}}};
+    const Json run{
+        {"type", "array"}, {"items", any_of_type("integer")}, {"minItems", 5}, {"maxItems", 7}};
+    region["properties"]["amendments"] = {{"type", "array"},
+                                          {"items",
+                                           {{"type", "object"},
+                                            {"properties",
+                                             {{"kind", {{"enum", {"keep", "again"}}}},
+                                              {"seed", any_of_type("integer")},
+                                              {"runs", {{"type", "array"}, {"items", run}}}}},
+                                            {"required", {"kind", "runs"}}}}};
+    return region;
+}
+
+Json headed(const char* title, Json body) {
+    Json out{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
+    out.update(body);
+    return out;
+}
+
+Json project_schema() {
+    Json project{{"type", "object"}, {"required", {"schema"}}, {"properties", Json::object()}};
+    project["properties"]["schema"] = {
+        {"const", std::string(kProjectSchemaName) + "/" + std::to_string(kProjectSchemaVersion)}};
+    add_table(project, project_parameters());
+    project["properties"]["next_region_id"] = {{"type", "integer"}, {"minimum", 1}};
+    project["properties"]["regions"] = {{"type", "array"}, {"items", region_schema()}};
+    return headed("A Weft project", std::move(project));
+}
+
+Json actions_schema() {
+    const Json region{{"type", {"integer", "string"}}},
+        text = any_of_type("string"), number = any_of_type("integer"),
+        object = any_of_type("object"), list = any_of_type("array"), any = Json::object();
+    const std::vector<std::pair<const char*, Json>> kActions{
+        {"set_plate", {{"plate", object}}},
+        {"set_output", {{"output", object}}},
+        {"set_project_parameter", {{"key", text}, {"value", any}}},
+        {"add_region", {{"region", object}, {"index", number}}},
+        {"remove_region", {{"region", region}}},
+        {"move_region", {{"region", region}, {"index", number}}},
+        {"rename_region", {{"region", region}, {"name", text}}},
+        {"set_region_parameter", {{"region", region}, {"key", text}, {"value", any}}},
+        {"set_matte", {{"region", region}, {"matte", object}}},
+        {"set_matte_keyframe", {{"region", region}, {"frame", number}, {"path", text}}},
+        {"remove_matte_keyframe", {{"region", region}, {"frame", number}}},
+        {"set_holdouts", {{"region", region}, {"holdouts", list}}},
+        {"set_texture", {{"region", region}, {"texture", object}}},
+        {"set_correction", {{"region", region}, {"frame", number}, {"pins", list}}},
+        {"set_amendments", {{"region", region}, {"amendments", list}}}};
+    Json kinds = Json::array();
+    for (const auto& [name, keys] : kActions) {
+        Json properties{{"action", {{"const", name}}}};
+        Json required = Json::array({"action"});
+        for (const auto& [key, value] : keys.items()) {
+            properties[key] = value;
+            if (key != "index" || std::string_view(name) != "add_region") required.push_back(key);
+        }
+        kinds.push_back({{"type", "object"},
+                         {"properties", properties},
+                         {"required", required},
+                         {"additionalProperties", false}});
+    }
+    const Json actions{{"type", "array"}, {"items", {{"oneOf", kinds}}}};
+    const Json whole{
+        {"type", "object"},
+        {"properties", {{"schema", {{"const", "weft.actions/1"}}}, {"actions", actions}}},
+        {"required", {"actions"}}};
+    return headed("Actions on a Weft project", {{"oneOf", {actions, whole}}});
+}
+
+Json report_schema() {
+    const Json text = any_of_type("string"), number = any_of_type("number"),
+               texts{{"type", "array"}, {"items", any_of_type("string")}};
+    const Json frame{{"type", "object"},
+                     {"properties",
+                      {{"frame", any_of_type("integer")},
+                       {"path", text},
+                       {"seconds", number},
+                       {"skipped", any_of_type("boolean")},
+                       {"rolled_off_px", any_of_type("integer")},
+                       {"nonfinite_px", any_of_type("integer")},
+                       {"filled_px", any_of_type("integer")}}},
+                     {"required", {"frame", "path", "seconds"}}};
+    const Json texture{{"type", "object"},
+                       {"properties",
+                        {{"region", text},
+                         {"path", text},
+                         {"id", text},
+                         {"kind", text},
+                         {"author", text},
+                         {"licence", text}}},
+                       {"required", {"path", "id"}}};
+    const Json body{
+        {"type", "object"},
+        {"properties",
+         {{"schema", {{"const", "weft.report/1"}}},
+          {"version", text},
+          {"backend", {{"type", "object"}, {"properties", {{"name", text}, {"device", text}}}}},
+          {"threads", any_of_type("integer")},
+          {"size", point()},
+          {"spaces", any_of_type("object")},
+          {"frames", {{"type", "array"}, {"items", frame}}},
+          {"fps", number},
+          {"seconds_per_stage", any_of_type("object")},
+          {"peak_rss_bytes", any_of_type("integer")},
+          {"textures", {{"type", "array"}, {"items", texture}}},
+          {"settings", any_of_type("object")},
+          {"movie", text},
+          {"warnings", texts},
+          {"changed_inputs", texts}}},
+        {"required", {"version", "backend", "frames", "textures", "settings", "warnings"}}};
+    return headed("The report of a Weft render", body);
+}
+
+Json error_schema() {
+    const Json text = any_of_type("string"), code = {{"type", "integer"}, {"minimum", 1}};
+    const Json error{{"type", "object"},
+                     {"properties",
+                      {{"code", code},
+                       {"name",
+                        {{"enum",
+                          {"render_failed", "usage", "unreadable", "missing_frames", "no_backend",
+                           "no_space", "refused", "differs", "interrupted", "terminated"}}}},
+                       {"message", text},
+                       {"field", text},
+                       {"remedy", text}}},
+                     {"required", {"code", "name", "message"}}};
+    const Json body{
+        {"type", "object"},
+        {"properties",
+         {{"schema", {{"const", "weft.error/1"}}}, {"error", error}, {"exit_code", code}}},
+        {"required", {"schema", "error", "exit_code"}}};
+    return headed("What a failed weft command prints with --json", body);
+}
+
+}  // namespace
+
+Expected<std::string> json_schema(const std::string& name) {
+    if (name == "project") return project_schema().dump(2) + "\n";
+    if (name == "actions") return actions_schema().dump(2) + "\n";
+    if (name == "report") return report_schema().dump(2) + "\n";
+    if (name == "error") return error_schema().dump(2) + "\n";
+    return fail(ErrorCode::kUsage, "Unknown schema '" + name +
+                                       "'. The schemas are project, actions, report and error.");
+}
+
+}  // namespace weft

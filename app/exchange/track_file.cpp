@@ -1,0 +1,60 @@
+#include "app/exchange/track_file.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/frame_range.h"
+#include "engine/core/input_file.h"
+
+namespace weft {
+namespace {
+
+constexpr const char* kSchema = "weft.track/1";
+
+Expected<CornerTrack> parse_json(const std::string& text) {
+    using Json = nlohmann::json;
+    const Json file = Json::parse(text, nullptr, false);
+    if (!file.is_object() || file.value("schema", Json()) != kSchema || !file.contains("frames") ||
+        !file["frames"].is_array()) {
+        return fail(ErrorCode::kUnreadable, std::string("It is not JSON of \"schema\": \"") +
+                                                kSchema + "\" with a list \"frames\"");
+    }
+    CornerTrack track;
+    for (const Json& entry : file["frames"]) {
+        const auto number = entry.is_object() ? entry.find("frame") : entry.end();
+        const auto corners = entry.is_object() ? entry.find("corners_px") : entry.end();
+        bool good = entry.is_object() && number != entry.end() && number->is_number_integer() &&
+                    corners != entry.end() && corners->is_array() && corners->size() == 8;
+        good = good && is_frame_number(number->get<std::int64_t>());
+        for (std::size_t k = 0; good && k < 8; ++k)
+            good = (*corners)[k].is_number() && std::isfinite((*corners)[k].get<double>());
+        if (!good) {
+            return fail(ErrorCode::kUnreadable,
+                        "An entry of \"frames\" has no whole number \"frame\" or no eight numbers "
+                        "\"corners_px\"");
+        }
+        const int frame = static_cast<int>(number->get<std::int64_t>());
+        Quad<double> quad;
+        for (std::size_t k = 0; k < 4; ++k)
+            quad[k] = {(*corners)[2 * k].get<double>(), (*corners)[2 * k + 1].get<double>()};
+        if (!track.emplace(frame, quad).second) {
+            return fail(ErrorCode::kUnreadable,
+                        "Frame " + std::to_string(frame) + " is there twice");
+        }
+    }
+    return completed(std::move(track));
+}
+
+}  // namespace
+
+Expected<CornerTrack> read_corner_track(const std::string& path,
+                                        const CornerTrackContext& context) {
+    WEFT_TRY(text, read_file(path, "The track"));
+    const std::size_t start = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    const bool is_json = start != std::string::npos && text[start] == '{';
+    auto track = is_json ? parse_json(text) : parse_corner_track(text, context);
+    if (!track) return fail_in(std::move(track).error(), "The track " + path);
+    return track;
+}
+
+}  // namespace weft

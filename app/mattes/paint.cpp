@@ -1,0 +1,220 @@
+#include "app/mattes/paint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <opencv2/imgproc.hpp>
+
+#include "engine/core/smooth_step.h"
+
+namespace weft {
+namespace {
+
+std::uint8_t to_code(float v) {
+    return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 255.0f) + 0.5f);
+}
+
+// 1 in the core, falling smoothly to 0 at the radius; at least one pixel wide, so that a hard brush
+// has a clean edge.
+float profile(float distance, float radius, float hardness) {
+    const float soft = std::max(1.0f, radius * (1.0f - hardness));
+    const float t = std::clamp((radius + 0.5f - distance) / soft, 0.0f, 1.0f);
+    return smooth_rise(t);
+}
+
+cv::Mat mat_of(const Matte& matte) {
+    return {matte.height(), matte.width(), CV_8UC1, const_cast<std::uint8_t*>(matte.data()),
+            static_cast<std::size_t>(matte.width())};
+}
+
+Matte from_mat(const cv::Mat& mat) {
+    Matte out(mat.cols, mat.rows);
+    for (int y = 0; y < mat.rows; ++y)
+        std::copy_n(mat.ptr<std::uint8_t>(y), mat.cols, out.row(y));
+    return out;
+}
+
+Matte merged(const Matte& before, const cv::Mat& area, bool subtract) {
+    Matte out = before;
+    for (int y = 0; y < out.height(); ++y) {
+        const std::uint8_t* a = area.ptr<std::uint8_t>(y);
+        std::uint8_t* row = out.row(y);
+        for (int x = 0; x < out.width(); ++x) {
+            row[x] = subtract ? static_cast<std::uint8_t>(row[x] * (255 - a[x]) / 255)
+                              : std::max(row[x], a[x]);
+        }
+    }
+    return out;
+}
+
+// Signed distance to the edge at half coverage: positive inside.
+cv::Mat signed_distance(const Matte& matte) {
+    cv::Mat inside, outside, in_distance, out_distance;
+    cv::threshold(mat_of(matte), inside, 127, 255, cv::THRESH_BINARY);
+    cv::bitwise_not(inside, outside);
+    cv::distanceTransform(inside, in_distance, cv::DIST_L2, cv::DIST_MASK_5);
+    cv::distanceTransform(outside, out_distance, cv::DIST_L2, cv::DIST_MASK_5);
+    return in_distance - out_distance;
+}
+
+// Columns of a row that can lie within `reach` of a line: a long slanting one touches little of
+// its box.
+std::pair<int, int> columns_near(Vec2 from, Vec2 to, float y, float reach, Recti box) {
+    float first = 0, last = 1;
+    if (const float down = to.y - from.y; std::abs(down) > 1e-3f) {
+        first = (y - reach - from.y) / down;
+        last = (y + reach - from.y) / down;
+        if (first > last) std::swap(first, last);
+        first = std::clamp(first, 0.0f, 1.0f);
+        last = std::clamp(last, 0.0f, 1.0f);
+    }
+    const float a = from.x + first * (to.x - from.x), b = from.x + last * (to.x - from.x);
+    return {std::max(box.x0, static_cast<int>(std::floor(std::min(a, b) - reach))),
+            std::min(box.x1, static_cast<int>(std::ceil(std::max(a, b) + reach)))};
+}
+
+}  // namespace
+
+Stroke::Stroke(std::shared_ptr<const Matte> before, const Brush& brush)
+    : before_(std::move(before)),
+      coverage_(static_cast<std::uint8_t*>(
+          std::calloc(std::max<std::size_t>(1, before_->size_bytes()), 1))),
+      brush_(brush) {
+    if (!coverage_) throw std::bad_alloc();
+}
+
+Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
+    const float press = std::clamp(pressure, 0.05f, 1.0f);
+    const float radius = std::max(0.5f, brush_.radius_px * (brush_.pressure_size ? press : 1.0f));
+    const float strength = brush_.pressure_opacity ? press : 1.0f;
+    const float from_strength = last_ ? last_pressure_ : strength;
+    const Vec2 from = last_.value_or(to);
+    const float from_radius = last_ ? last_radius_ : radius;
+    last_ = to;
+    last_radius_ = radius;
+    last_pressure_ = strength;
+    const float reach = std::max(radius, from_radius) + 2.0f;
+    const Recti box = Recti{static_cast<int>(std::floor(std::min(from.x, to.x) - reach)),
+                            static_cast<int>(std::floor(std::min(from.y, to.y) - reach)),
+                            static_cast<int>(std::ceil(std::max(from.x, to.x) + reach)),
+                            static_cast<int>(std::ceil(std::max(from.y, to.y) + reach))}
+                          .intersected(rect_of(matte.size()));
+    const Vec2 along = to - from;
+    const float length2 = along.x * along.x + along.y * along.y;
+    const float target = brush_.subtract ? 0.0f : 255.0f;
+    for (int y = box.y0; y < box.y1; ++y) {
+        const auto [x0, x1] = columns_near(from, to, static_cast<float>(y) + 0.5f, reach, box);
+        std::uint8_t* covered =
+            coverage_.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(matte.width());
+        for (int x = x0; x < x1; ++x) {
+            const Vec2 p = Vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f - from;
+            const float t = length2 > 0
+                                ? std::clamp((p.x * along.x + p.y * along.y) / length2, 0.0f, 1.0f)
+                                : 0.0f;
+            const float dx = p.x - t * along.x, dy = p.y - t * along.y;
+            const float r = from_radius + t * (radius - from_radius);
+            const float s = from_strength + t * (strength - from_strength);
+            const auto cover =
+                to_code(255.0f * s * profile(std::sqrt(dx * dx + dy * dy), r, brush_.hardness));
+            std::uint8_t& known = covered[x];
+            if (cover <= known) continue;
+            known = cover;
+            const auto base = static_cast<float>(before_->at(x, y));
+            matte.at(x, y) = to_code(base + (target - base) * brush_.opacity *
+                                                static_cast<float>(cover) / 255.0f);
+        }
+    }
+    touched_ = touched_.united(box);
+    return box;
+}
+
+Matte fill_polygon(const Matte& before, const std::vector<Vec2>& points, bool subtract) {
+    if (points.size() < 3) return before;
+    constexpr int kShift = 4;
+    std::vector<cv::Point> corners;
+    corners.reserve(points.size());
+    for (const Vec2 p : points) {
+        corners.emplace_back(static_cast<int>(std::lround((p.x - 0.5f) * (1 << kShift))),
+                             static_cast<int>(std::lround((p.y - 0.5f) * (1 << kShift))));
+    }
+    cv::Mat area = cv::Mat::zeros(before.height(), before.width(), CV_8UC1);
+    cv::fillPoly(area, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255), cv::LINE_AA,
+                 kShift);
+    return merged(before, area, subtract);
+}
+
+Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolerance,
+                   bool subtract) {
+    if (picture.size() != before.size() || !rect_of(before.size()).contains(seed.x, seed.y))
+        return before;
+    cv::Mat colours(picture.height(), picture.width(), CV_8UC3,
+                    const_cast<std::uint8_t*>(picture.data()),
+                    static_cast<std::size_t>(picture.stride()));
+    cv::Mat area = cv::Mat::zeros(picture.height() + 2, picture.width() + 2, CV_8UC1);
+    const cv::Scalar spread = cv::Scalar::all(tolerance);
+    constexpr int kFill = 255 << 8;
+    cv::floodFill(colours, area, {seed.x, seed.y}, {}, nullptr, spread, spread,
+                  4 | kFill | cv::FLOODFILL_FIXED_RANGE | cv::FLOODFILL_MASK_ONLY);
+    cv::Mat inner = area(cv::Rect(1, 1, picture.width(), picture.height())).clone();
+    // Closes the pin holes that noise leaves, and softens the stairs of the edge.
+    cv::morphologyEx(inner, inner, cv::MORPH_CLOSE,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+    cv::GaussianBlur(inner, inner, {3, 3}, 0);
+    return merged(before, inner, subtract);
+}
+
+Matte grow_matte(const Matte& before, float px) {
+    const cv::Mat distance = signed_distance(before);
+    cv::Mat codes;
+    distance.convertTo(codes, CV_8UC1, 255.0, (px + 0.5) * 255.0);
+    return from_mat(codes);
+}
+
+Matte feather_matte(const Matte& before, float px) {
+    if (px <= 0) return before;
+    cv::Mat soft;
+    cv::GaussianBlur(mat_of(before), soft, {0, 0}, px * 0.5);
+    return from_mat(soft);
+}
+
+Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
+                        const Matte& drop) {
+    cv::Mat marks;
+    cv::max(mat_of(keep), mat_of(drop), marks);
+    cv::Rect box = cv::boundingRect(marks);
+    if (box.empty()) return before;
+    const int margin = std::max(box.width, box.height) / 2 + 16;
+    box =
+        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+        cv::Rect(0, 0, before.width(), before.height());
+    const double scale = std::min(1.0, 512.0 / std::max(box.width, box.height));
+    const cv::Size small(std::max(8, static_cast<int>(box.width * scale)),
+                         std::max(8, static_cast<int>(box.height * scale)));
+    const cv::Mat colours(picture.height(), picture.width(), CV_8UC3,
+                          const_cast<std::uint8_t*>(picture.data()),
+                          static_cast<std::size_t>(picture.stride()));
+    cv::Mat crop, inside, outside, labels(small, CV_8UC1, cv::Scalar(cv::GC_PR_BGD));
+    cv::resize(colours(box), crop, small, 0, 0, cv::INTER_AREA);
+    cv::resize(mat_of(keep)(box), inside, small, 0, 0, cv::INTER_AREA);
+    cv::resize(mat_of(drop)(box), outside, small, 0, 0, cv::INTER_AREA);
+    labels.setTo(cv::GC_FGD, inside > 127);
+    labels.setTo(cv::GC_BGD, outside > 127);
+    // Without a mark of the outside the border of the crop stands for it.
+    if (cv::countNonZero(outside > 127) == 0) {
+        cv::rectangle(labels, cv::Rect(0, 0, small.width, small.height), cv::Scalar(cv::GC_BGD), 2);
+    }
+    if (cv::countNonZero(inside > 127) == 0) return before;
+    cv::Mat background, foreground;
+    cv::setRNGSeed(1);  // grabCut's k-means draws from it: the same scribbles give the same matte
+    cv::grabCut(crop, labels, {}, background, foreground, 4, cv::GC_INIT_WITH_MASK);
+    cv::Mat found = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD), full;
+    cv::resize(found, full, box.size(), 0, 0, cv::INTER_CUBIC);
+    Matte out = before;
+    for (int y = 0; y < box.height; ++y) {
+        const std::uint8_t* from = full.ptr<std::uint8_t>(y);
+        std::copy_n(from, box.width, out.pixel(box.x, box.y + y));
+    }
+    return out;
+}
+
+}  // namespace weft

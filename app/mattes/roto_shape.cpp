@@ -1,0 +1,112 @@
+#include "app/mattes/roto_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "app/mattes/paint.h"
+#include "engine/core/smooth_step.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSteps = 16;
+
+Vec2 mixed(Vec2 a, Vec2 b, float t) {
+    return a + (b - a) * t;
+}
+
+// de Casteljau.
+Vec2 on_curve(const RotoPoint& a, const RotoPoint& b, float t) {
+    const Vec2 p0 = a.at, p1 = a.at + a.out, p2 = b.at + b.in, p3 = b.at;
+    const Vec2 q0 = mixed(p0, p1, t), q1 = mixed(p1, p2, t), q2 = mixed(p2, p3, t);
+    return mixed(mixed(q0, q1, t), mixed(q1, q2, t), t);
+}
+
+}  // namespace
+
+std::vector<Vec2> outline_of(const RotoShape& shape, int steps) {
+    std::vector<Vec2> out;
+    const std::size_t count = shape.points.size();
+    for (std::size_t k = 0; k < count; ++k)
+        for (int s = 0; s < steps; ++s)
+            out.push_back(on_curve(shape.points[k], shape.points[(k + 1) % count],
+                                   static_cast<float>(s) / static_cast<float>(steps)));
+    return out;
+}
+
+Matte matte_of_shape(const RotoShape& shape, Size size) {
+    const std::vector<Vec2> outline = outline_of(shape, kSteps);
+    Matte out = fill_polygon(Matte(size), outline, false);
+    float widest = 0;
+    for (const RotoPoint& point : shape.points)
+        widest = std::max(widest, point.feather_px);
+    if (widest <= 0 || outline.size() < 3) return out;
+    // Outside, the nearest place of the curve tells the width: found by labelled distances.
+    cv::Mat curve(size.height, size.width, CV_8UC1, cv::Scalar(255)), distance, labels;
+    std::vector<std::pair<cv::Point, float>> places;
+    const std::size_t count = shape.points.size();
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Vec2 from = outline[k], to = outline[(k + 1) % outline.size()];
+        const float a = shape.points[k / kSteps].feather_px;
+        const float b = shape.points[(k / kSteps + 1) % count].feather_px;
+        const int dots = 1 + static_cast<int>(2 * std::hypot(to.x - from.x, to.y - from.y));
+        for (int d = 0; d < dots; ++d) {
+            const float part = static_cast<float>(d) / static_cast<float>(dots);
+            const Vec2 p = mixed(from, to, part);
+            const cv::Point at(static_cast<int>(p.x), static_cast<int>(p.y));
+            if (p.x < 0 || p.y < 0 || at.x >= size.width || at.y >= size.height) continue;
+            const float t = (static_cast<float>(k % kSteps) + part) / kSteps;
+            curve.at<std::uint8_t>(at) = 0;
+            places.emplace_back(at, a + t * (b - a));
+        }
+    }
+    if (places.empty()) return out;
+    cv::distanceTransform(curve, distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+    std::vector<float> width_of(places.size() + 1);
+    for (const auto& [at, width] : places) {
+        float& kept = width_of[static_cast<std::size_t>(labels.at<int>(at))];
+        kept = std::max(kept, width);
+    }
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const float width = width_of[static_cast<std::size_t>(labels.at<int>(y, x))];
+            if (width <= 0.5f) continue;
+            const float t = std::clamp(1 - distance.at<float>(y, x) / width, 0.0f, 1.0f);
+            const float soft = smooth_rise(t) * 255.0f;
+            out.at(x, y) = std::max(out.at(x, y), static_cast<std::uint8_t>(soft + 0.5f));
+        }
+    }
+    return out;
+}
+
+RotoShape between(const RotoShape& a, const RotoShape& b, float t) {
+    if (a.points.size() != b.points.size()) return a;
+    RotoShape out = a;
+    for (std::size_t k = 0; k < out.points.size(); ++k) {
+        RotoPoint& p = out.points[k];
+        const RotoPoint& q = b.points[k];
+        p.at = mixed(p.at, q.at, t);
+        p.in = mixed(p.in, q.in, t);
+        p.out = mixed(p.out, q.out, t);
+        p.feather_px += t * (q.feather_px - p.feather_px);
+    }
+    return out;
+}
+
+RotoShape smoothed(RotoShape shape) {
+    const std::size_t count = shape.points.size();
+    if (count < 3) return shape;
+    for (std::size_t k = 0; k < count; ++k) {
+        RotoPoint& p = shape.points[k];
+        if (!(p.in == Vec2{0, 0}) || !(p.out == Vec2{0, 0})) continue;
+        const Vec2 along =
+            shape.points[(k + 1) % count].at - shape.points[(k + count - 1) % count].at;
+        p.out = along * (1.0f / 6.0f);
+        p.in = along * (-1.0f / 6.0f);
+    }
+    return shape;
+}
+
+}  // namespace weft

@@ -1,0 +1,118 @@
+#include "app/measure/measure_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& v) {
+    return v ? Json(*v) : Json();
+}
+
+Json spread(const Spread& s) {
+    if (s.frames == 0) return Json();
+    return {{"mean", s.mean}, {"least", s.least}, {"largest", s.largest}};
+}
+
+Json frame_json(const FrameMeasures& f) {
+    return {{"frame", f.frame},
+            {"tde", number(f.tde)},
+            {"source_tde", number(f.source_tde)},
+            {"tde_floor", number(f.tde_floor)},
+            {"tde_at_floor", number(f.tde_at_floor)},
+            {"sharpness_kept", number(f.sharpness_kept)},
+            {"rms_contrast_kept", number(f.rms_contrast_kept)},
+            {"matte_chatter_px", number(f.matte_chatter_px)},
+            {"mean_v", number(f.mean_v)},
+            {"source_mean_v", number(f.source_mean_v)},
+            {"region_px", f.region_pixels},
+            {"outside_differing_px", f.outside_differing},
+            {"outside_max", f.outside_max}};
+}
+
+Json per_channel(const std::array<double, 3>& v) {
+    return Json::array({v[0], v[1], v[2]});
+}
+
+// The result's grain beside the plate's, as amplitudes.
+Json grain_json(const GrainSpectrum& grain, const GrainSpectrum& plate) {
+    if (grain.blocks == 0 || plate.blocks == 0) return Json();
+    Json ratios = Json::array();
+    for (std::size_t c = 0; c < 3; ++c) {
+        Json bands = Json::array();
+        for (std::size_t b = 0; b < GrainSpectrum::kBands; ++b)
+            bands.push_back(plate.band[c][b] > 0 ? Json(grain.band[c][b] / plate.band[c][b])
+                                                 : Json());
+        ratios.push_back(std::move(bands));
+    }
+    return {{"deviation", per_channel(grain.deviation)},
+            {"source_deviation", per_channel(plate.deviation)},
+            {"band_ratio", std::move(ratios)},
+            {"correlation", number(grain.correlation)},
+            {"source_correlation", number(plate.correlation)}};
+}
+
+Json edges_json(const ShadowEdges::Summary& e) {
+    if (e.edges == 0) return Json();
+    return {{"edges", e.edges},
+            {"width_ratio", e.width_ratio},
+            {"lag_px", e.lag_px},
+            {"lag_p90_px", e.lag_p90_px},
+            {"missing_share", e.missing_share}};
+}
+
+}  // namespace
+
+Json truth_json(const TruthMeasures& t) {
+    return {{"inside", spread(t.inside)},
+            {"soft_edge", spread(t.soft_edge)},
+            {"shadow", spread(t.shadow)},
+            {"brightness_error", t.brightness_error},
+            {"shadow_edges", edges_json(t.edges.summary())}};
+}
+
+Json light_json(const LightMeasures& light) {
+    Json frames = Json::array();
+    for (const LightMeasures::Frame& f : light.frames) {
+        frames.push_back({{"frame", f.frame},
+                          {"correlation", number(f.agreement.correlation)},
+                          {"error_levels", f.agreement.error_levels},
+                          {"true_deviation_levels", f.agreement.true_deviation_levels}});
+    }
+    return {{"correlation", spread(light.correlation)},
+            {"error_levels", spread(light.error_levels)},
+            {"true_deviation_levels", spread(light.true_deviation_levels)},
+            {"shadow_edges", edges_json(light.edges)},
+            {"per_frame", std::move(frames)}};
+}
+
+Json measure_json(const MeasuredResult& o) {
+    const SequenceMeasures& a = o.all;
+    Json frames = Json::array();
+    for (const FrameMeasures& f : o.frames)
+        frames.push_back(frame_json(f));
+    return {{"motion", a.motion},
+            {"frames", a.frames},
+            {"tde", spread(a.tde)},
+            {"source_tde", spread(a.source_tde)},
+            {"tde_floor", spread(a.tde_floor)},
+            {"tde_at_floor", spread(a.tde_at_floor)},
+            {"tde_over_floor", number(a.tde_over_floor)},
+            {"sharpness_kept", spread(a.sharpness_kept)},
+            {"rms_contrast_kept", spread(a.rms_contrast_kept)},
+            {"matte_chatter_px", spread(a.matte_chatter_px)},
+            {"drift_px", a.drift ? Json(a.drift->mean_px) : Json()},
+            {"tiv", a.tiv},
+            {"source_tiv", a.source_tiv},
+            {"tiv_relative", a.tiv_relative},
+            {"grain", grain_json(a.grain, a.source_grain)},
+            {"focus_px", spread(o.focus_px)},
+            {"source_focus_px", spread(o.source_focus_px)},
+            {"outside_differing_px", a.outside_differing},
+            {"outside_max", a.outside_max},
+            {"per_frame", std::move(frames)}};
+}
+
+}  // namespace weft

@@ -1,0 +1,16 @@
+#pragma once
+// Measured figures as JSON (docs/CLI.md, `weft measure`).
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/measure/measure_job.h"
+
+namespace weft {
+
+/// One result: the keys of `weft measure --json` but the warnings.
+[[nodiscard]] nlohmann::ordered_json measure_json(const MeasuredResult& result);
+/// The keys `truth` and `light`.
+[[nodiscard]] nlohmann::ordered_json truth_json(const TruthMeasures& truth);
+[[nodiscard]] nlohmann::ordered_json light_json(const LightMeasures& light);
+
+}  // namespace weft

@@ -1,0 +1,137 @@
+#include "app/preview/preview.h"
+
+#include "app/preview/preview_impl.h"
+
+namespace weft {
+namespace {
+
+// A moment without a new wish is time enough for full size.
+constexpr std::chrono::milliseconds kPause{350};
+
+}  // namespace
+
+Preview::Preview(AnalysisCacheOptions cache, std::string texture_library, std::size_t budget_bytes)
+    : impl_(std::make_unique<Impl>(std::move(cache), std::move(texture_library), budget_bytes)) {}
+Preview::~Preview() = default;
+
+bool Preview::try_request(const PreviewRequest& request) {
+    std::string pixels = pixel_key(request.project);
+    std::string analysis = analysis_key(request.project);
+    std::optional<PreviewRequest> next = request;  // the one before is freed after the lock is
+    const auto shared = impl_->guarded.try_lock();
+    if (!shared) return false;
+    if (shared->wanted_pixels != pixels) {
+        shared->failed_pixels.clear();
+        shared->grow_cancel.cancel();
+    }
+    shared->card_cancel.cancel();
+    if (!shared->analysing_key.empty() && shared->analysing_key != analysis)
+        shared->analysis_cancel.cancel();
+    shared->wanted.swap(next);
+    shared->wanted_pixels = std::move(pixels);
+    shared->wanted_analysis = std::move(analysis);
+    shared->refine_at = Impl::Clock::now() + kPause;
+    impl_->signal(*shared);
+    return true;
+}
+
+void Preview::clear() {
+    std::map<int, PreviewFrame> old;  // freed after the lock is: pictures are large
+    std::map<std::string, StripCard> old_cards;
+    const auto shared = impl_->guarded.lock();
+    shared->wanted.reset();
+    shared->wanted_pixels.clear();
+    shared->wanted_analysis.clear();
+    shared->failed_pixels.clear();
+    shared->analysis_cancel.cancel();
+    shared->grow_cancel.cancel();
+    shared->card_cancel.cancel();
+    old.swap(shared->frames);
+    old_cards.swap(shared->cards);
+    shared->frame_bytes = 0;
+    shared->overlay.reset();
+    shared->confidences.clear();
+    shared->healths.clear();
+    shared->shown = {};
+    impl_->changed(*shared);
+}
+
+void Preview::pause() {
+    const auto shared = impl_->guarded.lock();
+    shared->paused = true;
+    shared->analysis_cancel.cancel();
+    impl_->changed(*shared);
+}
+
+void Preview::resume() {
+    const auto shared = impl_->guarded.lock();
+    shared->paused = false;
+    shared->analysis_news = shared->to_analyse != nullptr;
+    impl_->changed(*shared);
+    impl_->signal(*shared);
+}
+
+bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& reading) const {
+    PreviewReading old;  // freed after the lock is
+    const auto shared = impl_->guarded.try_lock();
+    if (!shared) return false;
+    std::swap(old, reading);
+    reading.view = shared->shown;
+    reading.paused = shared->paused;
+    reading.overlay = shared->overlay;
+    reading.cards = shared->cards;
+    if (const auto found = shared->confidences.find({region, layer});
+        found != shared->confidences.end())
+        reading.confidence = found->second;
+    if (const auto found = shared->healths.find(region); found != shared->healths.end())
+        reading.health = found->second;
+    if (!shared->opened || shared->opened->pixels != shared->wanted_pixels) return true;
+    for (const auto& [number, pictures] : shared->frames)
+        reading.there.push_back(number);
+    if (const auto found = shared->frames.find(frame); found != shared->frames.end())
+        reading.frame = found->second;
+    return true;
+}
+
+std::uint64_t Preview::news() const {
+    return impl_->news.load();
+}
+
+Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
+    if (const auto [now, k] = impl_->find_opened(region); now) {
+        const int kept =
+            stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
+        const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept};
+        if (kept >= 0 && now->store->has(key)) {
+            WEFT_TRY(bytes, now->store->get(key));
+            WEFT_TRY(stored, decode_matte(bytes));
+            return std::move(stored.matte);
+        }
+    }
+    return fail(ErrorCode::kMissingFrames,
+                "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
+}
+
+Expected<LatticeField> Preview::carried(RegionId region, int before, int now) const {
+    if (const auto [opened, k] = impl_->find_opened(region); opened)
+        return carried_between(*opened, k, before, now);
+    return fail(ErrorCode::kMissingFrames,
+                "Frame " + std::to_string(now) + " has not been analysed yet.");
+}
+
+std::pair<OpenedPtr, std::size_t> Preview::Impl::find_opened(RegionId region) const {
+    OpenedPtr now;
+    {
+        const auto shared = guarded.lock();
+        now = shared->opened;
+    }
+    for (std::size_t k = 0; now && k < now->shot->region_index.size(); ++k)
+        if (now->shot->project.regions[now->shot->region_index[k]]->id == region) return {now, k};
+    return {nullptr, 0};
+}
+
+std::uint64_t Preview::matte_version() const {
+    return impl_->mattes.load();
+}
+
+}  // namespace weft

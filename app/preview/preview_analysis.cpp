@@ -1,0 +1,121 @@
+// The analysing thread of the preview.
+#include "app/base/background.h"
+#include "app/preview/preview_impl.h"
+#include "engine/pipeline/analyse.h"
+#include "engine/pipeline/matte_pass.h"
+#include "engine/pipeline/surface_pass.h"
+
+namespace weft {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
+    ShotPlan plan = opened.shot->plan;
+    plan.frames = std::move(frames);
+    return plan;
+}
+
+}  // namespace
+
+int steps_to(const OpenedShot& opened, std::vector<int> frames) {
+    const ShotPlan plan = plan_for(opened, std::move(frames));
+    return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store);
+}
+
+int stored_layer(const Region& region, int layer) {
+    if (layer == 0) return region.matte->keyframes.empty() ? -1 : 0;
+    const std::vector<MatteSource>& holdouts = *region.holdouts;
+    const auto at = static_cast<std::size_t>(layer) - 1;
+    if (at >= holdouts.size() || !holdouts[at].files.empty()) return -1;
+    int painted = 1;
+    for (std::size_t k = 0; k < at; ++k)
+        painted += holdouts[k].files.empty() ? 1 : 0;
+    return painted;
+}
+
+void Preview::Impl::analyse_loop() {
+    lower_thread_priority();
+    for (;;) {
+        OpenedPtr work;
+        std::vector<int> first, all;
+        CancelToken token;
+        {
+            auto shared = guarded.lock();
+            wake.wait(shared.lock(),
+                      [&] { return shared->stop || (shared->analysis_news && !shared->paused); });
+            if (shared->stop) return;
+            shared->analysis_news = false;
+            work = shared->to_analyse;
+            first = shared->analyse_first;
+            all = shared->analyse_frames;
+            shared->analysis_cancel = token;
+            shared->analysing_key = work->analysis;
+        }
+        // What the artist looks at comes first, unless that is most of the work anyway.
+        const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
+        if (for_first > 0 && 2 * for_first < for_all) analyse(work, first, token);
+        if (!token.cancelled()) analyse(work, all, token);
+        collect_confidence(*work);
+        {
+            const auto shared = guarded.lock();
+            shared->shown.analysing = false;
+            shared->analysing_key.clear();
+            changed(*shared);
+            signal(*shared);
+        }
+        if (!token.cancelled()) collect_health(*work, token);
+    }
+}
+
+void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
+                            const CancelToken& token) {
+    const ShotPlan plan = plan_for(*work, list);
+    const auto start = Clock::now();
+    const auto progress = [&](const ProgressEvent& event) {
+        const auto shared = guarded.lock();
+        shared->shown.analysing = true;
+        shared->shown.done = static_cast<int>(event.done);
+        shared->shown.total = static_cast<int>(event.total);
+        if (event.done > 2) {
+            shared->shown.seconds_left = seconds_since(start) / static_cast<double>(event.done) *
+                                         static_cast<double>(event.total - event.done);
+        }
+        changed(*shared);
+        ++mattes;
+        signal(*shared);
+    };
+    const Status done = analyse_shot(*work->shot->source, plan, *work->store, token, progress);
+    if (done || token.cancelled()) return;
+    const auto shared = guarded.lock();
+    if (shared->wanted_analysis != work->analysis) return;
+    shared->shown.state = PreviewView::State::kFailed;
+    shared->shown.error = done.error().text();
+    shared->failed_pixels = shared->wanted_pixels;
+    changed(*shared);
+}
+
+void Preview::Impl::collect_confidence(const OpenedShot& work) {
+    for (std::size_t k = 0; k < work.shot->plan.regions.size(); ++k) {
+        const Region& region = *work.shot->project.regions[work.shot->region_index[k]];
+        for (int layer = 0; layer <= static_cast<int>(region.holdouts->size()); ++layer) {
+            const int stored = stored_layer(region, layer);
+            if (stored < 0) continue;
+            std::map<int, float> found;
+            for (const int frame : work.shot->plate->frames()) {
+                const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, stored};
+                if (!work.store->has(key)) continue;
+                const auto bytes = work.store->get(key);
+                if (!bytes) continue;
+                if (const auto matte = decode_matte(*bytes)) found[frame] = matte->confidence;
+            }
+            const auto shared = guarded.lock();
+            shared->confidences[{region.id, layer}] = std::move(found);
+            ++mattes;
+        }
+    }
+}
+
+}  // namespace weft

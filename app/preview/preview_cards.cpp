@@ -1,0 +1,148 @@
+// The small results beside the picture, made by the preview's rendering thread when the picture is
+// there.
+#include <algorithm>
+
+#include "app/preview/preview_impl.h"
+#include "engine/color/color_space.h"
+#include "engine/pipeline/analyse.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/render_frame.h"
+
+namespace weft {
+namespace {
+
+constexpr int kLongest_px = 480;
+constexpr std::int64_t kCardPixels = 240'000;
+
+// The surroundings of a matte, about as wide as a card.
+Recti around(const Recti& box, Size frame) {
+    const int margin = std::max(box.width(), box.height()) / 6;
+    Recti out{box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
+    const int width = std::max(out.width(), out.height() * 4 / 3);
+    const int height = std::max(out.height(), out.width() * 9 / 16);
+    out.x0 -= (width - out.width()) / 2;
+    out.x1 = out.x0 + width;
+    out.y0 -= (height - out.height()) / 2;
+    out.y1 = out.y0 + height;
+    // Moved inside rather than cut, so that all cards have one shape.
+    const auto inside = [](int& low, int& high, int limit) {
+        if (low < 0) high -= low, low = 0;
+        if (high > limit) low = std::max(0, low - (high - limit)), high = limit;
+    };
+    inside(out.x0, out.x1, frame.width);
+    inside(out.y0, out.y1, frame.height);
+    return out;
+}
+
+ImageF3 cut(const ImageF3& picture, const Recti& box) {
+    ImageF3 out(box.size());
+    for (int y = 0; y < box.height(); ++y)
+        std::copy_n(picture.pixel(box.x0, box.y0 + y), 3 * box.width(), out.row(y));
+    return out;
+}
+
+// Whether what was found out for one project serves the other. Without light less is needed.
+bool served_by(const Project& wanted, const std::string& analysis) {
+    if (analysis_key(wanted) == analysis) return true;
+    Project lit = wanted;
+    for (Leaf<Region>& region : lit.regions)
+        if (region->light.strength <= 0)
+            region = region.with([](Region& r) { r.light.strength = 1; });
+    return analysis_key(lit) == analysis;
+}
+
+}  // namespace
+
+Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const StripWish& wish) {
+    const Shot& shot = *of.shot;
+    const int factor = factor_of(shot, kCardPixels);
+    const ProxyShot small(shot, *of.store, *proxies, factor);
+    const ProxyScenes placed(scenes.scenes(), factor);
+    WEFT_TRY(made, render_frame(small.source(), small.plan(), placed.scenes(), small.store(),
+                                *backend, wish.frame));
+    ImageF3 pixels = std::move(made.pixels);
+    for (std::size_t k = 0; wish.around != 0 && k < shot.region_index.size(); ++k) {
+        if (shot.project.regions[shot.region_index[k]]->id != wish.around) continue;
+        WEFT_TRY(matte, small.source().matte(static_cast<int>(k), wish.frame));
+        const Recti box = matte_bounds(matte);
+        if (!box.empty()) pixels = cut(pixels, around(box, pixels.size()));
+    }
+    return make_picture(shrink(*picture_of(shot, pixels), kLongest_px));
+}
+
+// A surface that has no texture yet was not analysed with the others: its one frame is, here.
+Status Preview::Impl::analyse_card(OpenedShot& of, const StripWish& wish,
+                                   const CancelToken& cancel) {
+    of.analysis = analysis_key(wish.project);
+    if (card_analysis != of.analysis) {
+        std::vector<std::string> warnings;
+        WEFT_TRY(store, open_analysis_cache(*of.shot, cache, warnings));
+        card_store = std::move(store);
+        card_analysis = of.analysis;
+    }
+    of.store = card_store;
+    ShotPlan plan = of.shot->plan;
+    plan.frames = {wish.frame};
+    return analyse_shot(*of.shot->source, plan, *of.store, cancel, {});
+}
+
+bool Preview::Impl::step_card(const PreviewRequest& now) {
+    const CancelToken card;
+    {
+        const auto shared = guarded.lock();
+        if (!shared->wanted || shared->wanted->frame != now.frame) return true;
+        shared->card_cancel = card;
+    }
+    const auto put = [&](const StripWish& wish, PicturePtr picture, std::string error) {
+        const auto shared = guarded.lock();
+        shared->cards[wish.key] = {wish.label, wish.note, wish.frame, std::move(picture),
+                                   std::move(error)};
+        changed(*shared);
+        return true;
+    };
+    {
+        const auto shared = guarded.lock();
+        std::erase_if(shared->cards, [&](const auto& made) {
+            return std::none_of(now.cards.begin(), now.cards.end(),
+                                [&](const StripWish& wish) { return wish.key == made.first; });
+        });
+    }
+    for (const StripWish& wish : now.cards) {
+        {
+            const auto shared = guarded.lock();
+            if (shared->cards.contains(wish.key)) continue;
+        }
+        const bool served = served_by(wish.project, current->analysis);
+        if (served && !ready(wish.frame)) continue;  // its frame is still being analysed
+        auto shot = open(wish.project, now.painted);
+        if (!shot) return put(wish, nullptr, shot.error().text());
+        OpenedShot of{*shot, current->store, current->pixels, current->analysis};
+        if (!served) {
+            const Status analysed = analyse_card(of, wish, card);
+            if (card.cancelled()) return true;
+            if (!analysed) return put(wish, nullptr, analysed.error().text());
+        }
+        (void)scenes.adopt(*of.shot, of.analysis);
+        while (!scenes.exact()) {
+            CancelToken token;
+            {
+                const auto shared = guarded.lock();
+                if (shared->stop || !shared->wanted || shared->wanted_pixels != current->pixels)
+                    return true;
+                shared->grow_cancel = token;
+            }
+            const Status grown = scenes.grow_one(*of.shot, *of.store, of.analysis, token);
+            if (token.cancelled()) return true;
+            if (!grown) return put(wish, nullptr, grown.error().text());
+            const auto shared = guarded.lock();
+            if (shared->wanted->frame != now.frame) return true;  // that comes first
+        }
+        auto made = card_picture(of, wish);
+        if (!made) return put(wish, nullptr, made.error().text());
+        return put(wish, std::move(*made), {});
+    }
+    return false;
+}
+
+}  // namespace weft

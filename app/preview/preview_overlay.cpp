@@ -1,0 +1,389 @@
+#include "app/preview/preview_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "app/preview/preview_health.h"
+#include "app/textures/piece_pick.h"
+#include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/synthesis_inputs.h"
+#include "engine/synthesis/plane_energy.h"
+
+namespace weft {
+namespace {
+
+std::uint8_t code(float v) {
+    return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+// How far a coordinate is from the nearest line of a grid, in pixels of the plate.
+float line_cover(float uv, float step, float texels_per_px) {
+    const float to_line = std::abs(uv / step - std::round(uv / step)) * step;
+    return std::clamp(1.5f - to_line / std::max(texels_per_px, 1e-4f), 0.0f, 1.0f);
+}
+
+struct Jacobian {
+    float xx, xy, yx, yy;  // d(u, v) / d(x, y)
+    [[nodiscard]] float along_u() const { return std::hypot(xx, xy); }
+    [[nodiscard]] float along_v() const { return std::hypot(yx, yy); }
+    [[nodiscard]] float area() const { return std::abs(xx * yy - xy * yx); }
+};
+
+Jacobian jacobian(const ImageF2& uv, int x, int y) {
+    const int x1 = std::min(x + 1, uv.width() - 1), y1 = std::min(y + 1, uv.height() - 1);
+    const int x0 = std::max(0, x1 - 1), y0 = std::max(0, y1 - 1);
+    return {uv.pixel(x1, y)[0] - uv.pixel(x0, y)[0], uv.pixel(x, y1)[0] - uv.pixel(x, y0)[0],
+            uv.pixel(x1, y)[1] - uv.pixel(x0, y)[1], uv.pixel(x, y1)[1] - uv.pixel(x, y0)[1]};
+}
+
+// A grid of the sample's size over the surface.
+void draw_grid(const TextureCoords& coords, Size sample, OverlayPicture& out) {
+    out.unit = "sample";
+    const auto step_u = static_cast<float>(std::max(8, sample.width / 4));
+    const auto step_v = static_cast<float>(std::max(8, sample.height / 4));
+    parallel_rows(out.value.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < out.value.width(); ++x) {
+                if (out.where.at(x, y) == 0) continue;
+                const Jacobian j = jacobian(coords.uv, x, y);
+                const float* uv = coords.uv.pixel(x, y);
+                out.value.at(x, y) = code(std::max(line_cover(uv[0], step_u, j.along_u()),
+                                                   line_cover(uv[1], step_v, j.along_v())));
+            }
+        }
+    });
+}
+
+// How much larger the texture is here than it was placed: linear magnification of a texel.
+void draw_stretch(const TextureCoords& coords, OverlayPicture& out) {
+    out.low = 0;
+    out.high = 3;
+    out.unit = "px per texel";
+    for (int y = 0; y < out.value.height(); ++y) {
+        for (int x = 0; x < out.value.width(); ++x) {
+            if (out.where.at(x, y) == 0) continue;
+            const float area = jacobian(coords.uv, x, y).area();
+            out.value.at(x, y) = code(1.0f / std::sqrt(std::max(area, 1e-6f)) / out.high);
+        }
+    }
+}
+
+Status draw_light(const AnalysisStore& store, int region, int frame, float reference,
+                  OverlayPicture& out) {
+    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kShading}));
+    WEFT_TRY(shading, decode_shading(bytes));
+    out.low = 0;
+    out.high = 2;
+    out.unit = "x the reference";
+    for (int y = 0; y < out.value.height(); ++y) {
+        for (int x = 0; x < out.value.width(); ++x) {
+            const int sx = std::min(x / shading.downscale, shading.value.width() - 1);
+            const int sy = std::min(y / shading.downscale, shading.value.height() - 1);
+            out.value.at(x, y) =
+                code(shading.value.at(sx, sy) / std::max(reference, 1e-6f) / out.high);
+        }
+    }
+    return {};
+}
+
+int wrapped(float v, int n) {
+    const int k = static_cast<int>(std::floor(v)) % n;
+    return k < 0 ? k + n : k;
+}
+
+// Calls body(pixel of the frame, texel) inside the matte.
+template <class Body>
+void for_texels(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out,
+                Body&& body) {
+    const int width = plane.source.width(), height = plane.source.height();
+    parallel_rows(out.value.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < out.value.width(); ++x) {
+                if (out.where.at(x, y) == 0) continue;
+                const float* uv = coords.uv.pixel(x, y);
+                out.value.at(x, y) = body(wrapped(uv[0], width), wrapped(uv[1], height));
+            }
+        }
+    });
+}
+
+// Where pieces of the sample meet in the plane, by how much they differ there.
+void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
+    out.unit = "difference at the seam";
+    out.high = 64;
+    const int width = plane.energy.width();
+    for_texels(coords, plane, out, [&](int u, int v) {
+        return std::max(plane.energy.at(u, v), plane.energy.at((u + 1) % width, v));
+    });
+}
+
+// Pieces of the sample in greys of their own.
+void draw_pieces(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
+    for_texels(coords, plane, out, [&](int u, int v) {
+        const std::int32_t* from = plane.source.pixel(u, v);
+        const auto piece =
+            static_cast<std::uint32_t>((from[0] - u) * 92821 + (from[1] - v) * 68917);
+        return static_cast<std::uint8_t>((piece * 2654435761u) >> 24);
+    });
+}
+
+// Where the artist has kept the texture, or had it made again.
+void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const PlaneMap& plane,
+                  OverlayPicture& out) {
+    const int width = plane.source.width(), height = plane.source.height();
+    Matte amended(plane.source.size());
+    for (const PlaneAmendment& amendment : plan.amendments) {
+        const bool keep = amendment.kind == PlaneAmendment::Kind::kKeep;
+        for (const TexelRun& run : amendment.runs)
+            for (int k = 0; k < run.count; ++k)
+                amended.at(wrapped(static_cast<float>(run.x + k), width),
+                           wrapped(static_cast<float>(run.y), height)) = keep ? 255 : 128;
+    }
+    out.marked = Matte(out.value.size());
+    for (int y = 0; y < out.marked.height(); ++y) {
+        for (int x = 0; x < out.marked.width(); ++x) {
+            if (out.where.at(x, y) == 0) continue;
+            const float* uv = coords.uv.pixel(x, y);
+            out.marked.at(x, y) = amended.at(wrapped(uv[0], width), wrapped(uv[1], height));
+        }
+    }
+}
+
+// How far the surface looks different from what it was on the reference frame: where motion has
+// lost it, or something else is seen.
+Status draw_trust(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
+                  OverlayPicture& out) {
+    out.unit = "difference from the reference";
+    out.low = 0;
+    out.high = 1;
+    WEFT_TRY(here, shot.source->plate(frame));
+    WEFT_TRY(there, shot.source->plate(reference));
+    const ImageF1 now = small_pattern(*here, *shot.plan.display_from_plate, 1);
+    const ImageF1 before = small_pattern(*there, *shot.plan.display_from_plate, 1);
+    cv::Mat difference(now.height(), now.width(), CV_32FC1, cv::Scalar(0));
+    parallel_rows(now.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < now.width(); ++x) {
+                if (out.where.at(x, y) == 0) continue;
+                const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                const Vec2 q = p + ref_from_cur.at(p);
+                const int u = std::clamp(static_cast<int>(q.x), 0, now.width() - 1);
+                const int v = std::clamp(static_cast<int>(q.y), 0, now.height() - 1);
+                difference.at<float>(y, x) = std::abs(now.at(x, y) - before.at(u, v));
+            }
+        }
+    });
+    cv::boxFilter(difference, difference, CV_32F, {9, 9});
+    constexpr float kLost = 0.35f;
+    for (int y = 0; y < now.height(); ++y)
+        for (int x = 0; x < now.width(); ++x)
+            out.value.at(x, y) = code(difference.at<float>(y, x) / kLost);
+    return {};
+}
+
+void draw_motion(const LatticeField& ref_from_cur, OverlayPicture& out) {
+    const int step = std::max(16, out.where.width() / 40);
+    out.unit = "px since the reference frame";
+    for (int y = step / 2; y < out.where.height(); y += step) {
+        for (int x = step / 2; x < out.where.width(); x += step) {
+            if (out.where.at(x, y) < 128) continue;
+            const Vec2 at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+            out.arrows.push_back({at, at + ref_from_cur.at(at)});
+        }
+    }
+}
+
+// As the scene has kept it, or once more.
+Expected<std::shared_ptr<const TexturePlane>> grown_plane(const Shot& shot, const RegionPlan& plan,
+                                                          const RegionScene& scene,
+                                                          const CancelToken& cancel) {
+    if (scene.grown && scene.grown->source.size() == scene.plane.size()) return scene.grown;
+    PlaneOptions options = plane_options(plan, shot.plan.seed, scene.plane.size());
+    options.tileable = true;
+    options.amendments = plan.amendments;
+    WEFT_TRY(plane, grow_texture(plan, options, cancel));
+    return std::make_shared<const TexturePlane>(std::move(plane));
+}
+
+std::string id_of(const ShotTexture& texture) {
+    return texture.library_id.empty() ? texture.id.substr(0, 12) : "db:" + texture.library_id;
+}
+
+// Which references a frame of a locked texture was followed from, and how they share it
+// (SurfacePass::blend; a held drawing's own position in time is left out).
+Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
+                        const RegionScene& scene, int region, Provenance& out) {
+    std::vector<int> references = plan.reference_frames;
+    std::sort(references.begin(), references.end());
+    const auto next = std::upper_bound(references.begin(), references.end(), out.frame);
+    out.history_frame = next == references.begin() ? references.front() : *(next - 1);
+    if (plan.temporal != TemporalMode::kLocked) return {};
+    const bool between =
+        next != references.begin() && next != references.end() && *(next - 1) != out.frame;
+    if (between) {
+        const float after = smooth_step(static_cast<float>(out.frame),
+                                        static_cast<float>(*(next - 1)), static_cast<float>(*next));
+        out.two = TwoHistories{*(next - 1), *next, after, {}};
+    }
+    for (const HistorySeam& seam : scene.seams) {
+        if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kHistoryAfter}))
+            continue;
+        if (!out.two) out.two = TwoHistories{out.history_frame, out.history_frame, 0, {}};
+        TwoHistories::Seam one;
+        one.labels = {out.frame - 1,
+                      out.frame + 1,
+                      seam.cell_px,
+                      seam.origin,
+                      {seam.after[static_cast<std::size_t>(out.frame - seam.first - 1)]}};
+        WEFT_TRY(before, store.get({region, out.frame, AnalysisKind::kHistoryBefore}));
+        WEFT_TRY(after, store.get({region, out.frame, AnalysisKind::kHistoryAfter}));
+        WEFT_TRY(from_before, decode_lattice(before));
+        WEFT_TRY(from_after, decode_lattice(after));
+        one.before = std::move(from_before);
+        one.after = std::move(from_after);
+        out.two->seam = std::move(one);
+        break;
+    }
+    return {};
+}
+
+// All but the plane.
+Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
+                                   const RegionScene& scene, int region, int frame) {
+    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
+    const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
+    Provenance out;
+    WEFT_TRY(coords, store.get({region, frame, AnalysisKind::kCoords}));
+    WEFT_TRY(ref_from_cur, decode_lattice(coords));
+    out.ref_from_cur = std::move(ref_from_cur);
+    WEFT_TRY(plane_from, placement_on(plan, scene, frame));
+    out.plane_from_plate = plane_from;
+    out.texture = std::filesystem::path(texture.path).filename().string();
+    out.texture_id = id_of(texture);
+    out.reference_frame = plan.reference_frames.front();
+    out.frame = frame;
+    out.temporal = plan.temporal;
+    out.fresh = plan.blend;
+    out.reference_shading = scene.reference_shading;
+    WEFT_CHECK_OK(follow_histories(plan, store, scene, region, out));
+    if (store.has({region, frame, AnalysisKind::kShading})) {
+        WEFT_TRY(light, store.get({region, frame, AnalysisKind::kShading}));
+        WEFT_TRY(shading, decode_shading(light));
+        out.shading = std::move(shading);
+    }
+    return out;
+}
+
+}  // namespace
+
+Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& shot, int region,
+                                                                  const RegionScene& scene,
+                                                                  const CancelToken& cancel) {
+    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
+    if (plan.texture->is_plane || scene.plane.empty()) return nullptr;
+    if (map_ && map_of_ == scene.plane.identity()) return map_;
+    WEFT_TRY(grown, grown_plane(shot, plan, scene, cancel));
+    const TexturePlane& plane = *grown;
+    const std::vector<ImageU8x3> samples = synthesis_samples(plan);
+    const SampleAtlas atlas({samples.begin(), samples.end()}, plan.orientations);
+    const Image<std::int32_t, 2> position = atlas_positions(atlas, plane);
+    auto map = std::make_shared<PlaneMap>();
+    map->energy = Matte(plane.source.size());
+    parallel_rows(map->energy.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < map->energy.width(); ++x) {
+                // Seams that cost next to nothing are to be seen as well.
+                const PlaneEnergy here = texel_energy(atlas, position, {x, y}, true);
+                const double shown = here.length_px > 0 ? 48 + here.energy : 0;
+                map->energy.at(x, y) = static_cast<std::uint8_t>(std::min(255.0, shown));
+            }
+        }
+    });
+    if (!plane.origin.empty()) {
+        map->which = map->orientation = Image<std::uint8_t, 1>(plane.origin.size());
+        for (int y = 0; y < plane.origin.height(); ++y)
+            for (int x = 0; x < plane.origin.width(); ++x)
+                map->which.at(x, y) = plane.origin.pixel(x, y)[0],
+                                 map->orientation.at(x, y) = plane.origin.pixel(x, y)[1];
+    }
+    const TextureSource& from =
+        shot.project.regions[shot.region_index[static_cast<std::size_t>(region)]]->texture;
+    map->samples.push_back(std::filesystem::path(from.sample).filename().string());
+    for (const std::string& further : from.also)
+        map->samples.push_back(std::filesystem::path(further).filename().string());
+    const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
+    map->ids.push_back(id_of(texture));
+    for (const ShotTexture& further : texture.also)
+        map->ids.push_back(id_of(further));
+    map->source = plane.source;
+    map->patch = number_patches(*map);
+    map_ = std::move(map);
+    map_of_ = scene.plane.identity();
+    return map_;
+}
+
+Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
+                                            const AnalysisStore& store, const RegionScene& scene,
+                                            int region, int frame, const CancelToken& cancel) {
+    const Size size = shot.source->size();
+    const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
+    OverlayPicture out;
+    out.kind = kind;
+    out.frame = frame;
+    out.id = next_picture_id();
+    WEFT_TRY(extent, extent_matte(*shot.source, shot.plan, store, region, frame));
+    WEFT_TRY(holdout, holdout_matte(*shot.source, shot.plan, store, region, frame));
+    out.where = without_holdout(extent, holdout);
+    out.value = Matte(size);
+    if (kind == Overlay::kLight) {
+        WEFT_CHECK_OK(draw_light(store, region, frame, scene.reference_shading, out));
+        return out;
+    }
+    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
+    WEFT_TRY(ref_from_cur, decode_lattice(bytes));
+    WEFT_TRY(plane_from, placement_on(plan, scene, frame));
+    const TextureCoords coords = texture_coords(ref_from_cur, plane_from, rect_of(size));
+    std::shared_ptr<const PlaneMap> plane;
+    if (kind == Overlay::kSeams || kind == Overlay::kPieces) {
+        WEFT_TRY(map, plane_map(shot, region, scene, cancel));
+        plane = std::move(map);
+    }
+    switch (kind) {
+        case Overlay::kGrid:
+            draw_grid(coords, plan.texture->pixels.size(), out);
+            break;
+        case Overlay::kStretch:
+            draw_stretch(coords, out);
+            break;
+        case Overlay::kSeams:
+            if (plane) draw_seams(coords, *plane, out);
+            break;
+        case Overlay::kMotion:
+            draw_motion(ref_from_cur, out);
+            break;
+        case Overlay::kTrust:
+            WEFT_CHECK_OK(
+                draw_trust(shot, ref_from_cur, plan.reference_frames.front(), frame, out));
+            break;
+        case Overlay::kPieces: {
+            if (plane) draw_pieces(coords, *plane, out);
+            if (plane && !plan.amendments.empty()) draw_amended(coords, plan, *plane, out);
+            WEFT_TRY(asked, provenance_of(shot, store, scene, region, frame));
+            asked.plane = plane;
+            out.provenance = std::make_shared<const Provenance>(std::move(asked));
+            break;
+        }
+        case Overlay::kLight:
+        case Overlay::kNone:
+            break;
+    }
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,381 @@
+// The rendering thread of the preview.
+#include <algorithm>
+
+#include "app/base/background.h"
+#include "app/preview/preview_impl.h"
+#include "app/preview/preview_stages.h"
+#include "engine/color/color_space.h"
+#include "engine/compute/backend_registry.h"
+
+namespace weft {
+namespace {
+
+// What is rendered at once; larger plates are shown smaller first.
+constexpr std::int64_t kProxyPixels = 640'000;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::map<RegionId, int> references_of(const Shot& shot) {
+    std::map<RegionId, int> out;
+    for (std::size_t k = 0; k < shot.references.size(); ++k)
+        out[shot.project.regions[shot.region_index[k]]->id] = shot.references[k].frame;
+    return out;
+}
+
+std::size_t bytes_of(const PreviewFrame& frame) {
+    std::size_t sum = frame.layer ? frame.layer->size_bytes() : 0;
+    if (frame.small) sum += frame.small->size_bytes();
+    if (frame.seams) sum += frame.seams->size() * sizeof(SeamPoints::value_type);
+    for (const PicturePtr& p : frame.stages)
+        sum += p ? p->size_bytes() : 0;
+    return sum;
+}
+
+}  // namespace
+
+Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget)
+    : cache(std::move(cache_options)),
+      texture_library(std::move(library)),
+      budget_bytes(budget),
+      backend(make_cpu_backend()) {
+    renderer = std::thread([this] { render_loop(); });
+    analyser = std::thread([this] { analyse_loop(); });
+}
+
+Preview::Impl::~Impl() {
+    {
+        const auto shared = guarded.lock();
+        shared->stop = true;
+        shared->analysis_cancel.cancel();
+        shared->grow_cancel.cancel();
+        shared->card_cancel.cancel();
+    }
+    wake.notify_all();
+    renderer.join();
+    analyser.join();
+}
+
+void Preview::Impl::set_state(PreviewView::State state, std::string error) {
+    const auto shared = guarded.lock();
+    if (shared->shown.state == state && shared->shown.error == error) return;
+    shared->shown.state = state;
+    shared->shown.error = std::move(error);
+    changed(*shared);
+}
+
+void Preview::Impl::render_loop() {
+    lower_thread_priority();
+    std::uint64_t seen = 0;
+    for (;;) {
+        {
+            auto shared = guarded.lock();
+            const auto news_or_end = [&] { return shared->stop || shared->signals != seen; };
+            if (refine_due)
+                wake.wait_until(shared.lock(), shared->refine_at, news_or_end);
+            else
+                wake.wait(shared.lock(), news_or_end);
+            if (shared->stop) return;
+            seen = shared->signals;
+        }
+        while (step()) {
+            const auto shared = guarded.lock();
+            if (shared->stop) return;
+        }
+    }
+}
+
+// One piece of work; false when there is none until something happens.
+bool Preview::Impl::step() {
+    PreviewRequest now;
+    std::string pixels;
+    refine_due = false;
+    {
+        const auto shared = guarded.lock();
+        if (!shared->wanted || shared->wanted_pixels == shared->failed_pixels) return false;
+        now = *shared->wanted;
+        pixels = shared->wanted_pixels;
+    }
+    note_written(now);
+    if (!current || current->pixels != pixels) return open_shot_of(now, pixels);
+    if (!ready(now.frame))
+        set_state(PreviewView::State::kAnalysing);
+    else if (step_frame(now))
+        return true;
+    // Pictures come first, then what is to be said of them.
+    return step_fill(now, pixels) || step_card(now) || step_flicker(now);
+}
+
+// What was analysed from mattes in memory is found again by their files from now on.
+void Preview::Impl::note_written(const PreviewRequest& now) {
+    if (!unwritten) return;
+    const PaintedMattes& were = unwritten->shot->painted;
+    const auto waits = [&](const auto& matte) { return now.painted.contains(matte.first); };
+    if (std::any_of(were.begin(), were.end(), waits)) return;
+    unwritten->store->mattes_written(*unwritten->shot);
+    unwritten.reset();
+}
+
+// The frame that is looked at: small at once, at full size when nothing else is wanted.
+bool Preview::Impl::step_frame(const PreviewRequest& now) {
+    const int factor = factor_of(*current->shot, kProxyPixels);
+    bool shown_small = false, whole = false, may_refine = false;
+    {
+        const auto shared = guarded.lock();
+        const auto found = shared->frames.find(now.frame);
+        if (found != shared->frames.end()) {
+            const PreviewFrame& there = found->second;
+            shown_small = !there.approximate && (!now.stages || there.stages[0]) &&
+                          (!now.layer || there.layer_kind == now.layer);
+            whole = shown_small && there.proxy == 1;
+        }
+        may_refine = !now.hurried && Clock::now() >= shared->refine_at;
+    }
+    if (!shown_small) return render(now, now.frame, factor);
+    if (!whole && may_refine) return render(now, now.frame, 1);
+    refine_due = !whole && !now.hurried;
+    set_state(PreviewView::State::kIdle);
+    return draw_overlay(now);
+}
+
+bool Preview::Impl::step_fill(const PreviewRequest& now, const std::string& pixels) {
+    const int factor = factor_of(*current->shot, kProxyPixels);
+    for (const int frame : now.fill) {
+        {
+            const auto shared = guarded.lock();
+            if (shared->wanted_pixels != pixels) return true;
+            const auto found = shared->frames.find(frame);
+            if (found != shared->frames.end() && !found->second.approximate) continue;
+            if (shared->frame_bytes +
+                    shared->frame_bytes / std::max<std::size_t>(1, shared->frames.size()) >
+                budget_bytes)
+                return false;
+        }
+        if (ready(frame)) return render(now, frame, factor);
+    }
+    return false;
+}
+
+// One reader serves all versions of a shot, so that its frames are kept once.
+Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project,
+                                                          const PaintedMattes& painted) {
+    OpenShotOptions options;
+    options.painted = painted;
+    options.texture_library = texture_library;
+    options.cache_bytes = std::size_t{192} << 20;
+    options.visibility = visibility;
+    if (reader && reader_of == project.plate) options.plate = reader;
+    auto shot = open_shot(project, options);
+    if (shot && reader != (*shot)->plate) {
+        reader = (*shot)->plate;
+        reader_of = project.plate;
+        proxies = std::make_unique<ProxyPlates>(std::size_t{128} << 20);
+    }
+    return shot;
+}
+
+bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& pixels) {
+    set_state(PreviewView::State::kOpening);
+    auto fresh = std::make_shared<OpenedShot>();
+    fresh->pixels = pixels;
+    fresh->analysis = analysis_key(now.project);
+    std::vector<std::string> warnings;
+    auto shot = open(now.project, now.painted);
+    Expected<std::shared_ptr<AnalysisCache>> store{nullptr};
+    if (shot && current && current->analysis == fresh->analysis) {
+        store = current->store;
+    } else if (shot) {
+        store = open_analysis_cache(**shot, cache, warnings);
+    }
+    if (!shot || !store) {
+        set_state(PreviewView::State::kFailed, (shot ? store.error() : shot.error()).text());
+        const auto shared = guarded.lock();
+        shared->failed_pixels = pixels;
+        return false;
+    }
+    fresh->shot = *shot;
+    fresh->store = *store;
+    warnings.insert(warnings.end(), (*shot)->warnings.begin(), (*shot)->warnings.end());
+    if (auto t = make_color_transform((*shot)->spaces.out, {"srgb"})) srgb_from_out = *t;
+    if (auto t = make_color_transform((*shot)->spaces.out, {"linear"})) linear_from_out = *t;
+    const bool same_analysis = current && current->analysis == fresh->analysis;
+    // With the same analysis the store is that of the shot that was opened before.
+    if (!same_analysis) unwritten = fresh->shot->painted.empty() ? nullptr : fresh;
+    if (!same_analysis) ready_frames.clear();
+    // Freed after the lock is: pictures are large.
+    std::map<int, PreviewFrame> old_frames;
+    OpenedPtr old_opened;
+    const auto shared = guarded.lock();
+    old_opened = std::exchange(shared->opened, fresh);
+    current = fresh;
+    old_frames.swap(shared->frames);
+    shared->frame_bytes = 0;
+    compared.clear();
+    for (auto& [region, of_frames] : shared->healths)
+        for (auto& [frame, health] : of_frames)
+            health.flicker = health.flicker_plate = health.flicker_carried = health.chatter =
+                health.seam_motion = health.seam = -1;
+    shared->shown.warnings = std::move(warnings);
+    shared->shown.references = references_of(**shot);
+    changed(*shared);
+    if (!same_analysis) {
+        shared->confidences.clear();
+        shared->healths.clear();
+        ++mattes;
+    }
+    const std::vector<int> range = now.range.empty() ? std::vector<int>{now.frame} : now.range;
+    if (!same_analysis || shared->analyse_frames != range) {
+        if (shared->analysing_key != fresh->analysis) shared->analysis_cancel.cancel();
+        shared->to_analyse = fresh;
+        shared->analyse_first = {now.frame};
+        shared->analyse_frames = range;
+        shared->analysis_news = true;
+        wake.notify_all();
+    }
+    return true;
+}
+
+bool Preview::Impl::ready(int frame) {
+    if (ready_frames.contains(frame)) return true;
+    const std::vector<int>& there = current->shot->plate->frames();
+    if (!std::binary_search(there.begin(), there.end(), frame)) return false;
+    if (steps_to(*current, {frame}) > 0) return false;
+    ready_frames.insert(frame);
+    return true;
+}
+
+int Preview::Impl::factor_of(const Shot& shot, std::int64_t pixels) const {
+    return ProxyShot::possible(shot) ? proxy_factor(shot.source->size(), pixels) : 1;
+}
+
+PicturePtr Preview::Impl::picture_of(const Shot& shot, const ImageF3& pixels) const {
+    const bool eight_bit = shot.plan.display_referred && shot.plate->depth() == PixelDepth::kU8;
+    return make_picture(pixels, eight_bit, srgb_from_out.get(), linear_from_out.get());
+}
+
+Expected<PreviewFrame> Preview::Impl::pictures_of(int frame, bool stages, int factor,
+                                                  std::optional<LayerKind> layer) {
+    const Shot& shot = *current->shot;
+    float seam = -1;
+    const auto note_seam = [&] {
+        const auto shared = guarded.lock();
+        for (const std::size_t k : shot.region_index)
+            shared->healths[shot.project.regions[k]->id][frame].seam = seam;
+    };
+    const auto picture = [&](const ImageF3& pixels) { return picture_of(shot, pixels); };
+    if (factor == 1) {
+        auto whole =
+            render_stages({*shot.source, shot.plan, scenes.scenes(), *current->store, *backend},
+                          frame, stages, layer, picture, seam);
+        note_seam();
+        return whole;
+    }
+    const ProxyShot small(shot, *current->store, *proxies, factor);
+    const ProxyScenes placed(scenes.scenes(), factor);
+    WEFT_TRY(made,
+             render_stages({small.source(), small.plan(), placed.scenes(), small.store(), *backend},
+                           frame, stages, layer, picture, seam));
+    note_seam();
+    made.proxy = factor;
+    return made;
+}
+
+// Grows what the scenes of a shot lack. False after a failure, which is shown.
+bool Preview::Impl::grow(const OpenedShot& of) {
+    CancelToken token;
+    {
+        const auto shared = guarded.lock();
+        if (!current || shared->wanted_pixels != current->pixels) return true;
+        shared->grow_cancel = token;
+    }
+    const Status grown = scenes.grow_one(*of.shot, *of.store, of.analysis, token);
+    if (grown || token.cancelled()) return true;
+    set_state(PreviewView::State::kFailed, grown.error().text());
+    const auto shared = guarded.lock();
+    shared->failed_pixels = of.pixels;
+    return false;
+}
+
+bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
+    const bool usable = scenes.adopt(*current->shot, current->analysis);
+    const bool first_look = [&] {
+        const auto shared = guarded.lock();
+        return !shared->frames.contains(frame);
+    }();
+    if (!usable || (!scenes.exact() && !(first_look && frame == now.frame))) {
+        set_state(PreviewView::State::kGrowing);
+        return grow(*current);
+    }
+    if (frame == now.frame) set_state(PreviewView::State::kRendering);
+    const auto start = Clock::now();
+    auto made = pictures_of(frame, now.stages && frame == now.frame, factor,
+                            frame == now.frame ? now.layer : std::nullopt);
+    if (!made) {
+        set_state(PreviewView::State::kFailed,
+                  "Frame " + std::to_string(frame) + ": " + made.error().text());
+        const auto shared = guarded.lock();
+        shared->failed_pixels = current->pixels;
+        return false;
+    }
+    made->approximate = !scenes.exact();
+    keep(now, frame, std::move(*made), seconds_since(start));
+    return true;
+}
+
+void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made, double seconds) {
+    std::vector<PreviewFrame> gone;  // freed after the lock is: pictures are large
+    const auto shared = guarded.lock();
+    // What a render would take: a small picture says little about it.
+    if (made.proxy == 1 && !made.stages[0]) shared->shown.frame_seconds = seconds;
+    if (frame == now.frame) shared->shown.first_seconds = seconds;
+    if (const auto before = shared->frames.find(frame); before != shared->frames.end()) {
+        shared->frame_bytes -= bytes_of(before->second);
+        // What neighbours are compared by stays of one size.
+        if (made.proxy == 1 && !before->second.approximate && before->second.comparable() &&
+            (before->second.small || before->second.proxy > 1)) {
+            made.small = before->second.comparable();
+            made.seams = before->second.seams;
+        }
+    }
+    shared->frame_bytes += bytes_of(made);
+    gone.push_back(std::exchange(shared->frames[frame], std::move(made)));
+    while (shared->frame_bytes > budget_bytes && shared->frames.size() > 1) {
+        // The one furthest from where the artist is.
+        const auto first = shared->frames.begin(), last = std::prev(shared->frames.end());
+        const auto far =
+            std::abs(first->first - now.frame) > std::abs(last->first - now.frame) ? first : last;
+        shared->frame_bytes -= bytes_of(far->second);
+        gone.push_back(std::move(far->second));
+        shared->frames.erase(far);
+    }
+    changed(*shared);
+}
+
+bool Preview::Impl::draw_overlay(const PreviewRequest& now) {
+    if (now.overlay == Overlay::kNone || now.overlay_region == 0) {
+        const auto shared = guarded.lock();
+        if (shared->overlay) changed(*shared);
+        shared->overlay.reset();
+        overlay_key.clear();
+        return false;
+    }
+    const std::string key = current->pixels + " " + std::to_string(static_cast<int>(now.overlay)) +
+                            " " + std::to_string(now.overlay_region) + " " +
+                            std::to_string(now.frame);
+    if (key == overlay_key) return false;
+    const Shot& shot = *current->shot;
+    if (!scenes.adopt(shot, current->analysis)) return false;
+    for (std::size_t k = 0; k < shot.region_index.size(); ++k) {
+        if (shot.project.regions[shot.region_index[k]]->id != now.overlay_region) continue;
+        auto made = overlays.make(now.overlay, shot, *current->store, scenes.scenes()[k],
+                                  static_cast<int>(k), now.frame, {});
+        const auto shared = guarded.lock();
+        shared->overlay = made ? std::make_shared<const OverlayPicture>(std::move(*made)) : nullptr;
+        changed(*shared);
+    }
+    overlay_key = key;
+    return true;
+}
+
+}  // namespace weft

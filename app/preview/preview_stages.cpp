@@ -1,0 +1,95 @@
+#include "app/preview/preview_stages.h"
+
+#include <algorithm>
+
+#include "app/preview/preview_health.h"
+#include "engine/color/color_space.h"
+#include "engine/pipeline/render_frame.h"
+
+namespace weft {
+namespace {
+
+// Only what was touched, on the dark surround: a stage of the way, not a composite.
+void isolate(ImageF3& pixels, const Matte& touched) {
+    constexpr float kGround = 0.1f;
+    for (int y = 0; y < pixels.height(); ++y) {
+        for (int x = 0; x < pixels.width(); ++x) {
+            const float a = static_cast<float>(touched.at(x, y)) / 255.0f;
+            for (int c = 0; c < 3; ++c)
+                pixels.pixel(x, y)[c] = kGround + a * (pixels.pixel(x, y)[c] - kGround);
+        }
+    }
+}
+
+// A layer as one looks at it: colours as on the screen, data as grey or red and green.
+PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
+                         const ColorTransform& out_from_working, const MakePicture& picture) {
+    const Size size = layers.alpha.size();
+    if (kind == LayerKind::kPatch || kind == LayerKind::kEdge || kind == LayerKind::kLight) {
+        ImageF3 pixels = kind == LayerKind::kPatch  ? layers.patch
+                         : kind == LayerKind::kEdge ? layers.edge
+                                                    : layers.light;
+        // Light of 1 changes nothing: it is shown as a middle grey.
+        constexpr float kMiddle = 0.18f;
+        if (kind == LayerKind::kLight)
+            for (std::size_t i = 0; i < pixels.size_bytes() / sizeof(float); ++i)
+                pixels.data()[i] *= kMiddle;
+        out_from_working.apply(pixels);
+        return picture(pixels);
+    }
+    ImageU8x3 data(size);
+    const auto code = [](float v) {
+        return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
+    };
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            std::uint8_t* out = data.pixel(x, y);
+            if (kind == LayerKind::kSt) {
+                const float* st = layers.st.pixel(x, y);
+                out[0] = code(st[0]), out[1] = code(st[1]), out[2] = 0;
+            } else if (kind == LayerKind::kId) {
+                // Ids are small numbers: each gets a colour of its own.
+                const auto id = static_cast<std::uint32_t>(layers.id.at(x, y));
+                const std::uint32_t mixed = id * 2654435761u;
+                for (int c = 0; c < 3; ++c)
+                    out[c] = id == 0 ? 0 : static_cast<std::uint8_t>(64 + (mixed >> (8 * c)) % 192);
+            } else {
+                const std::uint8_t grey =
+                    code(kind == LayerKind::kSeam ? layers.seam.at(x, y) : layers.alpha.at(x, y));
+                out[0] = out[1] = out[2] = grey;
+            }
+        }
+    }
+    return make_picture(std::move(data));
+}
+
+}  // namespace
+
+Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stages,
+                                     std::optional<LayerKind> layer, const MakePicture& picture,
+                                     float& seam) {
+    PreviewFrame out;
+    ShotPlan plan = in.plan;
+    plan.layers = true;  // they also tell how the seams fare
+    WEFT_TRY(lit, render_frame(in.source, plan, in.scenes, in.store, in.backend, frame));
+    out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
+    seam = seam_prominence(lit);
+    out.seams = std::make_shared<const SeamPoints>(seam_points(lit));
+    if (layer && lit.layers) {
+        out.layer_kind = layer;
+        out.layer = layer_picture(*lit.layers, *layer, *plan.out_from_working, picture);
+    }
+    plan.layers = false;
+    if (!stages) return out;
+    isolate(lit.pixels, lit.touched);
+    out.stages[static_cast<std::size_t>(Stage::kLit)] = picture(lit.pixels);
+    ShotPlan dark = plan;
+    for (RegionPlan& region : dark.regions)
+        region.light_source = LightSource::kNone;
+    WEFT_TRY(flat, render_frame(in.source, dark, in.scenes, in.store, in.backend, frame));
+    isolate(flat.pixels, flat.touched);
+    out.stages[static_cast<std::size_t>(Stage::kTexture)] = picture(flat.pixels);
+    return out;
+}
+
+}  // namespace weft

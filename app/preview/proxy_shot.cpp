@@ -1,0 +1,281 @@
+#include "app/preview/proxy_shot.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/parallel.h"
+
+namespace weft {
+namespace {
+
+int part(int length, int factor) {
+    return (length + factor - 1) / factor;
+}
+
+Size part(Size size, int factor) {
+    return {part(size.width, factor), part(size.height, factor)};
+}
+
+// Mean of each block, channel by channel.
+template <class T, int C, class Sum>
+void mean_of_blocks(const Image<T, C>& from, int factor, Image<T, C>& to) {
+    parallel_rows(to.height(), 16, [&](int first, int last) {
+        for (int y = first; y < last; ++y) {
+            const int y0 = y * factor, y1 = std::min(y0 + factor, from.height());
+            for (int x = 0; x < to.width(); ++x) {
+                const int x0 = x * factor, x1 = std::min(x0 + factor, from.width());
+                Sum sum[C] = {};
+                for (int v = y0; v < y1; ++v) {
+                    const T* p = from.pixel(x0, v);
+                    for (int u = x0; u < x1; ++u, p += C)
+                        for (int c = 0; c < C; ++c)
+                            sum[c] += static_cast<Sum>(p[c]);
+                }
+                const auto count = static_cast<Sum>((y1 - y0) * (x1 - x0));
+                for (int c = 0; c < C; ++c)
+                    to.pixel(x, y)[c] = static_cast<T>(sum[c] / count);
+            }
+        }
+    });
+}
+
+KeyedNumbers divided(KeyedNumbers keys, double factor) {
+    for (auto& [frame, values] : keys.keys)
+        for (double& v : values)
+            v /= factor;
+    return keys;
+}
+
+// Places of a lamp are in pixels; its brightness and angle are not.
+Lamp divided(Lamp lamp, double factor) {
+    const std::size_t places = info_of(lamp.kind).places;
+    for (auto& [frame, values] : lamp.numbers.keys)
+        for (std::size_t k = 0; k < std::min(places, values.size()); ++k)
+            values[k] /= factor;
+    return lamp;
+}
+
+RegionPlan divided(const RegionPlan& full, int factor) {
+    const auto by = static_cast<float>(factor);
+    RegionPlan plan = full;
+    // The source below has a matte for every frame.
+    plan.matte_keys.clear();
+    plan.placement.scale /= by;
+    plan.placement.offset_px /= by;
+    if (plan.placement.corners)
+        for (Vec2& corner : *plan.placement.corners)
+            corner /= by;
+    plan.scale_keys = divided(plan.scale_keys, factor);
+    plan.offset_keys = divided(plan.offset_keys, factor);
+    for (Lamp& lamp : plan.lamps)
+        lamp = divided(std::move(lamp), factor);
+    plan.grain = plan.focus = 0;
+    plan.shutter_deg = 0.0f;
+    plan.shutter_evidence.clear();
+    plan.line_width_px /= by;
+    return plan;
+}
+
+class ProxySource final : public ShotSource {
+  public:
+    ProxySource(const Shot& shot, const AnalysisStore& store, ProxyPlates& plates, int factor)
+        : shot_(shot), store_(store), plates_(plates), factor_(factor) {}
+
+    [[nodiscard]] Size size() const override { return part(shot_.source->size(), factor_); }
+    [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override {
+        return plates_.plate(*shot_.source, frame, factor_);
+    }
+    [[nodiscard]] Expected<Matte> matte(int region, int frame) const override {
+        if (!shot_.plan.regions[static_cast<std::size_t>(region)].propagated()) {
+            WEFT_TRY(matte, shot_.source->matte(region, frame));
+            return shrunk(matte, factor_);
+        }
+        WEFT_TRY(bytes, store_.get({region, frame, AnalysisKind::kMatte}));
+        WEFT_TRY(stored, decode_matte(bytes));
+        return shrunk(stored.matte, factor_);
+    }
+    [[nodiscard]] Expected<Matte> matte_key(int region, int frame) const override {
+        return matte(region, frame);
+    }
+    [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->holdout(region, frame));
+        if (!full) return full;
+        return std::optional<Matte>(shrunk(*full, factor_));
+    }
+    [[nodiscard]] Expected<Matte> lines(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->lines(region, frame));
+        return full.empty() ? std::move(full) : shrunk(full, factor_);
+    }
+    [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
+        return shot_.source->motion(region, frame);
+    }
+    // Coordinates are not averaged: across a border of the pass that would be a third place.
+    [[nodiscard]] Expected<ImageF2> uv(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->uv(region, frame));
+        ImageF2 out(size());
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const float* from =
+                    full.pixel(std::min(full.width() - 1, x * factor_ + factor_ / 2),
+                               std::min(full.height() - 1, y * factor_ + factor_ / 2));
+                std::copy_n(from, 2, out.pixel(x, y));
+            }
+        }
+        return out;
+    }
+    [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->light_pass(region, frame));
+        return shrunk(full, factor_);
+    }
+
+  private:
+    const Shot& shot_;
+    const AnalysisStore& store_;
+    ProxyPlates& plates_;
+    int factor_;
+};
+
+class ProxyStore final : public AnalysisStore {
+  public:
+    ProxyStore(const AnalysisStore& store, int factor) : store_(store), factor_(factor) {}
+
+    [[nodiscard]] bool has(const AnalysisKey& key) const override { return store_.has(key); }
+    [[nodiscard]] Status put(const AnalysisKey&, const Bytes&) override {
+        return fail(ErrorCode::kRenderFailed, "A proxy keeps no analysis.");
+    }
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
+        WEFT_TRY(bytes, store_.get(key));
+        switch (key.kind) {
+            case AnalysisKind::kCoords:
+            case AnalysisKind::kCoordsOneWay:
+            case AnalysisKind::kHistoryBefore:
+            case AnalysisKind::kHistoryAfter: {
+                WEFT_TRY(field, decode_lattice(bytes));
+                return encode(shrunk(field, factor_));
+            }
+            case AnalysisKind::kMatte: {
+                WEFT_TRY(stored, decode_matte(bytes));
+                return encode(StoredMatte{shrunk(stored.matte, factor_), stored.confidence});
+            }
+            case AnalysisKind::kShading: {
+                WEFT_TRY(shading, decode_shading(bytes));
+                return encode(shrunk(shading, factor_));
+            }
+            default:
+                return bytes;
+        }
+    }
+
+  private:
+    const AnalysisStore& store_;
+    int factor_;
+};
+
+}  // namespace
+
+int proxy_factor(Size plate, std::int64_t pixels) {
+    int factor = 1;
+    while (factor < 8 && std::int64_t{plate.width} * plate.height > pixels * factor * factor)
+        factor *= 2;
+    return factor;
+}
+
+ImageF3 shrunk(const ImageF3& picture, int factor) {
+    ImageF3 out(part(picture.size(), factor));
+    mean_of_blocks<float, 3, float>(picture, factor, out);
+    return out;
+}
+
+Matte shrunk(const Matte& matte, int factor) {
+    Matte out(part(matte.size(), factor));
+    mean_of_blocks<std::uint8_t, 1, int>(matte, factor, out);
+    return out;
+}
+
+LatticeField shrunk(const LatticeField& field, int factor) {
+    const LatticeField from =
+        field.spacing() % factor == 0 ? field : field.resampled(field.spacing() * factor);
+    LatticeField out(part(from.full_size(), factor), from.spacing() / factor);
+    for (int j = 0; j < out.nodes().height(); ++j)
+        for (int i = 0; i < out.nodes().width(); ++i)
+            out.set_node(i, j, from.node(i, j) / static_cast<float>(factor));
+    return out;
+}
+
+Shading shrunk(const Shading& shading, int factor) {
+    Shading out;
+    out.full = part(shading.full, factor);
+    if (shading.downscale % factor == 0) {
+        out.value = shading.value;
+        out.inside = shading.inside;
+        out.downscale = shading.downscale / factor;
+        return out;
+    }
+    const int further = factor / shading.downscale;
+    out.downscale = 1;
+    out.value = ImageF1(out.full);
+    mean_of_blocks<float, 1, float>(shading.value, further, out.value);
+    if (!shading.inside.empty()) out.inside = shrunk(shading.inside, further);
+    return out;
+}
+
+Expected<std::shared_ptr<const ImageF3>> ProxyPlates::plate(const ShotSource& source, int frame,
+                                                            int factor) {
+    const std::pair key(factor, frame);
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
+    }
+    WEFT_TRY(full, source.plate(frame));
+    auto small = std::make_shared<const ImageF3>(shrunk(*full, factor));
+    const std::lock_guard lock(mutex_);
+    if (kept_.emplace(key, small).second) bytes_ += small->size_bytes();
+    while (bytes_ > budget_bytes_ && kept_.size() > 1) {
+        // The one furthest from where the artist is.
+        const auto distance = [&](const auto& kept) { return std::abs(kept.first.second - frame); };
+        const auto far = std::max_element(
+            kept_.begin(), kept_.end(),
+            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+        bytes_ -= far->second->size_bytes();
+        kept_.erase(far);
+    }
+    return small;
+}
+
+bool ProxyShot::possible(const Shot& shot) {
+    return std::all_of(
+        shot.plan.regions.begin(), shot.plan.regions.end(), [](const RegionPlan& region) {
+            return region.temporal == TemporalMode::kLocked || region.texture->is_plane;
+        });
+}
+
+ProxyShot::ProxyShot(const Shot& shot, const AnalysisStore& store, ProxyPlates& plates, int factor)
+    : plan_(shot.plan),
+      source_(std::make_unique<ProxySource>(shot, store, plates, factor)),
+      store_(std::make_unique<ProxyStore>(store, factor)) {
+    for (RegionPlan& region : plan_.regions)
+        region = divided(region, factor);
+}
+
+ProxyShot::~ProxyShot() = default;
+
+ProxyScenes::ProxyScenes(std::vector<RegionScene>& scenes, int factor) : scenes_(scenes) {
+    Mat3 enlarge(1);
+    enlarge[0][0] = enlarge[1][1] = static_cast<float>(factor);
+    for (RegionScene& scene : scenes_) {
+        before_.push_back({scene.plane_from_plate, scene.picture_light, std::move(scene.seams)});
+        scene.plane_from_plate = scene.plane_from_plate * enlarge;
+        if (scene.picture_light) scene.picture_light = shrunk(*scene.picture_light, factor);
+        scene.seams.clear();
+    }
+}
+
+ProxyScenes::~ProxyScenes() {
+    for (std::size_t k = 0; k < scenes_.size(); ++k) {
+        scenes_[k].plane_from_plate = before_[k].plane_from_plate;
+        scenes_[k].picture_light = std::move(before_[k].picture_light);
+        scenes_[k].seams = std::move(before_[k].seams);
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,387 @@
+#include "app/render/analysis_cache.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+
+#include "app/render/blob_file.h"
+#include "app/render/stage_cache.h"
+#include "engine/core/hash.h"
+#include "engine/core/setting.h"
+#include "engine/media/atomic_file.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Raised whenever the analysis itself computes something else.
+constexpr int kAnalysisVersion = 13;
+
+void add_file(Hasher& hasher, const std::string& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    const auto time = fs::last_write_time(path, error).time_since_epoch().count();
+    hasher.text(path)
+        .value(static_cast<std::uint64_t>(error ? 0 : size))
+        .value(static_cast<std::int64_t>(time));
+}
+
+Status add_pattern(Hasher& hasher, const std::string& text) {
+    hasher.text(text);
+    if (text.empty()) return {};
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    if (pattern.is_single()) {
+        add_file(hasher, text);
+        return {};
+    }
+    WEFT_TRY(frames, pattern.list_frames());
+    for (const int frame : frames)
+        add_file(hasher, pattern.path_for(frame));
+    return {};
+}
+
+Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& painted) {
+    WEFT_CHECK_OK(add_pattern(hasher, matte.files));
+    for (const auto& [frame, key] : matte.keyframes) {
+        hasher.value(frame);
+        if (const auto unwritten = painted.find(key.path); unwritten != painted.end())
+            hasher.text("in memory").text(key.path).image(*unwritten->second);
+        else
+            add_file(hasher, key.path);
+    }
+    hasher.value(matte.steadiness)
+        .value(static_cast<int>(matte.carry))
+        .value(matte.carry_from.value_or(std::numeric_limits<int>::min()))
+        .value(matte.carry_to.value_or(std::numeric_limits<int>::max()));
+    hasher.value(matte.select.value.value_or(-1))
+        .text(matte.select.channel)
+        .value(matte.select.invert)
+        .text(matte.select.crypto);
+    return {};
+}
+
+// Folders for the regions below `root`, marked as used now.
+Status make_folders(const fs::path& root, const std::vector<std::string>& keys,
+                    std::vector<fs::path>& folders) {
+    folders.clear();
+    std::error_code error;
+    for (const std::string& key : keys) {
+        folders.push_back(root / key);
+        fs::create_directories(folders.back(), error);
+        if (error) {
+            return fail(ErrorCode::kNoSpace, "The folder " + folders.back().string() +
+                                                 " cannot be created: " + error.message() +
+                                                 ". Free disk space, or choose another folder" +
+                                                 by({{setting::kCache}}) + ".");
+        }
+        fs::last_write_time(folders.back(), fs::file_time_type::clock::now(), error);
+        remove_stale_temporaries((folders.back() / "blob").string());
+    }
+    return {};
+}
+
+// All that a region's analysis depends on. `painted`: mattes that have no file yet.
+Expected<std::string> region_key(const Shot& shot, std::size_t index,
+                                 const PaintedMattes& painted) {
+    const RegionPlan& plan = shot.plan.regions[index];
+    const Region& region = *shot.project.regions[shot.region_index[index]];
+    Hasher hasher;
+    hasher.value(kAnalysisVersion)
+        .text(shot.project.plate.layer)
+        .value(shot.project.plate.movie_start);
+    add_plate_stamps(hasher, *shot.plate);
+    hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name);
+    hasher.value(static_cast<int>(shot.plan.quality));
+    WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
+    for (const MatteSource& holdout : *region.holdouts)
+        WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
+    WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
+    hasher.value(plan.motion_forward)
+        .value(static_cast<int>(region.motion.convention))
+        .text(region.motion.layer)
+        .value(static_cast<int>(shot.project.plate.missing));
+    for (const auto& [frame, quad] : plan.track) {
+        hasher.value(frame);
+        for (const glm::dvec2 corner : quad)
+            hasher.value(corner.x).value(corner.y);
+    }
+    for (const int frame : plan.reference_frames)
+        hasher.value(frame);
+    for (const auto& [frame, pins] : plan.corrections) {
+        hasher.value(frame);
+        for (const SurfacePin& pin : pins)
+            hasher.value(pin.from.x).value(pin.from.y).value(pin.to.x).value(pin.to.y);
+    }
+    hasher.value(static_cast<std::uint64_t>(plan.light_evidence.size()));
+    for (const int frame : plan.light_evidence)
+        hasher.value(frame);
+    for (const int frame : plan.grain_frames)
+        hasher.value(frame);
+    hasher.value(plan.estimates_shutter());
+    for (const int frame : plan.shutter_evidence)
+        hasher.value(frame);
+    hasher.value(static_cast<int>(plan.temporal));
+    if (plan.temporal == TemporalMode::kPaper && plan.texture) {
+        for (const ImageF3& further : plan.texture->also)
+            hasher.image(further);
+        hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
+        hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
+        hasher.image(plan.texture->pixels).value(shot.plan.seed).value(plan.random_key);
+        hasher.value(plan.blend).value(plan.weight).value(plan.overlap_px).value(plan.feather_px);
+        hasher.value(static_cast<int>(plan.seam))
+            .value(plan.placement.scale)
+            .value(plan.placement.rotate_deg);
+        hasher.value(plan.placement.offset_px.x).value(plan.placement.offset_px.y);
+        if (plan.placement.corners) {
+            for (const Vec2 c : *plan.placement.corners)
+                hasher.value(c.x).value(c.y);
+        }
+    }
+    return hasher.finish().hex();
+}
+
+const char* kind_name(AnalysisKind kind) {
+    switch (kind) {
+        case AnalysisKind::kMatteForward:
+            return "matte-forward";
+        case AnalysisKind::kMatte:
+            return "matte";
+        case AnalysisKind::kCoords:
+            return "coords";
+        case AnalysisKind::kCoordsOneWay:
+            return "coords-one-way";
+        case AnalysisKind::kHistoryBefore:
+            return "history-before";
+        case AnalysisKind::kHistoryAfter:
+            return "history-after";
+        case AnalysisKind::kHeldBetween:
+            return "held-between";
+        case AnalysisKind::kLightSample:
+            return "light-sample";
+        case AnalysisKind::kShading:
+            return "shading";
+        case AnalysisKind::kGrain:
+            return "grain";
+        case AnalysisKind::kShutter:
+            return "shutter";
+        case AnalysisKind::kPaperTexture:
+            return "paper";
+    }
+    return "";
+}
+
+class DiskStore final : public AnalysisCache {
+  public:
+    DiskStore(std::vector<fs::path> folders, std::optional<TemporaryFolder> private_root,
+              bool required)
+        : folders_(std::move(folders)),
+          private_root_(std::move(private_root)),
+          may_overflow_(!private_root_ && !required) {}
+
+    // Whole and undamaged: a damaged blob counts as missing and is computed again.
+    [[nodiscard]] bool has(const AnalysisKey& key) const override { return get(key).has_value(); }
+
+    [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
+        const std::shared_lock names(names_);
+        const fs::path path = path_of(key);
+        if (overflow_folder().empty() && write_blob(path.string(), bytes)) return {};
+        if (const auto overflow = open_overflow();
+            overflow && write_blob((*overflow / overflow_name(key)).string(), bytes))
+            return {};
+        return fail(ErrorCode::kNoSpace,
+                    "The analysis cache " + path.parent_path().string() +
+                        " cannot be written. Free disk space, or choose another folder" +
+                        by({{setting::kCache}}) + ".");
+    }
+
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
+        const std::shared_lock names(names_);
+        // What is there is newer than what the cache has: that could not be replaced.
+        if (const fs::path overflow = overflow_folder(); !overflow.empty()) {
+            if (auto bytes = read_blob((overflow / overflow_name(key)).string()))
+                return std::move(*bytes);
+        }
+        auto bytes = read_blob(path_of(key).string());
+        if (!bytes) return missing(key);
+        return std::move(*bytes);
+    }
+
+    void mattes_written(const Shot& shot) override {
+        const std::unique_lock names(names_);
+        for (std::size_t k = 0; k < folders_.size(); ++k) {
+            if (!all_written(shot, k)) continue;
+            const auto key = region_key(shot, k, {});
+            std::error_code error;
+            // What is there already was analysed from the same files.
+            const fs::path to = folders_[k].parent_path() / (key ? *key : std::string());
+            if (!key || to == folders_[k] || fs::exists(to, error)) continue;
+            fs::rename(folders_[k], to, error);
+            if (!error) folders_[k] = to;
+        }
+    }
+
+    [[nodiscard]] std::vector<std::string> remarks() const override {
+        const std::shared_lock names(names_);
+        if (overflow_folder().empty()) return {};
+        return {"The cache folder " + folders_.front().parent_path().string() +
+                " cannot be written any more (is the disk full?); the rest of this analysis will "
+                "not be kept."};
+    }
+
+  private:
+    [[nodiscard]] static bool all_written(const Shot& shot, std::size_t index) {
+        const Region& region = *shot.project.regions[shot.region_index[index]];
+        const auto written = [&](const MatteSource& source) {
+            return std::all_of(source.keyframes.begin(), source.keyframes.end(),
+                               [&](const auto& key) {
+                                   std::error_code error;
+                                   return !shot.painted.contains(key.second.path) ||
+                                          fs::exists(key.second.path, error);
+                               });
+        };
+        return written(*region.matte) &&
+               std::all_of(region.holdouts->begin(), region.holdouts->end(), written);
+    }
+    [[nodiscard]] fs::path overflow_folder() const {
+        const std::lock_guard lock(mutex_);
+        return overflow_ ? fs::path(overflow_->path()) : fs::path();
+    }
+    // From the first failure on, since a disk that was full once will be again.
+    [[nodiscard]] std::optional<fs::path> open_overflow() {
+        const std::lock_guard lock(mutex_);
+        if (!overflow_ && may_overflow_) {
+            if (auto made = TemporaryFolder::create()) overflow_.emplace(std::move(*made));
+        }
+        if (!overflow_) return std::nullopt;
+        return fs::path(overflow_->path());
+    }
+    [[nodiscard]] static std::string overflow_name(const AnalysisKey& key) {
+        return std::to_string(key.region) + "." + blob_name(key);
+    }
+    [[nodiscard]] static std::string blob_name(const AnalysisKey& key) {
+        return kind_name(key.kind) +
+               (key.layer == 0 ? std::string() : "-in-front" + std::to_string(key.layer)) + "." +
+               std::to_string(key.frame);
+    }
+    [[nodiscard]] fs::path path_of(const AnalysisKey& key) const {
+        return folders_[static_cast<std::size_t>(key.region)] / blob_name(key);
+    }
+    static tl::unexpected<Error> missing(const AnalysisKey& key) {
+        return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " +
+                                                  std::to_string(key.frame) +
+                                                  " is missing or damaged. Render again.");
+    }
+
+    mutable std::shared_mutex names_;  // of the folders; written while they are renamed
+    std::vector<fs::path> folders_;
+    std::optional<TemporaryFolder> private_root_;  // removed with the store
+    bool may_overflow_ = false;
+    mutable std::mutex mutex_;
+    std::optional<TemporaryFolder> overflow_;  // of a cache whose disk is full
+};
+
+fs::path default_folder() {
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) return fs::path(xdg) / "weft";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".cache" / "weft";
+    return {};
+}
+
+bool writable(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    return !error && access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+// Deletes the longest unused analyses until the rest fits the limit; those in use stay.
+void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint64_t limit_bytes) {
+    struct Entry {
+        fs::file_time_type used;
+        std::uint64_t bytes;
+        fs::path path;
+    };
+    std::vector<Entry> entries;
+    std::uint64_t total = 0;
+    std::error_code error;
+    for (const auto& folder : fs::directory_iterator(root, error)) {
+        Entry entry{fs::last_write_time(folder.path(), error), 0, folder.path()};
+        if (folder.is_regular_file(error)) entry.bytes = folder.file_size(error);
+        for (const auto& file : fs::directory_iterator(folder.path(), error)) {
+            entry.bytes += file.is_regular_file(error) ? file.file_size(error) : 0;
+        }
+        total += entry.bytes;
+        if (std::find(in_use.begin(), in_use.end(), entry.path) == in_use.end())
+            entries.push_back(entry);
+    }
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.used < b.used; });
+    for (const Entry& entry : entries) {
+        if (total <= limit_bytes) return;
+        fs::remove_all(entry.path, error);
+        total -= entry.bytes;
+    }
+}
+
+}  // namespace
+
+std::string cache_root(const AnalysisCacheOptions& options) {
+    return options.folder.empty() ? default_folder().string() : options.folder;
+}
+
+Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
+                                                             const AnalysisCacheOptions& options,
+                                                             std::vector<std::string>& warnings) {
+    fs::path root = cache_root(options);
+    bool keep = options.keep;
+    if (keep && !root.empty()) root /= "analysis";
+    if (keep && (root.empty() || !writable(root))) {
+        if (!options.folder.empty()) {
+            return fail(ErrorCode::kUnreadable, "The cache folder " + options.folder +
+                                                    " cannot be written. Choose another" +
+                                                    by({{setting::kCache}}) + ".");
+        }
+        warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
+        keep = false;
+    }
+    std::vector<std::string> keys;
+    for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
+        WEFT_TRY(key, region_key(shot, k, shot.painted));
+        keys.push_back(key);
+    }
+    std::vector<fs::path> folders;
+    if (keep) {
+        const Status made = make_folders(root, keys, folders);
+        if (!made && options.required) return tl::unexpected(made.error());
+        if (!made) {
+            warnings.push_back("The cache folder " + root.string() +
+                               " cannot be written (is the disk full?); this analysis will not be "
+                               "kept.");
+            keep = false;
+        }
+    }
+    std::optional<TemporaryFolder> private_root;
+    if (!keep) {
+        WEFT_TRY(folder, TemporaryFolder::create());
+        WEFT_CHECK_OK(make_folders(folder.path(), keys, folders));
+        private_root.emplace(std::move(folder));
+    }
+    if (keep) {
+        prune(root, folders, options.limit_bytes);
+        // Motion is large, and planes are synthesized again in seconds.
+        prune(root.parent_path() / "motion", {}, options.limit_bytes / 2);
+        prune(root.parent_path() / "planes", {}, options.limit_bytes / 16);
+    }
+    return std::make_shared<DiskStore>(std::move(folders), std::move(private_root),
+                                       options.required);
+}
+
+}  // namespace weft

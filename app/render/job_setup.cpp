@@ -1,0 +1,180 @@
+#include "app/render/job_setup.h"
+
+#include <algorithm>
+
+#include "app/render/existing_frames.h"
+#include "app/render/job_frames.h"
+#include "app/render/memory_plan.h"
+#include "app/render/recipe.h"
+#include "app/shot/frame_plan.h"
+#include "engine/core/setting.h"
+#include "engine/media/movies.h"
+
+namespace weft {
+namespace {
+
+Status choose_job_backend(const JobSpec& spec, JobSetup& setup) {
+    WEFT_TRY(choice, choose_backend(spec.backend));
+    setup.backend = choice.backend;
+    setup.result.backend = choice.backend->name();
+    setup.result.backend_description = choice.backend->description();
+    setup.result.passed_over = choice.passed_over;
+    return {};
+}
+
+Status parse_output(const JobSpec& spec, JobSetup& setup) {
+    const std::string& path = spec.project.output.path;
+    if (path.empty()) {
+        return fail(ErrorCode::kUsage,
+                    "No output is set. Give a pattern with -o, such as 'out/####.png'.");
+    }
+    WEFT_TRY(pattern, SequencePattern::parse(path));
+    setup.pattern = std::move(pattern);
+    return {};
+}
+
+Expected<std::shared_ptr<const Shot>> open_job_shot(const JobSpec& spec,
+                                                    const std::vector<int>& leave_out) {
+    OpenShotOptions open;
+    open.texture_library = spec.texture_library;
+    open.watch_inputs = true;
+    open.leave_out = leave_out;
+    if (spec.memory_bytes > 0) {
+        open.cache_bytes =
+            std::min(open.cache_bytes, static_cast<std::size_t>(spec.memory_bytes) / kCacheShare);
+    }
+    WEFT_TRY(shot, open_shot(spec.project, open));
+    WEFT_CHECK_OK(check_texture_licences(*shot));
+    return shot;
+}
+
+Status take_shot(const JobSpec& spec, const std::vector<int>& leave_out, JobSetup& setup) {
+    const Shot& shot = *setup.shot;
+    WEFT_TRY(at_once, frames_at_once(shot.plate->size(), spec.memory_bytes, shot.plan.layers));
+    setup.frames_at_once = at_once;
+    setup.plan = shot.plan;
+    JobResult& result = setup.result;
+    result.shot = setup.shot;
+    result.warnings = shot.warnings;
+    if (!leave_out.empty()) {
+        std::string which = frames_text(leave_out);
+        which[0] = 'F';
+        result.warnings.push_back(which +
+                                  " cannot be read; light, grain and motion blur are measured "
+                                  "without. Render again when the files are complete.");
+    }
+    result.spaces = shot.spaces;
+    result.textures = shot.textures;
+    result.size = shot.plate->size();
+    return {};
+}
+
+Status check_settings(const JobSpec& spec, const JobSetup& setup) {
+    if (setup.plan.regions.empty()) {
+        return fail(ErrorCode::kUsage,
+                    "The project has no region. Add one with a matte and a texture.");
+    }
+    if (setup.pattern.is_single() && setup.plan.frames.size() > 1) {
+        return fail(ErrorCode::kUsage, "The output " + setup.pattern.text() +
+                                           " has no frame number for " +
+                                           std::to_string(setup.plan.frames.size()) +
+                                           " frames. Write it like 'out/####.png'.");
+    }
+    if (spec.settings.empty() || spec.settings == settings_hash(*setup.shot)) return {};
+    return fail(ErrorCode::kUnreadable,
+                "A texture, a colour space or a reference frame is not what it was when the job "
+                "was submitted: frames of one job would differ. Submit again.");
+}
+
+// Layers go into the output where it is an EXR, else into files of their own.
+Status choose_layer_files(JobSetup& setup) {
+    const Output& output = setup.shot->project.output;
+    if (output.layers.empty()) return {};
+    if (output.layers_path.empty()) {
+        if (is_exr(output.path)) return {};
+        return fail(
+            ErrorCode::kUsage,
+            "Layers need an EXR. Write the output as .exr, or the layers to separate files" +
+                by({{setting::kLayersOutput, "layers/####.exr"}}) + ".");
+    }
+    WEFT_TRY(pattern, SequencePattern::parse(output.layers_path));
+    WEFT_CHECK_OK(check_format(output.layers_path, {.depth = PixelDepth::kHalf}));
+    const int first = setup.plan.frames.front();
+    // The same files as the frames: one file holds both.
+    if (real_path(pattern.path_for(first)) == real_path(setup.pattern.path_for(first)) &&
+        pattern.is_single() == setup.pattern.is_single())
+        return {};
+    setup.layer_pattern = std::move(pattern);
+    return {};
+}
+
+Status choose_format(const JobSpec& spec, JobSetup& setup) {
+    const Shot& shot = *setup.shot;
+    const Output& output = shot.project.output;
+    WriteOptions& write = setup.write;
+    write.depth = output_depth(output, shot.plate->depth());
+    write.jpeg_quality = output.jpeg_quality;
+    write.dpx_log = shot.spaces.out.name == "cineon";
+    write.exr_compression = output.exr_compression;
+    write.metadata = recipe_metadata(shot, setup.result.backend);
+    write.pixel_aspect = shot.plate->pixel_aspect();
+    WEFT_TRY(fence, make_fence(shot.project, spec.limits));
+    write.rule.fence = fence;
+    write.rule.existing = existing_by(spec.existing != ExistingFrames::kRefuse);
+    WEFT_CHECK_OK(choose_layer_files(setup));
+    return check_format(output.path, write);
+}
+
+// What becomes of frames that are there already.
+ExistingFrames existing_frames(const JobSpec& spec) {
+    if (spec.stage == JobStage::kAll || spec.stage == JobStage::kFrames) return spec.existing;
+    if (spec.stage != JobStage::kEncode) return ExistingFrames::kOverwrite;
+    // The movie is made of them.
+    return spec.existing == ExistingFrames::kSkip ? ExistingFrames::kSkip : ExistingFrames::kResume;
+}
+
+// Makes the folders, and decides about files that are there already.
+Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folders) {
+    const Size size = setup.shot->plate->size();
+    OutputPlan outputs{setup.pattern, {}, setup.plan.frames, size, {}, {}, {}};
+    if (spec.stage == JobStage::kAll || spec.stage == JobStage::kFrames)
+        outputs.layers = setup.layer_pattern;
+    outputs.report = spec.report;
+    outputs.recipe = spec.recipe;
+    if (spec.stage != JobStage::kFrames) outputs.movie = setup.shot->project.output.movie;
+    if (!outputs.movie.empty()) WEFT_CHECK_OK(require_movies(outputs.movie));
+    WEFT_TRY(rules, check_outputs(outputs, spec.existing, setup.write.rule, folders));
+    setup.result.report_rule = rules.report;
+    setup.result.recipe_rule = rules.recipe;
+    setup.movie_rule = rules.movie;
+    WEFT_TRY(kept, frames_to_keep(setup.pattern, setup.plan.frames, size, existing_frames(spec),
+                                  setup.write.metadata));
+    std::vector<int> to_render;
+    for (const int frame : setup.plan.frames) {
+        const bool skip = std::binary_search(kept.begin(), kept.end(), frame);
+        setup.result.frames.push_back({frame, setup.pattern.path_for(frame), 0, skip, 0, 0});
+        if (!skip) to_render.push_back(frame);
+    }
+    // Only what is still to be rendered has to be analysed.
+    setup.plan.frames = std::move(to_render);
+    return {};
+}
+
+}  // namespace
+
+Expected<JobSetup> set_up_job(const JobSpec& spec, const std::vector<int>& leave_out,
+                              std::shared_ptr<const Shot>& shot, OutputFolders folders) {
+    use_threads(spec.threads);
+    JobSetup setup;
+    WEFT_CHECK_OK(choose_job_backend(spec, setup));
+    WEFT_CHECK_OK(parse_output(spec, setup));
+    WEFT_TRY(opened, open_job_shot(spec, leave_out));
+    setup.shot = shot = std::move(opened);
+    WEFT_CHECK_OK(take_shot(spec, leave_out, setup));
+    WEFT_CHECK_OK(check_settings(spec, setup));
+    WEFT_CHECK_OK(choose_format(spec, setup));
+    WEFT_CHECK_OK(check_existing(spec, setup, folders));
+    return setup;
+}
+
+}  // namespace weft

@@ -1,0 +1,99 @@
+#include <algorithm>
+
+#include "app/exchange/input_files.h"
+#include "app/render/render_job.h"
+#include "engine/mask/keyframe_advice.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/matte_pass.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+// The folder is there, and every file may be written.
+Status prepare_output(const Shot& shot, const SequencePattern& pattern, const WriteRule& rule) {
+    const std::vector<int>& frames = shot.plan.frames;
+    if (pattern.is_single() && frames.size() > 1) {
+        return fail(ErrorCode::kUsage,
+                    "The output " + pattern.text() +
+                        " has no frame number. Write it like 'mattes/####.png'.");
+    }
+    WEFT_CHECK_OK(make_folder_of(pattern.path_for(frames.front()), rule));
+    for (const int frame : frames)
+        WEFT_CHECK_OK(check_output(pattern.path_for(frame), rule));
+    return {};
+}
+
+void mark_suggestions(std::vector<MatteResult>& results) {
+    std::vector<FrameConfidence> frames;
+    std::vector<int> painted;
+    for (const MatteResult& r : results) {
+        frames.push_back({r.frame, r.confidence});
+        if (r.painted) painted.push_back(r.frame);
+    }
+    if (painted.empty()) return;
+    const std::vector<int> suggested = suggest_keyframes(std::move(frames), painted);
+    for (MatteResult& r : results)
+        r.suggested = std::find(suggested.begin(), suggested.end(), r.frame) != suggested.end();
+}
+
+}  // namespace
+
+Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
+                                                 const std::string& pattern_text,
+                                                 const CancelToken& cancel,
+                                                 const ProgressFn& progress,
+                                                 std::vector<std::string>& warnings) {
+    use_threads(spec.threads);
+    WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
+    OpenShotOptions options;
+    options.textures = false;
+    options.watch_inputs = true;
+    WEFT_TRY(shot, open_shot(spec.project, options));
+    const ShotPlan& plan = shot->plan;
+    if (plan.regions.size() != 1) {
+        return fail(ErrorCode::kUsage, "Mattes are made for one region at a time.");
+    }
+    WriteRule rule;
+    WEFT_TRY(fence, make_fence(spec.project, spec.limits));
+    rule.fence = fence;
+    rule.existing = existing_by(spec.existing == ExistingFrames::kOverwrite);
+    WEFT_CHECK_OK(prepare_output(*shot, pattern, rule));
+
+    warnings.insert(warnings.end(), shot->warnings.begin(), shot->warnings.end());
+    WEFT_TRY(store, open_analysis_cache(*shot, spec.cache, warnings));
+    ProgressEvent event{"analyse", 0, count_matte_steps(plan, *store), 0, 0};
+    const PassContext context{*shot->source, plan, cancel, [&](int frame, double seconds) {
+                                  ++event.done;
+                                  event.frame = frame;
+                                  event.seconds = seconds;
+                                  if (progress) progress(event);
+                              }};
+    WEFT_CHECK_OK(propagate_mattes(context, *store));
+
+    std::vector<MatteResult> results;
+    for (const int frame : plan.frames) {
+        if (cancel.cancelled()) return cancelled(cancel);
+        StoredMatte matte;
+        if (plan.regions[0].propagated()) {
+            WEFT_TRY(bytes, store->get({0, frame, AnalysisKind::kMatte}));
+            WEFT_TRY(stored, decode_matte(bytes));
+            matte = std::move(stored);
+        } else {
+            WEFT_TRY(read, shot->source->matte(0, frame));
+            matte.matte = std::move(read);
+        }
+        const std::vector<int>& keys = plan.regions[0].matte_keys;
+        results.push_back({frame, pattern.path_for(frame), matte.confidence,
+                           std::binary_search(keys.begin(), keys.end(), frame)});
+        WEFT_CHECK_OK(write_matte(results.back().path, matte.matte, rule));
+    }
+    WEFT_CHECK_OK(check_unchanged(shot->inputs->changed()));
+    const std::vector<std::string> remarks = store->remarks();
+    warnings.insert(warnings.end(), remarks.begin(), remarks.end());
+    mark_suggestions(results);
+    return results;
+}
+
+}  // namespace weft

@@ -1,0 +1,92 @@
+#include "app/render/render_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/render/memory_plan.h"
+
+namespace weft {
+namespace {
+
+// Microseconds a pixel, whole frames, on two cores: the demo (three regions, two of them with true
+// motion) and davis_blackswan (one region, painted matte, estimated motion), in both qualities.
+struct Costs {
+    double motion, matte, region, render;
+};
+constexpr Costs kDraft{0.10, 0.05, 0.18, 0.16}, kFinal{0.60, 0.60, 0.30, 0.30};
+constexpr double kStart_s = 1.5;
+// A region's planes and their growth; the larger pyramids of the better motion.
+constexpr std::int64_t kRegionBytes = 90ll << 20, kFinalBytes = 130ll << 20;
+// More cores help less than in proportion: coordinates are worked out in order.
+constexpr double kScaling = 0.75, kMeasuredOn = 2;
+
+// Of all layers, on the disk.
+constexpr double kLayersBytesPerPixel = 8;
+
+double bytes_per_pixel(std::string_view extension) {
+    if (extension == "exr") return 7.5;
+    if (extension == "tif" || extension == "tiff") return 3.2;
+    if (extension == "jpg" || extension == "jpeg") return 0.6;
+    if (extension == "dpx") return 4;
+    return 2.2;
+}
+
+}  // namespace
+
+std::size_t analysed_frames(const Project& project, int first, int last) {
+    const auto reach = [&](int frame) {
+        first = std::min(first, frame);
+        last = std::max(last, frame);
+    };
+    for (const Leaf<Region>& region : project.regions) {
+        if (!region->enabled) continue;
+        for (const int frame : region->reference_frames)
+            reach(frame);
+        for (const auto& [frame, pins] : region->corrections)
+            reach(frame);
+        for (const auto& [frame, painted] : region->matte->keyframes)
+            reach(frame);
+    }
+    return static_cast<std::size_t>(last - first + 1);
+}
+
+void count_regions(const Project& project, EstimateInputs& in) {
+    in.regions = 0;
+    in.motion_given = true;
+    in.mattes_painted = false;
+    for (const Leaf<Region>& region : project.regions) {
+        if (!region->enabled) continue;
+        ++in.regions;
+        in.mattes_painted = in.mattes_painted || !region->matte->keyframes.empty();
+        in.motion_given = in.motion_given && !region->motion.files.empty();
+    }
+}
+
+RenderEstimate estimate_render(const EstimateInputs& in) {
+    const double pixels = static_cast<double>(in.size.width) * in.size.height;
+    const Costs& cost = in.quality == Quality::kDraft ? kDraft : kFinal;
+    const double analysis = (in.motion_given ? 0 : cost.motion) +
+                            (in.mattes_painted ? cost.matte : 0) +
+                            cost.region * static_cast<double>(in.regions);
+    const double cores = std::pow(std::max(1u, in.threads) / kMeasuredOn, kScaling);
+    const double work = 1e-6 * pixels *
+                        (cost.render * static_cast<double>(in.frames) +
+                         analysis * static_cast<double>(in.analysed));
+    RenderEstimate out;
+    out.seconds = (kStart_s + work / cores) / std::max(in.speed, 1e-3);
+    out.memory_bytes =
+        render_memory_bytes(in.size, std::min<std::size_t>(in.threads, in.frames), in.layers) +
+        kRegionBytes * static_cast<std::int64_t>(in.regions) +
+        (in.quality == Quality::kFinal ? kFinalBytes : 0);
+    out.disk_bytes = static_cast<std::int64_t>(
+        static_cast<double>(in.frames) * pixels *
+        (bytes_per_pixel(in.extension) + (in.layers ? kLayersBytesPerPixel : 0)));
+    return out;
+}
+
+double calibrated_speed(double speed, double estimated_s, double took_s) {
+    if (!(estimated_s > 0) || !(took_s > 0)) return speed;
+    return std::clamp(speed * std::sqrt(estimated_s / took_s), 0.05, 20.0);
+}
+
+}  // namespace weft

@@ -1,0 +1,46 @@
+#pragma once
+// Estimates of a render: time, memory and disk.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "app/project/project.h"
+#include "engine/core/geometry.h"
+
+namespace weft {
+
+struct RenderEstimate {
+    double seconds = 0;
+    std::int64_t memory_bytes = 0, disk_bytes = 0;
+};
+
+struct EstimateInputs {
+    Size size;                    ///< Size of the plate.
+    std::size_t frames = 0;       ///< Frames to render.
+    std::size_t analysed = 0;     ///< Frames to analyse for them; 0: the analysis is done.
+    std::size_t regions = 0;      ///< Enabled regions.
+    bool motion_given = false;    ///< All regions have motion files.
+    bool mattes_painted = false;  ///< A region has painted mattes, which are propagated.
+    Quality quality = Quality::kFinal;
+    std::string_view extension;  ///< Extension of the output: "png", "exr", …
+    bool layers = false;         ///< EXR layers are written too.
+    unsigned threads = 2;
+    double speed = 1;  ///< Speed relative to the measured machine, as calibrated_speed().
+};
+
+/// Number of frames that the analysis for frames `first` to `last` covers, including references,
+/// corrections and painted mattes of the enabled regions.
+[[nodiscard]] std::size_t analysed_frames(const Project& project, int first, int last);
+/// Sets what depends on the enabled regions.
+void count_regions(const Project& project, EstimateInputs& in);
+
+/// Time and disk within a factor of about two, memory within about a quarter; on the CPU.
+/// Calibrated with clips timed on two cores (docs/BENCHMARKS.md). Pure.
+[[nodiscard]] RenderEstimate estimate_render(const EstimateInputs& in);
+
+/// `speed` after a render estimated at `estimated_s` took `took_s`: half of the correction (on a
+/// logarithmic scale), between 1/20 and 20. Pure.
+[[nodiscard]] double calibrated_speed(double speed, double estimated_s, double took_s);
+
+}  // namespace weft

@@ -1,0 +1,289 @@
+#include "app/render/render_job.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <opencv2/core/utility.hpp>
+
+#include "app/render/job_frames.h"
+#include "app/render/job_setup.h"
+#include "app/render/job_warnings.h"
+#include "app/render/planes_ahead.h"
+#include "app/render/stage_cache.h"
+#include "app/render/unreadable_evidence.h"
+#include "app/shot/frame_plan.h"
+#include "engine/core/parallel.h"
+#include "engine/core/setting.h"
+#include "engine/pipeline/analyse.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/synthesis_inputs.h"
+#include "gpu/cuda_backend.h"
+
+namespace weft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+template <class F>
+Status timed(double& seconds, F&& work) {
+    const auto start = Clock::now();
+    Status status = work();
+    seconds = seconds_since(start);
+    return status;
+}
+
+// A set-up job and what its stages leave for those after them.
+struct JobRun {
+    const JobSpec& spec;
+    const CancelToken& cancel;
+    const ProgressFn& progress;
+    JobSetup setup;
+    ShotPlan plan;  // the set-up's, with the stages' cache
+    std::shared_ptr<AnalysisCache> store;
+    std::vector<RegionScene> scenes;
+    std::vector<std::string> empty_references;  // a warning each
+
+    [[nodiscard]] const Shot& shot() const { return *setup.shot; }
+    [[nodiscard]] bool nothing_to_render() const { return plan.frames.empty(); }
+};
+
+Status open_caches(JobRun& job) {
+    AnalysisCacheOptions cache = job.spec.cache;
+    cache.required = job.spec.stage == JobStage::kAnalyse;
+    WEFT_TRY(store, open_analysis_cache(job.shot(), cache, job.setup.result.warnings));
+    job.store = store;
+    if (const std::string root = cache_root(job.spec.cache); job.spec.cache.keep && !root.empty())
+        job.plan.stages = open_stage_cache(job.shot(), root);
+    return {};
+}
+
+// ---- motion ----------------------------------------------------------------------------------
+
+// All frames that some region's analysis goes through.
+FrameSpan whole_span(const ShotPlan& plan) {
+    FrameSpan out = analysed_span(plan, plan.regions.front());
+    for (const RegionPlan& region : plan.regions) {
+        const FrameSpan span = analysed_span(plan, region);
+        out = {std::min(out.first, span.first), std::max(out.last, span.last)};
+    }
+    return out;
+}
+
+Status motion_stage(const JobRun& job) {
+    return keep_motion(*job.shot().source, job.plan, job.shot().plan.frames, whole_span(job.plan),
+                       job.cancel, job.progress);
+}
+
+// ---- analysis --------------------------------------------------------------------------------
+
+Status analysis_stage(const JobRun& job) {
+    if (job.nothing_to_render() || job.spec.stage == JobStage::kEncode) return {};
+    return analyse_shot(*job.shot().source, job.plan, *job.store, job.cancel, job.progress,
+                        job.setup.backend.get());
+}
+
+// ---- planes ----------------------------------------------------------------------------------
+
+// Beside the analysis, whose steps leave other processors idle. Not where memory is short: then
+// planes and analysis are not held at the same time.
+void grow_planes_ahead(const JobRun& job, std::optional<PlanesAhead>& planes) {
+    const bool wanted = job.spec.stage == JobStage::kAll && !job.nothing_to_render();
+    if (!wanted || thread_count() == 1 || job.spec.memory_bytes > 0) return;
+    planes.emplace(job.plan, job.shot().source->size(), job.cancel, job.setup.backend.get());
+}
+
+void warn_of_samples(JobRun& job, std::size_t region) {
+    if (job.plan.regions[region].texture->is_plane) return;
+    const auto samples = synthesis_samples(job.plan.regions[region]);
+    const ShotTexture& first = job.shot().textures[region];
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const std::string& path = i == 0 ? first.path : first.also[i - 1].path;
+        if (const auto warning = sample_warning(samples[i]))
+            job.setup.result.warnings.push_back(path + ": " + *warning);
+    }
+}
+
+// Where the reference frame shows nothing of the surface, there is no light to compare with and
+// nothing to follow from there.
+Status check_reference(JobRun& job, std::size_t region) {
+    const Shot& shot = job.shot();
+    ShotReference reference = shot.references[region];
+    if (reference.shows_nothing && reference.better) return {};  // open_shot() has said it
+    WEFT_TRY(extent, extent_matte(*shot.source, job.plan, *job.store, static_cast<int>(region),
+                                  reference.frame));
+    if (!matte_bounds(extent).empty()) return {};
+    const Region& of = *shot.project.regions[shot.region_index[region]];
+    const auto other = choose_reference(of, *shot.plate, nullptr);
+    if (other && other->shown && other->frame != reference.frame) reference.better = other->frame;
+    job.empty_references.push_back(empty_reference_text(of.name, reference));
+    return {};
+}
+
+Expected<RegionScene> scene_of(const JobRun& job, std::size_t region,
+                               std::optional<PlanesAhead>& planes) {
+    std::optional<RegionPlane> plane;
+    if (planes) {
+        WEFT_TRY(made, planes->take(region));
+        plane = std::move(made);
+    }
+    return make_scene(*job.shot().source, job.plan, *job.store, static_cast<int>(region),
+                      job.cancel, {}, job.setup.backend.get(), std::move(plane));
+}
+
+Status plane_stage(JobRun& job, std::optional<PlanesAhead>& planes) {
+    if (job.nothing_to_render() || job.spec.stage == JobStage::kAnalyse) return {};
+    if (job.spec.stage == JobStage::kEncode) {
+        return fail(ErrorCode::kMissingFrames,
+                    "The movie needs all frames, and " + frames_text(job.plan.frames) +
+                        " of them are missing or of other settings. Render them first.");
+    }
+    for (std::size_t k = 0; k < job.plan.regions.size(); ++k) {
+        warn_of_samples(job, k);
+        WEFT_CHECK_OK(check_reference(job, k));
+        auto scene = scene_of(job, k, planes);
+        if (!scene) {
+            const Shot& shot = job.shot();
+            return fail_in(std::move(scene).error(),
+                           "Region '" + shot.project.regions[shot.region_index[k]]->name +
+                               "' with " + shot.textures[k].path);
+        }
+        job.setup.result.planes.push_back(scene->stats);
+        job.scenes.push_back(std::move(*scene));
+    }
+    return {};
+}
+
+// ---- frames ----------------------------------------------------------------------------------
+
+Status frame_stage(JobRun& job, std::int64_t& done) {
+    const bool movie = job.spec.stage != JobStage::kFrames;
+    JobResult& result = job.setup.result;
+    if (movie) result.movie = job.shot().project.output.movie;
+    return render_frames({job.setup, job.plan, *job.store, job.scenes}, result.movie, job.cancel,
+                         job.progress, result.frames, done);
+}
+
+// ---- what is said at the end -----------------------------------------------------------------
+
+void add_warnings(JobRun& job) {
+    JobResult& result = job.setup.result;
+    if (const std::vector<int> cuts = job.shot().cuts->cuts(); !cuts.empty()) {
+        result.warnings.push_back("A new scene seems to begin at " + frames_text(cuts) +
+                                  ". Surfaces are not tracked across a cut. Render each scene "
+                                  "separately, with a reference frame in each" +
+                                  by({{setting::kFrames}, {setting::kReferenceFrame}}) + ".");
+    }
+    const bool some_touched =
+        std::any_of(result.frames.begin(), result.frames.end(),
+                    [](const FrameResult& f) { return !f.untouched && !f.skipped; });
+    if (!some_touched) job.empty_references.clear();
+    for (const std::vector<std::string>& lines :
+         {job.empty_references, warnings_of(result.frames), job.setup.backend->remarks(),
+          job.store->remarks()}) {
+        result.warnings.insert(result.warnings.end(), lines.begin(), lines.end());
+    }
+}
+
+std::int64_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+Status run_stages(JobRun& job, Clock::time_point start, std::int64_t& frames_done) {
+    JobResult& result = job.setup.result;
+    WEFT_CHECK_OK(open_caches(job));
+    result.seconds.open = seconds_since(start);
+    const auto work = Clock::now();
+    const JobStage stage = job.spec.stage;
+    if (stage == JobStage::kMotion) return motion_stage(job);
+    std::optional<PlanesAhead> planes;
+    grow_planes_ahead(job, planes);
+    WEFT_CHECK_OK(timed(result.seconds.analyse, [&] { return analysis_stage(job); }));
+    WEFT_CHECK_OK(timed(result.seconds.synthesise, [&] { return plane_stage(job, planes); }));
+    if (stage == JobStage::kAnalyse || stage == JobStage::kPlanes) return {};
+    WEFT_CHECK_OK(timed(result.seconds.render, [&] { return frame_stage(job, frames_done); }));
+    result.fps = static_cast<double>(job.plan.frames.size()) / std::max(1e-9, seconds_since(work));
+    result.seconds.total = seconds_since(start);
+    add_warnings(job);
+    result.peak_rss_bytes = peak_rss_bytes();
+    return {};
+}
+
+// What is left of a run that failed.
+struct Attempt {
+    std::shared_ptr<const Shot> shot;  // null: it was not opened
+    std::int64_t frames_done = 0;
+};
+
+Expected<JobResult> attempt_job(const JobSpec& spec, const std::vector<int>& leave_out,
+                                const CancelToken& cancel, const ProgressFn& progress,
+                                Attempt& attempt) {
+    const auto start = Clock::now();
+    WEFT_TRY(setup, set_up_job(spec, leave_out, attempt.shot));
+    ShotPlan plan = setup.plan;
+    JobRun job{spec, cancel, progress, std::move(setup), std::move(plan), nullptr, {}, {}};
+    WEFT_CHECK_OK(run_stages(job, start, attempt.frames_done));
+    job.setup.result.changed_inputs = job.shot().inputs->changed();
+    return std::move(job.setup.result);
+}
+
+}  // namespace
+
+Expected<JobStage> parse_job_stage(const std::string& name) {
+    static const std::map<std::string, JobStage> kNames{
+        {"all", JobStage::kAll},         {"motion", JobStage::kMotion},
+        {"analyse", JobStage::kAnalyse}, {"planes", JobStage::kPlanes},
+        {"frames", JobStage::kFrames},   {"encode", JobStage::kEncode}};
+    const auto at = kNames.find(name);
+    if (at != kNames.end()) return at->second;
+    return fail(ErrorCode::kUsage, "Unknown stage '" + name +
+                                       "'. Choose motion, analyse, planes, frames, encode or all.");
+}
+
+Expected<BackendChoice> choose_backend(const std::string& name) {
+    BackendRegistry registry;
+    register_cuda(registry);
+    return registry.choose(name);
+}
+
+void keep_libraries_steady() {
+    // Debian's OpenCV blurs, derives and scales floats with FMA where the processor has AVX2, and
+    // without where it has not.
+    cv::setUseOptimized(false);
+}
+
+void use_threads(int threads) {
+    keep_libraries_steady();
+    set_thread_count(threads);
+    cv::setNumThreads(thread_count());
+}
+
+Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel,
+                            const ProgressFn& progress) {
+    Attempt first;
+    auto result = attempt_job(spec, {}, cancel, progress, first);
+    if (result || result.error().code != ErrorCode::kUnreadable || !first.shot ||
+        first.frames_done > 0)
+        return result;
+    // A frame that is only measured may be on its way still: without it then.
+    const std::vector<int> unreadable = unreadable_evidence(*first.shot);
+    if (unreadable.empty()) return result;
+    Attempt second;
+    return attempt_job(spec, unreadable, cancel, progress, second);
+}
+
+Expected<JobResult> check_job(const JobSpec& spec) {
+    std::shared_ptr<const Shot> shot;
+    WEFT_TRY(setup, set_up_job(spec, {}, shot, OutputFolders::kLeave));
+    return std::move(setup.result);
+}
+
+}  // namespace weft

@@ -1,0 +1,302 @@
+#include "app/shot/frame_plan.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/shot/frame_gaps.h"
+#include "app/shot/reference_choice.h"
+#include "engine/core/frame_range.h"
+#include "engine/core/setting.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+std::vector<int> missing_in(const std::vector<int>& wanted, const std::vector<int>& present) {
+    std::vector<int> missing;
+    std::set_difference(wanted.begin(), wanted.end(), present.begin(), present.end(),
+                        std::back_inserter(missing));
+    return missing;
+}
+
+std::vector<int> frames_between(int first, int last) {
+    std::vector<int> out;
+    for (int f = first; f <= last; ++f)
+        out.push_back(f);
+    return out;
+}
+
+// "4-9,12"; long lists are cut.
+std::string frames_list(const std::vector<int>& frames) {
+    const std::string list = format_frame_list(frames);
+    constexpr std::size_t kLongest = 80;
+    return list.size() <= kLongest ? list : list.substr(0, list.rfind(',', kLongest)) + ",…";
+}
+
+// What to do where the surface cannot be followed from the reference to all frames. `usable`:
+// the frames for which everything is there.
+std::string around_gap(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
+                       const FrameReader& plate, const std::vector<int>& usable) {
+    const FrameSpan run = run_with(usable, shot.frames.front());
+    if (run.last >= shot.frames.back()) {
+        const auto inside = choose_reference(region, plate, nullptr, {run.first, run.last});
+        if (inside && inside->frame >= run.first && inside->frame <= run.last) {
+            return "Add the files, or use a reference frame on the same side of the gap" +
+                   by({{setting::kReferenceFrame, std::to_string(inside->frame)}}) + ".";
+        }
+        return "Add the files.";
+    }
+    const FrameSpan side = run_with(usable, plan.reference_frames.front());
+    std::vector<int> reached = shot.frames;
+    std::erase_if(reached, [&](int f) { return f < side.first || f > side.last; });
+    if (reached.empty())
+        return "Add the files, or use another reference frame" + by({{setting::kReferenceFrame}}) +
+               ".";
+    return "Add the files, or render only " + frames_text(reached) + " on this side of the gap" +
+           by({{setting::kFrames}}) + ".";
+}
+
+// What must be there from the reference frame to the frames to render.
+struct Followed {
+    const Region& region;
+    const RegionPlan& plan;
+    const ShotPlan& shot;
+    const FrameReader& plate;
+    FrameSpan span;
+
+    [[nodiscard]] Status check_plate() const {
+        const auto gaps = gaps_in(plate.frames(), span);
+        if (gaps.empty()) return {};
+        return fail(ErrorCode::kMissingFrames,
+                    "The plate has no " + gaps_text(gaps) +
+                        ", which the surface has to be followed through from its reference frame " +
+                        std::to_string(plan.reference_frames.front()) + ". " +
+                        around_gap(region, plan, shot, plate, plate.frames()));
+    }
+
+    // Where the plate holds a frame in place of a missing one, so does whatever belongs to it.
+    [[nodiscard]] Status check(const std::string& text, const char* what) const {
+        WEFT_TRY(pattern, SequencePattern::parse(text));
+        if (pattern.is_single()) return {};
+        WEFT_TRY(present, pattern.list_frames());
+        std::vector<int> usable;
+        for (const int frame : plate.frames()) {
+            if (std::binary_search(present.begin(), present.end(), frame) ||
+                (plate.shown_frame(frame) != frame &&
+                 std::binary_search(present.begin(), present.end(), plate.shown_frame(frame))))
+                usable.push_back(frame);
+        }
+        const auto gaps = gaps_in(usable, span);
+        if (gaps.empty()) return {};
+        return fail(ErrorCode::kMissingFrames,
+                    std::string(what) + " " + text + " has no file for " + gaps_text(gaps) +
+                        ", which the surface has to be followed through from its reference frame " +
+                        std::to_string(plan.reference_frames.front()) + ". " +
+                        around_gap(region, plan, shot, plate, usable));
+    }
+};
+
+// Where the plate holds a frame in place of a missing one, so does whatever belongs to it.
+Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
+                     const FrameReader& plate) {
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    if (pattern.is_single()) return {};
+    WEFT_TRY(present, pattern.list_frames());
+    std::vector<int> missing = missing_in(wanted, present);
+    std::erase_if(missing, [&](int frame) {
+        return plate.shown_frame(frame) != frame &&
+               std::binary_search(present.begin(), present.end(), plate.shown_frame(frame));
+    });
+    if (missing.empty()) return {};
+    return fail(ErrorCode::kMissingFrames,
+                std::string(what) + " " + text + " has no file for " + frames_text(missing) +
+                    ". Add the files, or render only the frames that have one" +
+                    by({{setting::kFrames}}) + ".");
+}
+
+// The frames whose motion file is read: all of the span but the one that the motion would leave it
+// at.
+std::vector<int> motion_frames(const RegionPlan& plan, const FrameSpan& span) {
+    return plan.motion_forward ? frames_between(span.first, span.last - 1)
+                               : frames_between(span.first + 1, span.last);
+}
+
+// Those of `frames` for which the pattern has a file; all of them for a still or no pattern.
+Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> frames) {
+    if (text.empty()) return frames;
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    if (pattern.is_single()) return frames;
+    WEFT_TRY(present, pattern.list_frames());
+    std::vector<int> both;
+    std::set_intersection(frames.begin(), frames.end(), present.begin(), present.end(),
+                          std::back_inserter(both));
+    return both;
+}
+
+// The run of frames around `reference`, at most `reach` to each side, for which all files are
+// there. A link that leads nowhere is none: nobody asked for that frame.
+Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
+                               int reach, const std::vector<int>& leave_out) {
+    std::vector<int> frames = plate.frames();
+    std::vector<std::string> patterns{region.matte->files, region.motion.files};
+    for (const MatteSource& holdout : *region.holdouts)
+        patterns.push_back(holdout.files);
+    for (const std::string& pattern : patterns) {
+        WEFT_TRY(left, with_files(pattern, std::move(frames)));
+        frames = std::move(left);
+    }
+    std::vector<SequencePattern> files;
+    for (const std::string& text : patterns) {
+        if (text.empty()) continue;
+        WEFT_TRY(pattern, SequencePattern::parse(text));
+        if (!pattern.is_single()) files.push_back(std::move(pattern));
+    }
+    const auto has = [&](int f) {
+        std::error_code ignored;
+        return std::binary_search(frames.begin(), frames.end(), f) &&
+               std::filesystem::exists(plate.path_of(f), ignored) &&
+               std::all_of(files.begin(), files.end(), [&](const SequencePattern& pattern) {
+                   return std::filesystem::exists(pattern.path_for(f), ignored);
+               });
+    };
+    const auto wanted = [&](int f) {
+        return std::find(leave_out.begin(), leave_out.end(), f) == leave_out.end();
+    };
+    FrameSpan run{reference, reference};
+    while (run.first > reference - reach && wanted(run.first - 1) && has(run.first - 1))
+        --run.first;
+    while (run.last < reference + reach && wanted(run.last + 1) && has(run.last + 1))
+        ++run.last;
+    return run;
+}
+
+}  // namespace
+
+Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& plan,
+                                        const FrameReader& plate,
+                                        const std::vector<int>& leave_out) {
+    if (!(plan.grain > 0)) return std::vector<int>{};
+    constexpr int kReach = 3;
+    const int reference = plan.reference_frames.front();
+    WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
+    if (run.last == reference) return std::vector<int>{};
+    return frames_between(reference, run.last);
+}
+
+Expected<std::vector<int>> shutter_frames(const Region& region, const RegionPlan& plan,
+                                          const FrameReader& plate,
+                                          const std::vector<int>& leave_out) {
+    if (plan.shutter_deg == 0.0f || plan.temporal != TemporalMode::kLocked)
+        return std::vector<int>{};
+    constexpr int kMeasured = 6;
+    const int reference = plan.reference_frames.front();
+    WEFT_TRY(run,
+             run_around(region, plate, reference, plan.shutter_deg ? 1 : kMeasured, leave_out));
+    if (run.last == reference) return std::vector<int>{};
+    return frames_between(reference, run.last);
+}
+
+Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
+                                          const ShotPlan& shot, const FrameReader& plate,
+                                          const std::vector<int>& leave_out) {
+    if (!plan.estimates_light() || shot.quality == FlowQuality::kDraft) return std::vector<int>{};
+    constexpr int kReach = 48, kMostFrames = 20;
+    const int reference = plan.reference_frames.front();
+    WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
+    const auto [first, last] = run;
+    const int steps = std::min(last - first, kMostFrames - 1);
+    std::vector<int> chosen{first};
+    for (int k = 1; k <= steps; ++k)
+        chosen.push_back(first + (last - first) * k / steps);
+    return chosen;
+}
+
+std::string frames_text(const std::vector<int>& frames) {
+    return (frames.size() == 1 ? "frame " : "frames ") + frames_list(frames);
+}
+
+Expected<std::vector<int>> frames_to_render(const Project& project, const FrameReader& plate) {
+    std::vector<int> frames = plate.frames();
+    if (!project.settings.frames.empty()) {
+        WEFT_TRY(list, parse_frame_list(project.settings.frames));
+        frames = std::move(list);
+    }
+    if (project.plate.missing == MissingFrames::kSkip)
+        std::erase_if(frames, [&](int frame) { return plate.shown_frame(frame) != frame; });
+    const std::vector<int> missing = missing_in(frames, plate.frames());
+    if (!missing.empty()) {
+        return fail(ErrorCode::kMissingFrames, "The plate " + project.plate.path + " has no " +
+                                                   frames_text(missing) + ". It has " +
+                                                   frames_text(plate.frames()) + ".");
+    }
+    return frames;
+}
+
+Status check_named_frames(const Region& region, const FrameReader& plate) {
+    const auto check = [&](int frame, const char* before, const std::string& after) -> Status {
+        const std::vector<int>& frames = plate.frames();
+        if (std::binary_search(frames.begin(), frames.end(), frame)) return {};
+        return fail(ErrorCode::kMissingFrames, before + std::to_string(frame) +
+                                                   " is not in the plate (" + frames_list(frames) +
+                                                   "). " + after);
+    };
+    for (const int frame : region.reference_frames)
+        WEFT_CHECK_OK(check(frame, "The reference frame ",
+                            "Give a frame of the plate" + by({{setting::kReferenceFrame}}) + "."));
+    for (const auto& [frame, pins] : region.corrections)
+        WEFT_CHECK_OK(check(frame, "The corrected frame ", "Remove the correction."));
+    for (const auto& [frame, key] : region.matte->keyframes)
+        WEFT_CHECK_OK(check(
+            frame, "The painted matte's frame ",
+            "Give the matte the number of a frame of the plate" + by({{setting::kMatte}}) + "."));
+    for (const MatteSource& holdout : *region.holdouts) {
+        for (const auto& [frame, key] : holdout.keyframes)
+            WEFT_CHECK_OK(check(
+                frame, "The painted holdout's frame ",
+                "Give it the number of a frame of the plate" + by({{setting::kHoldout}}) + "."));
+    }
+    return {};
+}
+
+Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
+                   const FrameReader& plate) {
+    const FrameSpan span = analysed_span(shot, plan);
+    const Followed followed{region, plan, shot, plate, span};
+    WEFT_CHECK_OK(followed.check_plate());
+    // Not before: the plate's frames bound how many these are.
+    const std::vector<int> all = frames_between(span.first, span.last);
+    if (!plan.propagated()) WEFT_CHECK_OK(followed.check(region.matte->files, "The matte"));
+    for (const MatteSource& holdout : *region.holdouts) {
+        if (!holdout.files.empty()) WEFT_CHECK_OK(followed.check(holdout.files, "The holdout"));
+    }
+    for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
+        if (!pass.empty()) WEFT_CHECK_OK(followed.check(pass, "The lighting pass"));
+    }
+    if (plan.has_uv)
+        WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
+    if (plan.has_depth)
+        WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames, plate));
+    if (plan.has_lines) {
+        WEFT_CHECK_OK(check_pattern(region.lines.files, "The line pass", shot.frames, plate));
+    }
+    if (!plan.track.empty() && plan.temporal != TemporalMode::kNone) {
+        std::vector<int> tracked;
+        for (const auto& [frame, corners] : plan.track)
+            tracked.push_back(frame);
+        const std::vector<int> untracked = missing_in(all, tracked);
+        if (!untracked.empty()) {
+            return fail(ErrorCode::kMissingFrames,
+                        "The track " + region.motion.track + " has nothing for " +
+                            frames_text(untracked) +
+                            ". Track the whole shot, or render only the frames that it has" +
+                            by({{setting::kFrames}}) + ".");
+        }
+    }
+    if (plan.true_motion && plan.temporal != TemporalMode::kNone) {
+        WEFT_CHECK_OK(
+            check_pattern(region.motion.files, "The motion", motion_frames(plan, span), plate));
+    }
+    return {};
+}
+
+}  // namespace weft

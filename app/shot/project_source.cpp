@@ -1,0 +1,169 @@
+#include "app/shot/project_source.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/color/color_space.h"
+#include "engine/media/image_files.h"
+#include "engine/media/sequence_pattern.h"
+
+namespace weft {
+namespace {
+
+class ProjectSource final : public ShotSource {
+  public:
+    ProjectSource(std::shared_ptr<const CachedReader> plate, std::vector<Leaf<Region>> regions,
+                  std::shared_ptr<CutWatch> cuts, std::shared_ptr<InputWatch> inputs,
+                  PaintedMattes painted)
+        : plate_(std::move(plate)),
+          regions_(std::move(regions)),
+          cuts_(std::move(cuts)),
+          inputs_(std::move(inputs)),
+          painted_(std::move(painted)) {}
+
+    [[nodiscard]] Size size() const override { return plate_->size(); }
+
+    [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override {
+        if (inputs_) inputs_->before_read(plate_->path_of(frame));
+        WEFT_TRY(decoded, plate_->read_shared(frame));
+        if (cuts_) cuts_->look_at(frame, decoded->rgb, plate_->display_encoded());
+        return std::shared_ptr<const ImageF3>(decoded, &decoded->rgb);
+    }
+
+    [[nodiscard]] Expected<Matte> matte(int region, int frame) const override {
+        return read(*at(region).matte, frame);
+    }
+
+    [[nodiscard]] Expected<Matte> matte_key(int region, int frame) const override {
+        return read_keyframe(*at(region).matte, frame);
+    }
+
+    [[nodiscard]] Expected<Matte> holdout_key(int region, int painted, int frame) const override {
+        for (const MatteSource& holdout : *at(region).holdouts)
+            if (holdout.files.empty() && painted-- == 0) return read_keyframe(holdout, frame);
+        return ShotSource::holdout_key(region, painted, frame);
+    }
+
+    [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override {
+        std::optional<Matte> all;
+        for (const MatteSource& holdout : *at(region).holdouts) {
+            if (holdout.files.empty()) continue;
+            WEFT_TRY(one, read(holdout, frame));
+            if (!all) {
+                all = std::move(one);
+                continue;
+            }
+            std::transform(one.data(), one.data() + one.size_bytes(), all->data(), all->data(),
+                           [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+        }
+        return all;
+    }
+
+    [[nodiscard]] Expected<Matte> lines(int region, int frame) const override {
+        const LineParams& lines = at(region).lines;
+        if (lines.files.empty()) return Matte();
+        WEFT_TRY(pattern, SequencePattern::parse(lines.files));
+        MatteSelect select;
+        select.invert = lines.invert;
+        return read_matte(watched(path_on(pattern, frame)), select, size());
+    }
+
+    [[nodiscard]] Expected<ImageF1> depth(int region, int frame) const override {
+        const std::string& files = at(region).finish.depth;
+        if (files.empty()) return ImageF1();
+        WEFT_TRY(picture, read_pass(files, frame));
+        // A float file holds distances, a coded one what an artist made visible.
+        const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
+        ImageF1 out(picture.rgb.size());
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const float v = picture.rgb.pixel(x, y)[0];
+                out.row(y)[x] = coded ? v : v > 0 ? 1.0f / v : 0.0f;
+            }
+        }
+        return out;
+    }
+
+    [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override {
+        const MotionSource& motion = at(region).motion;
+        WEFT_TRY(pattern, SequencePattern::parse(motion.files));
+        return read_motion(watched(pattern.path_for(frame)),
+                           {motion.convention, motion.direction, motion.layer}, size());
+    }
+
+    [[nodiscard]] Expected<ImageF2> uv(int region, int frame) const override {
+        const Placement& placement = at(region).placement;
+        WEFT_TRY(pattern, SequencePattern::parse(placement.uv));
+        return read_uv(watched(path_on(pattern, frame)), placement.uv_layer, size());
+    }
+
+    [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
+        const LightParams& light = at(region).light;
+        const std::string& given = light.lighting.empty() ? light.albedo : light.lighting;
+        WEFT_TRY(picture, read_pass(given, frame, light.pass_layer));
+        const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
+        WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
+        to_linear->apply(picture.rgb);
+        return std::move(picture.rgb);
+    }
+
+  private:
+    [[nodiscard]] const Region& at(int region) const {
+        return *regions_[static_cast<std::size_t>(region)];
+    }
+    // A picture of the plate's size, one a frame or the same for all.
+    [[nodiscard]] Expected<PlateFrame> read_pass(const std::string& files, int frame,
+                                                 const std::string& layer = {}) const {
+        WEFT_TRY(pattern, SequencePattern::parse(files));
+        const std::string path = pattern.is_single() ? files : path_on(pattern, frame);
+        WEFT_TRY(picture, read_image(watched(path), layer));
+        if (picture.rgb.size() != size()) {
+            return fail(ErrorCode::kUnreadable,
+                        path + " is " + std::to_string(picture.rgb.width()) + " x " +
+                            std::to_string(picture.rgb.height()) +
+                            ", but the plate is not. Give a pass of the plate's size.");
+        }
+        return picture;
+    }
+    [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
+        WEFT_TRY(pattern, SequencePattern::parse(source.files));
+        return read_matte(watched(path_on(pattern, frame)), source.select, size());
+    }
+    [[nodiscard]] Expected<Matte> read_keyframe(const MatteSource& source, int frame) const {
+        const std::string& path = source.keyframes.at(frame).path;
+        if (painted_.contains(path)) return read_matte(path, source.select, size(), painted_);
+        return read_matte(watched(path), source.select, size());
+    }
+    // `path`, which is about to be read.
+    [[nodiscard]] std::string watched(std::string path) const {
+        if (inputs_) inputs_->before_read(path);
+        return path;
+    }
+    // Where the plate holds a frame in place of a missing one, a file that is missing too is held.
+    [[nodiscard]] std::string path_on(const SequencePattern& pattern, int frame) const {
+        const int shown = plate_->shown_frame(frame);
+        std::error_code ignored;
+        const std::string path = pattern.path_for(frame);
+        if (shown == frame || std::filesystem::exists(path, ignored)) return path;
+        return pattern.path_for(shown);
+    }
+
+    std::shared_ptr<const CachedReader> plate_;
+    std::vector<Leaf<Region>> regions_;
+    std::shared_ptr<CutWatch> cuts_;
+    std::shared_ptr<InputWatch> inputs_;
+    PaintedMattes painted_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ShotSource> make_project_source(std::shared_ptr<const CachedReader> plate,
+                                                      std::vector<Leaf<Region>> regions,
+                                                      std::shared_ptr<CutWatch> cuts,
+                                                      std::shared_ptr<InputWatch> inputs,
+                                                      PaintedMattes painted) {
+    return std::make_shared<ProjectSource>(std::move(plate), std::move(regions), std::move(cuts),
+                                           std::move(inputs), std::move(painted));
+}
+
+}  // namespace weft

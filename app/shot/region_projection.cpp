@@ -1,0 +1,176 @@
+#include "app/shot/region_projection.h"
+#include "engine/core/setting.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace weft {
+namespace {
+
+// Of light on a display-referred plate: where a body turns away from the sun, a hundredth of its
+// light is left.
+constexpr float kLeastGain = 1.0f / 64;
+
+MatteReach reach_of(const MatteSource& matte) {
+    MatteReach reach;
+    reach.direction = matte.carry;
+    if (matte.carry_from) reach.first = *matte.carry_from;
+    if (matte.carry_to) reach.last = *matte.carry_to;
+    return reach;
+}
+
+Vec2 point(const PlatePoint& p) {
+    return {p.x, p.y};
+}
+
+PlanePlacement plane_placement(const Placement& p) {
+    PlanePlacement out;
+    out.scale = static_cast<float>(p.scale);
+    out.rotate_deg = static_cast<float>(p.rotate_deg);
+    out.offset_px = point(p.offset_px);
+    if (p.corners_px) {
+        out.corners.emplace();
+        std::transform(p.corners_px->begin(), p.corners_px->end(), out.corners->begin(), point);
+    }
+    return out;
+}
+
+}  // namespace
+
+Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& holdouts,
+                      RegionPlan& plan) {
+    if (matte.empty()) {
+        return fail(ErrorCode::kUsage, "It has no matte. Give files or painted keyframes" +
+                                           by({{setting::kMatte}}) + ".");
+    }
+    for (const auto& [frame, key] : matte.keyframes)
+        plan.matte_keys.push_back(frame);
+    plan.matte_steadiness = static_cast<float>(matte.steadiness);
+    plan.matte_reach = reach_of(matte);
+    // Painted ones in their order among the painted, which names them in the analysis.
+    for (const MatteSource& holdout : holdouts) {
+        if (!holdout.files.empty()) {
+            plan.has_holdout = true;
+            continue;
+        }
+        if (holdout.keyframes.empty()) {
+            return fail(ErrorCode::kUsage,
+                        "A holdout has no matte. Give files or painted keyframes" +
+                            by({{setting::kHoldout}}) + ", or remove it.");
+        }
+        PaintedHoldout painted;
+        for (const auto& [frame, key] : holdout.keyframes)
+            painted.keys.push_back(frame);
+        painted.steadiness = static_cast<float>(holdout.steadiness);
+        painted.reach = reach_of(holdout);
+        plan.painted_holdouts.push_back(std::move(painted));
+    }
+    return {};
+}
+
+void project_corrections(const std::map<int, std::vector<CorrectionPin>>& corrections,
+                         RegionPlan& plan) {
+    auto& frames = plan.reference_frames;
+    for (const auto& [frame, pins] : corrections) {
+        for (const CorrectionPin& pin : pins)
+            plan.corrections[frame].push_back({point(pin.from), point(pin.to)});
+        if (std::find(frames.begin(), frames.end(), frame) == frames.end()) frames.push_back(frame);
+    }
+}
+
+Status project_motion(const MotionSource& motion, RegionPlan& plan) {
+    plan.true_motion = !motion.files.empty();
+    plan.motion_forward = motion.direction == MotionDirection::kForward;
+    if (motion.track.empty() || !plan.true_motion) return {};
+    return fail(ErrorCode::kUsage,
+                "It has both a planar track and motion files. Keep one of the two" +
+                    by({{setting::kTrack}, {setting::kMotion}}) + ".");
+}
+
+Status project_placement(const Placement& placement, TemporalMode mode, RegionPlan& plan) {
+    plan.placement = plane_placement(placement);
+    plan.scale_keys = placement.scale_keys;
+    plan.rotate_keys = placement.rotate_keys;
+    plan.offset_keys = placement.offset_keys;
+    if (plan.placement_moves() && mode != TemporalMode::kLocked) {
+        return fail(ErrorCode::kUsage,
+                    "An animated placement needs the locked temporal mode; the other modes "
+                    "synthesize the texture in place. Set it" +
+                        by({{setting::kTemporalMode, "locked"}}) + ".");
+    }
+    if (!plan.scale_keys.empty()) {
+        const auto& keys = plan.scale_keys.keys;
+        const auto smallest =
+            std::min_element(keys.begin(), keys.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
+        plan.placement.scale = static_cast<float>(smallest->second[0]);
+    }
+    WEFT_CHECK_OK(plane_from_plate(plan.placement));
+    plan.has_uv = !placement.uv.empty();
+    if (plan.has_uv && mode != TemporalMode::kLocked) {
+        return fail(ErrorCode::kUsage,
+                    "A UV pass needs the locked temporal mode; the other modes synthesize the "
+                    "texture in place. Set it" +
+                        by({{setting::kTemporalMode, "locked"}}) + ".");
+    }
+    return {};
+}
+
+void project_synthesis(const SynthesisParams& synthesis, RegionPlan& plan) {
+    plan.seam = synthesis.seam;
+    plan.overlap_px = synthesis.overlap_px;
+    plan.feather_px = synthesis.feather_px;
+    plan.seam_cost = synthesis.seam_cost;
+    plan.refine_passes = synthesis.refine;
+    plan.orientations = {synthesis.rotations, synthesis.mirror};
+    plan.align = synthesis.align;
+}
+
+void project_temporal(const TemporalParams& temporal, RegionPlan& plan) {
+    plan.temporal = temporal.mode;
+    plan.blend = static_cast<float>(temporal.blend);
+    plan.weight = static_cast<float>(temporal.weight);
+}
+
+Status project_light(const LightParams& light, bool display_referred, RegionPlan& plan) {
+    plan.light_source = light.source;
+    plan.light = {light.form, static_cast<float>(light.strength)};
+    plan.light.least_gain = display_referred ? kLeastGain : 0;
+    if (!display_referred) plan.light.most_gain = std::numeric_limits<float>::max();
+    plan.strength_keys = light.strength_keys;
+    plan.lamps = light.lamps;
+    if (light.source == LightSource::kPainted && plan.lamps.empty())
+        return fail(ErrorCode::kUsage,
+                    "Painted light needs lamps. Add one" + by({{setting::kLamps}}) + ".");
+    plan.cast = static_cast<float>(light.cast);
+    plan.highlights = static_cast<float>(light.highlights);
+    plan.light_pass = !light.lighting.empty() ? RegionPlan::Pass::kLighting
+                      : !light.albedo.empty() ? RegionPlan::Pass::kAlbedo
+                                              : RegionPlan::Pass::kNone;
+    plan.exact_light = light.exact;
+    if (light.exact && plan.light_pass == RegionPlan::Pass::kNone) {
+        return fail(ErrorCode::kUsage,
+                    "Exact light needs a pass. Give an albedo or a lighting pass" +
+                        by({{setting::kAlbedo}, {setting::kLighting}}) + ".");
+    }
+    return {};
+}
+
+void project_finish(const FinishParams& finish, FlowQuality quality, RegionPlan& plan) {
+    const bool final = quality == FlowQuality::kFinal;
+    plan.grain = final ? static_cast<float>(finish.grain) : 0.0f;
+    plan.focus = final ? static_cast<float>(finish.focus) : 0.0f;
+    plan.has_depth = plan.focus > 0 && !finish.depth.empty();
+    plan.shutter_deg = 0.0f;
+    if (!final) return;
+    plan.shutter_deg.reset();
+    if (finish.shutter_deg) plan.shutter_deg = static_cast<float>(*finish.shutter_deg);
+}
+
+void project_lines(const LineParams& lines, RegionPlan& plan) {
+    plan.has_lines = !lines.files.empty();
+    plan.extract_lines = lines.extract && !plan.has_lines;
+    plan.line_width_px = static_cast<float>(lines.width_px);
+}
+
+}  // namespace weft

@@ -1,0 +1,132 @@
+#pragma once
+// The settings and commands that messages refer to. A message names them by key; the front end that
+// runs says them in its own terms: flags on the command line (app/cli/setting_flags.h), labels in
+// the editor (ui/setting_labels.h).
+
+#include <array>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace weft {
+
+/// A key that is a parameter's full key (app/project/parameters.h) is that parameter.
+namespace setting {
+inline constexpr std::string_view kAlbedo = "light.albedo", kBackend = "run.backend",
+                                  kCache = "run.cache", kChunk = "submit.chunk",
+                                  kCryptoFiles = "matte.crypto_files",
+                                  kExcludedLicences = "settings.excluded_licences",
+                                  kFeather = "synthesis.feather_px", kFrames = "settings.frames",
+                                  kHoldout = "holdouts", kLamps = "light.lamps",
+                                  kLayers = "output.layers", kLayersOutput = "output.layers_path",
+                                  kLibrary = "run.library", kLightExact = "light.exact",
+                                  kLighting = "light.lighting", kLightSource = "light.source",
+                                  kMatte = "matte", kMatteChannel = "matte.channel",
+                                  kMatteFrozenFiles = "matte.frozen_files",
+                                  kMatteInvert = "matte.invert", kMatteValue = "matte.value",
+                                  kMemory = "run.memory", kMotion = "motion.files",
+                                  kMotionLayer = "motion.layer", kMovieStart = "plate.movie_start",
+                                  kOutput = "output.path", kOutputRoot = "run.output_root",
+                                  kOverlap = "synthesis.overlap_px", kOverwrite = "run.overwrite",
+                                  kPackages = "library.packages", kPlane = "texture.plane",
+                                  kPlate = "plate.path", kPlateLayer = "plate.layer",
+                                  kPlateSpace = "plate.space", kRecipe = "run.recipe",
+                                  kReferenceFrame = "reference_frames", kRegion = "look.region",
+                                  kRestart = "run.restart", kResume = "run.resume",
+                                  kSample = "texture.sample", kSkipExisting = "run.skip_existing",
+                                  kTemporalMode = "temporal.mode",
+                                  kTextureSpace = "color.texture_space", kTrack = "motion.track",
+                                  kTrustOnce = "run.trust", kTruth = "measure.truth",
+                                  kVersionUp = "run.version_up";
+// Commands.
+inline constexpr std::string_view kAddRegion = "command.add_region",
+                                  kBuildLibrary = "command.build_library",
+                                  kImportTextures = "command.import_textures",
+                                  kListTextures = "command.list_textures",
+                                  kListTrusted = "command.list_trusted",
+                                  kSaveLook = "command.save_look",
+                                  kTrainLibrary = "command.train_library",
+                                  kTrustFolder = "command.trust_folder",
+                                  kUseModel = "command.use_model",
+                                  kVerifyLibrary = "command.verify_library";
+inline constexpr std::array kAll{kAlbedo,
+                                 kBackend,
+                                 kCache,
+                                 kChunk,
+                                 kCryptoFiles,
+                                 kExcludedLicences,
+                                 kFeather,
+                                 kFrames,
+                                 kHoldout,
+                                 kLamps,
+                                 kLayers,
+                                 kLayersOutput,
+                                 kLibrary,
+                                 kLightExact,
+                                 kLighting,
+                                 kLightSource,
+                                 kMatte,
+                                 kMatteChannel,
+                                 kMatteFrozenFiles,
+                                 kMatteInvert,
+                                 kMatteValue,
+                                 kMemory,
+                                 kMotion,
+                                 kMotionLayer,
+                                 kMovieStart,
+                                 kOutput,
+                                 kOutputRoot,
+                                 kOverlap,
+                                 kOverwrite,
+                                 kPackages,
+                                 kPlane,
+                                 kPlate,
+                                 kPlateLayer,
+                                 kPlateSpace,
+                                 kRecipe,
+                                 kReferenceFrame,
+                                 kRegion,
+                                 kRestart,
+                                 kResume,
+                                 kSample,
+                                 kSkipExisting,
+                                 kTemporalMode,
+                                 kTextureSpace,
+                                 kTrack,
+                                 kTrustOnce,
+                                 kTruth,
+                                 kVersionUp,
+                                 kAddRegion,
+                                 kBuildLibrary,
+                                 kImportTextures,
+                                 kListTextures,
+                                 kListTrusted,
+                                 kSaveLook,
+                                 kTrainLibrary,
+                                 kTrustFolder,
+                                 kUseModel,
+                                 kVerifyLibrary};
+}  // namespace setting
+
+/// A setting and, where it should get one, its value: {"reference_frames", "1012"}.
+struct SettingRef {
+    std::string_view key;
+    std::string value{};
+};
+
+/// "--matte", "--reference-frame 1012", "Reference frames: 1012"; empty: this front end has no such
+/// setting.
+using SettingNamer = std::string (*)(const SettingRef&);
+
+/// Sets how this process names settings: once, before a message is composed. Without it they are
+/// named by their keys. Thread-safe.
+void set_setting_namer(SettingNamer namer);
+
+/// One setting in the front end's terms. Thread-safe.
+[[nodiscard]] std::string setting_name(const SettingRef& setting);
+
+/// What a remedy is done with, for the end of its sentence: " (--texture, --plane)"; empty where
+/// the front end has none of the settings. Thread-safe.
+[[nodiscard]] std::string by(std::initializer_list<SettingRef> settings);
+
+}  // namespace weft

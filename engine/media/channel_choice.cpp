@@ -1,0 +1,221 @@
+#include "engine/media/channel_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "engine/core/setting.h"
+#include "engine/core/text.h"
+#include "engine/media/raster_errors.h"
+
+namespace weft {
+namespace {
+
+// The layer that a channel's name begins with, without its dot.
+std::string layer_of(const std::string& channel) {
+    const std::size_t dot = channel.rfind('.');
+    return dot == std::string::npos ? std::string() : channel.substr(0, dot);
+}
+
+std::string last_word(const std::string& layer) {
+    return lower_case(layer.substr(layer.rfind('.') + 1));
+}
+
+// What renderers call the finished picture: Nuke, Arnold, V-Ray, Blender, RenderMan.
+bool names_the_picture(const std::string& layer) {
+    static const std::set<std::string> kNames{"rgba",      "rgb",           "beauty",
+                                              "combined",  "main",          "color",
+                                              "composite", "effectsresult", "rgb_color"};
+    return kNames.contains(last_word(layer));
+}
+
+// Renderers' names of data passes: a part or a channel of this name is not a plate.
+bool names_data(const std::string& layer) {
+    static const std::set<std::string> kNames{
+        "z",        "zback",    "depth",   "zdepth",   "deep",     "distance",     "n",
+        "normal",   "normals",  "p",       "position", "pref",     "pworld",       "id",
+        "ids",      "objectid", "indexob", "indexma",  "motion",   "motionvector", "vector",
+        "velocity", "uv",       "st",      "forward",  "backward", "mist",         "crypto"};
+    const std::string word = last_word(layer);
+    return kNames.contains(word) || word.starts_with("crypto") || word.starts_with("uncrypto");
+}
+
+int find_channel(const PartNames& part, const std::string& prefix,
+                 std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) {
+        const std::string wanted = lower_case(prefix + std::string(name));
+        for (std::size_t c = 0; c < part.channels.size(); ++c)
+            if (lower_case(part.channels[c]) == wanted) return static_cast<int>(c);
+    }
+    return -1;
+}
+
+ChannelChoice choice_of(int part, std::vector<int> colors, int alpha) {
+    ChannelChoice choice{part, std::move(colors), alpha >= 0};
+    if (alpha >= 0) choice.channels.push_back(alpha);
+    return choice;
+}
+
+std::optional<ChannelChoice> rgb_of(const PartNames& part, int number, const std::string& prefix) {
+    const int r = find_channel(part, prefix, {"R", "red"});
+    const int g = find_channel(part, prefix, {"G", "green"});
+    const int b = find_channel(part, prefix, {"B", "blue"});
+    if (r < 0 || g < 0 || b < 0) return std::nullopt;
+    return choice_of(number, {r, g, b}, find_channel(part, prefix, {"A", "alpha"}));
+}
+
+std::optional<ChannelChoice> grey_of(const PartNames& part, int number, const std::string& prefix,
+                                     bool depth_too) {
+    int y = find_channel(part, prefix, {"Y", "I", "L", "V"});
+    if (y < 0 && depth_too) y = find_channel(part, prefix, {"Z"});
+    if (y < 0) return std::nullopt;
+    return choice_of(number, {y}, find_channel(part, prefix, {"A", "alpha"}));
+}
+
+// For files whose channels have no telling names: by their number.
+std::optional<ChannelChoice> by_count(const PartNames& part, int number) {
+    std::vector<int> colors;
+    for (int c = 0; c < static_cast<int>(part.channels.size()) && c < 4; ++c)
+        if (c != part.alpha) colors.push_back(c);
+    if (colors.empty()) return std::nullopt;
+    if (colors.size() == 1 || part.channels.size() == 2)
+        return choice_of(number, {colors[0]}, part.alpha);
+    if (colors.size() < 3) return std::nullopt;
+    return choice_of(number, {colors[0], colors[1], colors[2]}, part.alpha);
+}
+
+std::optional<ChannelChoice> named_in(const PartNames& part, int number,
+                                      const RasterRequest& request) {
+    if (!request.channel.empty()) {
+        const int c = find_channel(part, "", {request.channel});
+        return c < 0 ? std::nullopt : std::optional(choice_of(number, {c}, -1));
+    }
+    const std::string prefix = request.layer + ".";
+    if (auto choice = rgb_of(part, number, prefix)) return choice;
+    if (auto choice = grey_of(part, number, prefix, true)) return choice;
+    // A part of a multi-part file carries the layer's name itself.
+    if (lower_case(part.name) != lower_case(request.layer)) return std::nullopt;
+    if (auto choice = rgb_of(part, number, "")) return choice;
+    return grey_of(part, number, "", true);
+}
+
+bool is_data(const PartNames& part) {
+    return part.deep || names_data(part.name);
+}
+
+// The layers whose name says that they are the whole picture, one choice each.
+std::vector<ChannelChoice> picture_layers(const std::vector<PartNames>& parts) {
+    std::vector<ChannelChoice> found;
+    std::set<std::string> seen;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (parts[k].deep) continue;
+        for (const std::string& channel : parts[k].channels) {
+            const std::string layer = layer_of(channel);
+            if (!names_the_picture(layer) || !seen.insert(lower_case(layer)).second) continue;
+            if (auto choice = rgb_of(parts[k], static_cast<int>(k), layer + "."))
+                found.push_back(*choice);
+        }
+    }
+    return found;
+}
+
+// The picture of an EXR when no layer is asked for. Nothing: no evident one.
+std::optional<ChannelChoice> evident(const std::vector<PartNames>& parts) {
+    const auto first = [&](auto&& choose) -> std::optional<ChannelChoice> {
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            if (is_data(parts[k])) continue;
+            if (auto choice = choose(parts[k], static_cast<int>(k))) return choice;
+        }
+        return std::nullopt;
+    };
+    if (auto choice = first([](const PartNames& p, int k) { return rgb_of(p, k, ""); }))
+        return choice;
+    const std::vector<ChannelChoice> layers = picture_layers(parts);
+    if (layers.size() == 1) return layers.front();
+    if (layers.size() > 1) return std::nullopt;
+    if (auto choice = first([](const PartNames& p, int k) { return grey_of(p, k, "", false); }))
+        return choice;
+    // One channel alone, such as a matte's A: there is nothing to choose.
+    const bool alone = parts.size() == 1 && parts[0].channels.size() == 1 && !is_data(parts[0]);
+    if (!alone) return std::nullopt;
+    const std::string& only = parts[0].channels[0];
+    if (names_data(only) || names_data(layer_of(only))) return std::nullopt;
+    return choice_of(0, {0}, -1);
+}
+
+std::string listed(const std::vector<PartNames>& parts, bool channels) {
+    std::set<std::string> names;
+    for (const PartNames& part : parts) {
+        if (!part.name.empty() && !channels) names.insert(part.name);
+        for (const std::string& channel : part.channels) {
+            if (channels)
+                names.insert(channel);
+            else if (const std::string layer = layer_of(channel); !layer.empty())
+                names.insert(layer);
+        }
+    }
+    constexpr std::size_t kShown = 12;
+    std::string list;
+    std::size_t shown = 0;
+    for (const std::string& name : names) {
+        if (shown++ == kShown) return list + ", …";
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    return list;
+}
+
+Error nothing_chosen(const std::string& path, const std::vector<PartNames>& parts,
+                     const RasterRequest& request) {
+    const std::string channels = listed(parts, true), layers = listed(parts, false);
+    if (!request.channel.empty()) {
+        return unreadable(path, "it has no channel '" + request.channel + "'",
+                          "Its channels are: " + channels + ".");
+    }
+    const bool deep =
+        std::any_of(parts.begin(), parts.end(), [](const PartNames& part) { return part.deep; });
+    if (deep) {
+        return unreadable(path, "it holds deep samples, not a flat picture",
+                          "Flatten it first (DeepToImage in Nuke).");
+    }
+    if (!request.layer.empty()) {
+        return unreadable(path, "it has no layer '" + request.layer + "'",
+                          layers.empty() ? "It has no layers: leave the layer out."
+                                         : "Its layers are: " + layers + ".");
+    }
+    if (picture_layers(parts).size() > 1) {
+        return unreadable(path, "several of its layers may be the picture",
+                          "Name one of them" + by({{setting::kPlateLayer}}) + ": " + layers + ".");
+    }
+    if (layers.empty()) {
+        return unreadable(path, "it has no colours, only the channels " + channels,
+                          "Give a file with R, G and B.");
+    }
+    return unreadable(
+        path, "it has no channels R, G, B",
+        "Name one of its layers" + by({{setting::kPlateLayer}}) + ": " + layers + ".");
+}
+
+}  // namespace
+
+Expected<ChannelChoice> choose_channels(const std::string& path,
+                                        const std::vector<PartNames>& parts,
+                                        const RasterRequest& request, bool exr) {
+    std::optional<ChannelChoice> choice;
+    if (!request.layer.empty() || !request.channel.empty()) {
+        for (std::size_t k = 0; k < parts.size() && !choice; ++k)
+            if (!parts[k].deep) choice = named_in(parts[k], static_cast<int>(k), request);
+    } else if (exr) {
+        choice = evident(parts);
+    } else {
+        const PartNames& only = parts.front();
+        choice = rgb_of(only, 0, "");
+        if (!choice) choice = grey_of(only, 0, "", true);
+        if (!choice) choice = by_count(only, 0);
+    }
+    if (choice) return *choice;
+    return tl::unexpected(nothing_chosen(path, parts, request));
+}
+
+}  // namespace weft

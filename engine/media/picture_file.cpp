@@ -1,0 +1,93 @@
+#include "engine/media/picture_file.h"
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include "engine/core/input_file.h"
+#include "engine/core/text.h"
+#include "engine/media/dpx_header.h"
+#include "engine/media/exr_header.h"
+#include "engine/media/png_reader.h"
+#include "engine/media/raster_errors.h"
+
+namespace weft {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+struct Signature {
+    std::string_view bytes, reader;
+    std::size_t at = 0;
+};
+
+// Readers by OpenImageIO's names.
+constexpr std::array kSignatures{
+    Signature{"\x89PNG"sv, "png"sv},
+    Signature{"\xff\xd8\xff"sv, "jpeg"sv},
+    Signature{"II*\0"sv, "tiff"sv},
+    Signature{"MM\0*"sv, "tiff"sv},
+    Signature{"II+\0"sv, "tiff"sv},
+    Signature{"MM\0+"sv, "tiff"sv},
+    Signature{"\x76\x2f\x31\x01"sv, "openexr"sv},
+    Signature{"SDPX"sv, "dpx"sv},
+    Signature{"XPDS"sv, "dpx"sv},
+    Signature{"\x80\x2a\x5f\xd7"sv, "cineon"sv},
+    Signature{"\xd7\x5f\x2a\x80"sv, "cineon"sv},
+    Signature{"BM"sv, "bmp"sv},
+    Signature{"GIF8"sv, "gif"sv},
+    Signature{"WEBP"sv, "webp"sv, 8},
+    Signature{"#?"sv, "hdr"sv},
+    Signature{"8BPS"sv, "psd"sv},
+    Signature{"\x01\xda"sv, "sgi"sv},
+    Signature{"FOR4"sv, "iff"sv},
+    Signature{"\0\0\0\x0cjP  "sv, "jpeg2000"sv},
+    Signature{"\xff\x4f\xff\x51"sv, "jpeg2000"sv},
+    Signature{"DDS "sv, "dds"sv},
+};
+
+// The reader of a file that begins with `head`; empty: of no known kind.
+std::string reader_of(const std::string& path, std::string_view head) {
+    for (const Signature& s : kSignatures) {
+        if (head.size() >= s.at && head.substr(s.at).starts_with(s.bytes))
+            return std::string(s.reader);
+    }
+    if (head.size() > 2 && head[0] == 'P' &&
+        std::string_view("1234567fF").find(head[1]) != std::string_view::npos)
+        return "pnm";
+    // A TGA has no signature.
+    const std::string extension = lower_case(std::filesystem::path(path).extension().string());
+    return extension == ".tga" ? "targa" : "";
+}
+
+}  // namespace
+
+Status check_picture_file(const std::string& path) {
+    WEFT_TRY(stamp, check_input_file(path));
+    if (stamp.bytes == 0) {
+        return tl::unexpected(unreadable(path, "it is empty (0 bytes)", "Write or copy it again."));
+    }
+    WEFT_CHECK_OK(check_dpx_length(path));
+    return check_exr_header(path);
+}
+
+Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path,
+                                                         const OIIO::ImageSpec& config) {
+    WEFT_CHECK_OK(check_picture_file(path));
+    WEFT_TRY(file, InputFile::open(path));
+    std::array<char, 16> head{};
+    WEFT_TRY(count, file.read_at(0, head.data(), head.size()));
+    const std::string reader = reader_of(path, {head.data(), count});
+    if (reader.empty())
+        return tl::unexpected(damaged(path, "it begins like no known kind of picture"));
+    // OpenImageIO lets libpng print what is wrong with a header.
+    if (reader == "png") WEFT_CHECK_OK(probe_png(path));
+    auto input = OIIO::ImageInput::create(reader);
+    OIIO::ImageSpec spec;
+    if (!input || !input->open(path, spec, config)) {
+        return tl::unexpected(damaged(path, input ? input->geterror() : OIIO::geterror()));
+    }
+    return input;
+}
+
+}  // namespace weft

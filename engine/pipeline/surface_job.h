@@ -1,0 +1,77 @@
+#pragma once
+// Internal to follow_surfaces(): the regions on their way through the sweeps, and the sweeps.
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/surface_pass.h"
+#include "engine/temporal/held_frames.h"
+#include "engine/temporal/shutter.h"
+#include "engine/temporal/surface_walker.h"
+
+namespace weft {
+
+/// One region on its way through the sweeps. Belongs to one thread.
+struct SurfaceJob {
+    int region = 0;
+    const RegionPlan* plan = nullptr;
+    FrameSpan span;
+    std::vector<int> references;  // ascending
+    int primary = 0;              // the reference that holds the placement
+    bool coords = false, shading = false, paper = false, grain = false, shutter = false;
+
+    std::optional<SurfaceWalker> walker;
+    int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
+    HeldFrames held;
+    bool held_now = false;
+    std::set<int> held_frames;  // whose drawing is that of the frame before in time
+    std::optional<Shading> last_shading;
+    std::optional<PaperWalker> painter;
+    Matte last_visible, extent_now;
+    ShutterMeter shutter_meter;
+    std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
+    ImageF3 last_display;
+    Matte last_metered;
+
+    [[nodiscard]] bool is_reference(int frame) const {
+        return std::binary_search(references.begin(), references.end(), frame);
+    }
+    // Light is estimated from several frames at once, after the legs.
+    [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }
+    // Between two references what the first leg finds is not final: blend() makes it so.
+    [[nodiscard]] AnalysisKind coords_kind(int frame) const {
+        const bool between =
+            frame > references.front() && frame < references.back() && !is_reference(frame);
+        return between ? AnalysisKind::kCoordsOneWay : AnalysisKind::kCoords;
+    }
+    [[nodiscard]] bool complete(const AnalysisStore& store) const {
+        for (int f = span.first; f <= span.last; ++f) {
+            if (coords && !store.has({region, f, AnalysisKind::kCoords})) return false;
+            if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
+            if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
+        }
+        if (shutter && !store.has({region, primary, AnalysisKind::kShutter})) return false;
+        return !grain || store.has({region, primary, AnalysisKind::kGrain});
+    }
+};
+
+/// The regions of which something is still to be analysed.
+[[nodiscard]] std::vector<SurfaceJob> surface_jobs(const ShotPlan& plan,
+                                                   const AnalysisStore& store);
+
+/// The three sweeps over all jobs; one without anything to do is empty.
+struct SurfaceLegs {
+    std::optional<SweepOptions> forward;   // from the primary references to the ends
+    std::optional<SweepOptions> backward;  // from the last references to the begins
+    std::optional<SweepOptions> again;     // from references before a primary up to it
+    [[nodiscard]] int steps() const;       ///< Frames at which they stop, all together.
+};
+
+[[nodiscard]] SurfaceLegs surface_legs(const std::vector<SurfaceJob>& jobs);
+
+}  // namespace weft

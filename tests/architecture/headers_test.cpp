@@ -1,0 +1,64 @@
+// Every header of the app's rooms has a test that includes it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/architecture/product_sources.h"
+
+namespace weft::architecture {
+namespace {
+
+struct Untested {
+    std::string_view path, why;
+};
+// Headers that tests reach through another one only.
+const std::vector<Untested> kThroughOthers{
+    {"app/measure/light_measure.h", "tests/cli: weft measure"},
+    {"app/measure/measure_job.h", "tests/cli: weft measure"},
+    {"app/measure/measure_report.h", "tests/cli: weft measure"},
+    {"app/measure/truth_measure.h", "tests/cli: weft measure"},
+    {"app/preview/preview.h", "tests/ui, through session.h"},
+    {"app/preview/preview_impl.h", "internal to the preview"},
+    {"app/preview/preview_overlay.h", "internal to the preview"},
+    {"app/preview/preview_scenes.h", "internal to the preview"},
+    {"app/preview/preview_stages.h", "internal to the preview"},
+    {"app/project/choices.h", "tests/project, through parameters.h"},
+    {"app/project/codec/json_codec.h", "internal: tests/project, through project_json.h"},
+    {"app/project/codec/json_limits.h", "internal: tests/project, through project_json.h"},
+    {"app/project/leaf.h", "tests/project, through project.h"},
+    {"app/project/parameter_entry.h", "internal: tests/project, through parameters.h"},
+    {"app/project/parameter_lists.h", "internal: tests/project, through parameters.h"},
+    {"app/render/output_plan.h", "tests/cli: every command that writes"},
+    {"app/session/action.h", "tests/ui, through session.h"},
+    {"app/session/child_jobs.h", "tests/ui, through session_view.h"},
+    {"app/session/session_measuring.h", "internal to the session"},
+};
+
+TEST(Headers, OfTheAppsRoomsAreIncludedByATest) {
+    std::set<std::string, std::less<>> headers, included;
+    for (const SourceFile& file : sources_below({"app"})) {
+        const bool tools =
+            file.path.starts_with("app/cli/") || file.path.starts_with("app/editor/");
+        if (file.path.ends_with(".h") && !tools) headers.insert(file.path);
+    }
+    ASSERT_GT(headers.size(), 50u);
+    for (const SourceFile& file : sources_below({"tests"}))
+        for (const std::string& header : headers)
+            if (file.contents.find("#include \"" + header + "\"") != std::string::npos)
+                included.insert(header);
+    for (const std::string& header : headers) {
+        const bool excepted =
+            std::any_of(kThroughOthers.begin(), kThroughOthers.end(),
+                        [&](const Untested& other) { return other.path == header; });
+        EXPECT_NE(included.contains(header), excepted)
+            << header
+            << (excepted ? " is included by a test: take it off the list in headers_test.cpp"
+                         : " is included by no test");
+    }
+    for (const Untested& other : kThroughOthers)
+        EXPECT_TRUE(headers.contains(other.path)) << other.path << " is not there";
+}
+
+}  // namespace
+}  // namespace weft::architecture

@@ -1,0 +1,75 @@
+// Messages name settings by key (engine/core/setting.h), and each front end says them in its own
+// terms: no flag stands in a string of the engine, the library, the session or the panels.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/support/places.h"
+
+namespace weft::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Files that write command lines of programs, and the tables that flags come from.
+const std::vector<std::string> kAllowed{
+    "app/exchange/schemas.cpp",  // what --json prints, for the schema's readers
+    "app/main.cpp",              // the command line of the editor
+    "app/project/project_parameters.cpp",
+    "app/project/region_parameters.cpp",
+    "app/render/farm_engines.cpp",      // a farm's scripts
+    "app/session/child_jobs.cpp",       // the render's own process
+    "texture_db/sources/packages.cpp",  // apt-cache
+};
+
+std::vector<std::string> flags_in(const std::string& text) {
+    static const std::regex kFlag(
+        R"re("(?:[^"\n]*[ (',])?(--[a-z][a-z-]+|weft (?:look|region|texture|trust) [a-z]+)\b[^"\n]*")re");
+    std::vector<std::string> out;
+    for (std::sregex_iterator at(text.begin(), text.end(), kFlag), end; at != end; ++at)
+        out.push_back((*at)[1]);
+    return out;
+}
+
+std::string without_comments(const std::string& text) {
+    return std::regex_replace(text, std::regex(R"((^|[ \n])//[^\n]*)"), "$1");
+}
+
+TEST(Messages, FlagsAreFoundInStrings) {
+    EXPECT_THAT(flags_in(R"t(fail("No plate. Give --plate.");)t"), testing::ElementsAre("--plate"));
+    EXPECT_THAT(flags_in(R"t("Choose one (--plane)")t"), testing::ElementsAre("--plane"));
+    EXPECT_THAT(flags_in(R"t("--trust for one run")t"), testing::ElementsAre("--trust"));
+    EXPECT_THAT(flags_in("if (--left == 0) say(\"a – b\");"), testing::IsEmpty());
+}
+
+TEST(Messages, OnlyTheCommandLineNamesFlags) {
+    const fs::path root(test::source_folder());
+    std::vector<std::string> found;
+    int files = 0;
+    for (const char* folder : {"engine", "texture_db", "gpu", "app", "ui"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const std::string path = entry.path().lexically_relative(root).generic_string();
+            if (!path.ends_with(".cpp") && !path.ends_with(".h")) continue;
+            if (path.starts_with("app/cli/") || path.starts_with("app/editor/") ||
+                std::find(kAllowed.begin(), kAllowed.end(), path) != kAllowed.end())
+                continue;
+            std::ifstream stream(entry.path());
+            const std::string text(std::istreambuf_iterator<char>(stream), {});
+            ++files;
+            for (const std::string& flag : flags_in(without_comments(text)))
+                found.push_back(path + ": " + flag);
+        }
+    }
+    EXPECT_GT(files, 300);
+    EXPECT_THAT(found, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace weft::architecture

@@ -1,0 +1,153 @@
+// A stroke costs what it touches, not what the matte is large.
+#include "app/mattes/matte_painting.h"
+
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include <thread>
+
+namespace weft::test {
+namespace {
+
+constexpr MattePlace kPlace{1, 0, 12};
+
+double thread_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+Brush pen() {
+    Brush out;
+    out.radius_px = 6;
+    out.hardness = 1;
+    return out;
+}
+
+Matte painted_by_hand(const Matte& before, const std::vector<Vec2>& way) {
+    Matte out = before;
+    Stroke stroke(std::make_shared<const Matte>(before), pen());
+    for (const Vec2 at : way)
+        (void)stroke.move_to(at, 1, out);
+    return out;
+}
+
+Matte patterned(Size size) {
+    Matte out(size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            out.at(x, y) = static_cast<std::uint8_t>((x * 7 + y * 13) % 200);
+    return out;
+}
+
+const std::vector<Vec2> kWay{{40, 50}, {90, 60}, {200, 300}, {500, 320}};
+
+TEST(MattePainting, NoWholeMatteIsCopiedInTheThreadOfThePen) {
+    const Size size{12000, 8000};
+    auto before = std::make_shared<const Matte>(size, std::uint8_t{3});
+    const double start = thread_ms();
+    { const Matte copy = *before; }
+    const double copying = thread_ms() - start;
+
+    MattePainting painting;
+    painting.prepare(before, size);
+    const double begun = thread_ms();
+    painting.begin(kPlace, before, size, pen());
+    for (const Vec2 at : kWay)
+        painting.move_to(at, 1);
+    const double painted = thread_ms() - begun;
+    EXPECT_LT(painted, copying / 4) << "copying takes " << copying << " ms";
+    // The points that the pen was faster with are there in the end.
+    const auto done = painting.end();
+    ASSERT_TRUE(done);
+    for (const Vec2 at : kWay)
+        EXPECT_EQ(done->matte->at(static_cast<int>(at.x), static_cast<int>(at.y)), 255);
+    EXPECT_EQ(done->matte->at(6000, 7000), 3);
+    EXPECT_EQ(before->at(40, 50), 3) << "the history keeps it";
+}
+
+TEST(MattePainting, IsWhatAStrokeOfTheSamePointsGives) {
+    for (const Size size : {Size{700, 500}, Size{300, 400}}) {
+        const auto before = std::make_shared<const Matte>(patterned(size));
+        for (const bool prepared : {true, false}) {
+            MattePainting painting;
+            if (prepared) painting.prepare(before, size);
+            painting.begin(kPlace, before, size, pen());
+            for (const Vec2 at : kWay)
+                painting.move_to(at, 1);
+            const auto done = painting.end();
+            ASSERT_TRUE(done);
+            EXPECT_EQ(done->place, kPlace);
+            EXPECT_EQ(*done->matte, painted_by_hand(*before, kWay));
+            EXPECT_FALSE(painting.active());
+        }
+    }
+}
+
+TEST(MattePainting, AStrokeWithoutAMatteBeginsOnAnEmptyOne) {
+    const Size size{800, 600};
+    MattePainting painting;
+    painting.prepare(nullptr, size);
+    painting.begin(kPlace, nullptr, size, pen());
+    for (const Vec2 at : kWay)
+        painting.move_to(at, 1);
+    const auto done = painting.end();
+    ASSERT_TRUE(done);
+    EXPECT_EQ(*done->matte, painted_by_hand(Matte(size), kWay));
+}
+
+// As after an undo: the same matte is begun on again.
+TEST(MattePainting, TwoStrokesOnOneMatteShareNothing) {
+    const Size size{700, 500};
+    const auto before = std::make_shared<const Matte>(patterned(size));
+    MattePainting painting;
+    const auto stroke = [&](Vec2 at) {
+        painting.prepare(before, size);
+        painting.begin(kPlace, before, size, pen());
+        painting.move_to(at, 1);
+        return painting.end()->matte;
+    };
+    const MattePtr first = stroke({100, 100}), second = stroke({400, 300});
+    EXPECT_EQ(*first, painted_by_hand(*before, {{100, 100}}));
+    EXPECT_EQ(*second, painted_by_hand(*before, {{400, 300}}));
+}
+
+TEST(MattePainting, ShowsWhatIsPaintedAndWhere) {
+    const Size size{700, 500};
+    const auto before = std::make_shared<const Matte>(patterned(size));
+    MattePainting painting;
+    EXPECT_FALSE(painting.at(kPlace));
+    painting.prepare(before, size);
+    painting.begin(kPlace, before, size, pen());
+    const auto begun = painting.at(kPlace);
+    ASSERT_TRUE(begun);
+    EXPECT_EQ(begun->changed, rect_of(size)) << "it is another texture's first version";
+    EXPECT_FALSE(painting.at({2, 0, 12}));
+    painting.shown();
+    painting.move_to({100, 120}, 1);
+    // The copy may be on its way still.
+    while (painting.at(kPlace)->changed.empty())
+        painting.update();
+    const auto shown = painting.at(kPlace);
+    EXPECT_NE(shown->version, begun->version);
+    EXPECT_EQ(shown->pixels.at(100, 120), 255);
+    EXPECT_TRUE(shown->changed.contains(100, 120));
+    EXPECT_LT(shown->changed.width(), 40);
+}
+
+TEST(MattePainting, WithoutAPointNothingIsFinished) {
+    const Size size{700, 500};
+    MattePainting painting;
+    EXPECT_FALSE(painting.end());
+    painting.begin(kPlace, nullptr, size, pen());
+    EXPECT_TRUE(painting.active());
+    EXPECT_FALSE(painting.end());
+    painting.begin(kPlace, nullptr, size, pen());
+    painting.move_to({50, 50}, 1);
+    painting.cancel();
+    EXPECT_FALSE(painting.active());
+    EXPECT_FALSE(painting.end());
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,57 @@
+#include "app/render/job_warnings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace weft::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+FrameResult frame(int number) {
+    FrameResult result;
+    result.frame = number;
+    return result;
+}
+
+TEST(JobWarnings, NothingToSayOfAPlainJob) {
+    EXPECT_THAT(warnings_of({frame(1), frame(2)}), IsEmpty());
+    EXPECT_THAT(warnings_of({}), IsEmpty());
+}
+
+TEST(JobWarnings, NaNIsToldByFrameAndCount) {
+    std::vector<FrameResult> frames{frame(7), frame(8), frame(9)};
+    frames[0].nonfinite = 1;
+    frames[2].nonfinite = 12;
+    frames[2].filled = 10;
+    EXPECT_THAT(warnings_of(frames),
+                ElementsAre(AllOf(HasSubstr("frame 7 (1 pixel), frame 9 (12 pixels)"),
+                                  HasSubstr("10 in a matte"), HasSubstr("3 outside"),
+                                  Not(HasSubstr("frame 8")))));
+}
+
+TEST(JobWarnings, ALongListIsCut) {
+    std::vector<FrameResult> frames;
+    for (int k = 0; k < 1000; ++k) {
+        frames.push_back(frame(k));
+        frames.back().nonfinite = 1;
+    }
+    const auto warnings = warnings_of(frames);
+    EXPECT_THAT(warnings,
+                ElementsAre(AllOf(HasSubstr("and 992 more frames"), HasSubstr("1000 outside"))));
+    EXPECT_LT(warnings[0].size(), 400u);
+}
+
+TEST(JobWarnings, FramesThatNoMatteReaches) {
+    std::vector<FrameResult> frames{frame(1), frame(2), frame(3), frame(5)};
+    for (const std::size_t k : {0, 1, 3})
+        frames[k].untouched = true;
+    EXPECT_THAT(warnings_of(frames), ElementsAre(HasSubstr("empty on frames 1-2,5:")));
+}
+
+}  // namespace
+}  // namespace weft::test

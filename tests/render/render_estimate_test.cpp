@@ -1,0 +1,71 @@
+#include "app/render/render_estimate.h"
+
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+EstimateInputs clip() {
+    EstimateInputs in;
+    in.size = {854, 480};
+    in.frames = in.analysed = 50;
+    in.regions = 1;
+    in.extension = "png";
+    return in;
+}
+
+TEST(RenderEstimate, MoreWorkTakesLongerAndMoreCoresLess) {
+    const double seconds = estimate_render(clip()).seconds;
+    EXPECT_GT(seconds, 0);
+    const auto with = [](auto&& change) {
+        EstimateInputs in = clip();
+        change(in);
+        return estimate_render(in).seconds;
+    };
+    EXPECT_GT(with([](EstimateInputs& in) { in.frames *= 2; }), seconds);
+    EXPECT_GT(with([](EstimateInputs& in) { in.size = {1708, 960}; }), 3 * seconds);
+    EXPECT_GT(with([](EstimateInputs& in) { in.regions = 3; }), seconds);
+    EXPECT_LT(with([](EstimateInputs& in) { in.analysed = 0; }), seconds / 2);
+    EXPECT_GT(with([](EstimateInputs& in) { in.mattes_painted = true; }), seconds);
+    EXPECT_LT(with([](EstimateInputs& in) { in.motion_given = true; }), seconds);
+    EXPECT_LT(with([](EstimateInputs& in) { in.quality = Quality::kDraft; }), seconds / 2);
+    EXPECT_LT(with([](EstimateInputs& in) { in.threads = 8; }), seconds / 2);
+    EXPECT_NEAR(with([](EstimateInputs& in) { in.speed = 2; }), seconds / 2, 1e-9);
+}
+
+TEST(RenderEstimate, MemoryDoesNotGrowWithTheShotAndDiskDoes) {
+    EstimateInputs in = clip();
+    const RenderEstimate once = estimate_render(in);
+    in.frames *= 20;
+    const RenderEstimate long_one = estimate_render(in);
+    EXPECT_EQ(long_one.memory_bytes, once.memory_bytes);
+    EXPECT_EQ(long_one.disk_bytes, 20 * once.disk_bytes);
+    in.extension = "exr";
+    EXPECT_GT(estimate_render(in).disk_bytes, long_one.disk_bytes);
+}
+
+TEST(RenderEstimate, TheAnalysisReachesToReferencesAndPaintedMattes) {
+    Project project;
+    EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
+    Region region;
+    region.reference_frames = {40};
+    region.corrections[8] = {};
+    project.regions.emplace_back(region);
+    EXPECT_EQ(analysed_frames(project, 10, 12), 33u);
+    region.enabled = false;
+    project.regions[0] = Leaf<Region>(region);
+    EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
+}
+
+TEST(RenderEstimate, LearnsFromWhatARenderTook) {
+    // Foreseen 100 s, took 25: four times as fast; half of that in one step.
+    const double once = calibrated_speed(1, 100, 25);
+    EXPECT_NEAR(once, 2, 1e-9);
+    EXPECT_NEAR(calibrated_speed(once, 50, 25), 2 * 1.41421, 1e-4);
+    EXPECT_EQ(calibrated_speed(3, 0, 25), 3);
+    EXPECT_EQ(calibrated_speed(3, 25, 0), 3);
+    EXPECT_EQ(calibrated_speed(1, 1e9, 1e-3), 20);
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,223 @@
+// The session by its actions alone: what its parts give when they work together.
+#include "app/session/session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "app/base/background.h"
+#include "app/render/render_job.h"
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SessionByActions : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        keep_thread_priority();
+        keep_libraries_steady();
+        folder_ = fs::temp_directory_path() / ("weft_session_" + std::to_string(getpid()));
+        fs::create_directories(folder_ / "frames");
+        for (int k = 0; k < 4; ++k) {
+            ImageF3 plate(96, 64, 0.2f);
+            for (int y = 16; y < 48; ++y)
+                for (int x = 24 + k; x < 64 + k; ++x)
+                    plate.pixel(x, y)[0] = 0.5f + static_cast<float>((x - k + y) % 7) / 35.0f;
+            ASSERT_TRUE(
+                write_image(in("frames/000" + std::to_string(k + 1) + ".png"), plate, {}, {}));
+        }
+        ImageF3 tile(96, 96, 0.4f);
+        for (int y = 0; y < 96; ++y)
+            for (int x = 0; x < 96; ++x)
+                tile.pixel(x, y)[0] = static_cast<float>((x * 7 + y * 13) % 32) / 32.0f;
+        ASSERT_TRUE(write_image(in("tile.png"), tile, {}, {}));
+    }
+    void TearDown() override {
+        session_.reset();
+        fs::remove_all(folder_);
+    }
+    void open() {
+        SessionOptions options;
+        options.program = "/bin/false";
+        options.state_folder = in("state");
+        options.cache.folder = in("cache");
+        options.trust_file = in("trusted.json");
+        session_ = std::make_unique<Session>(options);
+        act(OpenAny{in("frames")});
+        ASSERT_TRUE(wait([&] { return view().plate_picture != nullptr; }));
+        Region wall;
+        wall.name = "wall";
+        act(DoEdit{AddRegion{wall, {}}});
+        update();
+    }
+    static Brush pen() {
+        Brush out;
+        out.radius_px = 8;
+        out.hardness = 1;
+        return out;
+    }
+    void paint() {
+        act(BeginStroke{pen(), {30, 30}, 1});
+        act(ContinueStroke{{50, 34}, 1});
+        act(EndStroke{});
+        update();
+    }
+    [[nodiscard]] std::string in(const std::string& name) const {
+        return (folder_ / name).string();
+    }
+    void act(const Action& action) { session_->act(action); }
+    void update() { session_->update(now_s_ += 1.0 / 60); }
+    [[nodiscard]] const SessionView& view() const { return session_->view(); }
+    [[nodiscard]] const Region& region() const { return *view().project.regions.back(); }
+    template <class Done>
+    bool wait(Done&& done) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+        while (!done()) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            update();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return true;
+    }
+
+    fs::path folder_;
+    std::unique_ptr<Session> session_;
+    double now_s_ = 0;
+};
+
+TEST_F(SessionByActions, AStrokeIsShownKeptAndUndone) {
+    open();
+    act(BeginStroke{pen(), {30, 30}, 1});
+    session_->act_now({ContinueStroke{{50, 34}, 1}});
+    ASSERT_EQ(view().mattes.size(), 1u);
+    EXPECT_EQ(view().mattes[0].pixels.at(50, 34), 255) << "within the frame";
+    EXPECT_TRUE(view().painting);
+    act(EndStroke{});
+    update();
+    EXPECT_FALSE(view().painting);
+    ASSERT_TRUE(region().matte->keyframes.contains(1));
+    EXPECT_EQ(view().mattes[0].pixels.at(50, 34), 255) << "before its file is there";
+    session_->flush();
+    const auto written = read_matte(region().matte->keyframes.at(1).path, {}, {96, 64});
+    ASSERT_TRUE(written) << written.error().text();
+    EXPECT_EQ(written->at(50, 34), 255);
+    EXPECT_EQ(written->at(2, 2), 0);
+    act(Undo{});
+    update();
+    EXPECT_TRUE(region().matte->keyframes.empty());
+}
+
+// The preview takes a stroke from memory: it waits for no disk, and not for one that is broken.
+TEST_F(SessionByActions, AStrokeIsPreviewedThoughItCannotBeWritten) {
+    fs::create_directories(folder_ / "state");
+    std::ofstream(folder_ / "state" / "unsaved") << "in the place of the folder";
+    open();
+    paint();
+    act(ApplyTexture{in("tile.png"), 0});
+    ASSERT_TRUE(wait([&] {
+        return view().result_current || view().preview.state == PreviewView::State::kFailed;
+    }));
+    EXPECT_TRUE(view().result_current) << view().preview.error;
+    EXPECT_FALSE(fs::exists(region().matte->keyframes.at(1).path));
+    EXPECT_TRUE(std::any_of(view().notices.begin(), view().notices.end(), [](const Notice& n) {
+        return n.kind == NoticeKind::kError;
+    })) << "and the artist is told";
+}
+
+// What was analysed from the matte in memory has the bytes of a render from its file.
+TEST_F(SessionByActions, ThePreviewOfAStrokeIsWhatARenderWrites) {
+    open();
+    paint();
+    act(ApplyTexture{in("tile.png"), 0});
+    ASSERT_TRUE(wait([&] {
+        return view().result_current && !view().stages.approximate && view().stages.proxy == 1;
+    })) << view().preview.error;
+    session_->flush();
+    JobSpec job;
+    job.project = view().project;
+    job.project.settings.quality = view().preview_quality;
+    job.project.output.path = in("out/####.png");
+    job.cache.folder = in("cache_of_render");
+    job.backend = "cpu";
+    const auto done = run_job(job, {}, {});
+    ASSERT_TRUE(done) << done.error().text();
+    const auto file = read_image(in("out/0001.png"));
+    ASSERT_TRUE(file);
+    const ImageU8x3& shown = view().stages.stages[static_cast<std::size_t>(Stage::kFinal)]->srgb;
+    int different = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 96 * 3; ++x)
+            different +=
+                shown.row(y)[x] != static_cast<std::uint8_t>(file->rgb.row(y)[x] * 255.0f + 0.5f);
+    EXPECT_EQ(different, 0);
+}
+
+TEST_F(SessionByActions, TheStripShowsItsCardsAndOneIsChosen) {
+    open();
+    paint();
+    act(ApplyTexture{in("tile.png"), 0});
+    act(ShowStrip{StripKind::kLight, {}, false});
+    ASSERT_TRUE(wait([&] {
+        const auto& cards = view().strip.cards;
+        return cards.size() == 4 && std::all_of(cards.begin(), cards.end(), [](const StripCard& c) {
+                   return c.picture != nullptr;
+               });
+    }));
+    act(ChooseFromStrip{1});
+    update();
+    EXPECT_DOUBLE_EQ(region().light.strength, 0.35);
+    act(ShowStrip{StripKind::kSeams, {}, true});
+    ASSERT_TRUE(wait([&] { return view().strip.columns == 4; }));
+    EXPECT_EQ(view().strip.cards.size(), 20u);
+    act(MarkRange{2, 3});
+    ASSERT_TRUE(wait([&] { return view().strip.columns == 2; }));
+    EXPECT_EQ(view().strip.cards[1].frame, 3);
+    act(ShowStrip{});
+    update();
+    EXPECT_TRUE(view().strip.cards.empty());
+}
+
+TEST_F(SessionByActions, PlaysStepsAndStops) {
+    open();
+    ASSERT_TRUE(wait([&] {
+        return view().marks.size() == 4 &&
+               std::all_of(view().marks.begin(), view().marks.end(),
+                           [](const FrameMarks& mark) { return mark.plate; });
+    }));
+    act(StepFrames{1});
+    update();
+    EXPECT_EQ(view().frame, 2);
+    act(Play{1});
+    ASSERT_TRUE(wait([&] { return view().frame == 4; }));
+    act(GoToFrame{1});
+    update();
+    EXPECT_EQ(view().playing, 0);
+    EXPECT_EQ(view().frame, 1);
+}
+
+TEST_F(SessionByActions, ARenderThatFailsIsTold) {
+    open();
+    paint();
+    act(ApplyTexture{in("tile.png"), 0});
+    SubmitJob job;
+    job.output = in("out/####.png");
+    act(job);
+    ASSERT_TRUE(wait([&] {
+        return std::any_of(view().notices.begin(), view().notices.end(),
+                           [](const Notice& n) { return n.text.starts_with("Render failed."); });
+    }));
+    ASSERT_EQ(view().jobs.size(), 1u);
+    EXPECT_EQ(view().jobs[0].state, JobState::kFailed);
+}
+
+}  // namespace
+}  // namespace weft::test

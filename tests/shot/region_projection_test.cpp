@@ -1,0 +1,148 @@
+// Each struct of a region's parameters, as the pipeline gets it.
+#include "app/shot/region_projection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace weft::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+MatteSource painted_on(std::initializer_list<int> frames) {
+    MatteSource out;
+    for (const int frame : frames)
+        out.keyframes[frame] = {"m.png"};
+    return out;
+}
+
+TEST(RegionProjection, PaintedHoldoutsKeepTheirOrderAmongThePainted) {
+    MatteSource matte = painted_on({7, 3});
+    matte.steadiness = 0.25;
+    matte.carry_to = 20;
+    MatteSource files;
+    files.files = "holdout.####.png";
+    RegionPlan plan;
+    ASSERT_TRUE(project_mattes(matte, {painted_on({5}), files, painted_on({1, 9})}, plan));
+    EXPECT_THAT(plan.matte_keys, ElementsAre(3, 7));
+    EXPECT_FLOAT_EQ(plan.matte_steadiness, 0.25f);
+    EXPECT_EQ(plan.matte_reach.last, 20);
+    EXPECT_TRUE(plan.has_holdout) << "the one in files";
+    ASSERT_EQ(plan.painted_holdouts.size(), 2u);
+    EXPECT_THAT(plan.painted_holdouts[0].keys, ElementsAre(5));
+    EXPECT_THAT(plan.painted_holdouts[1].keys, ElementsAre(1, 9));
+}
+
+TEST(RegionProjection, AMatteAndAHoldoutMustBeThere) {
+    RegionPlan plan;
+    const Status none = project_mattes({}, {}, plan);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::kUsage);
+    const Status empty = project_mattes(painted_on({1}), {MatteSource{}}, plan);
+    ASSERT_FALSE(empty);
+    EXPECT_THAT(empty.error().text(), HasSubstr("holdout"));
+}
+
+TEST(RegionProjection, CorrectedFramesBecomeReferenceFramesOnce) {
+    RegionPlan plan;
+    plan.reference_frames = {10, 4};
+    project_corrections({{4, {{{1, 2}, {3, 4}}}}, {8, {{{5, 6}, {7, 8}}}}}, plan);
+    EXPECT_THAT(plan.reference_frames, ElementsAre(10, 4, 8)) << "the first holds the placement";
+    ASSERT_EQ(plan.corrections.at(8).size(), 1u);
+    EXPECT_EQ(plan.corrections.at(8)[0].to, Vec2(7, 8));
+}
+
+TEST(RegionProjection, MotionComesFromFilesOrFromATrack) {
+    MotionSource motion;
+    motion.files = "motion.####.exr";
+    motion.direction = MotionDirection::kBackward;
+    RegionPlan plan;
+    ASSERT_TRUE(project_motion(motion, plan));
+    EXPECT_TRUE(plan.true_motion);
+    EXPECT_FALSE(plan.motion_forward);
+    motion.track = "corners.nk";
+    const Status both = project_motion(motion, plan);
+    ASSERT_FALSE(both);
+    EXPECT_EQ(both.error().code, ErrorCode::kUsage);
+}
+
+TEST(RegionProjection, APlaneIsMadeForTheSmallestKeyedScale) {
+    Placement placement;
+    placement.scale = 3;
+    placement.scale_keys.keys = {{1, {2.0}}, {5, {0.5}}, {9, {4.0}}};
+    RegionPlan plan;
+    ASSERT_TRUE(project_placement(placement, TemporalMode::kLocked, plan));
+    EXPECT_FLOAT_EQ(plan.placement.scale, 0.5f);
+    EXPECT_FLOAT_EQ(plan.placement_at(9).scale, 4.0f);
+    const Status moving = project_placement(placement, TemporalMode::kPaper, plan);
+    ASSERT_FALSE(moving);
+    EXPECT_THAT(moving.error().text(), HasSubstr("animated placement"));
+    Placement uv;
+    uv.uv = "uv.####.exr";
+    RegionPlan mapped;
+    ASSERT_TRUE(project_placement(uv, TemporalMode::kLocked, mapped));
+    EXPECT_TRUE(mapped.has_uv);
+    EXPECT_FALSE(project_placement(uv, TemporalMode::kNone, mapped));
+}
+
+TEST(RegionProjection, GainsAreLimitedOnADisplayReferredPlateOnly) {
+    RegionPlan display, scene;
+    ASSERT_TRUE(project_light({}, true, display));
+    EXPECT_GT(display.light.least_gain, 0);
+    EXPECT_LT(display.light.most_gain, std::numeric_limits<float>::max());
+    ASSERT_TRUE(project_light({}, false, scene));
+    EXPECT_EQ(scene.light.least_gain, 0);
+    EXPECT_EQ(scene.light.most_gain, std::numeric_limits<float>::max());
+}
+
+TEST(RegionProjection, LightNeedsWhatItsSourceIsMadeOf) {
+    LightParams light;
+    light.source = LightSource::kPainted;
+    RegionPlan plan;
+    EXPECT_FALSE(project_light(light, true, plan)) << "no lamps";
+    light.source = LightSource::kPlate;
+    light.exact = true;
+    EXPECT_FALSE(project_light(light, true, plan)) << "no pass";
+    light.albedo = "albedo.####.exr";
+    ASSERT_TRUE(project_light(light, true, plan));
+    EXPECT_EQ(plan.light_pass, RegionPlan::Pass::kAlbedo);
+    light.lighting = "light.####.exr";
+    ASSERT_TRUE(project_light(light, true, plan));
+    EXPECT_EQ(plan.light_pass, RegionPlan::Pass::kLighting);
+}
+
+TEST(RegionProjection, DraftsHaveNoFinish) {
+    FinishParams finish;
+    finish.grain = 0.5;
+    finish.depth = "depth.####.exr";
+    RegionPlan final, draft;
+    project_finish(finish, FlowQuality::kFinal, final);
+    EXPECT_FLOAT_EQ(final.grain, 0.5f);
+    EXPECT_TRUE(final.has_depth);
+    EXPECT_EQ(final.shutter_deg, std::nullopt) << "to be measured";
+    project_finish(finish, FlowQuality::kDraft, draft);
+    EXPECT_EQ(draft.grain, 0);
+    EXPECT_FALSE(draft.has_depth);
+    EXPECT_EQ(draft.shutter_deg, 0.0f);
+    finish.shutter_deg = 180;
+    project_finish(finish, FlowQuality::kFinal, final);
+    EXPECT_EQ(final.shutter_deg, 180.0f);
+}
+
+TEST(RegionProjection, InkIsExtractedWhereThereIsNoPass) {
+    LineParams lines;
+    lines.extract = true;
+    RegionPlan plan;
+    project_lines(lines, plan);
+    EXPECT_TRUE(plan.extract_lines);
+    lines.files = "ink.####.png";
+    project_lines(lines, plan);
+    EXPECT_TRUE(plan.has_lines);
+    EXPECT_FALSE(plan.extract_lines);
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,114 @@
+// A project opened: its frames, its files, its plan.
+#include "app/shot/shot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/shot/frame_plan.h"
+#include "app/shot/missing_frames.h"
+#include "app/shot/project_source.h"
+#include "app/shot/scene_cuts.h"
+#include "app/shot/shot_inputs.h"
+#include "tests/render/shot_fixture.h"
+
+namespace weft::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class OpenShot : public ShotTest {
+  protected:
+    [[nodiscard]] Project project() const { return spec("out").project; }
+};
+
+TEST_F(OpenShot, TurnsTheProjectIntoAPlan) {
+    const auto shot = open_shot(project());
+    ASSERT_TRUE(shot) << shot.error().text();
+    EXPECT_EQ((*shot)->plan.regions.size(), 1u);
+    EXPECT_THAT((*shot)->region_index, ElementsAre(0u));
+    ASSERT_EQ((*shot)->textures.size(), 1u);
+    EXPECT_TRUE((*shot)->textures[0].is_plane);
+    EXPECT_EQ((*shot)->textures[0].size, (Size{128, 128}));
+    EXPECT_EQ(output_depth(Output{}, PixelDepth::kU8), PixelDepth::kU8);
+}
+
+TEST_F(OpenShot, NamesTheFrameThatIsMissing) {
+    std::filesystem::remove(in("masks/0004.png"));
+    const auto shot = open_shot(project());
+    ASSERT_FALSE(shot);
+    EXPECT_EQ(shot.error().code, ErrorCode::kMissingFrames);
+    EXPECT_THAT(shot.error().text(), HasSubstr("4"));
+    Project other = project();
+    other.settings.frames = "40";
+    EXPECT_EQ(open_shot(other).error().code, ErrorCode::kMissingFrames);
+}
+
+TEST_F(OpenShot, TheFramesAreTheListOrAllOfThePlate) {
+    const auto shot = open_shot(project());
+    ASSERT_TRUE(shot);
+    EXPECT_THAT(*frames_to_render(project(), *(*shot)->plate), ElementsAre(1, 2, 3, 4, 5, 6));
+    Project some = project();
+    some.settings.frames = "1-5x2";
+    EXPECT_THAT(*frames_to_render(some, *(*shot)->plate), ElementsAre(1, 3, 5));
+    some.settings.frames = "five";
+    EXPECT_EQ(frames_to_render(some, *(*shot)->plate).error().code, ErrorCode::kUsage);
+    EXPECT_EQ(frames_text({4, 5, 6, 12}), "frames 4-6,12");
+}
+
+TEST_F(OpenShot, AGapIsHeldAndSaysWhichFrameIsShown) {
+    std::filesystem::remove(in("frames/0003.png"));
+    Project holding = project();
+    holding.plate.missing = MissingFrames::kHold;
+    const auto shot = open_shot(holding);
+    ASSERT_TRUE(shot) << shot.error().text();
+    const auto held = with_missing_frames((*shot)->plate, MissingFrames::kHold, {});
+    EXPECT_EQ(held->shown_frame(3), 2);
+    EXPECT_EQ(held->shown_frame(4), 4);
+    EXPECT_EQ(held->read(3)->rgb, held->read(2)->rgb);
+}
+
+TEST_F(OpenShot, TheSourceReadsPlateAndMatte) {
+    const auto shot = open_shot(project());
+    ASSERT_TRUE(shot);
+    const auto cuts = std::make_shared<CutWatch>();
+    const auto source = make_project_source((*shot)->plate, (*shot)->project.regions, cuts);
+    ASSERT_NE(source, nullptr);
+    const auto plate = source->plate(2);
+    ASSERT_TRUE(plate) << plate.error().text();
+    EXPECT_EQ((*plate)->size(), Card::kPlate);
+}
+
+TEST_F(OpenShot, ListsEveryFileThatItIsMadeFrom) {
+    const auto shot = open_shot(project());
+    ASSERT_TRUE(shot);
+    const auto files = input_files(**shot);
+    ASSERT_TRUE(files) << files.error().text();
+    std::vector<std::string> expected;
+    for (const char* folder : {"frames", "masks"})
+        for (int frame = 1; frame <= kFrames; ++frame)
+            expected.push_back(in(std::string(folder) + "/000" + std::to_string(frame) + ".png"));
+    expected.push_back(in("tile.png"));
+    EXPECT_EQ(*files, expected);
+    std::filesystem::remove(in("masks/0006.png"));
+    expected.erase(std::find(expected.begin(), expected.end(), in("masks/0006.png")));
+    EXPECT_EQ(*input_files(**shot), expected);
+}
+
+TEST(CutWatch, SeesAnotherSceneAndNoSlowChange) {
+    CutWatch watch;
+    for (int frame = 1; frame <= 8; ++frame) {
+        ImageF3 picture = pattern_picture(Card::kPlate, frame < 5 ? 1 : 9);
+        if (frame >= 5)
+            for (int y = 0; y < picture.height(); ++y)
+                for (int k = 0; k < 3 * picture.width(); ++k)
+                    picture.row(y)[k] = y < 60 ? 0.05f : 0.15f * picture.row(y)[k];
+        watch.look_at(frame, picture.view(), true);
+    }
+    EXPECT_THAT(watch.cuts(), ElementsAre(5));
+}
+
+}  // namespace
+}  // namespace weft::test

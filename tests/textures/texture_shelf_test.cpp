@@ -1,0 +1,169 @@
+// What the drawer asks for in every frame is worked out once.
+#include "app/textures/texture_shelf.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "engine/media/frame_writer.h"
+#include "texture_db/library/library.h"
+#include "texture_db/starter/starter.h"
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+ImageU8x3 sample(int number) {
+    ImageU8x3 out(96, 96);
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 96; ++x)
+            for (int c = 0; c < 3; ++c)
+                out.pixel(x, y)[c] = static_cast<std::uint8_t>(
+                    90 + 60 * ((number >> c) & 1) + 30 * std::sin(0.1 * (number + 2) * x) +
+                    (x * 5 + y * 3 + number) % 11);
+    return out;
+}
+
+// One library for all tests: filling it takes seconds.
+class TextureShelfTest : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        folder_ = fs::temp_directory_path() / ("weft_shelf_" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        const std::string path = (folder_ / "library.wtl").string();
+        {
+            auto library = TextureLibrary::open(path);
+            ASSERT_TRUE(library) << library.error().text();
+            std::vector<NewTexture> all;
+            for (int number = 0; number < 24; ++number) {
+                NewTexture one;
+                one.pixels = sample(number);
+                one.name = (number % 2 ? "stone " : "wood ") + std::to_string(number);
+                one.material = number % 2 ? "stone" : "wood";
+                one.author = "Ada";
+                one.licence = "CC0-1.0";
+                one.source = one.name;
+                all.push_back(std::move(one));
+            }
+            ASSERT_EQ((*library)->add(all), 24);
+            // As if the starter textures were all there: making them takes minutes, and each is an
+            // arrival.
+            ASSERT_TRUE((*library)->set_note("starter.done",
+                                             "2:" + std::to_string(starter_catalogue().size())));
+        }
+        shelf_ = std::make_unique<TextureShelf>();
+        shelf_->open_library(path);
+        ASSERT_TRUE(wait([&] { return shelf_->everything() && !shelf_->cards()->empty(); }));
+        ASSERT_TRUE(settle());
+    }
+    static void TearDownTestSuite() {
+        shelf_.reset();
+        fs::remove_all(folder_);
+    }
+
+    // Without a pause: a question is asked again while it is worked on.
+    static bool wait(const std::function<bool()>& done) {
+        const auto end = Clock::now() + std::chrono::minutes(2);
+        while (!done())
+            if (Clock::now() > end) return false;
+        return true;
+    }
+    // Nothing arrives any more.
+    static bool settle() {
+        auto seen = shelf_->arrivals();
+        auto since = Clock::now();
+        return wait([&] {
+            if (shelf_->arrivals() != seen || !shelf_->activity().empty()) {
+                seen = shelf_->arrivals();
+                since = Clock::now();
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            return Clock::now() - since > std::chrono::milliseconds(300);
+        });
+    }
+    // How much arrives when `asked` is asked without a pause until it has its answer.
+    static std::uint64_t arrivals_of(const std::function<bool()>& asked) {
+        const std::uint64_t before = shelf_->arrivals();
+        EXPECT_TRUE(wait(asked));
+        EXPECT_TRUE(settle());
+        return shelf_->arrivals() - before;
+    }
+    static SurfaceToSuit surface() {
+        ImageU8x3 plate(192, 144, 110);
+        for (int y = 40; y < 120; ++y)
+            for (int x = 40; x < 120; ++x)
+                plate.pixel(x, y)[0] = static_cast<std::uint8_t>(60 + (x * 7 + y * 3) % 90);
+        Matte matte(192, 144);
+        for (int y = 40; y < 120; ++y)
+            std::fill_n(matte.row(y) + 40, 80, std::uint8_t{255});
+        return {"wall", make_picture(std::move(plate)),
+                std::make_shared<const Matte>(std::move(matte)), ""};
+    }
+
+    static inline fs::path folder_;
+    static inline std::unique_ptr<TextureShelf> shelf_;
+};
+
+TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
+    const SurfaceToSuit wall = surface();
+    EXPECT_EQ(arrivals_of([&] {
+                  shelf_->suggest_for("wall", wall);
+                  return shelf_->suggested("wall");
+              }),
+              1u);
+    EXPECT_FALSE(shelf_->suggestions("wall").empty());
+    EXPECT_TRUE(shelf_->suggestions("another").empty());
+}
+
+TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
+    const SurfaceToSuit wall = surface();
+    Matte right(192, 144);
+    for (int y = 40; y < 120; ++y)
+        std::fill_n(right.row(y) + 130, 50, std::uint8_t{255});
+    const std::vector<TogetherRegion> regions{
+        {1, "wall", wall.matte, {}},
+        {2, "floor", std::make_shared<const Matte>(std::move(right)), {}}};
+    EXPECT_EQ(arrivals_of([&] {
+                  shelf_->suggest_together("both", wall.plate, regions, "");
+                  return shelf_->together("both") != nullptr;
+              }),
+              1u);
+    EXPECT_FALSE(shelf_->together("both")->empty());
+}
+
+TEST_F(TextureShelfTest, AQuestionIsSearchedOnce) {
+    TextureQuestion stone;
+    stone.words = "stone";
+    EXPECT_EQ(arrivals_of([&] { return shelf_->search(stone) != nullptr; }), 1u);
+    EXPECT_GE(shelf_->search(stone)->paths.size(), 12u);
+}
+
+TEST_F(TextureShelfTest, WhatIsLikeAPictureIsLookedForOnce) {
+    const PicturePtr plate = surface().plate;
+    EXPECT_EQ(arrivals_of([&] {
+                  shelf_->find_similar("here", plate, {40, 40, 120, 120});
+                  return shelf_->similar("here") != nullptr;
+              }),
+              1u);
+}
+
+TEST_F(TextureShelfTest, AThumbnailIsMadeOnce) {
+    const std::string path = (folder_ / "large.png").string();
+    ASSERT_TRUE(write_image(path, ImageF3(1600, 1200, 0.5f), {}, {.depth = PixelDepth::kU8}));
+    EXPECT_EQ(arrivals_of([&] { return shelf_->thumbnail(path, 128) != nullptr; }), 1u);
+}
+
+TEST_F(TextureShelfTest, DetailsAreLookedUpOnce) {
+    const TextureCard card = shelf_->cards()->front();
+    EXPECT_EQ(arrivals_of([&] { return !shelf_->details(card).author.empty(); }), 1u);
+}
+
+}  // namespace
+}  // namespace weft::test

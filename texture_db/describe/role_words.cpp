@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <string>
+
+#include "texture_db/describe/material_words.h"
+#include "texture_db/describe/surface_role.h"
+
+namespace weft {
+namespace {
+
+struct RoleVocabulary {
+    SurfaceRole role;
+    std::string_view words;
+};
+
+// What artists call regions; singular.
+constexpr RoleVocabulary kVocabulary[]{
+    {SurfaceRole::kWall,
+     "wall facade building house column pillar ceiling tower fence chimney arch castle bridge "
+     "backdrop room interior cliff structure"},
+    {SurfaceRole::kGround,
+     "ground floor road street path pavement field terrain yard courtyard land court deck stage "
+     "beach lawn meadow"},
+    {SurfaceRole::kRoof, "roof rooftop canopy awning"},
+    {SurfaceRole::kGarment,
+     "garment clothing cloth fabric dress skirt shirt sleeve cape coat jacket trouser pant hat "
+     "scarf glove robe tunic cloak costume sweater jumper blouse suit vest hood sock shoe boot "
+     "apron uniform curtain drape flag sail cushion pillow blanket towel rug carpet sofa footwear "
+     "headdress "
+     "textile"},
+    {SurfaceRole::kCoat,
+     "fur coat skin body animal creature monster dog cat fox bear horse bird swan dragon lizard "
+     "snake fish tail paw wing feather mane head leg character hair beast"},
+    {SurfaceRole::kProp,
+     "prop ball box crate barrel table chair vase statue car vehicle robot door sword "
+     "shield armour armor rock boulder slab stump trunk furniture container weapon instrument"},
+    {SurfaceRole::kElement, "water sea lake river sky cloud lava fire ice ocean smoke"},
+};
+
+bool holds(std::string_view words, const std::string& word) {
+    const std::vector<std::string> all = split_words(words);
+    return std::find(all.begin(), all.end(), word) != all.end();
+}
+
+// Marks the roles that a word stands for.
+bool mark(const std::string& word, RoleWeights& named) {
+    bool found = false;
+    for (const RoleVocabulary& entry : kVocabulary) {
+        if (!holds(entry.words, word)) continue;
+        named[static_cast<std::size_t>(entry.role)] = 1;
+        found = true;
+    }
+    return found;
+}
+
+bool mark_all(const std::string& words, RoleWeights& named) {
+    bool found = false;
+    for (const std::string& word : split_words(words)) {
+        if (mark(word, named) || mark(singular(word), named)) {
+            found = true;
+        } else if (const std::string material = material_of_path(word); !material.empty()) {
+            const RoleWeights roles = roles_of_material(material);
+            for (std::size_t r = 0; r < kSurfaceRoles; ++r)
+                named[r] = std::max(named[r], roles[r]);
+            found = true;
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+RoleWeights roles_of_name(std::string_view name) {
+    RoleWeights named{};
+    // A region's name, or the path of its matte: the folder says it where the file is a number.
+    for (int part = 0; part < 2 && !name.empty(); ++part) {
+        const auto slash = name.rfind('/');
+        if (mark_all(words_of_name(name.substr(slash + 1)), named)) return named;
+        name = slash == std::string_view::npos ? std::string_view() : name.substr(0, slash);
+    }
+    named.fill(1);
+    return named;
+}
+
+}  // namespace weft

@@ -1,0 +1,18 @@
+#pragma once
+// Internal: suggestions out of an index.
+
+#include "texture_db/catalogue/index.h"
+#include "texture_db/describe/descriptor_model.h"
+#include "texture_db/recommend/recommend.h"
+#include "texture_db/search/search.h"
+
+namespace weft {
+
+/// TextureLibrary::recommend() with full ids and 1 to 100 suggestions asked for; `index` has
+/// samples, `model` may be null. Pure but for the image–text model's own state.
+[[nodiscard]] Expected<Recommendation> recommend_from(const SampleIndex& index,
+                                                      const DescriptorModel* model,
+                                                      const LibrarySight& sight,
+                                                      const RecommendRequest& request);
+
+}  // namespace weft

@@ -1,0 +1,67 @@
+#pragma once
+// Internal: how well every sample of a library suits one region, in parts; which of them are shown
+// is suggestions.h.
+
+#include <cstdint>
+#include <vector>
+
+#include "texture_db/catalogue/index.h"
+#include "texture_db/recommend/recommend.h"
+#include "texture_db/recommend/region_look.h"
+
+namespace weft {
+
+struct SuitedSample {
+    std::uint32_t sample = 0;  ///< Position in the index.
+    ScoreTerms parts;
+    float stands_out = 0;  ///< 0 … 1: another lightness or hue than the region has now.
+};
+
+/// Judges samples for one region. The references given must outlive it; immutable once made.
+class RegionJudge {
+  public:
+    /// `request.wish.like` is a full id or empty.
+    RegionJudge(const SampleIndex& index, const DescriptorModel* model,
+                const RecommendRequest& request, const RegionRequest& region,
+                const RegionLook& look);
+
+    [[nodiscard]] SuitedSample judge(std::size_t sample) const;
+    /// Every sample that the licences and the region's wish for a material leave, in the order of
+    /// the index.
+    [[nodiscard]] std::vector<SuitedSample> judge_all() const;
+    /// What the region looks like, by material of the index: 1 is the likeliest.
+    [[nodiscard]] const std::vector<float>& votes() const { return votes_; }
+    [[nodiscard]] float vote_of(std::size_t sample) const {
+        return votes_[static_cast<std::size_t>(index_.looks[sample].material)];
+    }
+    /// What the region most likely is in the picture.
+    [[nodiscard]] SurfaceRole role() const;
+    /// How likely that is, 0 … 1.
+    [[nodiscard]] float likely_role() const { return role_[static_cast<std::size_t>(role())]; }
+    [[nodiscard]] const RoleWeights& roles() const { return role_; }
+    /// Whether a sample's material is usual in a role.
+    [[nodiscard]] bool serves(std::size_t sample, std::size_t role) const {
+        return materials_[static_cast<std::size_t>(index_.looks[sample].material)][role] >= 0.6f;
+    }
+    /// 0 … 1: how alike two samples are; 1 for two pieces of one picture.
+    [[nodiscard]] float likeness(std::size_t a, std::size_t b) const;
+
+  private:
+    void vote(const DescriptorModel& model);
+    void scale_votes();
+    void find_role();
+
+    const SampleIndex& index_;
+    const RecommendRequest& request_;
+    const RegionRequest& region_;
+    const RegionLook& look_;
+    ColourHarmony harmony_;
+    std::vector<float> votes_, use_;      // by material
+    std::vector<RoleWeights> materials_;  // by material
+    RoleWeights role_{};                  // sums to 1
+    std::vector<float> squared_;          // distance to the nearest patch, by sample
+    float typical_ = 1;                   // distance of a near neighbour
+    std::size_t like_ = 0;                // the sample of the wish, or the index's size
+};
+
+}  // namespace weft

@@ -1,0 +1,28 @@
+#pragma once
+// Internal: words and conditions over a library's samples (docs/TEXTURES.md).
+
+#include <functional>
+#include <string>
+
+#include "texture_db/catalogue/index.h"
+#include "texture_db/search/sample_sight.h"
+#include "texture_db/search/word_reader.h"
+
+namespace weft {
+
+/// The image–text model that a library names and what it made of the samples.
+struct LibrarySight {
+    ImageTextModel* model = nullptr;       ///< Null: none, or it cannot be used.
+    const SampleSight* samples = nullptr;  ///< Null: likewise.
+    std::string fault;                     ///< Why there is none though one is named.
+};
+/// Called only where words are asked for: opening a model takes time.
+using OpenSight = std::function<Expected<LibrarySight>()>;
+
+/// TextureLibrary::search(). The caller holds the library's lock.
+[[nodiscard]] Expected<SearchResult> search_index(Database& database, const SampleIndex& index,
+                                                  const WordReader& words,
+                                                  const OpenSight& open_sight,
+                                                  const SearchQuery& query);
+
+}  // namespace weft
