@@ -15,6 +15,7 @@ Expected<int> edit(const EditArguments& given) {
     EditorOptions options;
     options.project = given.project;
     options.demo = given.demo;
+    options.paused = given.paused;
     options.assets = given.assets;
     options.script = given.script;
     options.screenshot = given.screenshot;

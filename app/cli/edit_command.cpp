@@ -16,6 +16,7 @@ void add_edit_command(CLI::App& app, CommandResult& result, const EditCommand& e
     command->add_option("project", given->project, "Project file (.weft), frames or a movie")
         ->type_name("PATH");
     command->add_flag("--demo", given->demo, "Open the demo shot");
+    command->add_flag("--paused", given->paused, "Open with the analysis paused");
     command->add_flag("--light", given->light, "The light theme");
     command
         ->add_option("--ui-scale", given->ui_scale, "Size of the interface; default the screen's")

@@ -10,6 +10,7 @@ namespace weft {
 struct EditArguments {
     std::string project;     ///< A project or a plate; empty: the welcome screen.
     bool demo = false;       ///< Open the demo shot.
+    bool paused = false;     ///< Begin with the analysis paused.
     std::string library;     ///< Texture library; empty: the user's own.
     std::string assets;      ///< Folder of what Weft brings along.
     std::string script;      ///< Steps to carry out without a window.

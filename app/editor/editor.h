@@ -10,6 +10,7 @@ namespace weft {
 struct EditorOptions {
     std::string project;          ///< A project, a plate, or empty: the welcome screen.
     bool demo = false;            ///< Open the demo shot.
+    bool paused = false;          ///< Begin with the analysis paused.
     std::string program;          ///< The weft that renders jobs.
     std::string assets;           ///< Folder with demo/ and textures/.
     std::string texture_library;  ///< Empty: the user's own.

@@ -62,6 +62,7 @@ EditorApp::~EditorApp() = default;
 
 Status EditorApp::start() {
     WEFT_CHECK_OK(pictures_.make_shaders());
+    if (options_.paused) session_->act(PauseAnalysis{true});
     if (options_.demo) session_->act(OpenDemo{});
     if (!options_.project.empty()) session_->act(OpenAny{options_.project});
     return {};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "tests/architecture/include_rules.h"
 #include "tests/architecture/product_sources.h"
@@ -250,6 +251,14 @@ TEST_P(Checker, JudgesAsMeant) {
     EXPECT_THAT(broken[0], testing::HasSubstr(std::string(GetParam().says)));
 }
 
+// Its place in the list and the file that it is about.
+std::string name_of_case(const testing::TestParamInfo<Case>& info) {
+    std::string name = std::to_string(info.index) + "_";
+    for (const char c : info.param.path)
+        name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Floors, Checker,
     testing::Values(
@@ -301,7 +310,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"engine/compute/a.cpp", "#include <cuda_runtime.h>\n", "CUDA may not be used here"},
         Case{"gpu/a.cu", "#include <cuda_runtime.h>\n", ""},
         Case{"app/session/a.cpp", "#include <CLI/CLI.hpp>\n", "CLI11 may not be used here"},
-        Case{"ui/a.cpp", "#include <GLFW/glfw3.h>\n", "GLFW"}));
+        Case{"ui/a.cpp", "#include <GLFW/glfw3.h>\n", "GLFW"}),
+    name_of_case);
 
 TEST(CheckerReports, EveryViolationOfAFile) {
     EXPECT_EQ(
