@@ -117,8 +117,8 @@ class Measurer {
         PlanePlacement placed = region().placement;
         if (settings.placement.fit && !settings.texture.plane.empty())
             placed.picture_texels = plane.size();
-        WEFT_TRY(map, plane_from_plate(placed));
-        out.ideal = IdealInputs{std::move(plane), map, {}};
+        WEFT_TRY(mapping, texture_mapping(placed));
+        out.ideal = IdealInputs{std::move(plane), mapping, {}};
         return out;
     }
 

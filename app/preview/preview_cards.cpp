@@ -58,9 +58,9 @@ Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const Str
     const Shot& shot = *of.shot;
     const int factor = factor_of(shot, kCardPixels);
     const ProxyShot small(shot, *of.store, *proxies, factor);
-    const ProxyScenes placed(scenes.scenes(), factor);
-    WEFT_TRY(made, render_frame(small.source(), small.plan(), placed.scenes(), small.store(),
-                                *backend, wish.frame));
+    const std::vector<RegionScene> placed = proxy_scenes(scenes.scenes(), factor);
+    WEFT_TRY(made, render_frame(small.source(), small.plan(), placed, small.store(), *backend,
+                                wish.frame));
     ImageF3 pixels = std::move(made.pixels);
     for (std::size_t k = 0; wish.around != 0 && k < shot.region_index.size(); ++k) {
         if (shot.project.regions[shot.region_index[k]]->id != wish.around) continue;

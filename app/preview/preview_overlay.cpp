@@ -262,8 +262,8 @@ Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
     WEFT_TRY(coords, store.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(coords));
     out.ref_from_cur = std::move(ref_from_cur);
-    WEFT_TRY(plane_from, placement_on(plan, scene, frame));
-    out.plane_from_plate = plane_from;
+    WEFT_TRY(mapping, mapping_on(plan, scene, frame));
+    out.mapping = mapping;
     out.texture = std::filesystem::path(texture.path).filename().string();
     out.texture_id = id_of(texture);
     out.reference_frame = plan.reference_frames.front();
@@ -347,8 +347,8 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     }
     WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-    WEFT_TRY(plane_from, placement_on(plan, scene, frame));
-    const TextureCoords coords = texture_coords(ref_from_cur, plane_from, rect_of(size));
+    WEFT_TRY(mapping, mapping_on(plan, scene, frame));
+    const TextureCoords coords = texture_coords(ref_from_cur, mapping, rect_of(size));
     std::shared_ptr<const PlaneMap> plane;
     if (kind == Overlay::kSeams || kind == Overlay::kPieces) {
         WEFT_TRY(map, plane_map(shot, region, scene, cancel));

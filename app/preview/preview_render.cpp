@@ -272,10 +272,9 @@ Expected<PreviewFrame> Preview::Impl::pictures_of(int frame, bool stages, int fa
         return whole;
     }
     const ProxyShot small(shot, *current->store, *proxies, factor);
-    const ProxyScenes placed(scenes.scenes(), factor);
-    WEFT_TRY(made,
-             render_stages({small.source(), small.plan(), placed.scenes(), small.store(), *backend},
-                           frame, stages, layer, picture, seam));
+    const std::vector<RegionScene> placed = proxy_scenes(scenes.scenes(), factor);
+    WEFT_TRY(made, render_stages({small.source(), small.plan(), placed, small.store(), *backend},
+                                 frame, stages, layer, picture, seam));
     note_seam();
     made.proxy = factor;
     return made;

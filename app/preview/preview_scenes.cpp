@@ -91,8 +91,8 @@ bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
             usable = false;
             continue;
         }
-        if (auto placed = plane_from_plate(shot.plan.regions[k].placement))
-            scenes_[k].plane_from_plate = *placed;
+        if (auto mapping = texture_mapping(shot.plan.regions[k].placement))
+            scenes_[k].mapping = *mapping;
     }
     return usable;
 }

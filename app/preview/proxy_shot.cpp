@@ -259,23 +259,15 @@ ProxyShot::ProxyShot(const Shot& shot, const AnalysisStore& store, ProxyPlates& 
 
 ProxyShot::~ProxyShot() = default;
 
-ProxyScenes::ProxyScenes(std::vector<RegionScene>& scenes, int factor) : scenes_(scenes) {
-    Mat3 enlarge(1);
-    enlarge[0][0] = enlarge[1][1] = static_cast<float>(factor);
-    for (RegionScene& scene : scenes_) {
-        before_.push_back({scene.plane_from_plate, scene.picture_light, std::move(scene.seams)});
-        scene.plane_from_plate = scene.plane_from_plate * enlarge;
-        if (scene.picture_light) scene.picture_light = shrunk(*scene.picture_light, factor);
-        scene.seams.clear();
+std::vector<RegionScene> proxy_scenes(const std::vector<RegionScene>& scenes, int factor) {
+    std::vector<RegionScene> out;
+    for (const RegionScene& scene : scenes) {
+        RegionScene& small = out.emplace_back(scene);
+        small.mapping = scene.mapping.on_smaller_frame(static_cast<float>(factor));
+        if (small.picture_light) small.picture_light = shrunk(*small.picture_light, factor);
+        small.seams.clear();
     }
-}
-
-ProxyScenes::~ProxyScenes() {
-    for (std::size_t k = 0; k < scenes_.size(); ++k) {
-        scenes_[k].plane_from_plate = before_[k].plane_from_plate;
-        scenes_[k].picture_light = std::move(before_[k].picture_light);
-        scenes_[k].seams = std::move(before_[k].seams);
-    }
+    return out;
 }
 
 }  // namespace weft

@@ -57,24 +57,9 @@ class ProxyShot {
     std::unique_ptr<AnalysisStore> store_;
 };
 
-/// Scenes as a proxy needs them, with the planes of those of full size, which are lent to it while
-/// it lives: nobody else may look at them meanwhile.
-class ProxyScenes {
-  public:
-    ProxyScenes(std::vector<RegionScene>& scenes, int factor);
-    ~ProxyScenes();
-    ProxyScenes(const ProxyScenes&) = delete;
-    ProxyScenes& operator=(const ProxyScenes&) = delete;
-    [[nodiscard]] const std::vector<RegionScene>& scenes() const { return scenes_; }
-
-  private:
-    struct Before {
-        Mat3 plane_from_plate;
-        std::optional<Shading> picture_light;
-        std::vector<HistorySeam> seams;
-    };
-    std::vector<RegionScene>& scenes_;
-    std::vector<Before> before_;
-};
+/// The scenes as a proxy needs them. Their planes are those of `scenes`, shared; seams between
+/// histories, which are of full size, are left out.
+[[nodiscard]] std::vector<RegionScene> proxy_scenes(const std::vector<RegionScene>& scenes,
+                                                    int factor);
 
 }  // namespace weft

@@ -105,7 +105,7 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
                              [](const auto& a, const auto& b) { return a.second < b.second; });
         plan.placement.scale = static_cast<float>(smallest->second[0]);
     }
-    WEFT_CHECK_OK(plane_from_plate(plan.placement));
+    WEFT_CHECK_OK(texture_mapping(plan.placement));
     plan.has_uv = !placement.uv.empty();
     if (plan.has_uv && mode != TemporalMode::kLocked) {
         return fail(ErrorCode::kUsage,

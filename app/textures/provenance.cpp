@@ -43,7 +43,7 @@ Vec2 Provenance::on_reference(Vec2 p) const {
 }
 
 Vec2 Provenance::texel_at(Vec2 p) const {
-    return project(plane_from_plate, on_reference(p));
+    return mapping.texel(on_reference(p));
 }
 
 Provenance::Answer Provenance::at(Vec2 p) const {

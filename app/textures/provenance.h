@@ -9,6 +9,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
+#include "engine/core/texture_mapping.h"
 #include "engine/lighting/shading.h"
 #include "engine/motion/lattice_field.h"
 #include "engine/temporal/history_seam.h"
@@ -41,7 +42,7 @@ struct TwoHistories {
 /// Of one region on one frame. Immutable; asking it takes microseconds.
 struct Provenance {
     LatticeField ref_from_cur;
-    Mat3 plane_from_plate{1};
+    TextureMapping mapping;
     std::shared_ptr<const PlaneMap> plane;  ///< Null: the texture is used as it is.
     std::string texture, texture_id;        ///< Name of the file; as PlaneMap::ids.
     int reference_frame = 0;                ///< In whose pixels `on_reference` is.

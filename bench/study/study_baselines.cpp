@@ -117,15 +117,8 @@ class BaselineRenderer {
     [[nodiscard]] Recti texel_box(const Recti& plate, const FramePlane& area) const {
         if (plate.empty()) return {};
         constexpr int kRim = 4;
-        Vec2 low(1e9f), high(-1e9f);
-        for (int k = 0; k < 4; ++k) {
-            const Vec2 corner((k & 1) != 0 ? plate.x1 : plate.x0,
-                              (k >> 1) != 0 ? plate.y1 : plate.y0);
-            const Vec3 p = scenes_.front().plane_from_plate * Vec3(corner, 1.0f);
-            const Vec2 u = Vec2(p.x, p.y) / p.z - Vec2(area.origin);
-            low = {std::min(low.x, u.x), std::min(low.y, u.y)};
-            high = {std::max(high.x, u.x), std::max(high.y, u.y)};
-        }
+        const auto [first, last] = scenes_.front().mapping.bounds_of(plate);
+        const Vec2 low = first - Vec2(area.origin), high = last - Vec2(area.origin);
         return {std::max(0, static_cast<int>(low.x) - kRim),
                 std::max(0, static_cast<int>(low.y) - kRim),
                 std::min(area.size.width, static_cast<int>(high.x) + kRim + 1),
@@ -146,7 +139,7 @@ class BaselineRenderer {
                 at.d.at(x, y, 1) = static_cast<float>(middle(reference_box_).y - middle(box).y);
             }
         }
-        const ImageF3 texture = tile_->render(at, scenes_.front().plane_from_plate);
+        const ImageF3 texture = tile_->render(at, scenes_.front().mapping);
         WEFT_TRY(same, make_color_transform({"srgb"}, {"srgb"}));
         const ImageU8x3 codes =
             poisson_clone(make_views(*plate, *shot_->plan.display_from_plate).display,

@@ -84,10 +84,11 @@ PlanePyramid::PlanePyramid(ViewF3 linear, WrapMode wrap) : size_(linear.size()),
                 plane.pixel(x, y)[c] = usable(linear.pixel(x, y)[c]);
         }
     }
-    levels_.push_back(std::move(plane));
-    while (levels_.back().width() > 1 || levels_.back().height() > 1) {
-        levels_.push_back(halve(levels_.back()));
-    }
+    std::vector<Level> levels;
+    levels.push_back(std::move(plane));
+    while (levels.back().width() > 1 || levels.back().height() > 1)
+        levels.push_back(halve(levels.back()));
+    levels_ = std::make_shared<const std::vector<Level>>(std::move(levels));
 }
 
 }  // namespace weft

@@ -2,6 +2,8 @@
 // A texture plane prepared for filtered sampling.
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/compute/wrap_mode.h"
@@ -11,6 +13,7 @@ namespace weft {
 
 /// Levels of a texture plane: level 0 is the plane itself, each further one half the size. Texels
 /// are four floats in the working space (the fourth is padding, so that one load fetches a texel).
+/// Immutable; copies share the texels.
 class PlanePyramid {
   public:
     using Level = Image<float, 4>;
@@ -22,8 +25,10 @@ class PlanePyramid {
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] WrapMode wrap() const { return wrap_; }
-    [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
-    [[nodiscard]] bool empty() const { return levels_.empty(); }
+    [[nodiscard]] std::span<const Level> levels() const {
+        return levels_ ? std::span<const Level>(*levels_) : std::span<const Level>();
+    }
+    [[nodiscard]] bool empty() const { return !levels_; }
     /// Names the texels: pyramids with one identity hold the same ones, and within a process no
     /// other texels ever get it. 0 is the empty pyramid.
     [[nodiscard]] std::uint64_t identity() const { return empty() ? 0 : identity_; }
@@ -31,7 +36,7 @@ class PlanePyramid {
   private:
     Size size_;
     WrapMode wrap_ = WrapMode::kRepeat;
-    std::vector<Level> levels_;
+    std::shared_ptr<const std::vector<Level>> levels_;  // null: empty
     std::uint64_t identity_ = 0;
 };
 

@@ -41,17 +41,12 @@ Vec2 slope(const FlowField& f, int x, int y, int dx, int dy) {
     return {0, 0};
 }
 
-Footprint footprint(const FlowField& f, const Mat3& h, int x, int y) {
+Footprint footprint(const FlowField& f, const TextureMapping& mapping, int x, int y) {
     const Vec2 q = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) +
                    Vec2(f.d.at(x, y, 0), f.d.at(x, y, 1));
-    const Vec3 p = h * Vec3(q, 1.0f);
-    const Vec2 u = Vec2(p.x, p.y) / p.z;
-    // d(p.xy / p.z) = (dp.xy − u dp.z) / p.z for a step e on the reference frame.
-    const auto carry = [&](Vec2 e) {
-        const Vec3 dp = h * Vec3(e, 0.0f);
-        return (Vec2(dp.x, dp.y) - u * dp.z) / p.z;
-    };
-    return {u, carry(Vec2(1, 0) + slope(f, x, y, 1, 0)), carry(Vec2(0, 1) + slope(f, x, y, 0, 1))};
+    const TextureMapping::Linear at = mapping.linear_at(q);
+    return {at.texel, at.step(Vec2(1, 0) + slope(f, x, y, 1, 0)),
+            at.step(Vec2(0, 1) + slope(f, x, y, 0, 1))};
 }
 
 int samples_along(Vec2 step, int least) {
@@ -91,13 +86,13 @@ void add_lookup(ImageView<const float, C> padded, Size plane, Vec2 uv, float* su
 
 template <int C, Kernel K>
 Image<float, C> render_with(ImageView<const float, C> padded, Size plane, const FlowField& field,
-                            const Mat3& plane_from_plate, int least_samples) {
+                            const TextureMapping& mapping, int least_samples) {
     Image<float, C> out(field.size());
     parallel_rows(out.height(), 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < out.width(); ++x) {
                 if (field.valid.at(x, y) == 0) continue;
-                const Footprint f = footprint(field, plane_from_plate, x, y);
+                const Footprint f = footprint(field, mapping, x, y);
                 if (!std::isfinite(f.centre.x) || !std::isfinite(f.centre.y)) continue;
                 const int nx = samples_along(f.right, least_samples);
                 const int ny = samples_along(f.down, least_samples);
@@ -122,7 +117,7 @@ Image<float, C> render_with(ImageView<const float, C> padded, Size plane, const 
 
 template <int C>
 Image<float, C> render_kernel(Kernel kernel, ImageView<const float, C> padded, Size plane,
-                              const FlowField& field, const Mat3& m, int samples) {
+                              const FlowField& field, const TextureMapping& m, int samples) {
     switch (kernel) {
         case Kernel::kBilinear:
             return render_with<C, Kernel::kBilinear>(padded, plane, field, m, samples);
@@ -156,8 +151,8 @@ IdealTexture::IdealTexture(ViewU8x3 plane, IdealFilter filter)
     if (!filter.linear_light) luma_ = luma_8bit(rgb_);
 }
 
-ImageF3 IdealTexture::render(const FlowField& ref_from_cur, const Mat3& plane_from_plate) const {
-    ImageF3 out = render_kernel<3>(filter_.kernel, rgb_, size_, ref_from_cur, plane_from_plate,
+ImageF3 IdealTexture::render(const FlowField& ref_from_cur, const TextureMapping& mapping) const {
+    ImageF3 out = render_kernel<3>(filter_.kernel, rgb_, size_, ref_from_cur, mapping,
                                    filter_.samples_per_axis);
     if (!filter_.linear_light) return out;
     parallel_rows(out.height(), 32, [&](int y0, int y1) {
@@ -170,9 +165,9 @@ ImageF3 IdealTexture::render(const FlowField& ref_from_cur, const Mat3& plane_fr
 }
 
 ImageF1 IdealTexture::render_luma(const FlowField& ref_from_cur,
-                                  const Mat3& plane_from_plate) const {
-    if (filter_.linear_light) return luma_8bit(render(ref_from_cur, plane_from_plate));
-    return render_kernel<1>(filter_.kernel, luma_, size_, ref_from_cur, plane_from_plate,
+                                  const TextureMapping& mapping) const {
+    if (filter_.linear_light) return luma_8bit(render(ref_from_cur, mapping));
+    return render_kernel<1>(filter_.kernel, luma_, size_, ref_from_cur, mapping,
                             filter_.samples_per_axis);
 }
 

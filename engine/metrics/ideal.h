@@ -4,6 +4,7 @@
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
+#include "engine/core/texture_mapping.h"
 #include "engine/metrics/kernels.h"
 
 namespace weft {
@@ -27,14 +28,15 @@ class IdealTexture {
     explicit IdealTexture(ViewU8x3 plane, IdealFilter filter = {});
 
     /// Renders the plane at the size of `ref_from_cur`. That field says where each pixel of this
-    /// frame lies on the reference frame; `plane_from_plate` takes reference-frame pixels to
-    /// texels. Encoded RGB, 1.0 = white, not clipped, 0 where the field is not valid.
-    [[nodiscard]] ImageF3 render(const FlowField& ref_from_cur, const Mat3& plane_from_plate) const;
+    /// frame lies on the reference frame; `mapping` takes those places to texels. Encoded RGB, 1.0
+    /// = white, not clipped, 0 where the field is not valid.
+    [[nodiscard]] ImageF3 render(const FlowField& ref_from_cur,
+                                 const TextureMapping& mapping) const;
 
     /// The luma of render() in 8-bit units (see luma_8bit()), at a third of the cost when the
     /// average is taken on encoded values. 0 where the field is not valid.
     [[nodiscard]] ImageF1 render_luma(const FlowField& ref_from_cur,
-                                      const Mat3& plane_from_plate) const;
+                                      const TextureMapping& mapping) const;
 
   private:
     IdealFilter filter_;

@@ -149,13 +149,13 @@ void SequenceMeasure::State::render_ideal(const MeasureFrame& f, Kept& now) cons
     FlowField ref = f.ref_from_cur != nullptr ? *f.ref_from_cur : chain->ref_from_cur();
     now.ideal_region = both_inside(eroded_inside(f.matte, 0), ref.valid);
     ref.valid = now.ideal_region;
-    const Mat3& placement = options.ideal->plane_from_plate;
+    const TextureMapping& mapping = options.ideal->mapping;
     if (options.quantise_ideal) {
-        ImageF3 rgb = texture->render(ref, placement);
+        ImageF3 rgb = texture->render(ref, mapping);
         round_to_8bit(rgb);
         now.ideal = luma_8bit(rgb);
     } else {
-        now.ideal = texture->render_luma(ref, placement);
+        now.ideal = texture->render_luma(ref, mapping);
     }
 }
 

@@ -21,8 +21,8 @@ namespace weft {
 
 /// The texture of the region, to compare with: gives the floor and the sharpness kept.
 struct IdealInputs {
-    ImageU8x3 plane;                  ///< Encoded RGB; repeats.
-    Mat3 plane_from_plate = Mat3(1);  ///< Placement: texels from pixels of the reference frame.
+    ImageU8x3 plane;  ///< Encoded RGB; repeats.
+    TextureMapping mapping;
     IdealFilter filter;
 };
 
@@ -49,7 +49,7 @@ struct MeasureFrame {
     MotionDirection direction = MotionDirection::kForward;
     /// Where this frame's pixels lie on the reference frame of the ideal; null: chained from the
     /// motion, with the first frame as the reference. Rendered texture coordinates uv go in as
-    /// uv − pixel, with plane_from_plate the identity.
+    /// uv − pixel, with the identity as the mapping.
     const FlowField* ref_from_cur = nullptr;
     /// Another measure of the same clip that has added this frame just before: its estimated motion
     /// and its ideal are taken over instead of being worked out again. Null: none.

@@ -166,7 +166,7 @@ class SeamMaker {
 
     // The texture as a history shows it, at every sample, in display codes.
     ImageF3 shown(const LatticeField& ref_from_cur, const Layers& frame,
-                  const Mat3& plane_from_plate) const {
+                  const TextureMapping& mapping) const {
         const Size size = samples_of(frame);
         ImageF2 coords(size);
         Matte inside(size);
@@ -174,7 +174,7 @@ class SeamMaker {
             for (int j = j0; j < j1; ++j) {
                 for (int i = 0; i < size.width; ++i) {
                     const Vec2 p = sample_at(i, j);
-                    const Vec2 u = project(plane_from_plate, p + ref_from_cur.at(p));
+                    const Vec2 u = mapping.texel(p + ref_from_cur.at(p));
                     coords.pixel(i, j)[0] = u.x;
                     coords.pixel(i, j)[1] = u.y;
                     inside.at(i, j) = seen(frame, i, j) ? 255 : 0;
@@ -196,9 +196,9 @@ class SeamMaker {
                                           Size cells) const {
         HistoryEvidence out{ImageF1(cells), ImageF1(cells)};
         if (frame.visible.empty()) return out;
-        WEFT_TRY(plane_from, plane_from_plate(region_.placement_at(number)));
-        const ImageF3 a = shown(frame.before, frame, plane_from);
-        const ImageF3 b = shown(frame.after, frame, plane_from);
+        WEFT_TRY(mapping, texture_mapping(region_.placement_at(number)));
+        const ImageF3 a = shown(frame.before, frame, mapping);
+        const ImageF3 b = shown(frame.after, frame, mapping);
         for (int j = 0; j < a.height(); ++j) {
             for (int i = 0; i < a.width(); ++i) {
                 if (!seen(frame, i, j)) continue;

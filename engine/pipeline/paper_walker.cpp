@@ -34,13 +34,8 @@ bool lookup(const ImageU8x3& image, Vec2 u, Vec3& out) {
 }  // namespace
 
 Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
-    WEFT_TRY(plane, plane_from_plate(placement));
-    Vec2 low(1e9f), high(-1e9f);
-    for (int k = 0; k < 4; ++k) {
-        const Vec2 u = project(plane, {(k & 1) ? plate.width : 0, (k >> 1) ? plate.height : 0});
-        low = {std::min(low.x, u.x), std::min(low.y, u.y)};
-        high = {std::max(high.x, u.x), std::max(high.y, u.y)};
-    }
+    WEFT_TRY(mapping, texture_mapping(placement));
+    const auto [low, high] = mapping.bounds_of(rect_of(plate));
     const Vec2 extent = high - low;
     if (!(extent.x < kLargestPlane && extent.y < kLargestPlane)) {
         return fail(
@@ -61,7 +56,7 @@ PaperWalker::PaperWalker(const RegionPlan& region, std::uint64_t seed, Size plat
       seed_(seed),
       backend_(backend),
       plane_(frame_plane(region.placement, plate)) {
-    if (plane_) plane_from_plate_ = *plane_from_plate(region.placement);
+    if (plane_) mapping_ = *texture_mapping(region.placement);
 }
 
 Expected<ImageU8x3> PaperWalker::start(int frame, const CancelToken& cancel) {
@@ -103,14 +98,14 @@ Expected<ImageU8x3> PaperWalker::synthesise(int frame, const Warped* previous,
 
 PaperWalker::Warped PaperWalker::warp(const LatticeField& prev_from_cur) const {
     Warped out{ImageU8x3(plane_->size), Matte(plane_->size)};
-    const Mat3 plate_from_plane = glm::inverse(plane_from_plate_);
+    const TextureMapping::Inverse inverse = mapping_.inverse();
     const Vec2 origin(plane_->origin);
     parallel_rows(plane_->size.height, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < plane_->size.width; ++x) {
                 const Vec2 texel = origin + Vec2(x, y) + 0.5f;
-                const Vec2 here = project(plate_from_plane, texel);
-                const Vec2 before = project(plane_from_plate_, here + prev_from_cur.at(here));
+                const Vec2 here = inverse.pixel(texel);
+                const Vec2 before = mapping_.texel(here + prev_from_cur.at(here));
                 Vec3 colour;
                 if (!lookup(last_, before - origin, colour)) continue;
                 out.known.at(x, y) = 255;

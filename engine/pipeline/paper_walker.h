@@ -43,7 +43,7 @@ class PaperWalker {
     std::uint64_t seed_;
     const Backend* backend_;
     Expected<FramePlane> plane_;
-    Mat3 plane_from_plate_{1};
+    TextureMapping mapping_;
     ImageU8x3 last_;
 };
 

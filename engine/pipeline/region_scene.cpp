@@ -86,9 +86,9 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
     return out;
 }
 
-Expected<Mat3> placement_on(const RegionPlan& region, const RegionScene& scene, int frame) {
-    if (!region.placement_moves()) return scene.plane_from_plate;
-    return plane_from_plate(region.placement_at(frame));
+Expected<TextureMapping> mapping_on(const RegionPlan& region, const RegionScene& scene, int frame) {
+    if (!region.placement_moves()) return scene.mapping;
+    return texture_mapping(region.placement_at(frame));
 }
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
@@ -137,8 +137,8 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
                                  const Backend* backend, std::optional<RegionPlane> made) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
-    WEFT_TRY(plane_from, plane_from_plate(region.placement));
-    scene.plane_from_plate = plane_from;
+    WEFT_TRY(mapping, texture_mapping(region.placement));
+    scene.mapping = mapping;
     if (has_plane(region)) {
         if (!made) {
             WEFT_TRY(plane, make_plane(plan, region, source.size(), cancel, progress, backend));

@@ -19,8 +19,8 @@
 namespace weft {
 
 struct RegionScene {
-    PlanePyramid plane;  ///< Empty in the modes that make one for every frame.
-    Mat3 plane_from_plate{1};
+    PlanePyramid plane;           ///< Empty in the modes that make one for every frame.
+    TextureMapping mapping;       ///< Of the still placement; with keys see mapping_on().
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
@@ -34,10 +34,10 @@ struct RegionScene {
     std::shared_ptr<const TexturePlane> grown;
 };
 
-/// Where the placement of a frame puts the plate's pixels of the reference frame on the plane: the
-/// scene's own, or that of the keys. Errors: Usage, as plane_from_plate().
-[[nodiscard]] Expected<Mat3> placement_on(const RegionPlan& region, const RegionScene& scene,
-                                          int frame);
+/// The texture mapping of a frame: the scene's own, or that of the placement's keys. Errors: Usage,
+/// as texture_mapping().
+[[nodiscard]] Expected<TextureMapping> mapping_on(const RegionPlan& region,
+                                                  const RegionScene& scene, int frame);
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
 /// placement's scale, between 512 and 4096 texels a side. It joins at its borders and repeats. It

@@ -30,7 +30,7 @@ int shutter_samples(const LatticeField& motion, const Recti& box, const Matte& m
 
 // The texture coordinates `time` frames later: what is at x then was at x − time · v.
 ImageF2 coords_at_time(const LatticeField& ref_from_cur, const ImageF2& velocity,
-                       const Mat3& plane_from_plate, const Recti& box, float time) {
+                       const TextureMapping& mapping, const Recti& box, float time) {
     ImageF2 out(box.size());
     parallel_rows(box.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -38,7 +38,7 @@ ImageF2 coords_at_time(const LatticeField& ref_from_cur, const ImageF2& velocity
                 const float* v = velocity.pixel(x, y);
                 const Vec2 p(static_cast<float>(box.x0 + x) + 0.5f - time * v[0],
                              static_cast<float>(box.y0 + y) + 0.5f - time * v[1]);
-                const Vec2 u = project(plane_from_plate, p + ref_from_cur.at(p));
+                const Vec2 u = mapping.texel(p + ref_from_cur.at(p));
                 out.pixel(x, y)[0] = u.x;
                 out.pixel(x, y)[1] = u.y;
             }
@@ -54,8 +54,8 @@ Expected<LatticeField> RegionSurface::stored(AnalysisKind kind) const {
     return decode_lattice(bytes);
 }
 
-Expected<Mat3> RegionSurface::placement() const {
-    return placement_on(region_, scene_, frame_);
+Expected<TextureMapping> RegionSurface::mapping() const {
+    return mapping_on(region_, scene_, frame_);
 }
 
 // Towards the reference, so that a frame does not depend on what else is rendered.
@@ -84,11 +84,11 @@ Expected<TextureCoords> RegionSurface::coords(const Recti& box) const {
     if (exact_) return *exact_;
     if (region_.temporal != TemporalMode::kLocked) {
         constexpr int kCoarse = 64;
-        return texture_coords(LatticeField(plate_, kCoarse), scene_.plane_from_plate, box);
+        return texture_coords(LatticeField(plate_, kCoarse), scene_.mapping, box);
     }
-    WEFT_TRY(plane_from, placement());
+    WEFT_TRY(mapping, this->mapping());
     WEFT_TRY(ref_from_cur, stored(AnalysisKind::kCoords));
-    return texture_coords(ref_from_cur, plane_from, box);
+    return texture_coords(ref_from_cur, mapping, box);
 }
 
 Expected<SurfaceLookup> RegionSurface::lookup(const Recti& box) const {
@@ -129,7 +129,7 @@ Expected<SurfaceLookup> RegionSurface::lookup(const Recti& box) const {
 
 Expected<ImageF3> RegionSurface::layer(const LatticeField& ref_from_cur, const Recti& box,
                                        const Matte& matte) const {
-    WEFT_TRY(plane_from, placement());
+    WEFT_TRY(mapping, this->mapping());
     WEFT_TRY(motion, velocity());
     SampleRequest request;
     request.plane = &scene_.plane;
@@ -139,7 +139,7 @@ Expected<ImageF3> RegionSurface::layer(const LatticeField& ref_from_cur, const R
     const float open = scene_.shutter_deg / 360.0f;
     const int times = motion.empty() ? 1 : shutter_samples(motion, box, matte, open);
     if (times == 1) {
-        const TextureCoords at = texture_coords(ref_from_cur, plane_from, box);
+        const TextureCoords at = texture_coords(ref_from_cur, mapping, box);
         request.coords = at.uv;
         backend_.sample_plane(request, out);
         return out;
@@ -151,7 +151,7 @@ Expected<ImageF3> RegionSurface::layer(const LatticeField& ref_from_cur, const R
     for (int k = 0; k < times; ++k) {
         const float time =
             open * ((static_cast<float>(k) + 0.5f) / static_cast<float>(times) - 0.5f);
-        const ImageF2 at = coords_at_time(ref_from_cur, path, plane_from, box, time);
+        const ImageF2 at = coords_at_time(ref_from_cur, path, mapping, box, time);
         request.coords = at;
         backend_.sample_plane(request, instant);
         const float share = 1.0f / static_cast<float>(times);

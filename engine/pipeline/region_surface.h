@@ -55,7 +55,7 @@ class RegionSurface {
 
   private:
     [[nodiscard]] Expected<LatticeField> stored(AnalysisKind kind) const;
-    [[nodiscard]] Expected<Mat3> placement() const;
+    [[nodiscard]] Expected<TextureMapping> mapping() const;
     // How the surface moves while the shutter is open, px a frame; empty where there is no blur.
     [[nodiscard]] Expected<LatticeField> velocity() const;
     [[nodiscard]] Expected<TextureCoords> coords(const Recti& box) const;

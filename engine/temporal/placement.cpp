@@ -18,7 +18,7 @@ Mat3 affine(float a, float b, float c, float d, Vec2 t) {
 
 }  // namespace
 
-Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
+Expected<TextureMapping> texture_mapping(const PlanePlacement& p) {
     if (!(p.scale > 0) || !std::isfinite(p.scale)) {
         return fail(ErrorCode::kUsage, "The scale must be above 0.");
     }
@@ -27,8 +27,8 @@ Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
     const long double angle = glm::radians(p.rotate_deg);
     const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
     if (!p.corners) {
-        return glm::inverse(
-            affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px));
+        return TextureMapping(
+            glm::inverse(affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px)));
     }
     if (!is_convex<float>(*p.corners)) {
         return fail(ErrorCode::kUsage,
@@ -48,10 +48,10 @@ Expected<Mat3> plane_from_plate(const PlanePlacement& p) {
         affine(square_texels.x / p.scale, 0, 0, square_texels.y / p.scale, {0, 0});
     // Rotation and offset act inside the plane, so that the perspective stays the artist's.
     const Mat3 turned = glm::inverse(affine(c, -s, s, c, p.offset_px / p.scale));
-    return turned * texels_from_square * glm::inverse(plate_from_square);
+    return TextureMapping(turned * texels_from_square * glm::inverse(plate_from_square));
 }
 
-TextureCoords texture_coords(const LatticeField& ref_from_cur, const Mat3& plane_from_plate,
+TextureCoords texture_coords(const LatticeField& ref_from_cur, const TextureMapping& mapping,
                              const Recti& area) {
     TextureCoords coords{ref_from_cur.dense(area), {area.x0, area.y0}};
     parallel_rows(area.height(), 32, [&](int y0, int y1) {
@@ -60,7 +60,7 @@ TextureCoords texture_coords(const LatticeField& ref_from_cur, const Mat3& plane
             const float py = static_cast<float>(area.y0 + y) + 0.5f;
             for (int x = 0; x < area.width(); ++x, d += 2) {
                 const float px = static_cast<float>(area.x0 + x) + 0.5f;
-                const Vec2 u = project(plane_from_plate, {px + d[0], py + d[1]});
+                const Vec2 u = mapping.texel({px + d[0], py + d[1]});
                 d[0] = u.x;
                 d[1] = u.y;
             }

@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
+#include "engine/core/texture_mapping.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {
@@ -26,13 +27,13 @@ struct PlanePlacement {
     bool operator==(const PlanePlacement&) const = default;
 };
 
-/// The map from plate pixels of the reference frame to texels. Errors: Usage when the scale is not
-/// positive or the corners are not a convex quadrilateral.
-[[nodiscard]] Expected<Mat3> plane_from_plate(const PlanePlacement& placement);
+/// From pixels of the reference frame to texels. Errors: Usage when the scale is not positive or
+/// the corners are not a convex quadrilateral.
+[[nodiscard]] Expected<TextureMapping> texture_mapping(const PlanePlacement& placement);
 
 /// The texture coordinates of every pixel centre of `area` of a frame: where it was on the
-/// reference frame (`ref_from_cur`), then through the placement.
+/// reference frame (`ref_from_cur`), then through the mapping.
 [[nodiscard]] TextureCoords texture_coords(const LatticeField& ref_from_cur,
-                                           const Mat3& plane_from_plate, const Recti& area);
+                                           const TextureMapping& mapping, const Recti& area);
 
 }  // namespace weft

@@ -14,7 +14,7 @@ constexpr Size kSize{200, 160};
 ImageF1 texture_at(float dx, float dy, std::uint64_t seed = 5) {
     // What the plane shows when it has slid by (dx, dy).
     return IdealTexture(synthetic::blobs(128, seed))
-        .render_luma(synthetic::constant_motion(kSize, -dx, -dy), Mat3(1));
+        .render_luma(synthetic::constant_motion(kSize, -dx, -dy), {});
 }
 
 TEST(Drift, FindsAKnownSlide) {

@@ -12,7 +12,7 @@ constexpr Size kSize{200, 160};
 
 ImageF3 texture_at(float dx) {
     const ImageF1 luma = IdealTexture(synthetic::blobs(128, 5))
-                             .render_luma(synthetic::constant_motion(kSize, -dx, 0), Mat3(1));
+                             .render_luma(synthetic::constant_motion(kSize, -dx, 0), {});
     ImageF3 out(kSize);
     for (int y = 0; y < kSize.height; ++y) {
         for (int x = 0; x < kSize.width; ++x) {

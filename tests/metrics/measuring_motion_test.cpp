@@ -16,7 +16,7 @@ constexpr Size kSize{200, 160};
 
 ImageF1 texture_at(float dx, float dy) {
     return IdealTexture(synthetic::blobs(128, 11))
-        .render_luma(synthetic::constant_motion(kSize, -dx, -dy), Mat3(1));
+        .render_luma(synthetic::constant_motion(kSize, -dx, -dy), {});
 }
 
 class MeasuringMotion : public testing::TestWithParam<MeasuringEstimator> {

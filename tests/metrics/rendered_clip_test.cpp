@@ -91,9 +91,9 @@ TEST(RenderedClip, TellsIdealStillFreshAndRewarpedTransportApart) {
         here.valid = ref.valid;
         Mat3 elsewhere(1);
         elsewhere[2][0] = static_cast<float>(97 * t);
-        const ImageF1 next = texture.render_luma(ref, Mat3(1));
-        const ImageF1 next_still = texture.render_luma(here, Mat3(1));
-        const ImageF1 next_fresh = texture.render_luma(ref, elsewhere);
+        const ImageF1 next = texture.render_luma(ref, {});
+        const ImageF1 next_still = texture.render_luma(here, {});
+        const ImageF1 next_fresh = texture.render_luma(ref, TextureMapping(elsewhere));
         if (t > 0) {
             const Matte visible = visible_in_both(motion, region, ref.valid);
             const TemporalError e = measure_tde(ideal, next, motion, visible);

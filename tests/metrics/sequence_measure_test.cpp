@@ -31,7 +31,7 @@ struct Clip {
                                           -kStepY * static_cast<float>(t));
     }
     [[nodiscard]] ImageF3 source(int t) const {
-        return cut(surface.render(ref_from_cur(t), Mat3(1)), t);
+        return cut(surface.render(ref_from_cur(t), {}), t);
     }
     static ImageF3 cut(ImageF3 picture, int t) {
         const Matte m = matte(t);
@@ -74,7 +74,7 @@ SequenceMeasures measure(const std::function<ImageF3(const Clip&, int)>& result,
 }
 
 ImageF3 locked(const Clip& c, int t) {
-    return IdealTexture(c.plane).render(Clip::ref_from_cur(t), Mat3(1));
+    return IdealTexture(c.plane).render(Clip::ref_from_cur(t), {});
 }
 
 TEST(SequenceMeasure, AnIdealResultIsAtTheFloor) {
@@ -106,8 +106,7 @@ TEST(SequenceMeasure, ATwinGivesTheSameFigures) {
     SequenceMeasure second(options);
     for (int t = 0; t < 3; ++t) {
         const ImageF3 good = Clip::cut(locked(clip, t), t);
-        const ImageF3 still =
-            Clip::cut(IdealTexture(clip.plane).render(FlowField(kSize), Mat3(1)), t);
+        const ImageF3 still = Clip::cut(IdealTexture(clip.plane).render(FlowField(kSize), {}), t);
         const ImageF3 source = clip.source(t);
         const Matte matte = Clip::matte(t);
         MeasureFrame f{t, good, source, matte};
@@ -129,25 +128,25 @@ TEST(SequenceMeasure, ATwinGivesTheSameFigures) {
 TEST(SequenceMeasure, EachFaultShowsInItsOwnFigure) {
     const SequenceMeasures ideal = measure(locked);
     const SequenceMeasures still = measure(
-        [](const Clip& c, int) { return IdealTexture(c.plane).render(FlowField(kSize), Mat3(1)); });
+        [](const Clip& c, int) { return IdealTexture(c.plane).render(FlowField(kSize), {}); });
     EXPECT_GT(*still.tde_over_floor, 6);
     EXPECT_NEAR(still.sharpness_kept.mean, 1.0, 0.2);
     const SequenceMeasures fresh = measure([](const Clip& c, int t) {
         Mat3 place(1);
         place[2][0] = static_cast<float>(31 * t * t % 96);
         place[2][1] = static_cast<float>(17 * t * t * t % 96);
-        return IdealTexture(c.plane).render(Clip::ref_from_cur(t), place);
+        return IdealTexture(c.plane).render(Clip::ref_from_cur(t), TextureMapping(place));
     });
     EXPECT_GT(fresh.tde.mean, still.tde.mean);
     const SequenceMeasures soft = measure([](const Clip& c, int t) {
         return IdealTexture(c.plane, {Kernel::kBilinear, 8, false})
-            .render(Clip::ref_from_cur(t), Mat3(1));
+            .render(Clip::ref_from_cur(t), {});
     });
     EXPECT_LT(soft.sharpness_kept.largest, 0.95);
     const SequenceMeasures slides = measure([](const Clip& c, int t) {
         Mat3 place(1);
         place[2][0] = -0.5f * static_cast<float>(t);  // 1.5 px by the last frame.
-        return IdealTexture(c.plane).render(Clip::ref_from_cur(t), place);
+        return IdealTexture(c.plane).render(Clip::ref_from_cur(t), TextureMapping(place));
     });
     EXPECT_NEAR(slides.drift->mean_px, 1.5, 0.05);
     EXPECT_NEAR(slides.drift->mean_x_px, 1.5, 0.05);

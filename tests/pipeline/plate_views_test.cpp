@@ -65,9 +65,9 @@ TEST(FramePlane, CoversTheFrame) {
     placement.offset_px = {50, 20};
     const auto plane = frame_plane(placement, {160, 112});
     ASSERT_TRUE(plane);
-    const Mat3 map = *plane_from_plate(placement);
+    const TextureMapping map = *texture_mapping(placement);
     for (const Vec2 corner : {Vec2(0, 0), Vec2(160, 0), Vec2(0, 112), Vec2(160, 112)}) {
-        const Vec2 u = project(map, corner) - Vec2(plane->origin);
+        const Vec2 u = map.texel(corner) - Vec2(plane->origin);
         EXPECT_GE(u.x, 0);
         EXPECT_GE(u.y, 0);
         EXPECT_LE(u.x, static_cast<float>(plane->size.width));

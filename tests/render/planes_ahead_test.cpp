@@ -29,7 +29,7 @@ TEST(PlanesAhead, AreThoseThatAreMadeInPlace) {
     ASSERT_TRUE(grown && *grown);
     const auto in_place = make_plane(plan, plan.regions[0], kShotSize, {}, {});
     ASSERT_TRUE(in_place);
-    const auto &a = (*grown)->pyramid.levels(), &b = in_place->pyramid.levels();
+    const auto a = (*grown)->pyramid.levels(), b = in_place->pyramid.levels();
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
         ASSERT_EQ(a[k].size(), b[k].size());

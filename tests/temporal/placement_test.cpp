@@ -13,14 +13,14 @@ float distance(Vec2 a, Vec2 b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-Mat3 plate_from_plane(const PlanePlacement& p) {
-    const auto map = plane_from_plate(p);
+TextureMapping::Inverse inverse_of(const PlanePlacement& p) {
+    const auto map = texture_mapping(p);
     EXPECT_TRUE(map.has_value()) << (map ? "" : map.error().text());
-    return map ? glm::inverse(*map) : Mat3(1);
+    return map.value_or(TextureMapping()).inverse();
 }
 
 Vec2 on_plate(const PlanePlacement& p, Vec2 texel) {
-    return project(plate_from_plane(p), texel);
+    return inverse_of(p).pixel(texel);
 }
 
 TEST(Placement, DefaultIsTheIdentity) {
@@ -53,10 +53,10 @@ const std::array<Vec2, 4> kFloor{Vec2(120, 60), Vec2(220, 70), Vec2(300, 180), V
 TEST(Placement, CornersBoundARectangleOfThePlane) {
     PlanePlacement p;
     p.corners = kFloor;
-    const auto map = plane_from_plate(p);
+    const auto map = texture_mapping(p);
     ASSERT_TRUE(map);
-    const Vec2 a = project(*map, kFloor[0]), b = project(*map, kFloor[1]);
-    const Vec2 c = project(*map, kFloor[2]), d = project(*map, kFloor[3]);
+    const Vec2 a = map->texel(kFloor[0]), b = map->texel(kFloor[1]);
+    const Vec2 c = map->texel(kFloor[2]), d = map->texel(kFloor[3]);
     EXPECT_LT(distance(a, {0, 0}), 0.01f);
     EXPECT_GT(b.x, 10);
     EXPECT_NEAR(b.y, 0, 0.01f);
@@ -69,12 +69,12 @@ TEST(Placement, APictureIsFittedIntoTheCorners) {
     PlanePlacement p;
     p.corners = kFloor;
     p.picture_texels = Size{300, 120};
-    const Mat3 map = *plane_from_plate(p);
+    const TextureMapping map = *texture_mapping(p);
     const std::array<Vec2, 4> own{Vec2(0, 0), Vec2(300, 0), Vec2(300, 120), Vec2(0, 120)};
     for (std::size_t k = 0; k < 4; ++k)
-        EXPECT_LT(distance(project(map, kFloor[k]), own[k]), 0.01f);
+        EXPECT_LT(distance(map.texel(kFloor[k]), own[k]), 0.01f);
     p.scale = 2;  // twice as large: a quarter of it shows
-    EXPECT_LT(distance(project(*plane_from_plate(p), kFloor[2]), Vec2(150, 60)), 0.01f);
+    EXPECT_LT(distance(texture_mapping(p)->texel(kFloor[2]), Vec2(150, 60)), 0.01f);
 }
 
 TEST(Placement, ScaleHoldsAtTheTopLeftCorner) {
@@ -82,12 +82,12 @@ TEST(Placement, ScaleHoldsAtTheTopLeftCorner) {
         PlanePlacement p;
         p.corners = kFloor;
         p.scale = scale;
-        const Mat3 plate = plate_from_plane(p);
-        const Vec2 origin = project(plate, {0, 0});
+        const TextureMapping::Inverse plate = inverse_of(p);
+        const Vec2 origin = plate.pixel({0, 0});
         EXPECT_LT(distance(origin, kFloor[0]), 0.01f);
         const float step = 0.5f / scale;  // half a pixel
-        EXPECT_NEAR(distance(project(plate, {step, 0}), origin), 0.5f, 0.01f);
-        EXPECT_NEAR(distance(project(plate, {0, step}), origin), 0.5f, 0.01f);
+        EXPECT_NEAR(distance(plate.pixel({step, 0}), origin), 0.5f, 0.01f);
+        EXPECT_NEAR(distance(plate.pixel({0, step}), origin), 0.5f, 0.01f);
     }
 }
 
@@ -116,7 +116,7 @@ TEST(Placement, RefusesAScaleThatIsNone) {
                               std::numeric_limits<float>::infinity()}) {
         PlanePlacement p;
         p.scale = scale;
-        const auto map = plane_from_plate(p);
+        const auto map = texture_mapping(p);
         ASSERT_FALSE(map) << scale;
         EXPECT_EQ(map.error().code, ErrorCode::kUsage);
         EXPECT_NE(map.error().text().find("scale"), std::string::npos);
@@ -134,7 +134,7 @@ TEST(Placement, RefusesCornersThatAreNoQuadrilateral) {
     for (const auto& corners : wrong) {
         PlanePlacement p;
         p.corners = corners;
-        const auto map = plane_from_plate(p);
+        const auto map = texture_mapping(p);
         ASSERT_FALSE(map);
         EXPECT_EQ(map.error().code, ErrorCode::kUsage);
         EXPECT_NE(map.error().text().find("corners"), std::string::npos);
@@ -146,7 +146,7 @@ TEST(TextureCoords, AreThePlacementAtTheReferencePosition) {
     p.scale = 2;
     p.rotate_deg = 20;
     p.offset_px = {5, 6};
-    const Mat3 map = *plane_from_plate(p);
+    const TextureMapping map = *texture_mapping(p);
     LatticeField moved({64, 48}, 8);
     for (int j = 0; j < moved.nodes().height(); ++j) {
         for (int i = 0; i < moved.nodes().width(); ++i)
@@ -157,7 +157,7 @@ TEST(TextureCoords, AreThePlacementAtTheReferencePosition) {
     EXPECT_EQ(coords.origin, Vec2i(10, 12));
     for (const Vec2i at : {Vec2i(0, 0), Vec2i(19, 27), Vec2i(7, 3)}) {
         const float* uv = coords.uv.pixel(at.x, at.y);
-        const Vec2 expected = project(map, Vec2(coords.origin + at) + 0.5f + Vec2(3.5f, -1.25f));
+        const Vec2 expected = map.texel(Vec2(coords.origin + at) + 0.5f + Vec2(3.5f, -1.25f));
         EXPECT_LT(distance({uv[0], uv[1]}, expected), 1e-3f);
     }
 }

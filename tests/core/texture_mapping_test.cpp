@@ -1,0 +1,57 @@
+#include "engine/core/texture_mapping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace weft {
+namespace {
+
+// A floor in perspective: texels per pixel grow towards the horizon at y = −250.
+const TextureMapping kFloor(Mat3(0.8f, 0.1f, 0, -0.2f, 1.1f, 0.004f, 20, -7, 1));
+
+float distance(Vec2 a, Vec2 b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+TEST(TextureMapping, IsTheIdentityUnlessToldOtherwise) {
+    EXPECT_EQ(TextureMapping().texel({12, 34}), Vec2(12, 34));
+}
+
+TEST(TextureMapping, TheInverseComesBackToThePixel) {
+    for (const Vec2 p : {Vec2(0, 0), Vec2(100, 40), Vec2(17, 230)})
+        EXPECT_LT(distance(kFloor.inverse().pixel(kFloor.texel(p)), p), 0.01f);
+}
+
+TEST(TextureMapping, ItsLinearPartIsItsDerivative) {
+    const Vec2 p(60, 80);
+    const TextureMapping::Linear at = kFloor.linear_at(p);
+    EXPECT_LT(distance(at.texel, kFloor.texel(p)), 1e-4f);
+    for (const Vec2 step : {Vec2(1, 0), Vec2(0, 1), Vec2(-0.6f, 0.8f)}) {
+        const Vec2 central = 0.5f * (kFloor.texel(p + step) - kFloor.texel(p - step));
+        EXPECT_LT(distance(at.step(step), central), 1e-3f);
+        EXPECT_GT(std::hypot(central.x, central.y), 0.3f);
+    }
+}
+
+TEST(TextureMapping, BoundsHoldEveryTexelThatARectangleShowsAndNoMore) {
+    const Recti pixels{10, 20, 90, 70};
+    const auto [low, high] = kFloor.bounds_of(pixels);
+    Vec2 least(1e9f), most(-1e9f);
+    for (int y = pixels.y0; y <= pixels.y1; ++y)
+        for (int x = pixels.x0; x <= pixels.x1; ++x) {
+            const Vec2 u = kFloor.texel({static_cast<float>(x), static_cast<float>(y)});
+            least = glm::min(least, u);
+            most = glm::max(most, u);
+        }
+    EXPECT_LT(distance(low, least), 1e-4f);
+    EXPECT_LT(distance(high, most), 1e-4f);
+}
+
+TEST(TextureMapping, ASmallerFrameShowsTheSameTexels) {
+    const TextureMapping quarter = kFloor.on_smaller_frame(4);
+    EXPECT_LT(distance(quarter.texel({15, 20}), kFloor.texel({60, 80})), 1e-3f);
+}
+
+}  // namespace
+}  // namespace weft
