@@ -11,8 +11,14 @@
 namespace weft::ui {
 namespace {
 
+// "Layer 2" of the holdouts, "Zone 1".
+std::string title_of_layer(int layer) {
+    return is_zone_layer(layer) ? "Zone " + std::to_string(zone_of_layer(layer) + 1)
+                                : "Layer " + std::to_string(layer);
+}
+
 std::string name_of_layer(const MatteSource& holdout, int layer) {
-    const std::string title = "Layer " + std::to_string(layer);
+    const std::string title = title_of_layer(layer);
     if (holdout.empty()) return title + ", not painted yet";
     if (!holdout.select.crypto.empty()) return title + ": " + holdout.select.crypto;
     if (!holdout.files.empty()) {
@@ -23,33 +29,89 @@ std::string name_of_layer(const MatteSource& holdout, int layer) {
     return title + ": painted on " + std::to_string(keys) + (keys == 1 ? " frame" : " frames");
 }
 
+void remove_layer(Ctx& c, const Region& region, int layer) {
+    const RegionRef ref{region.id, {}};
+    if (is_zone_layer(layer)) {
+        std::vector<Zone> left = *region.zones;
+        const int zone = zone_of_layer(layer);
+        if (zone >= static_cast<int>(left.size())) return;
+        left.erase(left.begin() + zone);
+        return c.edit(SetZones{ref, left});
+    }
+    std::vector<MatteSource> left = *region.holdouts;
+    if (layer > static_cast<int>(left.size())) return;
+    left.erase(left.begin() + layer - 1);
+    c.edit(SetHoldouts{ref, left});
+}
+
 void layer_row(Ctx& c, const Region& region, int layer) {
     const Theme& t = c.theme;
-    const MatteSource& holdout = layer_source(region, layer);
+    const MatteSource& painted = layer_source(region, layer);
+    const std::string title = title_of_layer(layer);
     const bool chosen = c.view.matte_layer == layer;
     ImGui::PushID(layer);
     const float width = ImGui::GetContentRegionAvail().x - t.px(26) - t.gap;
-    const std::string label = fitted(name_of_layer(holdout, layer), width - t.px(36)) +
-                              "##holdout" + std::to_string(layer);
+    const std::string label =
+        fitted(name_of_layer(painted, layer), width - t.px(36)) + "##" + title;
     if (button(c, label.c_str(),
                {.icon = icons::kBrush,
                 .look = chosen ? Look::kPrimary : Look::kNormal,
-                .tip = holdout.files.empty() ? "Brush, shapes and keyframes edit this layer"
+                .tip = painted.files.empty() ? "Brush, shapes and keyframes edit this layer"
                                              : "Select it to paint over its files",
                 .width = width}))
         c.emit(SelectMatteLayer{chosen ? 0 : layer});
-    c.note("Layer " + std::to_string(layer));
+    c.note(title);
     ImGui::SameLine();
-    if (icon_button(c, icons::kClose, ("Remove layer " + std::to_string(layer)).c_str(), false,
-                    nullptr, true, t.row)) {
-        std::vector<MatteSource> left = *region.holdouts;
-        if (layer <= static_cast<int>(left.size())) {
-            left.erase(left.begin() + layer - 1);
-            c.edit(SetHoldouts{{region.id, {}}, left});
-        }
+    const std::string remove =
+        is_zone_layer(layer) ? "Remove z" + title.substr(1) : "Remove l" + title.substr(1);
+    if (icon_button(c, icons::kClose, remove.c_str(), false, nullptr, true, t.row)) {
+        remove_layer(c, region, layer);
         c.emit(SelectMatteLayer{0});
     }
     ImGui::PopID();
+}
+
+void back_to_matte(Ctx& c) {
+    if (button(c, "Back to the matte",
+               {.icon = icons::kArrowLeft,
+                .look = Look::kQuiet,
+                .tip = "Brush, shapes and keyframes edit the region's own matte",
+                .width = -1}))
+        c.emit(SelectMatteLayer{0});
+}
+
+// A button that begins a new holdout or zone.
+void begin_layer(Ctx& c, const char* label, const char* tip, int layer) {
+    if (!button(c, label,
+                {.icon = icons::kBrush,
+                 .enabled = c.view.plate.state == PlateView::State::kOpen,
+                 .tip = tip,
+                 .width = -1}))
+        return;
+    c.emit(SelectMatteLayer{layer});
+    if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
+}
+
+void zone_value(Ctx& c, const Region& region, std::size_t zone) {
+    const Zone& now = (*region.zones)[zone];
+    if (!now.value_keys.empty()) return info_row(c, "Light", "Animated");
+    double value = now.value;
+    SliderSpec spec;
+    spec.label = "Light";
+    spec.tip =
+        "How much of the light the texture takes inside the zone: 0 none, 1 as elsewhere, "
+        "2 twice the contrast";
+    spec.max = 2;
+    spec.standard = 0;
+    const Change change = slider(c, spec, value);
+    if (change == Change::kNone) return;
+    std::vector<Zone> zones = *region.zones;
+    zones[zone].value = value;
+    const SetZones set{{region.id, {}}, zones};
+    if (change == Change::kDone)
+        c.emit(DoEdit{set});
+    else
+        c.emit(TryEdit{set});
 }
 
 // Another region's matte serves as well.
@@ -141,27 +203,47 @@ void holdouts_section(Ctx& c, const Region& region) {
                 c.theme.quiet);
     for (int layer = 1; layer <= std::max(count, c.view.matte_layer); ++layer)
         layer_row(c, region, layer);
-    if (c.view.matte_layer > 0) {
-        if (button(c, "Back to the matte",
-                   {.icon = icons::kArrowLeft,
-                    .look = Look::kQuiet,
-                    .tip = "Brush, shapes and keyframes edit the region's own matte",
-                    .width = -1}))
-            c.emit(SelectMatteLayer{0});
-    } else if (button(c, "Paint a holdout",
-                      {.icon = icons::kBrush,
-                       .enabled = c.view.plate.state == PlateView::State::kOpen,
-                       .tip = "Adds a layer: paint over what hides the surface. It is propagated "
-                              "like a matte",
-                       .width = -1})) {
-        c.emit(SelectMatteLayer{count + 1});
-        if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
-    }
+    if (c.view.matte_layer > 0)
+        back_to_matte(c);
+    else
+        begin_layer(c, "Paint a holdout",
+                    "Adds a layer: paint over what hides the surface. It is propagated like a "
+                    "matte",
+                    last_layer(region));
     other_regions(c, region);
     if (button(c, "Add matte files…##holdout", {.icon = icons::kFolderImage, .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kHoldout;
         c.state.browser.just_opened = true;
     }
+    section_gap(c);
+}
+
+void zones_section(Ctx& c, const Region& region) {
+    const int count = static_cast<int>(region.zones->size());
+    const bool painting = is_zone_layer(c.view.matte_layer);
+    if (!section(c, "Light zones", count > 0 || painting)) return;
+    const PanelName panel(c, "Light zones");
+    if (count == 0 && !painting)
+        wrapped(c,
+                "Inside a zone the texture takes less or more of the plate's light, such as where "
+                "a stain was taken for a shadow.",
+                c.theme.quiet);
+    const int begun = painting ? zone_of_layer(c.view.matte_layer) + 1 : 0;
+    for (int zone = 0; zone < std::max(count, begun); ++zone) {
+        layer_row(c, region, zone_layer(zone));
+        if (zone < count) {
+            ImGui::PushID(zone);
+            zone_value(c, region, static_cast<std::size_t>(zone));
+            ImGui::PopID();
+        }
+    }
+    if (painting)
+        back_to_matte(c);
+    else
+        begin_layer(c, "Paint a light zone",
+                    "Adds a zone: paint where the light is to be changed. It is propagated like "
+                    "a matte",
+                    first_layer(region));
     section_gap(c);
 }
 

@@ -17,6 +17,11 @@ void matte_source_card(Ctx& c, const Region& region) {
         banner(c, icons::kLayers, t.warn,
                "You are painting a holdout, layer " + std::to_string(c.view.matte_layer) +
                    ". It is cut out of the region's matte.");
+    if (is_zone_layer(c.view.matte_layer))
+        banner(c, icons::kLayers, t.warn,
+               "You are painting light zone " +
+                   std::to_string(zone_of_layer(c.view.matte_layer) + 1) +
+                   ". The region's matte stays as it is.");
     if (!matte.files.empty() || !matte.select.crypto.empty()) {
         if (!matte.select.crypto.empty())
             info_row(c, "Cryptomatte", matte.select.crypto, matte.select.crypto.c_str());
@@ -32,7 +37,7 @@ void matte_source_card(Ctx& c, const Region& region) {
             c.emit(PaintInstead{});
         return;
     }
-    if (matte.keyframes.empty() && c.view.matte_layer > 0) {
+    if (matte.keyframes.empty() && c.view.matte_layer != 0) {
         wrapped(c, "One frame is enough to start; it is propagated to the others.", t.quiet);
         return;
     }
@@ -223,6 +228,7 @@ void mask_inspector(Ctx& c) {
         section_gap(c);
     }
     holdouts_section(c, *region);
+    zones_section(c, *region);
     propagation_section(c, *region);
     if (!painted.keyframes.empty()) hints_section(c, true);
     files_section(c, *region);

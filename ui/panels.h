@@ -31,6 +31,7 @@ void keep_section(Ctx& c, const Region& region);
 /// The frames on which a correction would help most; `mattes_only`: of the matte alone.
 void hints_section(Ctx& c, bool mattes_only);
 void holdouts_section(Ctx& c, const Region& region);
+void zones_section(Ctx& c, const Region& region);
 void propagation_section(Ctx& c, const Region& region);
 void shape_controls(Ctx& c);
 void corrections_section(Ctx& c, const Region& region);

@@ -20,24 +20,27 @@ void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, 
     text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
 }
 
-// What passes in front of the selected region: red, since it is taken away.
-static void draw_holdouts(Ctx& c, ImDrawList& list, const ViewMap& map) {
+// The selected region's holdouts or zones.
+static void draw_layers(Ctx& c, ImDrawList& list, const ViewMap& map,
+                        const std::vector<RegionMatteView>& layers, ImU32 color) {
     const SessionView& v = c.view;
-    for (const RegionMatteView& holdout : v.holdouts) {
-        if (holdout.pixels.empty()) continue;
+    for (const RegionMatteView& layer : layers) {
+        if (layer.pixels.empty()) continue;
         MatteDraw draw;
-        draw.pixels = holdout.pixels;
-        constexpr std::uint64_t kBeyondRegions = 2'000'000;
-        draw.key = kBeyondRegions + static_cast<std::uint64_t>(holdout.layer);
-        draw.version = holdout.version;
-        draw.changed = holdout.changed;
+        draw.pixels = layer.pixels;
+        constexpr std::uint64_t kHoldouts = 2'000'000, kZones = 3'000'000;  // beyond the regions
+        draw.key = is_zone_layer(layer.layer)
+                       ? kZones + static_cast<std::uint64_t>(zone_of_layer(layer.layer))
+                       : kHoldouts + static_cast<std::uint64_t>(layer.layer);
+        draw.version = layer.version;
+        draw.changed = layer.changed;
         draw.min = map.to_screen({0, 0});
         draw.max = map.to_screen(
             {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
         draw.clip_min = map.min;
         draw.clip_max = map.max;
-        draw.color = c.theme.bad;
-        draw.outline = holdout.layer == v.matte_layer;
+        draw.color = color;
+        draw.outline = layer.layer == v.matte_layer;
         draw.opacity = draw.outline ? 0.45f : 0.22f;
         c.pictures.draw(list, draw);
     }
@@ -72,7 +75,10 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         draw.outline = selected;
         c.pictures.draw(list, draw);
     }
-    if (in_mask) draw_holdouts(c, list, map);
+    if (!in_mask) return;
+    // Red, since it is taken away; yellow, since it is light.
+    draw_layers(c, list, map, v.holdouts, c.theme.bad);
+    draw_layers(c, list, map, v.zones, c.theme.warn);
 }
 
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {

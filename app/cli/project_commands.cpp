@@ -47,6 +47,7 @@ Json region_json(const Region& region) {
         keys.push_back(frame);
     out["matte"] = {{"files", region.matte->files}, {"keyframes", keys}};
     out["holdouts"] = region.holdouts->size();
+    out["zones"] = region.zones->size();
     out["texture"] = region.texture.plane.empty() ? region.texture.sample : region.texture.plane;
     return out;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "app/cli/zone_texts.h"
+
 namespace weft {
 namespace {
 
@@ -113,6 +115,13 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command
+            .add_option("--zone", zones_,
+                        "Where the light has another strength: light=VALUE@MATTE, VALUE 0 to 2, "
+                        "MATTE a pattern, painted keyframes (12=a.png) or crypto:NAME; repeatable")
+            ->type_name("ZONE")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        command
             .add_option("--crypto-files", crypto_files_,
                         "EXR files with the Cryptomatte; default the plate")
             ->type_name("PATH");
@@ -194,6 +203,10 @@ Status ProjectFlags::apply(Region& region) const {
                 holdouts.push_back(std::move(holdout));
         }
         region.holdouts = std::move(holdouts);
+    }
+    if (!zones_.empty()) {
+        WEFT_TRY(zones, parse_zones(zones_, crypto_files_));
+        region.zones = std::move(zones);
     }
     return {};
 }

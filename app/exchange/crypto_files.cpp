@@ -27,6 +27,10 @@ Status name_crypto_files(Region& region, const std::string& plate) {
     for (MatteSource& holdout : holdouts)
         WEFT_CHECK_OK(name(holdout));
     if (!holdouts.empty()) region.holdouts = std::move(holdouts);
+    std::vector<Zone> zones = *region.zones;
+    for (Zone& zone : zones)
+        WEFT_CHECK_OK(name(zone.matte));
+    if (!zones.empty()) region.zones = std::move(zones);
     return {};
 }
 

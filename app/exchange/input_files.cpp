@@ -79,6 +79,8 @@ Expected<std::shared_ptr<const WriteFence>> make_fence(const Project& project,
             static_cast<void>(name_crypto_files(region, project.plate.path));
             std::vector<MatteSource> mattes = *region.holdouts;
             mattes.push_back(*region.matte);
+            for (const Zone& zone : *region.zones)
+                mattes.push_back(zone.matte);
             for (const MatteSource& matte : mattes) {
                 protect_frozen(*fence, matte);
                 protect_manifests(*fence, matte);

@@ -115,6 +115,10 @@ Json region_schema() {
           {"required", {"frame", "path"}}}}};
     region["properties"]["matte"] = matte;
     region["properties"]["holdouts"] = {{"type", "array"}, {"items", matte}};
+    Json zone{{"type", "object"}, {"properties", Json::object()}};
+    add_table(zone, zone_parameters());
+    zone["properties"]["matte"] = matte;
+    region["properties"]["zones"] = {{"type", "array"}, {"items", zone}};
     const Json pin{{"type", "object"},
                    {"properties", {{"from", point()}, {"to", point()}}},
                    {"required", {"from", "to"}}};
@@ -170,6 +174,7 @@ Json actions_schema() {
         {"set_matte_keyframe", {{"region", region}, {"frame", number}, {"path", text}}},
         {"remove_matte_keyframe", {{"region", region}, {"frame", number}}},
         {"set_holdouts", {{"region", region}, {"holdouts", list}}},
+        {"set_zones", {{"region", region}, {"zones", list}}},
         {"set_texture", {{"region", region}, {"texture", object}}},
         {"set_correction", {{"region", region}, {"frame", number}, {"pins", list}}},
         {"set_amendments", {{"region", region}, {"amendments", list}}}};

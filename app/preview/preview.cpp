@@ -99,10 +99,10 @@ std::uint64_t Preview::news() const {
 
 Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
     if (const auto [now, k] = impl_->find_opened(region); now) {
-        const int kept =
+        const std::optional<int> kept =
             stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
-        const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept};
-        if (kept >= 0 && now->store->has(key)) {
+        const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept.value_or(0)};
+        if (kept && now->store->has(key)) {
             WEFT_TRY(bytes, now->store->get(key));
             WEFT_TRY(stored, decode_matte(bytes));
             return std::move(stored.matte);

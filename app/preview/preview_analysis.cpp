@@ -25,11 +25,18 @@ int steps_to(const OpenedShot& opened, std::vector<int> frames) {
     return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store);
 }
 
-int stored_layer(const Region& region, int layer) {
-    if (layer == 0) return region.matte->keyframes.empty() ? -1 : 0;
+std::optional<int> stored_layer(const Region& region, int layer) {
+    if (layer == 0 && region.matte->keyframes.empty()) return std::nullopt;
+    if (layer == 0) return 0;
+    if (is_zone_layer(layer)) {
+        const auto zone = static_cast<std::size_t>(zone_of_layer(layer));
+        if (zone >= region.zones->size() || !(*region.zones)[zone].matte.files.empty())
+            return std::nullopt;
+        return layer;
+    }
     const std::vector<MatteSource>& holdouts = *region.holdouts;
     const auto at = static_cast<std::size_t>(layer) - 1;
-    if (at >= holdouts.size() || !holdouts[at].files.empty()) return -1;
+    if (at >= holdouts.size() || !holdouts[at].files.empty()) return std::nullopt;
     int painted = 1;
     for (std::size_t k = 0; k < at; ++k)
         painted += holdouts[k].files.empty() ? 1 : 0;
@@ -100,12 +107,13 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
 void Preview::Impl::collect_confidence(const OpenedShot& work) {
     for (std::size_t k = 0; k < work.shot->plan.regions.size(); ++k) {
         const Region& region = *work.shot->project.regions[work.shot->region_index[k]];
-        for (int layer = 0; layer <= static_cast<int>(region.holdouts->size()); ++layer) {
-            const int stored = stored_layer(region, layer);
-            if (stored < 0) continue;
+        for (int layer = -static_cast<int>(region.zones->size());
+             layer <= static_cast<int>(region.holdouts->size()); ++layer) {
+            const std::optional<int> stored = stored_layer(region, layer);
+            if (!stored) continue;
             std::map<int, float> found;
             for (const int frame : work.shot->plate->frames()) {
-                const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, stored};
+                const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, *stored};
                 if (!work.store->has(key)) continue;
                 const auto bytes = work.store->get(key);
                 if (!bytes) continue;

@@ -37,7 +37,7 @@ using OpenedPtr = std::shared_ptr<const OpenedShot>;
 
 /// The layer under which the analysis keeps a matte (0) or the holdout `layer` − 1: it counts the
 /// painted ones. Below 0: there is none.
-[[nodiscard]] int stored_layer(const Region& region, int layer);
+[[nodiscard]] std::optional<int> stored_layer(const Region& region, int layer);
 
 /// How a region's texture was carried: before_from_now, in plate pixels. Error: not analysed, or
 /// nothing is carried in the region's mode.

@@ -102,6 +102,10 @@ class ProxySource final : public ShotSource {
         if (!full) return full;
         return std::optional<Matte>(shrunk(*full, factor_));
     }
+    [[nodiscard]] Expected<Matte> zone(int region, int zone, int frame) const override {
+        WEFT_TRY(full, shot_.source->zone(region, zone, frame));
+        return shrunk(full, factor_);
+    }
     [[nodiscard]] Expected<Matte> lines(int region, int frame) const override {
         WEFT_TRY(full, shot_.source->lines(region, frame));
         return full.empty() ? std::move(full) : shrunk(full, factor_);

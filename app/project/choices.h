@@ -46,6 +46,11 @@ struct Choices<CarryDirection> {
          {CarryDirection::kBackward, "backward"}}};
 };
 template <>
+struct Choices<ZoneKind> {
+    static constexpr std::array<std::pair<ZoneKind, std::string_view>, 1> kNames{
+        {{ZoneKind::kLight, "light"}}};
+};
+template <>
 struct Choices<MissingFrames> {
     static constexpr std::array<std::pair<MissingFrames, std::string_view>, 4> kNames{
         {{MissingFrames::kError, "error"},

@@ -178,6 +178,17 @@ Expected<Project> apply_one(const Project& project, const SetHoldouts& edit) {
     });
 }
 
+Expected<Project> apply_one(const Project& project, const SetZones& edit) {
+    for (const Zone& zone : edit.zones) {
+        WEFT_CHECK_OK(check_parameters(zone, zone_parameters()));
+        WEFT_CHECK_OK(check_parameters(zone.matte, matte_parameters()));
+    }
+    return with_region(project, edit.region, [&](Region& region) -> Status {
+        region.zones = edit.zones;
+        return {};
+    });
+}
+
 Expected<Project> apply_one(const Project& project, const SetTexture& edit) {
     return with_region(project, edit.region, [&](Region& region) -> Status {
         region.texture = edit.texture;
@@ -247,6 +258,7 @@ std::vector<Edit> region_edits(const Region& before, const Region& after) {
     // A matte is set whole, its parameters with it.
     if (before.matte != after.matte) edits.emplace_back(SetMatte{ref, *after.matte});
     if (before.holdouts != after.holdouts) edits.emplace_back(SetHoldouts{ref, *after.holdouts});
+    if (before.zones != after.zones) edits.emplace_back(SetZones{ref, *after.zones});
     for (const auto& [frame, pins] : before.corrections)
         if (!after.corrections.contains(frame)) edits.emplace_back(SetCorrection{ref, frame, {}});
     for (const auto& [frame, pins] : after.corrections) {
@@ -295,6 +307,9 @@ std::string edit_label(const Project& before, const Edit& edit) {
         }
         std::string operator()(const SetHoldouts& e) const {
             return "Set the holdouts of " + name(e.region);
+        }
+        std::string operator()(const SetZones& e) const {
+            return "Set the zones of " + name(e.region);
         }
         std::string operator()(const SetCorrection& e) const {
             return fmt::format("{} {} of {}",

@@ -87,6 +87,11 @@ struct SetHoldouts {
     std::vector<MatteSource> holdouts;
     bool operator==(const SetHoldouts&) const = default;
 };
+struct SetZones {
+    RegionRef region;
+    std::vector<Zone> zones;
+    bool operator==(const SetZones&) const = default;
+};
 struct SetTexture {
     RegionRef region;
     TextureSource texture;
@@ -111,7 +116,7 @@ struct SetAmendments {
 using Edit =
     std::variant<SetPlate, SetOutput, SetProjectParameter, AddRegion, RemoveRegion, MoveRegion,
                  RenameRegion, SetRegionParameter, SetMatte, SetMatteKeyframe, RemoveMatteKeyframe,
-                 SetHoldouts, SetTexture, SetCorrection, SetAmendments>;
+                 SetHoldouts, SetZones, SetTexture, SetCorrection, SetAmendments>;
 
 /// The project after the edit; the one before is untouched and shares what did not change. Errors:
 /// Usage (no such region, frame or parameter; a value out of range). Pure, thread-safe.

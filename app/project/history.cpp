@@ -54,6 +54,7 @@ void History::count(const Entry& entry, int sign) {
         for (const MatteSource& holdout : *region->holdouts)
             holdout_bytes += own_bytes(holdout);
         count_leaf(region->holdouts.identity(), holdout_bytes, sign);
+        count_leaf(region->zones.identity(), own_bytes(*region->zones), sign);
         count_leaf(region->amendments.identity(), own_bytes(*region->amendments), sign);
     }
 }

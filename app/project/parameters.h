@@ -61,7 +61,7 @@ struct ParameterInfo {
     [[nodiscard]] std::string full_key() const;
 };
 
-/// A parameter of a Region, a Project or a MatteSource.
+/// A parameter of a Region, a Project, a MatteSource or a Zone.
 template <class Owner>
 struct Parameter : ParameterInfo {
     ParameterValue (*read)(const Owner&) = nullptr;
@@ -74,6 +74,8 @@ struct Parameter : ParameterInfo {
 [[nodiscard]] std::span<const Parameter<Project>> project_parameters();
 /// The same entries as the region's group "matte", for holdouts.
 [[nodiscard]] std::span<const Parameter<MatteSource>> matte_parameters();
+/// Kind and value of a zone; its matte has matte_parameters().
+[[nodiscard]] std::span<const Parameter<Zone>> zone_parameters();
 
 /// The value in the type that the parameter wants (an integer for a number, whole numbers for an
 /// integer, what a text says for names, keys and lamps). Errors: Usage when the type, the range or

@@ -145,6 +145,11 @@ Project map_paths(const Project& project,
                     for (MatteSource& holdout : holdouts)
                         holdout = *map_matte(holdout, map);
                 });
+            if (!region.zones->empty())
+                region.zones = region.zones.with([&](std::vector<Zone>& zones) {
+                    for (Zone& zone : zones)
+                        zone.matte = *map_matte(zone.matte, map);
+                });
             map(region.texture.sample);
             for (std::string& path : region.texture.also)
                 map(path);
@@ -177,6 +182,14 @@ std::size_t own_bytes(const MatteSource& matte) {
     for (const auto& [frame, key] : matte.keyframes)
         bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra) +
                  (key.shape ? key.shape->points.capacity() * sizeof(RotoPoint) : 0);
+    return bytes;
+}
+
+std::size_t own_bytes(const std::vector<Zone>& zones) {
+    std::size_t bytes = 0;
+    for (const Zone& zone : zones)
+        bytes += sizeof zone - sizeof zone.matte + own_bytes(zone.matte) +
+                 heap_bytes_of(zone.value_keys) + heap_bytes_of(zone.extra);
     return bytes;
 }
 

@@ -25,6 +25,7 @@
 #include "engine/mask/roto_shape.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/layer_kind.h"
+#include "engine/pipeline/zone_kind.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
@@ -123,6 +124,17 @@ struct MatteSource {
         return files.empty() && keyframes.empty() && select.crypto.empty();
     }
     bool operator==(const MatteSource&) const = default;
+};
+
+/// A part of a region in which a setting has another value: a matte like the region's own, painted
+/// or from files, and the value inside it. Several zones of one kind multiply.
+struct Zone {
+    ZoneKind kind = ZoneKind::kLight;
+    double value = 0;
+    KeyedNumbers value_keys;  ///< The value over time; empty: `value` throughout.
+    MatteSource matte;
+    Extras extra;
+    bool operator==(const Zone&) const = default;
 };
 
 /// Whether a texture is named by its place in a texture library ("db:ID") and not by a file.
@@ -243,6 +255,7 @@ struct Region {
     int color = 0;                            ///< Index into the editor's palette.
     Leaf<MatteSource> matte;                  ///< The extent: the surface, hidden parts included.
     Leaf<std::vector<MatteSource>> holdouts;  ///< What passes in front of it.
+    Leaf<std::vector<Zone>> zones;            ///< Where a setting has another value.
     TextureSource texture;
     Placement placement;
     std::vector<int> reference_frames;  ///< The first holds the placement; empty: the first frame.
@@ -294,6 +307,7 @@ struct Project {
 /// without its regions: estimates for bounding the undo history.
 [[nodiscard]] std::size_t own_bytes(const Region& region);
 [[nodiscard]] std::size_t own_bytes(const MatteSource& matte);
+[[nodiscard]] std::size_t own_bytes(const std::vector<Zone>& zones);
 [[nodiscard]] std::size_t own_bytes(const std::vector<PlaneAmendment>& amendments);
 [[nodiscard]] std::size_t own_bytes(const Project& project);
 

@@ -137,6 +137,13 @@ void check_region(std::vector<Issue>& issues, const Region& region, std::size_t 
         find.check_ranges((*region.holdouts)[i], matte_parameters());
         check_matte(find, key, (*region.holdouts)[i]);
     }
+    for (std::size_t i = 0; i < region.zones->size(); ++i) {
+        const Zone& zone = (*region.zones)[i];
+        const std::string key = fmt::format("zones[{}]", i);
+        find.check_ranges(zone, zone_parameters());
+        find.check_ranges(zone.matte, matte_parameters());
+        check_matte(find, key + ".matte", zone.matte);
+    }
     check_texture(find, region);
     check_placement(find, region.placement);
     check_synthesis(find, region.synthesis);

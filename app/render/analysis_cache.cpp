@@ -104,6 +104,9 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index,
     WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
     for (const MatteSource& holdout : *region.holdouts)
         WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
+    // Of zones only what is propagated: their values are applied when a frame is rendered.
+    for (const Zone& zone : *region.zones)
+        if (zone.matte.files.empty()) WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward)
         .value(static_cast<int>(region.motion.convention))
@@ -249,7 +252,9 @@ class DiskStore final : public AnalysisCache {
                                });
         };
         return written(*region.matte) &&
-               std::all_of(region.holdouts->begin(), region.holdouts->end(), written);
+               std::all_of(region.holdouts->begin(), region.holdouts->end(), written) &&
+               std::all_of(region.zones->begin(), region.zones->end(),
+                           [&](const Zone& zone) { return written(zone.matte); });
     }
     [[nodiscard]] fs::path overflow_folder() const {
         const std::lock_guard lock(mutex_);
@@ -268,9 +273,12 @@ class DiskStore final : public AnalysisCache {
         return std::to_string(key.region) + "." + blob_name(key);
     }
     [[nodiscard]] static std::string blob_name(const AnalysisKey& key) {
-        return kind_name(key.kind) +
-               (key.layer == 0 ? std::string() : "-in-front" + std::to_string(key.layer)) + "." +
-               std::to_string(key.frame);
+        std::string layer;
+        if (is_zone_layer(key.layer))
+            layer = "-zone" + std::to_string(zone_of_layer(key.layer) + 1);
+        else if (key.layer > 0)
+            layer = "-in-front" + std::to_string(key.layer);
+        return kind_name(key.kind) + layer + "." + std::to_string(key.frame);
     }
     [[nodiscard]] fs::path path_of(const AnalysisKey& key) const {
         return folders_[static_cast<std::size_t>(key.region)] / blob_name(key);

@@ -50,11 +50,13 @@ std::vector<int> analysed_frames(const Shot& shot) {
 }
 
 bool estimates_motion(const Shot& shot) {
-    return std::any_of(shot.plan.regions.begin(), shot.plan.regions.end(),
-                       [](const RegionPlan& region) {
-                           return region.propagated() || !region.painted_holdouts.empty() ||
-                                  (!region.true_motion && region.track.empty());
-                       });
+    return std::any_of(
+        shot.plan.regions.begin(), shot.plan.regions.end(), [](const RegionPlan& region) {
+            const auto propagated = [](const ZonePlan& zone) { return zone.propagated(); };
+            return region.propagated() || !region.painted_holdouts.empty() ||
+                   std::any_of(region.zones.begin(), region.zones.end(), propagated) ||
+                   (!region.true_motion && region.track.empty());
+        });
 }
 
 std::string hash_of(const std::string& text) {

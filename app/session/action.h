@@ -114,8 +114,8 @@ struct MarkRange {
 };
 
 // ---- mattes ----
-/// What is painted from now on: 0 the selected region's matte, k its holdout k − 1; one more than
-/// it has begins a new one with the first stroke.
+/// What is painted from now on: 0 the selected region's matte, k its holdout k − 1, −1 − k its zone
+/// k; one more than it has begins a new one with the first stroke.
 struct SelectMatteLayer {
     int layer = 0;
     bool operator==(const SelectMatteLayer&) const = default;

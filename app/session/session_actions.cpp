@@ -1,6 +1,7 @@
 // What each action does.
 #include <algorithm>
 
+#include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 
@@ -60,8 +61,7 @@ struct Session::Actor {
     void operator()(const SelectMatteLayer& a) const {
         s.end_stroke();
         const Region* region = s.painted_region();
-        const int most = region ? static_cast<int>(region->holdouts->size()) + 1 : 0;
-        s.layer_ = std::clamp(a.layer, 0, most);
+        s.layer_ = region ? std::clamp(a.layer, first_layer(*region), last_layer(*region)) : 0;
     }
 
     // ---- frames ----

@@ -98,7 +98,8 @@ void Session::freeze_mattes(bool frozen) {
         return;
     }
     if (layer_ != 0) {
-        notify(NoticeKind::kWarning, "A holdout is not frozen. Choose the region's own matte.");
+        notify(NoticeKind::kWarning,
+               "Holdouts and zones are not frozen. Choose the region's own matte.");
         return;
     }
     if (region->matte->keyframes.empty()) {

@@ -143,7 +143,7 @@ void Session::prepare_stroke() {
     if (!region || !reader_ || !still || changing_ || locked_.contains(selected_)) return;
     const MatteSource& source = layer_source(*region, layer_);
     if (!source.files.empty() || !source.select.crypto.empty()) return;
-    const auto& views = layer_ == 0 ? view_.mattes : view_.holdouts;
+    const auto& views = layer_ == 0 ? view_.mattes : layer_ > 0 ? view_.holdouts : view_.zones;
     const auto shown = std::find_if(views.begin(), views.end(), [&](const RegionMatteView& view) {
         return view.region == selected_ && view.layer == layer_;
     });

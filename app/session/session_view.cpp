@@ -106,17 +106,21 @@ void Session::show_mattes() {
     view_.painting = painting_.active();
     view_.matte_busy = changing_.has_value();
     view_.matte_layer = 0;
-    if (!open_) return view_.holdouts.clear();
+    view_.holdouts.clear();
+    view_.zones.clear();
+    if (!open_) return;
     for (const Leaf<Region>& region : document().regions)
         view_.mattes.push_back(matte_of(*region, 0, playback_.frame()));
-    view_.holdouts.clear();
     const Region* region = painted_region();
     // An undo may have taken the layer away.
-    const int most = region ? static_cast<int>(region->holdouts->size()) : 0;
-    if (layer_ > most + 1) layer_ = most;
+    if (!region || layer_ < first_layer(*region) || layer_ > last_layer(*region)) layer_ = 0;
     view_.matte_layer = layer_;
-    for (int layer = 1; layer <= std::max(most, layer_); ++layer)
-        view_.holdouts.push_back(matte_of(*region, layer, playback_.frame()));
+    if (region) {
+        for (int layer = 1; layer < last_layer(*region) || layer <= layer_; ++layer)
+            view_.holdouts.push_back(matte_of(*region, layer, playback_.frame()));
+        for (int layer = -1; layer > first_layer(*region) || layer >= layer_; --layer)
+            view_.zones.push_back(matte_of(*region, layer, playback_.frame()));
+    }
     prepare_stroke();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/base/picture.h"
+#include "app/mattes/matte_layer.h"
 #include "app/mattes/matte_shelf.h"
 #include "app/mattes/roto_shape.h"
 #include "app/preview/preview.h"
@@ -130,6 +131,7 @@ struct SessionView {
     std::vector<RegionId> locked;
     std::vector<RegionMatteView> mattes;    ///< Of all regions, bottom up.
     std::vector<RegionMatteView> holdouts;  ///< Of the selected region.
+    std::vector<RegionMatteView> zones;     ///< Likewise.
     int matte_layer = 0;                    ///< As SelectMatteLayer::layer.
     bool painting = false, matte_busy = false;
     std::optional<RotoShape> shape;  ///< Of the selected region here, or the last one before.
@@ -169,13 +171,10 @@ struct SessionView {
     std::string backend = "CPU";
 
     [[nodiscard]] const Region* selected_region() const { return region_by_id(project, selected); }
-    /// What is being painted: a matte or a holdout; empty for a holdout that is to be begun.
+    /// What is being painted: a matte, a holdout or a zone's; empty for one that is to be begun.
     [[nodiscard]] MatteSource painted_source() const {
         const Region* region = selected_region();
-        if (!region) return {};
-        if (matte_layer == 0) return *region->matte;
-        const auto at = static_cast<std::size_t>(matte_layer) - 1;
-        return at < region->holdouts->size() ? (*region->holdouts)[at] : MatteSource{};
+        return region ? layer_source(*region, matte_layer) : MatteSource{};
     }
     [[nodiscard]] bool is_locked(RegionId id) const {
         return std::find(locked.begin(), locked.end(), id) != locked.end();

@@ -255,6 +255,12 @@ Status check_named_frames(const Region& region, const FrameReader& plate) {
                 frame, "The painted holdout's frame ",
                 "Give it the number of a frame of the plate" + by({{setting::kHoldout}}) + "."));
     }
+    for (const Zone& zone : *region.zones) {
+        for (const auto& [frame, key] : zone.matte.keyframes)
+            WEFT_CHECK_OK(
+                check(frame, "The painted zone's frame ",
+                      "Give it the number of a frame of the plate" + by({{setting::kZone}}) + "."));
+    }
     return {};
 }
 
@@ -268,6 +274,10 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     if (!plan.propagated()) WEFT_CHECK_OK(followed.check(region.matte->files, "The matte"));
     for (const MatteSource& holdout : *region.holdouts) {
         if (!holdout.files.empty()) WEFT_CHECK_OK(followed.check(holdout.files, "The holdout"));
+    }
+    for (const Zone& zone : *region.zones) {
+        if (!zone.matte.files.empty())
+            WEFT_CHECK_OK(check_pattern(zone.matte.files, "The zone", shot.frames, plate));
     }
     for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
         if (!pass.empty()) WEFT_CHECK_OK(followed.check(pass, "The lighting pass"));

@@ -59,6 +59,14 @@ class ProjectSource final : public ShotSource {
         return all;
     }
 
+    [[nodiscard]] Expected<Matte> zone(int region, int zone, int frame) const override {
+        return read(at(region).zones->at(static_cast<std::size_t>(zone)).matte, frame);
+    }
+
+    [[nodiscard]] Expected<Matte> zone_key(int region, int zone, int frame) const override {
+        return read_keyframe(at(region).zones->at(static_cast<std::size_t>(zone)).matte, frame);
+    }
+
     [[nodiscard]] Expected<Matte> lines(int region, int frame) const override {
         const LineParams& lines = at(region).lines;
         if (lines.files.empty()) return Matte();

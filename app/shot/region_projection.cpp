@@ -19,6 +19,15 @@ MatteReach reach_of(const MatteSource& matte) {
     return reach;
 }
 
+PaintedMatte painted_matte(const MatteSource& matte) {
+    PaintedMatte painted;
+    for (const auto& [frame, key] : matte.keyframes)
+        painted.keys.push_back(frame);
+    painted.steadiness = static_cast<float>(matte.steadiness);
+    painted.reach = reach_of(matte);
+    return painted;
+}
+
 Vec2 point(const PlatePoint& p) {
     return {p.x, p.y};
 }
@@ -58,12 +67,23 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
                         "A holdout has no matte. Give files or painted keyframes" +
                             by({{setting::kHoldout}}) + ", or remove it.");
         }
-        PaintedHoldout painted;
-        for (const auto& [frame, key] : holdout.keyframes)
-            painted.keys.push_back(frame);
-        painted.steadiness = static_cast<float>(holdout.steadiness);
-        painted.reach = reach_of(holdout);
-        plan.painted_holdouts.push_back(std::move(painted));
+        plan.painted_holdouts.push_back(painted_matte(holdout));
+    }
+    return {};
+}
+
+Status project_zones(const std::vector<Zone>& zones, RegionPlan& plan) {
+    for (const Zone& zone : zones) {
+        if (zone.matte.empty()) {
+            return fail(ErrorCode::kUsage, "A zone has no matte. Give files or painted keyframes" +
+                                               by({{setting::kZone}}) + ", or remove it.");
+        }
+        ZonePlan planned;
+        planned.kind = zone.kind;
+        if (zone.matte.files.empty()) planned.painted = painted_matte(zone.matte);
+        planned.value = static_cast<float>(zone.value);
+        planned.value_keys = zone.value_keys;
+        plan.zones.push_back(std::move(planned));
     }
     return {};
 }

@@ -10,6 +10,8 @@ namespace weft {
 /// Errors: Usage when the region or a holdout has no matte.
 [[nodiscard]] Status project_mattes(const MatteSource& matte,
                                     const std::vector<MatteSource>& holdouts, RegionPlan& plan);
+/// Errors: Usage when a zone has no matte.
+[[nodiscard]] Status project_zones(const std::vector<Zone>& zones, RegionPlan& plan);
 
 /// Pins on the plate; their frames become reference frames after those that `plan` has.
 void project_corrections(const std::map<int, std::vector<CorrectionPin>>& corrections,

@@ -180,6 +180,7 @@ class ShotOpener {
         RegionPlan plan;
         plan.random_key = region.id;
         WEFT_CHECK_OK(project_mattes(*region.matte, *region.holdouts, plan));
+        WEFT_CHECK_OK(project_zones(*region.zones, plan));
         WEFT_CHECK_OK(add_reference(region, plan));
         // Where the artist has put the texture back in place, it is anchored too.
         project_corrections(region.corrections, plan);

@@ -37,7 +37,7 @@ inline constexpr std::string_view kAlbedo = "light.albedo", kBackend = "run.back
                                   kTemporalMode = "temporal.mode",
                                   kTextureSpace = "color.texture_space", kTrack = "motion.track",
                                   kTrustOnce = "run.trust", kTruth = "measure.truth",
-                                  kVersionUp = "run.version_up";
+                                  kVersionUp = "run.version_up", kZone = "zones";
 // Commands.
 inline constexpr std::string_view kAddRegion = "command.add_region",
                                   kBuildLibrary = "command.build_library",
@@ -96,6 +96,7 @@ inline constexpr std::array kAll{kAlbedo,
                                  kTrustOnce,
                                  kTruth,
                                  kVersionUp,
+                                 kZone,
                                  kAddRegion,
                                  kBuildLibrary,
                                  kImportTextures,

@@ -35,7 +35,7 @@ struct AnalysisKey {
     int region = 0;
     int frame = 0;
     AnalysisKind kind = AnalysisKind::kCoords;
-    int layer = 0;  ///< Of mattes: 0 the extent, k the painted holdout k − 1.
+    int layer = 0;  ///< Of mattes: 0 the extent, k the painted holdout k − 1, or zone_layer().
     auto operator<=>(const AnalysisKey&) const = default;
 };
 

@@ -6,11 +6,13 @@
 
 #include "engine/mask/matte_propagation.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/region_zones.h"
 
 namespace weft {
 namespace {
 
-// A painted matte to propagate, a region's or a holdout's, with its walker on the present sweep.
+// A painted matte to propagate, a region's, a holdout's or a zone's, with its walker on the present
+// sweep.
 struct Job {
     int region = 0, layer = 0;  // as in AnalysisKey
     std::vector<int> keys;
@@ -62,15 +64,16 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
                  span,
                  {region.matte_steadiness, false},
                  {}});
+        const auto add_painted = [&](int layer, const PaintedMatte& painted) {
+            add({index, layer, painted.keys, painted.reach, span, {painted.steadiness, false}, {}});
+        };
         int layer = 0;
-        for (const PaintedHoldout& holdout : region.painted_holdouts)
-            add({index,
-                 ++layer,
-                 holdout.keys,
-                 holdout.reach,
-                 span,
-                 {holdout.steadiness, false},
-                 {}});
+        for (const PaintedMatte& holdout : region.painted_holdouts)
+            add_painted(++layer, holdout);
+        for (int zone = 0; zone < static_cast<int>(region.zones.size()); ++zone)
+            if (const ZonePlan& planned = region.zones[static_cast<std::size_t>(zone)];
+                planned.propagated())
+                add_painted(zone_layer(zone), planned.painted);
     }
     return jobs;
 }
@@ -86,12 +89,18 @@ FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
     return all;
 }
 
+Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
+    if (is_zone_layer(job.layer))
+        return source.zone_key(job.region, zone_of_layer(job.layer), frame);
+    return job.layer == 0 ? source.matte_key(job.region, frame)
+                          : source.holdout_key(job.region, job.layer - 1, frame);
+}
+
 // Moves a job's walker to this frame; the estimate is the painted matte itself on a keyframe.
 Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job, FrameSpan within,
                                             const SweepFrame& at) {
     if (job.is_key(at.frame)) {
-        auto key = job.layer == 0 ? context.source.matte_key(job.region, at.frame)
-                                  : context.source.holdout_key(job.region, job.layer - 1, at.frame);
+        auto key = key_of(context.source, job, at.frame);
         if (!key) return tl::unexpected<Error>(std::move(key).error());
         job.walker.emplace(at.views->display, *key, job.options);
         job.options.soft_edges |= job.walker->has_soft_edges();

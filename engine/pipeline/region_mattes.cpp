@@ -55,8 +55,10 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
     };
     std::for_each(region.reference_frames.begin(), region.reference_frames.end(), add);
     std::for_each(region.matte_keys.begin(), region.matte_keys.end(), add);
-    for (const PaintedHoldout& holdout : region.painted_holdouts)
+    for (const PaintedMatte& holdout : region.painted_holdouts)
         std::for_each(holdout.keys.begin(), holdout.keys.end(), add);
+    for (const ZonePlan& zone : region.zones)
+        std::for_each(zone.painted.keys.begin(), zone.painted.keys.end(), add);
     std::for_each(region.light_evidence.begin(), region.light_evidence.end(), add);
     std::for_each(region.grain_frames.begin(), region.grain_frames.end(), add);
     std::for_each(region.shutter_evidence.begin(), region.shutter_evidence.end(), add);

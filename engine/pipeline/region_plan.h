@@ -19,6 +19,7 @@
 #include "engine/motion/corner_track.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/pipeline/stage_store.h"
+#include "engine/pipeline/zone_kind.h"
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
@@ -37,11 +38,23 @@ struct TexturePicture {
     WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
 };
 
-/// What passes in front of a region, painted on a few frames.
-struct PaintedHoldout {
-    std::vector<int> keys;  ///< Ascending, at least one.
+/// A matte painted on a few frames and propagated to the others.
+struct PaintedMatte {
+    std::vector<int> keys;  ///< Ascending.
     float steadiness = 0.5f;
     MatteReach reach;
+};
+
+/// A part of a region in which a setting has another value.
+struct ZonePlan {
+    ZoneKind kind = ZoneKind::kLight;
+    PaintedMatte painted;  ///< Without keys the zone's matte comes from files.
+    float value = 1;
+    KeyedNumbers value_keys;  ///< Over time, instead of `value`.
+    [[nodiscard]] bool propagated() const { return !painted.keys.empty(); }
+    [[nodiscard]] float value_at(int frame) const {
+        return value_keys.empty() ? value : value_keys.float_at(frame)[0];
+    }
 };
 
 struct RegionPlan {
@@ -52,7 +65,8 @@ struct RegionPlan {
     float matte_steadiness = 0.5f;  ///< Of propagated mattes, 0–1.
     MatteReach matte_reach;
     bool has_holdout = false;  ///< In files.
-    std::vector<PaintedHoldout> painted_holdouts;
+    std::vector<PaintedMatte> painted_holdouts;
+    std::vector<ZonePlan> zones;
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
     std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.

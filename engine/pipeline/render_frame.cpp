@@ -19,6 +19,7 @@
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_surface.h"
+#include "engine/pipeline/region_zones.h"
 #include "engine/pipeline/uv_coords.h"
 
 namespace weft {
@@ -132,8 +133,15 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
 Expected<std::optional<Shading>> FrameRenderer::shading(int index, const RegionScene& scene) {
     const RegionPlan& region = region_of(plan_, index);
     if (!region.lights() || is_transfer(region.light.form)) return std::nullopt;
-    if (scene.picture_light) return scene.picture_light;
-    return region_shading(source_, region, store_, index, frame_, working_);
+    std::optional<Shading> light = scene.picture_light;
+    if (!light) {
+        WEFT_TRY(found, region_shading(source_, region, store_, index, frame_, working_));
+        light = std::move(found);
+    }
+    if (!light || region.zones.empty()) return light;
+    WEFT_TRY(factor, zone_factor(source_, plan_, store_, index, ZoneKind::kLight, frame_));
+    scale_light(*light, scene.reference_shading, factor);
+    return light;
 }
 
 Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,

@@ -28,6 +28,10 @@ class ShotSource {
     /// What passes in front of the region frame by frame: the maximum of those of its holdouts that
     /// come from files; nothing when it has none.
     [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
+    /// The matte of a region's zone (RegionPlan::zones) from its files, and a painted key of it. A
+    /// source that has none need not override them.
+    [[nodiscard]] virtual Expected<Matte> zone(int region, int zone, int frame) const;
+    [[nodiscard]] virtual Expected<Matte> zone_key(int region, int zone, int frame) const;
     /// The ink's coverage from the region's line pass (RegionPlan::has_lines); empty without one.
     [[nodiscard]] virtual Expected<Matte> lines(int /*region*/, int /*frame*/) const {
         return Matte();

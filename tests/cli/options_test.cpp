@@ -208,6 +208,31 @@ TEST_F(CliTest, HoldoutsKeepWhatPassesInFront) {
     EXPECT_LT(largest_difference(held, open, {84, 40, 104, 78}), 0.1f);
 }
 
+TEST_F(CliTest, InsideALightZoneTheTextureTakesAnotherShareOfTheLight) {
+    make_shot(2);
+    ImageF3 light(160, 120, 0.2f);  // sRGB codes
+    put_picture("light.png", light);
+    Matte zone(Card::kPlate);
+    const Recti box{50, 40, 70, 60};
+    for (int y = box.y0; y < box.y1; ++y)
+        std::fill(zone.row(y) + box.x0, zone.row(y) + box.x1, 255);
+    put_matte("zone.png", zone);
+    expect_success(run_replace({"--light", "none", "-o", "unlit/####.png"}));
+    expect_success(run_replace({"--light", "light.png", "-o", "lit/####.png"}));
+    expect_success(run_replace(
+        {"--light", "light.png", "-o", "zoned/####.png", "--zone", "light=0@zone.png"}));
+    const ImageF3 unlit = picture("unlit/0002.png").rgb, lit = picture("lit/0002.png").rgb,
+                  zoned = picture("zoned/0002.png").rgb;
+    EXPECT_GT(largest_difference(lit, unlit, box), 0.1f);
+    EXPECT_LE(largest_difference(zoned, unlit, {52, 42, 68, 58}), 1.01f / 255);
+    EXPECT_EQ(largest_difference(zoned, lit, {74, 40, 90, 60}), 0.0f);
+
+    expect_failure(run_replace({"--zone", "zone.png"}), 2, {"--zone", "light=0.3@12=a.png"});
+    expect_failure(run_replace({"--zone", "light=3@zone.png"}), 2, {"--zone", "0 to 2"});
+    expect_failure(run_replace({"--zone", "fog=1@zone.png"}), 2, {"--zone", "light"});
+    expect_failure(run_replace({"--zone", "light=1@gone.png"}), 4, {"gone.png"});
+}
+
 TEST_F(CliTest, SeveralReferenceFramesAnchorTheTexture) {
     make_shot(5);
     expect_success(run_replace({"--light", "none"}));

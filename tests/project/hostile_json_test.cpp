@@ -101,6 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
             WEFT_REGION(R"("matte":{"keyframes":[{"frame":1,"path":"a"},{"frame":1,"path":"b"}]})"),
             "two keyframes"},
         Hostile{"holdout_text", WEFT_REGION(R"("holdouts":["a"])"), "regions[1].holdouts[0]: "},
+        Hostile{"zone_text", WEFT_REGION(R"("zones":["a"])"), "regions[1].zones[0]: "},
+        Hostile{"zone_kind", WEFT_REGION(R"("zones":[{"kind":"fog"}])"),
+                "regions[1].zones[0].kind: "},
+        Hostile{"zone_value", WEFT_REGION(R"("zones":[{"value":7}])"),
+                "regions[1].zones[0].value: "},
         Hostile{"id_twice", WEFT_REGION(R"("name":"x"},{"id":1)"),
                 "regions[2].id: Two regions have the id 1"},
         Hostile{"id_negative", WEFT_REGION(R"("name":"x"},{"id":-1)"), "regions[2].id: "},
@@ -217,7 +222,8 @@ TEST(HostileJson, MutatedActionFilesDoNotCrash) {
   {"action": "set_region_parameter", "region": "wall", "key": "placement.scale", "value": 2},
   {"action": "set_matte_keyframe", "region": "wall", "frame": 12, "path": "a.png"},
   {"action": "move_region", "region": 1, "index": 0},
-  {"action": "set_holdouts", "region": 1, "holdouts": [{"files": "h.png"}]}
+  {"action": "set_holdouts", "region": 1, "holdouts": [{"files": "h.png"}]},
+  {"action": "set_zones", "region": 1, "zones": [{"value": 0.5, "matte": {"files": "z.png"}}]}
 ])";
     int applied = 0;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {

@@ -64,8 +64,8 @@ TEST(ProjectJson, UnknownKeysSurviveAtEveryLevel) {
     const std::string text = write(read(json_with_unknown_keys()));
     for (const char* key : {"future_top", "future_plate", "future_color", "future_settings",
                             "future_output", "future_region", "future_matte", "future_key",
-                            "future_holdout", "future_texture", "future_placement", "future_motion",
-                            "future_synthesis", "future_temporal", "future_light"})
+                            "future_holdout", "future_zone", "future_texture", "future_placement",
+                            "future_motion", "future_synthesis", "future_temporal", "future_light"})
         EXPECT_THAT(text, HasSubstr("\"" + std::string(key) + "\"")) << text;
     EXPECT_THAT(text, HasSubstr("\"future_region\": \"ä\""));
     EXPECT_THAT(text, HasSubstr("\"big\": 1e+300"));

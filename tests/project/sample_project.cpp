@@ -26,6 +26,13 @@ Region full_region() {
     painted.keyframes = {{12, {"mattes/hand.png", {}}}};
     painted.carry = CarryDirection::kForward;
     r.holdouts = std::vector<MatteSource>{holdout, painted};
+    Zone zone;
+    zone.value = 0.25;
+    zone.value_keys = {{{1, {0}}, {24, {2}}}};
+    zone.matte = painted;
+    Zone zone_in_files;
+    zone_in_files.matte = holdout;
+    r.zones = std::vector<Zone>{zone, zone_in_files};
     r.texture = {
         "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};
     r.placement.scale = 0.1;
@@ -108,6 +115,7 @@ std::string json_with_unknown_keys() {
     "id": 1, "future_region": "ä",
     "matte": {"keyframes": [{"frame": 12, "path": "a.png", "future_key": 1}], "future_matte": 2},
     "holdouts": [{"files": "h/####.png", "future_holdout": 3}],
+    "zones": [{"value": 0.5, "matte": {"files": "z.png"}, "future_zone": 10}],
     "texture": {"sample": "s.png", "future_texture": 4},
     "placement": {"future_placement": 5},
     "motion": {"future_motion": 6},

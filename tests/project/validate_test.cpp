@@ -60,6 +60,8 @@ TEST(Validate, FindsWhatIsMissing) {
                "E regions[0] 'wall': light.image", "light.source");
     expect_one(good_project([](Region& r) { r.holdouts = std::vector<MatteSource>(1); }),
                "E regions[0] 'wall': holdouts[0]", "No matte");
+    expect_one(good_project([](Region& r) { r.zones = std::vector<Zone>(1); }),
+               "E regions[0] 'wall': zones[0].matte", "No matte");
     Project no_output = good_project();
     no_output.output.path.clear();
     expect_one(no_output, "W output.path", "Set one");

@@ -112,6 +112,48 @@ TEST_F(PaintedLayers, DirectionAndRangeAreChosenInTheInspector) {
     EXPECT_EQ(region().matte->carry_to, 3);
 }
 
+TEST_F(PaintedLayers, ALightZoneIsPaintedAndItsValueChanges) {
+    open();
+    ASSERT_TRUE(robot->click("Light zones"));
+    robot->wheel(-30);
+    robot->frames(3);
+    ASSERT_TRUE(robot->click("Light zones/Paint a light zone"));
+    robot->frames(3);
+    EXPECT_EQ(session->view().matte_layer, zone_layer(0));
+    robot->stroke({at(40, 25), at(60, 40)});
+    robot->frames(3);
+    ASSERT_THAT(*region().zones, SizeIs(1));
+    EXPECT_THAT(*region().holdouts, IsEmpty());
+    EXPECT_EQ(region().zones->front().value, 0.0);
+    EXPECT_TRUE(region().zones->front().matte.keyframes.contains(1));
+    EXPECT_THAT(session->view().zones, SizeIs(1));
+    ASSERT_TRUE(robot->click("Light zones/Back to the matte"));
+    robot->frames(2);
+    EXPECT_EQ(session->view().matte_layer, 0);
+    ASSERT_TRUE(robot->drag("Light zones/Light", {20, 0}));
+    robot->frames(3);
+    EXPECT_GT(region().zones->front().value, 0.0);
+    ASSERT_TRUE(robot->click("Light zones/Remove zone 1"));
+    robot->frames(2);
+    EXPECT_THAT(*region().zones, IsEmpty());
+}
+
+TEST(MatteLayer, ZonesHaveNumbersBelowZero) {
+    Region region;
+    region.id = 4;
+    MatteSource painted;
+    painted.keyframes[7] = {"a.png", {}};
+    EXPECT_EQ(first_layer(region), -1);
+    EXPECT_EQ(last_layer(region), 1);
+    const Edit begun = set_layer(region, -1, painted);
+    ASSERT_TRUE(std::holds_alternative<SetZones>(begun));
+    region.zones = std::get<SetZones>(begun).zones;
+    EXPECT_EQ(layer_source(region, -1), painted);
+    EXPECT_TRUE(layer_source(region, -2).empty());
+    EXPECT_EQ(first_layer(region), -2);
+    EXPECT_THAT(std::get<SetZones>(without_layer_key(region, -1, 7)).zones, IsEmpty());
+}
+
 TEST(MatteLayer, TheLastKeyOfAHoldoutTakesItWithIt) {
     Region region;
     region.id = 4;

@@ -203,6 +203,18 @@ void write(OrderedJson& object, const SetHoldouts& edit) {
     object["holdouts"] = write_holdouts(edit.holdouts);
 }
 
+Status read(ObjectReader& object, SetZones& edit) {
+    WEFT_TRY(region, read_region_ref(object));
+    WEFT_TRY(json, required(object, "zones"));
+    WEFT_TRY(zones, read_zones(*json, object.path_of("zones")));
+    edit = {std::move(region), std::move(zones)};
+    return {};
+}
+void write(OrderedJson& object, const SetZones& edit) {
+    object["region"] = write_region_ref(edit.region);
+    object["zones"] = write_zones(edit.zones);
+}
+
 Status read(ObjectReader& object, SetTexture& edit) {
     WEFT_TRY(region_ref, read_region_ref(object));
     WEFT_TRY(json, required(object, "texture"));
@@ -239,7 +251,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Edit>> kNames{
     "set_plate",     "set_output",         "set_project_parameter", "add_region",
     "remove_region", "move_region",        "rename_region",         "set_region_parameter",
     "set_matte",     "set_matte_keyframe", "remove_matte_keyframe", "set_holdouts",
-    "set_texture",   "set_correction",     "set_amendments"};
+    "set_zones",     "set_texture",        "set_correction",        "set_amendments"};
 
 template <std::size_t I = 0>
 Expected<Edit> read_named(std::string_view name, ObjectReader& object) {

@@ -112,6 +112,7 @@ void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> tab
 [[nodiscard]] Expected<MatteSource> read_matte_source(const Json& json, const std::string& path);
 [[nodiscard]] Expected<std::vector<MatteSource>> read_holdouts(const Json& json,
                                                                const std::string& path);
+[[nodiscard]] Expected<std::vector<Zone>> read_zones(const Json& json, const std::string& path);
 /// At least one pin. Errors: Unreadable with the path.
 [[nodiscard]] Expected<std::vector<CorrectionPin>> read_pins(const Json& json,
                                                              const std::string& path);
@@ -131,6 +132,7 @@ void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> tab
                                                                     const std::string& path);
 [[nodiscard]] OrderedJson write_amendments(const std::vector<PlaneAmendment>& amendments);
 [[nodiscard]] OrderedJson write_holdouts(const std::vector<MatteSource>& holdouts);
+[[nodiscard]] OrderedJson write_zones(const std::vector<Zone>& zones);
 [[nodiscard]] OrderedJson write_region(const Region& region);
 [[nodiscard]] OrderedJson write_group(std::string_view group, const Region& region);
 [[nodiscard]] OrderedJson write_group(std::string_view group, const Project& project);

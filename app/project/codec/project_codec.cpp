@@ -157,6 +157,26 @@ Expected<std::vector<MatteSource>> read_holdouts(const Json& json, const std::st
     return out;
 }
 
+Expected<std::vector<Zone>> read_zones(const Json& json, const std::string& path) {
+    constexpr std::size_t kMostZones = 1000;
+    if (!json.is_array() || json.size() > kMostZones)
+        return fail_at(path, fmt::format("This is {}, but must be a list of at most {} zones",
+                                         type_of(json), kMostZones));
+    std::vector<Zone> out;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
+        Zone zone;
+        WEFT_CHECK_OK(read_parameters(object, zone_parameters(), "", zone));
+        if (const Json* matte = object.take("matte")) {
+            WEFT_TRY(source, read_matte_source(*matte, object.path_of("matte")));
+            zone.matte = std::move(source);
+        }
+        zone.extra = object.rest();
+        out.push_back(std::move(zone));
+    }
+    return out;
+}
+
 Expected<std::vector<CorrectionPin>> read_pins(const Json& json, const std::string& path) {
     constexpr std::size_t kMostPins = 1000;
     if (!json.is_array() || json.size() > kMostPins)
@@ -208,6 +228,10 @@ Expected<Region> read_region(const Json& json, const std::string& path) {
     if (const Json* holdouts = object.take("holdouts")) {
         WEFT_TRY(sources, read_holdouts(*holdouts, object.path_of("holdouts")));
         region.holdouts = std::move(sources);
+    }
+    if (const Json* zones = object.take("zones")) {
+        WEFT_TRY(read, read_zones(*zones, object.path_of("zones")));
+        region.zones = std::move(read);
     }
     if (const Json* corrections = object.take("corrections")) {
         WEFT_TRY(read, read_corrections(*corrections, object.path_of("corrections")));
@@ -301,12 +325,25 @@ OrderedJson write_holdouts(const std::vector<MatteSource>& holdouts) {
     return list;
 }
 
+OrderedJson write_zones(const std::vector<Zone>& zones) {
+    OrderedJson list = OrderedJson::array();
+    for (const Zone& zone : zones) {
+        OrderedJson object = OrderedJson::object();
+        write_parameters(object, zone_parameters(), "", zone);
+        object["matte"] = write_matte_source(zone.matte);
+        write_extras(object, zone.extra);
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
 OrderedJson write_region(const Region& region) {
     OrderedJson object = OrderedJson::object();
     object["id"] = region.id;
     write_parameters(object, region_parameters(), "", region);
     object["matte"] = write_matte_source(*region.matte);
     if (!region.holdouts->empty()) object["holdouts"] = write_holdouts(*region.holdouts);
+    if (!region.zones->empty()) object["zones"] = write_zones(*region.zones);
     if (!region.amendments->empty()) object["amendments"] = write_amendments(*region.amendments);
     for (const auto& [frame, pins] : region.corrections)
         object["corrections"].push_back({{"frame", frame}, {"pins", write_pins(pins)}});

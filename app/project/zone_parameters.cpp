@@ -1,0 +1,23 @@
+#include "app/project/parameter_entry.h"
+
+namespace weft {
+
+using parameter_entry::entry;
+
+std::span<const Parameter<Zone>> zone_parameters() {
+    static const std::vector<Parameter<Zone>> table{
+        entry<Zone, &Zone::kind>({.key = "kind", .help = "What the zone changes"}),
+        entry<Zone, &Zone::value>(
+            {.key = "value",
+             .help = "Inside the zone; of light: how much of it the texture takes",
+             .min = 0,
+             .max = 2}),
+        entry<Zone, &Zone::value_keys>({.key = "value_keys",
+                                        .help = "Animated value: FRAME:VALUE, separated by spaces",
+                                        .min = 0,
+                                        .max = 2}),
+    };
+    return table;
+}
+
+}  // namespace weft
