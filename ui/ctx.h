@@ -44,13 +44,10 @@ struct Ctx {
     std::function<void(const std::vector<Action>&)> act_now;
     std::string panel;  ///< Prefix of the items' names.
 
-    void emit(Action action) { actions.push_back(std::move(action)); }
+    void emit(Action action);
     /// For what this very frame is to show: a stroke under the brush.
-    void emit_now(std::vector<Action> all) {
-        if (act_now) return act_now(all);
-        actions.insert(actions.end(), all.begin(), all.end());
-    }
-    void edit(Edit what) { emit(DoEdit{std::move(what)}); }
+    void emit_now(const std::vector<Action>& all);
+    void edit(Edit what);
     /// Notes the last ImGui item under a name.
     void note(std::string_view name, bool enabled = true);
     void note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled = true);

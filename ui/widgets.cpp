@@ -6,19 +6,6 @@
 
 #include "ui/icons.h"
 
-namespace weft {
-
-void Ctx::note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled) {
-    if (!items) return;
-    items->push_back({(panel.empty() ? "" : panel + "/") + std::string(name), min, max, enabled});
-}
-
-void Ctx::note(std::string_view name, bool enabled) {
-    note(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), enabled);
-}
-
-}  // namespace weft
-
 namespace weft::ui {
 namespace {
 
