@@ -69,6 +69,16 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& 
     return {};
 }
 
+Status add_mattes(Hasher& hasher, const Region& region, const PaintedMattes& painted) {
+    WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
+    for (const MatteSource& holdout : *region.holdouts)
+        WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
+    // Of zones only what is propagated: their values are applied when a frame is rendered.
+    for (const Zone& zone : *region.zones)
+        if (zone.matte.files.empty()) WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
+    return {};
+}
+
 // Folders for the regions below `root`, marked as used now.
 Status make_folders(const fs::path& root, const std::vector<std::string>& keys,
                     std::vector<fs::path>& folders) {
@@ -101,12 +111,7 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index,
     add_plate_stamps(hasher, *shot.plate);
     hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name);
     hasher.value(static_cast<int>(shot.plan.quality));
-    WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
-    for (const MatteSource& holdout : *region.holdouts)
-        WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
-    // Of zones only what is propagated: their values are applied when a frame is rendered.
-    for (const Zone& zone : *region.zones)
-        if (zone.matte.files.empty()) WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
+    WEFT_CHECK_OK(add_mattes(hasher, region, painted));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward)
         .value(static_cast<int>(region.motion.convention))

@@ -72,7 +72,7 @@ const std::vector<Exception> kLongFunctions{
       {"ui/inspector.cpp", "region_list", 100},
       {"ui/inspector_light.cpp", "light_inspector", 80},
       {"ui/inspector_mask.cpp", "mask_inspector", 110},
-      {"ui/inspector_mask.cpp", "matte_source_card", 70},
+      {"ui/inspector_mask.cpp", "matte_source_card", 65},
       {"ui/inspector_motion.cpp", "motion_inspector", 95},
       {"ui/inspector_parts.cpp", "lamps_controls", 70},
       {"ui/inspector_texture.cpp", "texture_inspector", 90},

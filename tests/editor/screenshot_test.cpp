@@ -138,10 +138,11 @@ struct Page {
     const char* workspace;
     Recti ignored;  ///< Of the golden picture: what depends on the machine.
 };
-// In Texture the heading says how far the search for suggestions is. In Motion the path of the
+// In Mask the path of the matte files begins with the folder of the sources. In Texture the heading
+// says how far the search for suggestions is. In Motion the path of the
 // demo's motion passes begins with the folder of the sources; in Jobs the output lies in the
 // sandbox, whose name is drawn.
-const Page kPages[] = {{"mask", "Mask", {}},
+const Page kPages[] = {{"mask", "Mask", {272, 104, 320, 112}},
                        {"texture", "Texture", {168, 92, 320, 104}},
                        {"motion", "Motion", {272, 136, 320, 152}},
                        {"light", "Seams & Light", {}},
@@ -193,13 +194,13 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
                       page.ignored);
 }
 
-// The analysis is paused from the first frame on, so that what is seen does not depend on the machine.
+// The analysis is paused from the first frame on, so that what is seen does not depend on the
+// machine.
 TEST(Screenshots, EveryWorkspaceLooksAsItDid) {
     const Sandbox sandbox;
     expect_golden_pages(
         sandbox, {"edit", "--demo", "--paused"},
-        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"}, {"wait": 1.5})",
-        "");
+        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"}, {"wait": 1.5})", "");
 }
 
 void write_plates(const Sandbox& sandbox) {

@@ -32,6 +32,7 @@ std::vector<Edit> every_edit() {
             SetMatteKeyframe{{7, {}}, 40, "b.png"},
             RemoveMatteKeyframe{{7, {}}, 1},
             SetHoldouts{{7, {}}, {painted}},
+            SetZones{{7, {}}, {{ZoneKind::kLight, 0.5, {}, painted, {}}}},
             SetTexture{{7, {}}, region.texture},
             SetCorrection{{7, {}}, 12, {{{1, 2}, {3, 4.5}}}},
             SetAmendments{{7, {}}, {{PlaneAmendment::Kind::kAgain, 3, {{1, 2, 40, 5, 6, 0, 0}}}}}};
