@@ -52,7 +52,7 @@ void InputQueue::leave() {
         move({-FLT_MAX, -FLT_MAX});
 }
 
-void InputQueue::let_go() {
+void InputQueue::release_all() {
     const ImGuiIO& io = ImGui::GetIO();
     for (int code = 0; code < IM_ARRAYSIZE(io.KeysDown); ++code)
         if (io.KeysDown[code]) key(code, false);

@@ -22,7 +22,7 @@ class InputQueue {
     /// The mouse left the window.
     void leave();
     /// The keyboard went elsewhere: what is down will be reported to nobody.
-    void let_go();
+    void release_all();
 
     /// Before ImGui::NewFrame(): hands over events in their order, at most one change of a key or a
     /// button each, a button always where the mouse was then. The rest waits for the next frames.

@@ -85,9 +85,9 @@ RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality
     count_regions(v.project, in);
     in.layers = !c.state.output.layers.empty();
     // The preview's analysis serves a render of its quality.
-    const bool there = v.preview_quality == quality && v.result_current && !v.preview.analysing;
+    const bool analysed = v.preview_quality == quality && v.result_current && !v.preview.analysing;
     in.analysed =
-        there || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
+        analysed || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
     return estimate_render(in);
 }
 
@@ -423,12 +423,12 @@ void jobs_page(Ctx& c, ImVec2 size) {
 
 void learn_from_jobs(Ctx& c) {
     for (const JobView& job : c.view.jobs) {
-        if (job.state != JobState::kDone || job.foreseen_s <= 0 ||
+        if (job.state != JobState::kDone || job.estimated_s <= 0 ||
             c.state.calibrated_jobs.contains(job.id))
             continue;
         c.state.calibrated_jobs.insert(job.id);
         c.settings.render_speed =
-            calibrated_speed(c.settings.render_speed, job.foreseen_s, job.elapsed_s);
+            calibrated_speed(c.settings.render_speed, job.estimated_s, job.elapsed_s);
     }
 }
 

@@ -88,8 +88,7 @@ std::vector<Heat> heats_of(const Ctx& c) {
     // An edge that jumps by so many pixels is as bad as it gets.
     constexpr float kWorstChatter_px = 4;
     for (const FrameMarks& mark : c.view.marks) {
-        out[0].values.push_back(
-            flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_carried));
+        out[0].values.push_back(flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_floor));
         out[1].values.push_back(mark.seam);
         out[2].values.push_back(mark.drift);
         out[3].values.push_back(mark.chatter / kWorstChatter_px);
@@ -155,11 +154,11 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
         switch (by) {
             case 0:
                 if (mark.flicker < 0) return std::nullopt;
-                return Worst{0, mark.flicker - std::max(mark.flicker_plate, mark.flicker_carried),
-                             number(mark.flicker, 2) +
-                                 (mark.flicker_carried < 0
-                                      ? ", plate " + number(mark.flicker_plate, 2)
-                                      : ", at best " + number(mark.flicker_carried, 2))};
+                return Worst{
+                    0, mark.flicker - std::max(mark.flicker_plate, mark.flicker_floor),
+                    number(mark.flicker, 2) + (mark.flicker_floor < 0
+                                                   ? ", plate " + number(mark.flicker_plate, 2)
+                                                   : ", at best " + number(mark.flicker_floor, 2))};
             case 1: {
                 if (mark.seam < 0) return std::nullopt;
                 std::string text = number(100 * mark.seam, 0) + "% steeper";

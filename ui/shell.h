@@ -32,7 +32,7 @@ class Shell {
     void open_dropped(const std::string& path, const SessionView& view);
     void ask_to_leave();
     /// Whether something moves by itself here (thumbnails that are awaited).
-    [[nodiscard]] bool waiting() const { return folders_.busy() || state_.drawer.large_due; }
+    [[nodiscard]] bool waiting() const { return folders_.busy() || state_.drawer.large_pending; }
 
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;

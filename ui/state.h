@@ -101,7 +101,7 @@ struct DrawerState {
     bool together = false;       ///< Suggestions for all regions at once.
     std::vector<RegionId> kept;  ///< Regions whose texture stays then.
     int together_first = 0;      ///< The first one that is shown.
-    bool large_shown = false, large_due = false;  ///< The preview; it is to open in a moment.
+    bool large_shown = false, large_pending = false;  ///< The preview; it is to open in a moment.
 };
 
 /// A folder of the artist's own textures that is to be added.

@@ -69,7 +69,7 @@ void adding_window(Ctx& c) {
     ImGui::Dummy({0, t.px(8)});
     if (button(c, "Add", {.icon = icons::kPlus, .look = Look::kPrimary})) {
         if (a.how == 0) {
-            c.textures.bring_in({a.folder, a.author, a.licence, a.keep_originals});
+            c.textures.import_folder({a.folder, a.author, a.licence, a.keep_originals});
             a.asked = true;
         } else {
             show_folder(c, a.folder);

@@ -42,8 +42,8 @@ void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>&
     // The library knows its words better than a comparison of letters does.
     std::shared_ptr<const std::vector<std::string>> answered = c.textures.similar(d.similar_key);
     if (d.similar_key.empty()) {
-        const TextureQuestion question{wanted + (d.look.empty() ? "" : " " + d.look), d.origin,
-                                       d.licence};
+        const TextureQuery question{wanted + (d.look.empty() ? "" : " " + d.look), d.origin,
+                                    d.licence};
         d.answer = c.textures.search(question);
         if (d.answer) answered = {d.answer, &d.answer->paths};
     }
@@ -332,8 +332,8 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     DrawerState& d = c.state.drawer;
     constexpr double kMomentS = 0.35;
     if (picked == cards->end()) d.large_shown = false;
-    d.large_due = picked != cards->end() && !d.large_shown;
-    if (d.large_due && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
+    d.large_pending = picked != cards->end() && !d.large_shown;
+    if (d.large_pending && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
         d.large_shown = true;
     const float right = d.large_shown ? std::clamp(size.x * 0.24f, t.px(200), t.px(320)) : 0;
     const float head = t.px(38), body = size.y - head;

@@ -177,7 +177,7 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
     strip([](const FrameMarks& m) { return m.drift; });
     strip([](const FrameMarks& m) { return m.seam; });
     strip([](const FrameMarks& m) {
-        return flicker_heat(m.flicker, m.flicker_plate, m.flicker_carried);
+        return flicker_heat(m.flicker, m.flicker_plate, m.flicker_floor);
     });
     // Where a correction would help most.
     for (const CorrectionHint& hint : v.to_correct) {

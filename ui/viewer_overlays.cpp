@@ -84,11 +84,11 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     draw.where = over->where;
     draw.key = 1'000'000;
     draw.version = over->id;
-    draw.heat = over->kind != Overlay::kGrid && over->kind != Overlay::kPieces;
+    draw.heat = over->kind != Overlay::kGrid && over->kind != Overlay::kSourceMap;
     draw.color = t.text;
-    draw.opacity = over->kind == Overlay::kSeams    ? 1.0f
-                   : over->kind == Overlay::kPieces ? 0.4f
-                                                    : 0.75f;
+    draw.opacity = over->kind == Overlay::kSeams       ? 1.0f
+                   : over->kind == Overlay::kSourceMap ? 0.4f
+                                                       : 0.75f;
     draw.min = map.to_screen({0, 0});
     draw.max = map.to_screen(
         {static_cast<float>(over->value.width()), static_cast<float>(over->value.height())});
@@ -136,7 +136,7 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
                                              "Seams", "Motion",       "Trust",   "Pieces"};
     const std::string name = kNames[static_cast<int>(c.view.overlay)];
     const bool scale = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion &&
-                       over->kind != Overlay::kPieces;
+                       over->kind != Overlay::kSourceMap;
     const float w = t.px(220), h = scale ? t.px(52) : t.px(26);
     const ImVec2 a(max.x - w - t.px(10), min.y + t.px(10)),
         b(max.x - t.px(10), min.y + t.px(10) + h);

@@ -267,7 +267,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (c.view.plate.size.empty()) return;
     if (c.state.keep_overlay && c.state.tool != Tool::kKeep) {
         c.state.keep_overlay = false;
-        if (c.view.overlay == Overlay::kPieces) c.emit(ShowOverlay{Overlay::kNone});
+        if (c.view.overlay == Overlay::kSourceMap) c.emit(ShowOverlay{Overlay::kNone});
     }
     switch (c.state.tool) {
         case Tool::kPan:

@@ -59,9 +59,9 @@ bool PlatePlayer::try_read(int frame, Reading& reading) const {
     reading.error = failed == errors_.end() ? std::string() : failed->second;
     reading.frame = frame;
     reading.bytes = bytes_;
-    const std::uint64_t now = arrivals_.load() + 1;
-    if (reading.arrivals == now) return true;
-    reading.arrivals = now;
+    const std::uint64_t now = changes_.load() + 1;
+    if (reading.changes == now) return true;
+    reading.changes = now;
     const std::vector<int>& all = reader_->frames();
     reading.states.assign(all.size(), State::kEmpty);
     const auto mark = [&](const auto& frames, State state) {
@@ -128,7 +128,7 @@ void PlatePlayer::keep(int frame, Expected<PlateFrame> decoded) {
     std::vector<PicturePtr> gone;  // freed after the lock is: pictures are large
     const std::lock_guard lock(mutex_);
     std::erase(decoding_, frame);
-    ++arrivals_;
+    ++changes_;
     if (!picture) {
         errors_[frame] = decoded.error().text();
         return;

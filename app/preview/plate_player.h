@@ -29,7 +29,7 @@ class PlatePlayer {
         std::string error;          ///< Why `frame` could not be read.
         std::vector<State> states;  ///< By index into the reader's frames.
         std::size_t bytes = 0;
-        std::uint64_t arrivals = 0;  ///< Of `states`; 0: never read.
+        std::uint64_t changes = 0;  ///< Of `states`; 0: never read.
     };
 
     /// `srgb` and `linear` take the plate's space to the screen's; null: it is there already.
@@ -45,7 +45,7 @@ class PlatePlayer {
     /// Likewise. `reading` may be that of another frame: only what differs is filled in.
     bool try_read(int frame, Reading& reading) const;
     /// Grows whenever a frame arrives: what tells a waiting window to draw again.
-    [[nodiscard]] std::uint64_t arrivals() const { return arrivals_.load(); }
+    [[nodiscard]] std::uint64_t changes() const { return changes_.load(); }
 
   private:
     void work();
@@ -64,7 +64,7 @@ class PlatePlayer {
     std::map<int, std::string> errors_;
     std::vector<int> decoding_;
     std::size_t bytes_ = 0;
-    std::atomic<std::uint64_t> arrivals_ = 0;
+    std::atomic<std::uint64_t> changes_ = 0;
     bool stop_ = false;
     std::vector<std::thread> threads_;
 };

@@ -31,12 +31,13 @@ enum class Overlay : std::uint8_t {
     kLight,
     kSeams,
     kMotion,
-    kTrust,  ///< How far the surface looks different from the reference frame, where it came from.
-    kPieces  ///< Which piece of the sample each pixel shows.
+    kConfidence,  ///< How far the surface looks different from the reference frame, where it came
+                  ///< from.
+    kSourceMap    ///< Which piece of the sample each pixel shows.
 };
 
 /// A small result beside the picture: another frame, or this one with another setting.
-struct StripWish {
+struct CardRequest {
     std::string label;
     std::string note;  ///< More about it, for whoever draws it.
     Project project;   ///< As in PreviewRequest.
@@ -46,13 +47,13 @@ struct StripWish {
     bool current = false;  ///< The setting that the region has.
 };
 
-/// Where a StripWish stands.
+/// Where a CardRequest stands.
 struct StripCard {
     std::string label, note;
     int frame = 0;
     PicturePtr picture;    ///< Null while it is being made.
     std::string error;     ///< Why it cannot be.
-    bool current = false;  ///< As StripWish::current.
+    bool current = false;  ///< As CardRequest::current.
 };
 
 struct PreviewRequest {
@@ -64,13 +65,13 @@ struct PreviewRequest {
     std::optional<LayerKind> layer;  ///< Also this layer for compositing of `frame`.
     Overlay overlay = Overlay::kNone;
     RegionId overlay_region = 0;
-    std::vector<StripWish> cards;  ///< To be made when the frame is there.
-    PaintedMattes painted;         ///< Mattes of the project that may not be on the disk yet.
-    bool hurried = false;          ///< Something is moving: no time for full size.
+    std::vector<CardRequest> cards;  ///< To be made when the frame is rendered.
+    PaintedMattes painted;           ///< Mattes of the project that may not be on the disk yet.
+    bool interactive = false;        ///< Something is moving: no time for full size.
 };
 
 struct PreviewFrame {
-    std::array<PicturePtr, kStageCount> stages;  ///< By Stage; only the final one may be there.
+    std::array<PicturePtr, kStageCount> stages;  ///< By Stage; only the final one may be rendered.
     /// The texture was grown for another scale; the right one is being made.
     bool approximate = false;
     int proxy = 1;  ///< By how much the pictures are smaller than the plate.
@@ -91,21 +92,21 @@ struct OverlayPicture {
     int frame = 0;
     std::uint64_t id = 0;
     Matte value, where;
-    Matte marked;  ///< Of kPieces: 255 where the texture is kept, 128 where it was made again.
+    Matte marked;  ///< Of kSourceMap: 255 where the texture is kept, 128 where it was made again.
     float low = 0, high = 1;  ///< What 0 and 255 stand for.
     std::string unit;
     struct Arrow {
         Vec2 at, to;
     };
     std::vector<Arrow> arrows;                     ///< Motion since the reference frame, in pixels.
-    std::shared_ptr<const Provenance> provenance;  ///< Of kPieces.
+    std::shared_ptr<const Provenance> provenance;  ///< Of kSourceMap.
 };
 
 /// How a frame of a region fares, as far as it is known (below 0: not).
 struct FrameHealth {
     // As in FrameMarks.
     float drift = -1, stretch = -1, seam = -1, seam_motion = -1;
-    float flicker = -1, flicker_plate = -1, flicker_carried = -1, chatter = -1;
+    float flicker = -1, flicker_plate = -1, flicker_floor = -1, chatter = -1;
 };
 
 struct PreviewView {
@@ -126,13 +127,13 @@ struct PreviewView {
 struct PreviewReading {
     PreviewView view;
     bool paused = false;
-    PreviewFrame frame;      ///< Of the newest request's content only.
-    std::vector<int> there;  ///< The frames that are rendered, likewise; ascending.
+    PreviewFrame frame;         ///< Of the newest request's content only.
+    std::vector<int> rendered;  ///< The frames that are rendered, likewise; ascending.
     std::shared_ptr<const OverlayPicture> overlay;
     /// How sure the propagation was, by frame; empty for mattes that come from files.
     std::map<int, float> confidence;
     std::map<int, FrameHealth> health;       ///< Of the region, by frame.
-    std::map<std::string, StripCard> cards;  ///< Those that are made, by StripWish::key.
+    std::map<std::string, StripCard> cards;  ///< Those that are made, by CardRequest::key.
 };
 
 /// Thread-safe. The window's thread asks with try_request() and try_read(), which never wait: a
@@ -157,13 +158,13 @@ class Preview {
     /// and `reading` stays, likewise.
     bool try_read(int frame, RegionId region, int layer, PreviewReading& reading) const;
     /// Grows with everything that try_read() would tell.
-    [[nodiscard]] std::uint64_t news() const;
+    [[nodiscard]] std::uint64_t changes() const;
     /// Reads a propagated matte (`layer` 0) or holdout; to be called in the background. Error: not
     /// propagated yet.
     [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int layer, int frame) const;
     /// How the texture was carried, before_from_now, in plate pixels; to be called in the
     /// background. Error: not analysed yet, or the region's mode carries nothing.
-    [[nodiscard]] Expected<LatticeField> carried(RegionId region, int before, int now) const;
+    [[nodiscard]] Expected<LatticeField> track(RegionId region, int before, int now) const;
     /// Changes whenever propagated mattes may have changed.
     [[nodiscard]] std::uint64_t matte_version() const;
 
@@ -177,6 +178,6 @@ class Preview {
 /// The same for the analysis.
 [[nodiscard]] std::string analysis_key(const Project& project);
 /// The same for a card.
-[[nodiscard]] std::string strip_key(const StripWish& wish);
+[[nodiscard]] std::string strip_key(const CardRequest& request);
 
 }  // namespace weft

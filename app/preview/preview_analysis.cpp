@@ -44,10 +44,11 @@ void Preview::Impl::analyse_loop() {
         CancelToken token;
         {
             auto shared = guarded.lock();
-            wake.wait(shared.lock(),
-                      [&] { return shared->stop || (shared->analysis_news && !shared->paused); });
+            wake.wait(shared.lock(), [&] {
+                return shared->stop || (shared->analysis_pending && !shared->paused);
+            });
             if (shared->stop) return;
-            shared->analysis_news = false;
+            shared->analysis_pending = false;
             work = shared->to_analyse;
             first = shared->analyse_first;
             all = shared->analyse_frames;

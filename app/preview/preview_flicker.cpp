@@ -90,7 +90,7 @@ Steadiness measure_steadiness(const FramePair& pair) {
             visible_in_both(motion, pair.before.matte, pair.now.matte, options.erode_px);
         const TemporalError carried =
             carried_tde(luma_8bit(pair.before.result), pair.before_from_now, motion, visible);
-        if (carried.pixels > 0) out.flicker_carried = static_cast<float>(carried.tde);
+        if (carried.pixels > 0) out.flicker_floor = static_cast<float>(carried.tde);
     }
     if (pair.before.seams && pair.now.seams) {
         // Whether seams stay on the texture; whether that stays on the surface is drift.
@@ -122,8 +122,8 @@ FlowField dense_flow(const LatticeField& field) {
     return out;
 }
 
-Expected<LatticeField> carried_between(const OpenedShot& opened, std::size_t region, int before,
-                                       int now) {
+Expected<LatticeField> track_between(const OpenedShot& opened, std::size_t region, int before,
+                                     int now) {
     const auto ref_from = [&](int frame) -> Expected<LatticeField> {
         WEFT_TRY(bytes,
                  opened.store->get({static_cast<int>(region), frame, AnalysisKind::kCoords}));
@@ -137,7 +137,7 @@ Expected<LatticeField> carried_between(const OpenedShot& opened, std::size_t reg
 // The next two neighbouring frames that are rendered and not compared yet. False when there are
 // none.
 bool Preview::Impl::step_flicker(const PreviewRequest& now) {
-    if (now.hurried) return false;
+    if (now.interactive) return false;
     const Shot& shot = *current->shot;
     const std::vector<int>& all = shot.plate->frames();
     int before = 0, frame = 0;
@@ -186,7 +186,7 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
         };
         auto there = matte_of(before), here = matte_of(frame);
         if (!there || !here) continue;
-        const auto carried = carried_between(*current, k, before, frame);
+        const auto carried = track_between(*current, k, before, frame);
         pair.before_from_now = carried ? dense_flow(shrunk(*carried, factor)) : FlowField();
         pair.before.matte = std::move(*there);
         pair.now.matte = std::move(*here);
@@ -197,7 +197,7 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
             shared->healths[shot.project.regions[shot.region_index[k]]->id][frame];
         health.flicker = found.flicker;
         health.flicker_plate = found.flicker_plate;
-        health.flicker_carried = found.flicker_carried;
+        health.flicker_floor = found.flicker_floor;
         health.chatter = found.chatter;
         health.seam_motion = found.seam_motion;
         changed(*shared);

@@ -38,8 +38,8 @@ struct FramePair {
 /// What of a pair could be measured; below 0: not.
 struct Steadiness {
     float flicker = -1, flicker_plate = -1;  ///< TDE of `weft measure`, 8-bit steps.
-    float flicker_carried = -1;  ///< What it would be if the texture were carried unchanged.
-    float chatter = -1;          ///< Of the matte's edge, plate pixels (metrics/matte_chatter.h).
+    float flicker_floor = -1;  ///< What it would be if the texture were carried unchanged.
+    float chatter = -1;        ///< Of the matte's edge, plate pixels (metrics/matte_chatter.h).
     /// See seam_motion_px(), plate pixels: along the way that the texture was carried where that is
     /// known, else along the estimated motion.
     float seam_motion = -1;

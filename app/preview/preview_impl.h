@@ -41,8 +41,8 @@ using OpenedPtr = std::shared_ptr<const OpenedShot>;
 
 /// How a region's texture was carried: before_from_now, in plate pixels. Error: not analysed, or
 /// nothing is carried in the region's mode.
-[[nodiscard]] Expected<LatticeField> carried_between(const OpenedShot& opened, std::size_t region,
-                                                     int before, int now);
+[[nodiscard]] Expected<LatticeField> track_between(const OpenedShot& opened, std::size_t region,
+                                                   int before, int now);
 
 struct Preview::Impl {
     using Clock = std::chrono::steady_clock;
@@ -57,7 +57,7 @@ struct Preview::Impl {
     bool step_fill(const PreviewRequest& now, const std::string& pixels);
     bool step_flicker(const PreviewRequest& now);
     bool step_card(const PreviewRequest& now);
-    [[nodiscard]] Status analyse_card(OpenedShot& of, const StripWish& wish,
+    [[nodiscard]] Status analyse_card(OpenedShot& of, const CardRequest& request,
                                       const CancelToken& cancel);
     [[nodiscard]] Expected<std::shared_ptr<const Shot>> open(const Project& project,
                                                              const PaintedMattes& painted);
@@ -70,7 +70,8 @@ struct Preview::Impl {
     bool ready(int frame);
     [[nodiscard]] Expected<PreviewFrame> pictures_of(int frame, bool stages, int factor,
                                                      std::optional<LayerKind> layer);
-    [[nodiscard]] Expected<PicturePtr> card_picture(const OpenedShot& of, const StripWish& wish);
+    [[nodiscard]] Expected<PicturePtr> card_picture(const OpenedShot& of,
+                                                    const CardRequest& request);
     [[nodiscard]] PicturePtr picture_of(const Shot& shot, const ImageF3& pixels) const;
     [[nodiscard]] int factor_of(const Shot& shot, std::int64_t pixels) const;
     void set_state(PreviewView::State state, std::string error = {});
@@ -106,11 +107,11 @@ struct Preview::Impl {
         // What is to be analysed.
         OpenedPtr to_analyse;
         std::vector<int> analyse_frames, analyse_first;
-        bool analysis_news = false;
+        bool analysis_pending = false;
         std::string analysing_key;
         CancelToken analysis_cancel, grow_cancel, card_cancel;
     };
-    void changed(Shared& of) { of.shown.changes = ++news; }
+    void changed(Shared& of) { of.shown.changes = ++changes; }
     void signal(Shared& of) {
         ++of.signals;
         wake.notify_all();
@@ -123,7 +124,7 @@ struct Preview::Impl {
 
     Guarded<Shared> guarded;
     std::condition_variable wake;  // with the lock of `guarded`
-    std::atomic<std::uint64_t> mattes = 0, news = 0;
+    std::atomic<std::uint64_t> mattes = 0, changes = 0;
 
     // Of the rendering thread alone.
     OpenedPtr current;        // as Shared::opened, which only this thread sets
@@ -132,13 +133,13 @@ struct Preview::Impl {
     OverlayMaker overlays;
     std::set<int> ready_frames;
     std::set<int> compared;  // frames whose flicker was looked at
-    bool refine_due = false;
+    bool refine_pending = false;
     OpenedPtr unwritten;  // was opened with mattes that were not on the disk
     std::shared_ptr<const ColorTransform> srgb_from_out, linear_from_out;
     std::shared_ptr<const CachedReader> reader;  // of the plate `reader_of`
     Plate reader_of;
     std::unique_ptr<ProxyPlates> proxies;
-    const std::shared_ptr<VisibilityMemory> visibility = std::make_shared<VisibilityMemory>();
+    const std::shared_ptr<VisibilityCache> visibility = std::make_shared<VisibilityCache>();
     std::shared_ptr<AnalysisCache> card_store;  // of cards that the picture's does not serve
     std::string card_analysis;
 

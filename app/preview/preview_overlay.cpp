@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/preview/preview_health.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/plate_views.h"
@@ -124,7 +124,7 @@ void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPictu
 }
 
 // Pieces of the sample in greys of their own.
-void draw_pieces(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
+void draw_source_map(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
     for_texels(coords, plane, out, [&](int u, int v) {
         const std::int32_t* from = plane.source.pixel(u, v);
         const auto piece =
@@ -157,8 +157,8 @@ void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const Pla
 
 // How far the surface looks different from what it was on the reference frame: where motion has
 // lost it, or something else is seen.
-Status draw_trust(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
-                  OverlayPicture& out) {
+Status draw_confidence(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
+                       OverlayPicture& out) {
     out.unit = "difference from the reference";
     out.low = 0;
     out.high = 1;
@@ -217,25 +217,25 @@ std::string id_of(const ShotTexture& texture) {
 
 // Which references a frame of a locked texture was followed from, and how they share it
 // (SurfacePass::blend; a held drawing's own position in time is left out).
-Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
-                        const RegionScene& scene, int region, Provenance& out) {
+Status follow_tracks(const RegionPlan& plan, const AnalysisStore& store, const RegionScene& scene,
+                     int region, Provenance& out) {
     std::vector<int> references = plan.reference_frames;
     std::sort(references.begin(), references.end());
     const auto next = std::upper_bound(references.begin(), references.end(), out.frame);
-    out.history_frame = next == references.begin() ? references.front() : *(next - 1);
+    out.track_frame = next == references.begin() ? references.front() : *(next - 1);
     if (plan.temporal != TemporalMode::kLocked) return {};
     const bool between =
         next != references.begin() && next != references.end() && *(next - 1) != out.frame;
     if (between) {
         const float after = smooth_step(static_cast<float>(out.frame),
                                         static_cast<float>(*(next - 1)), static_cast<float>(*next));
-        out.two = TwoHistories{*(next - 1), *next, after, {}};
+        out.two = TwoTracks{*(next - 1), *next, after, {}};
     }
     for (const HistorySeam& seam : scene.seams) {
         if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kHistoryAfter}))
             continue;
-        if (!out.two) out.two = TwoHistories{out.history_frame, out.history_frame, 0, {}};
-        TwoHistories::Seam one;
+        if (!out.two) out.two = TwoTracks{out.track_frame, out.track_frame, 0, {}};
+        TwoTracks::Seam one;
         one.labels = {out.frame - 1,
                       out.frame + 1,
                       seam.cell_px,
@@ -271,7 +271,7 @@ Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
     out.temporal = plan.temporal;
     out.fresh = plan.blend;
     out.reference_shading = scene.reference_shading;
-    WEFT_CHECK_OK(follow_histories(plan, store, scene, region, out));
+    WEFT_CHECK_OK(follow_tracks(plan, store, scene, region, out));
     if (store.has({region, frame, AnalysisKind::kShading})) {
         WEFT_TRY(light, store.get({region, frame, AnalysisKind::kShading}));
         WEFT_TRY(shading, decode_shading(light));
@@ -350,7 +350,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     WEFT_TRY(plane_from, placement_on(plan, scene, frame));
     const TextureCoords coords = texture_coords(ref_from_cur, plane_from, rect_of(size));
     std::shared_ptr<const PlaneMap> plane;
-    if (kind == Overlay::kSeams || kind == Overlay::kPieces) {
+    if (kind == Overlay::kSeams || kind == Overlay::kSourceMap) {
         WEFT_TRY(map, plane_map(shot, region, scene, cancel));
         plane = std::move(map);
     }
@@ -367,12 +367,12 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
         case Overlay::kMotion:
             draw_motion(ref_from_cur, out);
             break;
-        case Overlay::kTrust:
+        case Overlay::kConfidence:
             WEFT_CHECK_OK(
-                draw_trust(shot, ref_from_cur, plan.reference_frames.front(), frame, out));
+                draw_confidence(shot, ref_from_cur, plan.reference_frames.front(), frame, out));
             break;
-        case Overlay::kPieces: {
-            if (plane) draw_pieces(coords, *plane, out);
+        case Overlay::kSourceMap: {
+            if (plane) draw_source_map(coords, *plane, out);
             if (plane && !plan.amendments.empty()) draw_amended(coords, plan, *plane, out);
             WEFT_TRY(asked, provenance_of(shot, store, scene, region, frame));
             asked.plane = plane;

@@ -71,11 +71,11 @@ void Preview::Impl::render_loop() {
     for (;;) {
         {
             auto shared = guarded.lock();
-            const auto news_or_end = [&] { return shared->stop || shared->signals != seen; };
-            if (refine_due)
-                wake.wait_until(shared.lock(), shared->refine_at, news_or_end);
+            const auto signalled = [&] { return shared->stop || shared->signals != seen; };
+            if (refine_pending)
+                wake.wait_until(shared.lock(), shared->refine_at, signalled);
             else
-                wake.wait(shared.lock(), news_or_end);
+                wake.wait(shared.lock(), signalled);
             if (shared->stop) return;
             seen = shared->signals;
         }
@@ -90,7 +90,7 @@ void Preview::Impl::render_loop() {
 bool Preview::Impl::step() {
     PreviewRequest now;
     std::string pixels;
-    refine_due = false;
+    refine_pending = false;
     {
         const auto shared = guarded.lock();
         if (!shared->wanted || shared->wanted_pixels == shared->failed_pixels) return false;
@@ -130,11 +130,11 @@ bool Preview::Impl::step_frame(const PreviewRequest& now) {
                           (!now.layer || there.layer_kind == now.layer);
             whole = shown_small && there.proxy == 1;
         }
-        may_refine = !now.hurried && Clock::now() >= shared->refine_at;
+        may_refine = !now.interactive && Clock::now() >= shared->refine_at;
     }
     if (!shown_small) return render(now, now.frame, factor);
     if (!whole && may_refine) return render(now, now.frame, 1);
-    refine_due = !whole && !now.hurried;
+    refine_pending = !whole && !now.interactive;
     set_state(PreviewView::State::kIdle);
     return draw_overlay(now);
 }
@@ -214,7 +214,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     compared.clear();
     for (auto& [region, of_frames] : shared->healths)
         for (auto& [frame, health] : of_frames)
-            health.flicker = health.flicker_plate = health.flicker_carried = health.chatter =
+            health.flicker = health.flicker_plate = health.flicker_floor = health.chatter =
                 health.seam_motion = health.seam = -1;
     shared->shown.warnings = std::move(warnings);
     shared->shown.references = references_of(**shot);
@@ -230,7 +230,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
         shared->to_analyse = fresh;
         shared->analyse_first = {now.frame};
         shared->analyse_frames = range;
-        shared->analysis_news = true;
+        shared->analysis_pending = true;
         wake.notify_all();
     }
     return true;

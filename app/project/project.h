@@ -116,8 +116,8 @@ struct MatteSource {
     std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated …
     std::string frozen_files;  ///< … from files of this pattern.
     /// Which way painted mattes are carried, and between which frames; unset ends are the shot's.
-    CarryDirection carry = CarryDirection::kBoth;
-    std::optional<int> carry_from, carry_to;
+    CarryDirection propagate_direction = CarryDirection::kBoth;
+    std::optional<int> propagate_from, propagate_to;
     Extras extra;
     [[nodiscard]] bool empty() const {
         return files.empty() && keyframes.empty() && select.crypto.empty();

@@ -55,10 +55,10 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
         if (painted.path.empty())
             find.error(key, fmt::format("The keyframe of frame {} has no path", frame),
                        "Set it or remove the keyframe");
-    if (matte.carry_from && matte.carry_to && *matte.carry_from > *matte.carry_to)
+    if (matte.propagate_from && matte.propagate_to && *matte.propagate_from > *matte.propagate_to)
         find.error(key,
-                   fmt::format("It is propagated from frame {} to frame {}", *matte.carry_from,
-                               *matte.carry_to),
+                   fmt::format("It is propagated from frame {} to frame {}", *matte.propagate_from,
+                               *matte.propagate_to),
                    "Exchange the two frames");
     if (matte.select.value && !matte.select.channel.empty())
         find.warning(

@@ -59,9 +59,9 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& 
             add_file(hasher, key.path);
     }
     hasher.value(matte.steadiness)
-        .value(static_cast<int>(matte.carry))
-        .value(matte.carry_from.value_or(std::numeric_limits<int>::min()))
-        .value(matte.carry_to.value_or(std::numeric_limits<int>::max()));
+        .value(static_cast<int>(matte.propagate_direction))
+        .value(matte.propagate_from.value_or(std::numeric_limits<int>::min()))
+        .value(matte.propagate_to.value_or(std::numeric_limits<int>::max()));
     hasher.value(matte.select.value.value_or(-1))
         .text(matte.select.channel)
         .value(matte.select.invert)

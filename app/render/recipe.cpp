@@ -28,7 +28,7 @@ std::string joined(const std::set<std::string>& texts) {
 }
 
 // The project without settings that do not affect pixels.
-Project essence(const Project& project) {
+Project pixel_settings(const Project& project) {
     Project out = map_paths(project, [](const std::string& path) {
         return names_library_texture(path) ? path : fs::path(path).filename().string();
     });
@@ -76,7 +76,7 @@ Json textures_of(const Shot& shot) {
 std::string settings_hash(const Shot& shot) {
     Hasher hasher;
     // A name that is not UTF-8 cannot be written as JSON; the spaces and textures still count.
-    if (const auto text = project_to_json(essence(shot.project))) hasher.text(*text);
+    if (const auto text = project_to_json(pixel_settings(shot.project))) hasher.text(*text);
     hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name).text(shot.spaces.out.name);
     for (const ColorSpace& space : shot.spaces.textures)
         hasher.text(space.name);

@@ -254,14 +254,14 @@ Expected<BackendChoice> choose_backend(const std::string& name) {
     return registry.choose(name);
 }
 
-void keep_libraries_steady() {
+void make_libraries_deterministic() {
     // Debian's OpenCV blurs, derives and scales floats with FMA where the processor has AVX2, and
     // without where it has not.
     cv::setUseOptimized(false);
 }
 
 void use_threads(int threads) {
-    keep_libraries_steady();
+    make_libraries_deterministic();
     set_thread_count(threads);
     cv::setNumThreads(thread_count());
 }

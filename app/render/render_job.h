@@ -38,7 +38,7 @@ enum class JobStage {
 
 /// Lets the libraries give the same bits on every x86-64 processor
 /// (docs/decisions/0002-determinism.md). Whoever computes pictures calls it once, before the first.
-void keep_libraries_steady();
+void make_libraries_deterministic();
 
 /// Sets how many threads this process uses, OpenCV's included; 0 is one a processor. Keeps the
 /// libraries steady too.

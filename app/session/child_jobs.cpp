@@ -116,7 +116,7 @@ Expected<int> ChildJobs::submit(const RenderRequest& request) {
     WEFT_CHECK_OK(save_project(job->snapshot, job->request.project, WriteRule::own()));
     job->skip_existing = request.skip_existing;
     job->view.label = request.label;
-    job->view.foreseen_s = request.foreseen_s;
+    job->view.estimated_s = request.estimated_s;
     job->view.output = request.project.output.path;
     job->view.movie = request.project.output.movie;
     job->view.total = static_cast<int>(request.frames.size());
@@ -316,7 +316,7 @@ void ChildJobs::pause(int id) {
         if (job->view.id != id || job->view.state != JobState::kRunning || job->pid <= 0) continue;
         ::kill(job->pid, SIGSTOP);
         job->view.state = JobState::kPaused;
-        job->view.foreseen_s = 0;
+        job->view.estimated_s = 0;
         ++shared_->changes;
     }
 }
@@ -341,7 +341,7 @@ void ChildJobs::retry(int id) {
             job->view.state = JobState::kWaiting;
             job->view.error.clear();
             job->view.done = 0;
-            job->view.foreseen_s = 0;
+            job->view.estimated_s = 0;
             job->view.stage.clear();
             ++shared_->changes;
         }

@@ -23,7 +23,7 @@ struct RenderRequest {
     std::string label;  ///< "Frames 1001-1048 to out/####.png"
     std::vector<int> frames;
     bool overwrite = false, skip_existing = false;
-    double foreseen_s = 0;  ///< How long it is thought to take; 0: nobody said.
+    double estimated_s = 0;  ///< How long it is thought to take; 0: nobody said.
     std::string backend = "auto";
 };
 
@@ -35,8 +35,8 @@ struct JobView {
     int newest_frame = 0;     ///< 0: none yet.
     bool has_frame = false;
     double elapsed_s = 0, left_s = 0, frames_per_minute = 0;
-    double foreseen_s = 0;  ///< As it was submitted; 0 too when it was paused or tried again.
-    PicturePtr thumbnail;   ///< Of the newest frame.
+    double estimated_s = 0;  ///< As it was submitted; 0 too when it was paused or tried again.
+    PicturePtr thumbnail;    ///< Of the newest frame.
     std::string log_path, movie;
 };
 

@@ -31,7 +31,7 @@ class JobDesk {
         std::string label, error;
     };
     /// Looks at the jobs; jobs() is as of then.
-    [[nodiscard]] std::vector<Ended> look();
+    [[nodiscard]] std::vector<Ended> poll();
     [[nodiscard]] const std::vector<JobView>& jobs() const { return jobs_; }
     [[nodiscard]] std::string log_tail(int id) const { return children_.log_tail(id); }
     /// Grows with everything that jobs report.

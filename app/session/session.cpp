@@ -42,7 +42,7 @@ Session::~Session() {
 void Session::go_to(int frame) {
     if (!playback_.go_to(frame)) return;
     end_stroke();
-    request_due_ = true;
+    request_pending_ = true;
 }
 
 void Session::step_keyframe(int direction) {
@@ -79,16 +79,16 @@ Project Session::project_to_preview(bool& any) const {
 }
 
 void Session::request_preview() {
-    if (!request_due_ || painting_.active()) return;
+    if (!request_pending_ || painting_.active()) return;
     if (!reader_) {
-        request_due_ = false;
+        request_pending_ = false;
         return;
     }
     PreviewRequest request;
     bool any = false;
     request.project = project_to_preview(any);
     if (!any) {
-        request_due_ = false;
+        request_pending_ = false;
         preview_.clear();
         preview_reading_ = {};
         view_.result_wanted = false;
@@ -103,8 +103,8 @@ void Session::request_preview() {
     request.layer = shown_layer_;
     request.overlay = overlay_;
     request.overlay_region = selected_;
-    if (const auto cards = strip_.cards()) request.cards = cards->wishes;
-    request.hurried = playback_.direction() != 0;
+    if (const auto cards = strip_.cards()) request.cards = cards->requests;
+    request.interactive = playback_.direction() != 0;
     // The marked range, or as much around the playhead as a look needs.
     constexpr int kAround = 24;
     const auto [first, last] = playback_.range();
@@ -117,9 +117,9 @@ void Session::request_preview() {
     for (int k = from; k < std::min(at, to); ++k)
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     if (!preview_.try_request(request)) return;  // the next frame asks again
-    request_due_ = false;
+    request_pending_ = false;
     preview_reading_.frame = {};
-    preview_reading_.there.clear();
+    preview_reading_.rendered.clear();
 }
 
 void Session::apply_texture(const std::string& path, RegionId region) {
@@ -193,13 +193,13 @@ void Session::flush() {
 
 bool Session::busy() const {
     return playback_.direction() != 0 || painting_.active() || changing_ || fetching_ ||
-           opening_.valid() || !chores_.empty() || request_due_ || strip_.busy() ||
+           opening_.valid() || !file_tasks_.empty() || request_pending_ || strip_.busy() ||
            (measuring_ && view_.report.state == QualityReport::State::kMeasuring);
 }
 
-std::uint64_t Session::news() const {
-    return shelf_.arrivals() + preview_.news() + jobs_.changes() +
-           (player_ ? player_->arrivals() : 0);
+std::uint64_t Session::changes() const {
+    return shelf_.changes() + preview_.changes() + jobs_.changes() +
+           (player_ ? player_->changes() : 0);
 }
 
 void Session::update(double now_s) {
@@ -220,7 +220,7 @@ void Session::update(double now_s) {
     take_changed_matte();
     // What was rendered from mattes in memory may be kept under the names of their files now.
     const bool unwritten = shelf_.writing();
-    request_due_ |= mattes_unwritten_ && !unwritten;
+    request_pending_ |= mattes_unwritten_ && !unwritten;
     mattes_unwritten_ = unwritten;
     take_texture();
     part("preview");

@@ -56,7 +56,7 @@ class Session {
     /// Whether something goes on by itself, so that the window must go on drawing.
     [[nodiscard]] bool busy() const;
     /// Grows with everything that workers report: what wakes a sleeping window.
-    [[nodiscard]] std::uint64_t news() const;
+    [[nodiscard]] std::uint64_t changes() const;
     void dismiss(int notice);
     void notify(NoticeKind kind, std::string text);
     /// Where update() and act() note what they spend their time on; null: nowhere.
@@ -97,7 +97,7 @@ class Session {
     void end_player();
 
     // ---- projects from elsewhere (session_trust.cpp) ----
-    void look_at_trust(bool from_file);
+    void update_trust(bool from_file);
     void offer_trust();
     void answer_trust(bool trust);
     [[nodiscard]] bool may_render_to(const Project& chosen);
@@ -147,7 +147,7 @@ class Session {
 
     // ---- the strip (session_strip.cpp) ----
     void show_strip();
-    [[nodiscard]] StripQuestion strip_question() const;
+    [[nodiscard]] StripQuery strip_query() const;
     void choose_from_strip(int card);
     void copy_keyframe(int from, int to);
     [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
@@ -207,10 +207,10 @@ class Session {
     PlatePlayer::Reading plate_reading_;
     PreviewReading preview_reading_;
     /// Things whose end must be waited for, by threads that may.
-    std::vector<std::future<void>> endings_;
+    std::vector<std::future<void>> shutdowns_;
     /// Work on files; what it returns is done on the session's own thread.
     using Finish = std::function<void()>;
-    std::vector<std::future<Finish>> chores_;
+    std::vector<std::future<Finish>> file_tasks_;
 
     Playback playback_;
     double now_s_ = 0;
@@ -247,7 +247,7 @@ class Session {
     ScreenName wanted_screen_;  // being made, or shown
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;
-    bool request_due_ = false;
+    bool request_pending_ = false;
     PicturePtr last_result_;
     int last_result_frame_ = 0;
 

@@ -45,7 +45,7 @@ std::string Session::texture_folder() const {
 // Textures of the library become files beside the project first; then all change in one step.
 void Session::apply_textures(const ApplyTextures& action) {
     if (action.textures.empty()) return;
-    chores_.push_back(
+    file_tasks_.push_back(
         in_background([this, wanted = action.textures, folder = texture_folder(),
                        dir = project_dir(path_), library = options_.texture_library,
                        excluded = licence_list(document().settings.excluded_licences)]() -> Finish {
@@ -87,9 +87,9 @@ void Session::use_larger_original(RegionId id) {
         return;
     }
     const std::string sample = resolve_path(project_dir(path_), region->texture.sample);
-    chores_.push_back(in_background([this, id, sample, folder = texture_folder(),
-                                     dir = project_dir(path_),
-                                     library = options_.texture_library]() -> Finish {
+    file_tasks_.push_back(in_background([this, id, sample, folder = texture_folder(),
+                                         dir = project_dir(path_),
+                                         library = options_.texture_library]() -> Finish {
         const auto larger = keep_larger_original(library, sample, folder);
         return [this, id, larger, dir] {
             const Region* now = region_by_id(document(), id);
@@ -121,8 +121,8 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
     const bool own = !source.select.crypto.empty() && !source.files.empty();
     const std::string files =
         own ? resolve_path(project_dir(path_), source.files) : reader_->path_of(playback_.frame());
-    chores_.push_back(in_background([this, action, files, frame = playback_.frame(),
-                                     id = region->id, layer = layer_]() -> Finish {
+    file_tasks_.push_back(in_background([this, action, files, frame = playback_.frame(),
+                                         id = region->id, layer = layer_]() -> Finish {
         const auto pick = [&]() -> Expected<CryptoObject> {
             WEFT_TRY(pattern, SequencePattern::parse(files));
             return weft::pick_cryptomatte(pattern.path_for(frame), action.at.x, action.at.y);

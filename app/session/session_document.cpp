@@ -111,7 +111,7 @@ void Session::commit(Project project, std::string label) {
 
 void Session::document_changed() {
     ++document_version_;
-    request_due_ = true;
+    request_pending_ = true;
     if (document().plate != opened_plate_ || project_dir(path_) != opened_plate_dir_)
         open_plate_in_background();
     if (!region_by_id(document(), selected_))
@@ -133,7 +133,7 @@ void Session::start_document(Project project, std::string path) {
     selected_ = 0;
     opened_plate_ = Plate{};
     opened_plate_dir_ = "\n";  // no folder has this name: the plate is opened in any case
-    look_at_trust(!path_.empty());
+    update_trust(!path_.empty());
     document_changed();
 }
 
@@ -186,7 +186,7 @@ void Session::save(const std::string& path) {
     const std::string whole = fs::absolute(path).string();
     const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
     view_.saving = true;
-    chores_.push_back(
+    file_tasks_.push_back(
         in_background([this, whole, unsaved, from = path_, project = history_.current(),
                        serial = history_.serial()]() mutable -> Finish {
             shelf_.flush();
@@ -234,13 +234,14 @@ void Session::saved_as(const Project& written, const std::string& path,
 }
 
 void Session::finish_chores(bool wait) {
-    for (std::size_t k = 0; k < chores_.size();) {
-        if (!wait && chores_[k].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    for (std::size_t k = 0; k < file_tasks_.size();) {
+        if (!wait &&
+            file_tasks_[k].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
             ++k;
             continue;
         }
-        const Finish finish = chores_[k].get();
-        chores_.erase(chores_.begin() + static_cast<std::ptrdiff_t>(k));
+        const Finish finish = file_tasks_[k].get();
+        file_tasks_.erase(file_tasks_.begin() + static_cast<std::ptrdiff_t>(k));
         finish();
     }
 }
@@ -310,7 +311,7 @@ void Session::open_plate_in_background() {
 void Session::end_player() {
     plate_reading_ = {};
     if (player_)
-        endings_.push_back(in_background(
+        shutdowns_.push_back(in_background(
             [player = std::exchange(player_, nullptr)]() mutable { player.reset(); }));
 }
 
@@ -319,7 +320,7 @@ void Session::take_plate() {
         return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     };
     std::erase_if(abandoned_, over);
-    std::erase_if(endings_, over);
+    std::erase_if(shutdowns_, over);
     if (!opening_.valid() || !over(opening_)) return;
     auto opened = opening_.get();
     if (!opened) {
@@ -332,7 +333,7 @@ void Session::take_plate() {
                                             options_.plate_budget_bytes);
     view_.plate.space = opened->space;
     playback_.open(reader_->frames());
-    request_due_ = true;
+    request_pending_ = true;
     ++document_version_;
 }
 

@@ -137,7 +137,7 @@ void Session::submit(const SubmitJob& action) {
         return;
     }
     if (!may_render_to(request->project)) return;
-    chores_.push_back(in_background([this, request = std::move(*request)]() -> Finish {
+    file_tasks_.push_back(in_background([this, request = std::move(*request)]() -> Finish {
         // What was painted last must be on the disk before the renderer reads it.
         shelf_.flush();
         const auto id = jobs_.submit(request);
@@ -155,7 +155,7 @@ void Session::submit(const SubmitJob& action) {
 }
 
 void Session::watch_jobs() {
-    for (const JobDesk::Ended& job : jobs_.look()) {
+    for (const JobDesk::Ended& job : jobs_.poll()) {
         if (job.failed)
             notify(NoticeKind::kError, "Render failed. " + job.error);
         else
@@ -172,7 +172,7 @@ void Session::measure(const std::string& pattern) {
     }
     if (measuring_) {
         measuring_->cancelled = true;
-        endings_.push_back(
+        shutdowns_.push_back(
             in_background([old = std::exchange(measuring_, nullptr)]() mutable { old.reset(); }));
     }
     measuring_ = std::make_shared<Measuring>();
@@ -190,7 +190,7 @@ void Session::measure(const std::string& pattern) {
         return read_matte(files.path_for(frame), source.select, size);
     };
     in.carried = [this, id = region->id](int before, int now) {
-        return preview_.carried(id, before, now);
+        return preview_.track(id, before, now);
     };
     measuring_->thread = std::thread([in, shared = measuring_.get()] {
         lower_thread_priority();

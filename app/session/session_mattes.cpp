@@ -28,9 +28,9 @@ std::string keys_text(const MatteSource& matte) {
     for (const auto& [frame, key] : matte.keyframes)
         hasher.value(frame).text(key.path);
     hasher.value(matte.steadiness)
-        .value(static_cast<int>(matte.carry))
-        .value(matte.carry_from.value_or(-1))
-        .value(matte.carry_to.value_or(-1));
+        .value(static_cast<int>(matte.propagate_direction))
+        .value(matte.propagate_from.value_or(-1))
+        .value(matte.propagate_to.value_or(-1));
     return hasher.finish().hex();
 }
 

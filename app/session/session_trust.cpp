@@ -8,7 +8,7 @@
 namespace weft {
 
 // A document that began here is its user's own.
-void Session::look_at_trust(bool from_file) {
+void Session::update_trust(bool from_file) {
     const TrustList list(options_.trust_file);
     untrusted_ = from_file && !list.trusts(path_);
     view_.trust.reset();

@@ -166,7 +166,7 @@ void Session::show_marks() {
     const auto chosen = view_.preview.references.find(selected_);
     const std::map<int, float>& confidence = preview_reading_.confidence;
     const std::map<int, FrameHealth>& health = preview_reading_.health;
-    for (const int frame : preview_reading_.there)
+    for (const int frame : preview_reading_.rendered)
         if (const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
             at != frames.end())
             view_.marks[static_cast<std::size_t>(at - frames.begin())].result = true;
@@ -192,7 +192,7 @@ void Session::show_marks() {
             mark.seam_motion = found->second.seam_motion;
             mark.flicker = found->second.flicker;
             mark.flicker_plate = found->second.flicker_plate;
-            mark.flicker_carried = found->second.flicker_carried;
+            mark.flicker_floor = found->second.flicker_floor;
             mark.chatter = found->second.chatter;
         }
     }
@@ -205,7 +205,7 @@ void Session::show_marks() {
             FrameMarks& mark = view_.marks[static_cast<std::size_t>(at - frames.begin())];
             mark.flicker = row.flicker;
             mark.flicker_plate = row.flicker_plate;
-            mark.flicker_carried = row.flicker_carried;
+            mark.flicker_floor = row.flicker_floor;
         }
     }
     if (!region) return;

@@ -57,7 +57,7 @@ struct FrameMarks {
     float flicker = -1, flicker_plate = -1;
     /// What the flicker would be if the texture were carried without any change: the most of it is
     /// how well the measuring motion knows the surface.
-    float flicker_carried = -1;
+    float flicker_floor = -1;
     float chatter = -1;  ///< How far the matte's edge moved otherwise than the picture, in pixels.
 };
 
@@ -98,7 +98,7 @@ struct QualityReport {
         float flicker = 0, flicker_plate = 0, brightness = 0, brightness_plate = 0;
         /// Mean step between neighbouring pixels of the region, in per cent of its first frame's.
         float sharpness = 0, sharpness_plate = 0;
-        float flicker_carried = -1;  ///< As in FrameMarks.
+        float flicker_floor = -1;  ///< As in FrameMarks.
     };
     std::vector<Row> rows;
 };

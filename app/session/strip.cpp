@@ -52,12 +52,12 @@ std::vector<Variant> variants_of(StripKind kind, const Region& region) {
 
 // Collects the cards one by one.
 struct CardMaker {
-    const StripQuestion& question;
+    const StripQuery& question;
     const StripSubject& subject;
     StripCards& out;
 
-    void add(StripWish wish, std::optional<Action> choice) const {
-        out.wishes.push_back(std::move(wish));
+    void add(CardRequest request, std::optional<Action> choice) const {
+        out.requests.push_back(std::move(request));
         out.choices.push_back(std::move(choice));
     }
     // False: the edit cannot be made.
@@ -93,8 +93,8 @@ struct CardMaker {
                 !add_edited(*shown, SetTexture{ref, texture},
                             std::filesystem::path(path).stem().string(), ApplyTexture{path, 0}))
                 continue;
-            out.wishes.back().note = path;
-            if (suggested) out.wishes.back().around = region.id;
+            out.requests.back().note = path;
+            if (suggested) out.requests.back().around = region.id;
         }
     }
 
@@ -107,11 +107,11 @@ struct CardMaker {
         for (const Variant& variant : variants_of(question.kind, region)) {
             const SetRegionParameter edit{{region.id, {}}, variant.key, variant.value};
             if (!add_edited(base, edit, variant.label, DoEdit{edit})) continue;
-            out.wishes.back().current = pixel_key(out.wishes.back().project) == shown_now;
-            out.wishes.back().frame = on.front();
+            out.requests.back().current = pixel_key(out.requests.back().project) == shown_now;
+            out.requests.back().frame = on.front();
             for (std::size_t k = 1; k < on.size(); ++k) {
-                add(out.wishes.back(), out.choices.back());
-                out.wishes.back().frame = on[k];
+                add(out.requests.back(), out.choices.back());
+                out.requests.back().frame = on[k];
             }
         }
     }
@@ -119,7 +119,7 @@ struct CardMaker {
 
 }  // namespace
 
-StripCards make_strip_cards(const StripQuestion& question, const StripSubject& subject) {
+StripCards make_strip_cards(const StripQuery& question, const StripSubject& subject) {
     StripCards out;
     out.question = question;
     const CardMaker make{question, subject, out};
@@ -131,8 +131,8 @@ StripCards make_strip_cards(const StripQuestion& question, const StripSubject& s
         else
             make.settings(*region);
     }
-    for (StripWish& wish : out.wishes)
-        wish.key = strip_key(wish);
+    for (CardRequest& request : out.requests)
+        request.key = strip_key(request);
     return out;
 }
 
@@ -166,7 +166,7 @@ void Strip::show(StripKind kind, std::vector<std::string> textures, bool over_ti
     over_time_ = over_time;
 }
 
-void Strip::ask(const StripQuestion& question, StripSubject subject) {
+void Strip::ask(const StripQuery& question, StripSubject subject) {
     asked_ = question;
     (void)worker_.ask(question, [question, subject = std::move(subject)](const CancelToken&) {
         return std::optional(make_strip_cards(question, subject));

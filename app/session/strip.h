@@ -13,7 +13,7 @@
 namespace weft {
 
 /// What the cards of a strip depend on.
-struct StripQuestion {
+struct StripQuery {
     std::uint64_t document = 0;  ///< Its version: stands for the project.
     StripKind kind = StripKind::kNone;
     bool over_time = false;
@@ -21,15 +21,15 @@ struct StripQuestion {
     RegionId region = 0;
     int frame = 0;            ///< The present one; 0 for kinds that show others.
     std::vector<int> frames;  ///< That are shown instead.
-    bool operator==(const StripQuestion&) const = default;
+    bool operator==(const StripQuery&) const = default;
 
     /// Settings against frames.
     [[nodiscard]] bool is_sheet() const { return over_time && compares_settings(kind); }
 };
 
 struct StripCards {
-    StripQuestion question;
-    std::vector<StripWish> wishes;
+    StripQuery question;
+    std::vector<CardRequest> requests;
     /// What choosing a card does, one each; nothing for the setting as it is.
     std::vector<std::optional<Action>> choices;
     int columns = 0;  ///< As StripView::columns.
@@ -43,8 +43,7 @@ struct StripSubject {
 };
 
 /// Takes some milliseconds a card.
-[[nodiscard]] StripCards make_strip_cards(const StripQuestion& question,
-                                          const StripSubject& subject);
+[[nodiscard]] StripCards make_strip_cards(const StripQuery& question, const StripSubject& subject);
 
 /// Four frames that tell how a shot goes: 1, 10, 20 and 40 as far as there are any, or evenly over
 /// `first` … `last` (indices, inclusive) where `marked`.
@@ -63,9 +62,9 @@ class Strip {
     [[nodiscard]] const std::vector<std::string>& textures() const { return textures_; }
 
     /// Whether this very question was asked last.
-    [[nodiscard]] bool asked(const StripQuestion& question) const { return asked_ == question; }
+    [[nodiscard]] bool asked(const StripQuery& question) const { return asked_ == question; }
     /// Asks for the cards; asking the same again does nothing.
-    void ask(const StripQuestion& question, StripSubject subject);
+    void ask(const StripQuery& question, StripSubject subject);
     /// Takes in what has been worked out. Whether the cards are others than before.
     bool update();
     /// Nothing can be shown. Whether there were cards.
@@ -79,9 +78,9 @@ class Strip {
     StripKind kind_ = StripKind::kNone;
     bool over_time_ = false;
     std::vector<std::string> textures_;
-    std::optional<StripQuestion> asked_;
+    std::optional<StripQuery> asked_;
     std::shared_ptr<const StripCards> cards_;
-    LatestWorker<StripQuestion, StripCards> worker_;
+    LatestWorker<StripQuery, StripCards> worker_;
 };
 
 }  // namespace weft

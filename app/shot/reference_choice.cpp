@@ -129,20 +129,20 @@ bool same_everywhere(const Region& region) {
 
 }  // namespace
 
-std::optional<double> VisibilityMemory::find(const Hash128& files) const {
+std::optional<double> VisibilityCache::find(const Hash128& files) const {
     const std::lock_guard lock(mutex_);
     const auto found = scores_.find(files);
     if (found == scores_.end()) return std::nullopt;
     return found->second;
 }
 
-void VisibilityMemory::keep(const Hash128& files, double score) {
+void VisibilityCache::keep(const Hash128& files, double score) {
     const std::lock_guard lock(mutex_);
     if (scores_.size() >= kMostKept) scores_.clear();
     scores_[files] = score;
 }
 
-std::size_t VisibilityMemory::size() const {
+std::size_t VisibilityCache::size() const {
     const std::lock_guard lock(mutex_);
     return scores_.size();
 }

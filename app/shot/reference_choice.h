@@ -14,7 +14,7 @@
 namespace weft {
 
 /// Scores of mattes that were looked at before, by file and time stamp. Thread-safe.
-class VisibilityMemory {
+class VisibilityCache {
   public:
     [[nodiscard]] std::optional<double> find(const Hash128& files) const;
     void keep(const Hash128& files, double score);
@@ -27,10 +27,10 @@ class VisibilityMemory {
 
 /// Where mattes are looked at, beside their files. Both may be null.
 struct MatteLooks {
-    MatteLooks(VisibilityMemory* known = nullptr,  // NOLINT(google-explicit-constructor)
+    MatteLooks(VisibilityCache* known = nullptr,  // NOLINT(google-explicit-constructor)
                const PaintedMattes* unwritten = nullptr)
         : memory(known), painted(unwritten) {}
-    VisibilityMemory* memory;
+    VisibilityCache* memory;
     const PaintedMattes* painted;
 };
 

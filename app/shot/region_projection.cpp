@@ -13,9 +13,9 @@ constexpr float kLeastGain = 1.0f / 64;
 
 MatteReach reach_of(const MatteSource& matte) {
     MatteReach reach;
-    reach.direction = matte.carry;
-    if (matte.carry_from) reach.first = *matte.carry_from;
-    if (matte.carry_to) reach.last = *matte.carry_to;
+    reach.direction = matte.propagate_direction;
+    if (matte.propagate_from) reach.first = *matte.propagate_from;
+    if (matte.propagate_to) reach.last = *matte.propagate_to;
     return reach;
 }
 

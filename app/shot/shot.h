@@ -70,7 +70,7 @@ struct OpenShotOptions {
     std::vector<int> leave_out;
     std::string texture_library;  ///< For "db:ID"; empty: the user's own.
     /// Mattes that were looked at for another version of the shot; null: none.
-    std::shared_ptr<VisibilityMemory> visibility;
+    std::shared_ptr<VisibilityCache> visibility;
     /// Painted mattes that may not be on the disk yet.
     PaintedMattes painted;
     /// The plate of this very project, when it is open already; null: it is opened.

@@ -28,7 +28,7 @@ struct PlaneMap {
 };
 
 /// How a frame between two references takes its texture from both.
-struct TwoHistories {
+struct TwoTracks {
     int before = 0, after = 0;  ///< The references.
     float share_after = 0;      ///< Where there is no seam.
     struct Seam {
@@ -46,8 +46,8 @@ struct Provenance {
     std::string texture, texture_id;        ///< Name of the file; as PlaneMap::ids.
     int reference_frame = 0;                ///< In whose pixels `on_reference` is.
     int frame = 0;
-    int history_frame = 0;  ///< The reference that this frame was followed from.
-    std::optional<TwoHistories> two;
+    int track_frame = 0;  ///< The reference that this frame was followed from.
+    std::optional<TwoTracks> two;
     TemporalMode temporal = TemporalMode::kLocked;
     float fresh = 1;  ///< α of the paper's mode.
     std::optional<Shading> shading;

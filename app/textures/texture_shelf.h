@@ -65,12 +65,12 @@ struct TogetherSuggestion {
 };
 
 /// What the drawer asks of the library; all conditions hold together.
-struct TextureQuestion {
+struct TextureQuery {
     std::string words;    ///< "rough grey stone"
     std::string origin;   ///< "package" (photographs), "procedural", "file", or any.
     std::string licence;  ///< As the source writes it, or any.
     [[nodiscard]] bool empty() const { return words.empty() && origin.empty() && licence.empty(); }
-    bool operator==(const TextureQuestion&) const = default;
+    bool operator==(const TextureQuery&) const = default;
 };
 
 struct TextureCount {
@@ -84,7 +84,7 @@ struct TextureAnswer {
 };
 
 /// A region that wants a texture.
-struct SurfaceToSuit {
+struct SurfaceQuery {
     std::string region;  ///< Its name, which may say what it is.
     PicturePtr plate;
     std::shared_ptr<const Matte> matte;  ///< Of the plate's size.
@@ -114,13 +114,13 @@ class TextureShelf {
     ~TextureShelf();
 
     /// Looks through these folders in the background; a sub-folder's name is the material.
-    void look_in(std::vector<std::string> folders);
+    void scan(std::vector<std::string> folders);
     /// Opens a texture library in the background, too, and fills an empty one with the starter
     /// textures. Its textures are named "db:ID". Once.
     void open_library(const std::string& path);
     /// Cuts samples out of a folder's pictures and adds them to the library, in the background; one
     /// import after the other. Interrupted by the end of the program, it goes on when asked again.
-    void bring_in(const TextureImport& import);
+    void import_folder(const TextureImport& import);
     [[nodiscard]] TextureImportState importing() const;
     /// What is being done to the library ("Making the starter textures, 300 of 1700"), or nothing.
     [[nodiscard]] std::string activity() const;
@@ -129,7 +129,7 @@ class TextureShelf {
     /// How a texture is called: a library's, also where it was kept as a file, by its name there.
     [[nodiscard]] std::string name_of_texture(const std::string& path);
     /// The answer to a question; null while it is worked out, or without a library.
-    [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuestion& question);
+    [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuery& question);
     /// The whole library's counts; null without one.
     [[nodiscard]] std::shared_ptr<const TextureAnswer> everything() const;
     /// Looks for textures like this part of a picture, in the background. `key` stands for it.
@@ -144,7 +144,7 @@ class TextureShelf {
     /// now comes first, in the order of the questions.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
     /// Ranks the library's textures for a surface; `key` stands for all that it depends on.
-    void suggest_for(const std::string& key, SurfaceToSuit surface);
+    void suggest_for(const std::string& key, SurfaceQuery surface);
     /// The same for all regions together; `key` stands for all that it depends on.
     void suggest_together(const std::string& key, PicturePtr plate,
                           std::vector<TogetherRegion> regions,
@@ -156,7 +156,7 @@ class TextureShelf {
     /// Whether they were worked out, or there is no library to choose from.
     [[nodiscard]] bool suggested(const std::string& key) const;
     /// Grows whenever something arrives.
-    [[nodiscard]] std::uint64_t arrivals() const;
+    [[nodiscard]] std::uint64_t changes() const;
 
   private:
     struct ThumbnailRequest {
@@ -183,7 +183,7 @@ class TextureShelf {
     void publish_cards();
 
     const std::size_t budget_bytes_;
-    std::atomic<std::uint64_t> arrivals_ = 0;
+    std::atomic<std::uint64_t> changes_ = 0;
     CancelToken cancel_;
 
     // Set once, before `open_`.
@@ -206,7 +206,7 @@ class TextureShelf {
     bool stop_ = false;
     /// In the order in which they were asked for last: those of a frame of the window stand
     /// together.
-    std::deque<ThumbnailRequest> thumbnails_due_;
+    std::deque<ThumbnailRequest> pending_thumbnails_;
     std::optional<ThumbnailRequest> making_;  // in flight
     struct Kept {
         PicturePtr picture;  ///< Null: it cannot be read.
@@ -218,16 +218,16 @@ class TextureShelf {
     std::uint64_t clock_ = 0;
     std::map<std::string, TextureCard> details_;
     std::set<std::string> unknown_;  // not in the library as it is now
-    std::deque<std::string> details_due_;
+    std::deque<std::string> pending_details_;
     std::string looking_up_;  // in flight
-    std::deque<TextureImport> imports_due_;
+    std::deque<TextureImport> pending_imports_;
 
     std::thread queue_, filler_;
     std::thread importer_;  // begun by the first import
 
     // They use all above, and end first.
     LatestWorker<std::vector<std::string>, std::size_t> scanner_;
-    LatestWorker<std::pair<TextureQuestion, std::uint64_t>, TextureAnswer> searcher_;
+    LatestWorker<std::pair<TextureQuery, std::uint64_t>, TextureAnswer> searcher_;
     LatestWorker<std::string, std::vector<std::string>> similar_;
     LatestWorker<std::string, std::vector<TextureSuggestion>> ranking_;
     LatestWorker<std::string, std::vector<TogetherSuggestion>> together_;

@@ -16,15 +16,15 @@ Region full_region() {
     matte.steadiness = 0.75;
     matte.frozen = {10, 11};
     matte.frozen_files = "final/####.png";
-    matte.carry = CarryDirection::kBackward;
-    matte.carry_from = -5;
-    matte.carry_to = 100;
+    matte.propagate_direction = CarryDirection::kBackward;
+    matte.propagate_from = -5;
+    matte.propagate_to = 100;
     r.matte = matte;
     MatteSource holdout;
     holdout.files = "hold/####.png";
     MatteSource painted;
     painted.keyframes = {{12, {"mattes/hand.png", {}}}};
-    painted.carry = CarryDirection::kForward;
+    painted.propagate_direction = CarryDirection::kForward;
     r.holdouts = std::vector<MatteSource>{holdout, painted};
     r.texture = {
         "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};

@@ -24,7 +24,7 @@ class SessionByActions : public ::testing::Test {
   protected:
     void SetUp() override {
         keep_thread_priority();
-        keep_libraries_steady();
+        make_libraries_deterministic();
         folder_ = fs::temp_directory_path() / ("weft_session_" + std::to_string(getpid()));
         fs::create_directories(folder_ / "frames");
         for (int k = 0; k < 4; ++k) {

@@ -153,7 +153,7 @@ TEST_F(ReferenceChoiceTest, AFileThatCannotBeReadIsNoReference) {
 TEST_F(ReferenceChoiceTest, MattesThatWereLookedAtAreNotReadAgain) {
     for (int frame = 1; frame <= 8; ++frame)
         put(frame, frame < 4 ? Matte(kSize) : box(20, 20));
-    VisibilityMemory memory;
+    VisibilityCache memory;
     ASSERT_EQ(choose_reference(region(), Numbers(8), &memory)->frame, 4);
     // Other bytes under the same size and time: a matte that was read again would show nothing.
     const auto time = fs::last_write_time(file(4));
@@ -170,7 +170,7 @@ TEST_F(ReferenceChoiceTest, ALongShotIsJudgedByAFewFrames) {
     put(1, box(20, 20));
     for (int frame = 2; frame <= 1000; ++frame)
         fs::create_hard_link(file(1), file(frame));
-    VisibilityMemory memory;
+    VisibilityCache memory;
     EXPECT_EQ(choose_reference(region(), Numbers(1000), &memory)->frame, 1);
     EXPECT_EQ(memory.size(), 9u);
 }
@@ -179,7 +179,7 @@ TEST_F(ReferenceChoiceTest, ALongShotWhoseMattesAreEmptyIsLookedThroughInSteps) 
     put(1, Matte(kSize));
     for (int frame = 2; frame <= 1000; ++frame)
         fs::create_hard_link(file(1), file(frame));
-    VisibilityMemory memory;
+    VisibilityCache memory;
     EXPECT_FALSE(choose_reference(region(), Numbers(1000), &memory)->shown);
     EXPECT_GT(memory.size(), 250u);
     EXPECT_LT(memory.size(), 430u);  // 9 + 33 + 129 + 257, less those looked at twice

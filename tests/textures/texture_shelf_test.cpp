@@ -77,11 +77,11 @@ class TextureShelfTest : public ::testing::Test {
     }
     // Nothing arrives any more.
     static bool settle() {
-        auto seen = shelf_->arrivals();
+        auto seen = shelf_->changes();
         auto since = Clock::now();
         return wait([&] {
-            if (shelf_->arrivals() != seen || !shelf_->activity().empty()) {
-                seen = shelf_->arrivals();
+            if (shelf_->changes() != seen || !shelf_->activity().empty()) {
+                seen = shelf_->changes();
                 since = Clock::now();
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -90,12 +90,12 @@ class TextureShelfTest : public ::testing::Test {
     }
     // How much arrives when `asked` is asked without a pause until it has its answer.
     static std::uint64_t arrivals_of(const std::function<bool()>& asked) {
-        const std::uint64_t before = shelf_->arrivals();
+        const std::uint64_t before = shelf_->changes();
         EXPECT_TRUE(wait(asked));
         EXPECT_TRUE(settle());
-        return shelf_->arrivals() - before;
+        return shelf_->changes() - before;
     }
-    static SurfaceToSuit surface() {
+    static SurfaceQuery surface() {
         ImageU8x3 plate(192, 144, 110);
         for (int y = 40; y < 120; ++y)
             for (int x = 40; x < 120; ++x)
@@ -112,7 +112,7 @@ class TextureShelfTest : public ::testing::Test {
 };
 
 TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
-    const SurfaceToSuit wall = surface();
+    const SurfaceQuery wall = surface();
     EXPECT_EQ(arrivals_of([&] {
                   shelf_->suggest_for("wall", wall);
                   return shelf_->suggested("wall");
@@ -123,7 +123,7 @@ TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
 }
 
 TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
-    const SurfaceToSuit wall = surface();
+    const SurfaceQuery wall = surface();
     Matte right(192, 144);
     for (int y = 40; y < 120; ++y)
         std::fill_n(right.row(y) + 130, 50, std::uint8_t{255});
@@ -139,7 +139,7 @@ TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
 }
 
 TEST_F(TextureShelfTest, AQuestionIsSearchedOnce) {
-    TextureQuestion stone;
+    TextureQuery stone;
     stone.words = "stone";
     EXPECT_EQ(arrivals_of([&] { return shelf_->search(stone) != nullptr; }), 1u);
     EXPECT_GE(shelf_->search(stone)->paths.size(), 12u);

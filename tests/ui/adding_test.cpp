@@ -79,10 +79,10 @@ TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
     robot->frames(2);
     EXPECT_FALSE(shell->state().adding.open);
     // Once more: nothing new, and it is said.
-    shell->textures().bring_in({(folder / "mine").string(), "Ada", "CC-BY-4.0", false});
+    shell->textures().import_folder({(folder / "mine").string(), "Ada", "CC-BY-4.0", false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
     EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("was in already"));
-    shell->textures().bring_in({(folder / "gone").string(), {}, {}, false});
+    shell->textures().import_folder({(folder / "gone").string(), {}, {}, false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
     EXPECT_TRUE(shell->textures().importing().failed);
     EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("gone"));

@@ -1,7 +1,7 @@
 // What an artist keeps, corrects, picks and sends out: what the panels emit.
 #include "app/mattes/paint.h"
 #include "app/session/where_to_correct.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "tests/ui/canvas_fixture.h"
 #include "ui/pen.h"
 
@@ -35,12 +35,12 @@ class Choices : public CanvasTest {
   protected:
     void show_pieces() {
         auto picture = std::make_shared<OverlayPicture>();
-        picture->kind = Overlay::kPieces;
+        picture->kind = Overlay::kSourceMap;
         picture->frame = 1003;
         picture->id = next_picture_id();
         picture->value = picture->where = Matte(320, 180, 255);
         picture->provenance = two_pieces();
-        view.overlay = Overlay::kPieces;
+        view.overlay = Overlay::kSourceMap;
         view.overlay_picture = picture;
     }
     [[nodiscard]] static int texels(const PlaneAmendment& amendment) {
@@ -71,7 +71,7 @@ TEST_F(Choices, AClickKeepsThePieceUpToItsSeams) {
 
 TEST_F(Choices, AltLetsGoOfItAgain) {
     show_pieces();
-    set_amendments({*piece_at(*two_pieces(), {10.5f, 10.5f})});
+    set_amendments({*patch_at(*two_pieces(), {10.5f, 10.5f})});
     go("Seams & Light", Tool::kKeep);
     robot->hold("Alt", true);
     click_at(on(40.5f, 10.5f));
@@ -120,13 +120,13 @@ TEST_F(Choices, TheToolShowsThePieces) {
     go("Seams & Light", Tool::kKeep);
     robot->frames(1);
     ASSERT_FALSE(emitted<ShowOverlay>().empty());
-    EXPECT_EQ(emitted<ShowOverlay>().back().overlay, Overlay::kPieces);
+    EXPECT_EQ(emitted<ShowOverlay>().back().overlay, Overlay::kSourceMap);
 }
 
 TEST_F(Choices, ThePiecesGoWithTheTool) {
     go("Seams & Light", Tool::kKeep);
     robot->frames(1);
-    view.overlay = Overlay::kPieces;
+    view.overlay = Overlay::kSourceMap;
     shell->state().tool = Tool::kPan;
     clear();
     robot->frames(2);

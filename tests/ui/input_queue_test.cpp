@@ -142,7 +142,7 @@ TEST_F(Queue, LosingTheKeyboardLetsGo) {
     queue.button(0, true, 1);
     frame();
     frame();
-    queue.let_go();
+    queue.release_all();
     for (int k = 0; k < 3; ++k)
         frame();
     EXPECT_FALSE(ImGui::IsKeyDown('S'));

@@ -97,19 +97,19 @@ TEST_F(PaintedLayers, DirectionAndRangeAreChosenInTheInspector) {
     open();
     ASSERT_TRUE(robot->click("Propagation/Forwards"));
     robot->frames(2);
-    EXPECT_EQ(region().matte->carry, CarryDirection::kForward);
+    EXPECT_EQ(region().matte->propagate_direction, CarryDirection::kForward);
     session->act(MarkRange{2, 3});
     robot->frames(2);
     ASSERT_TRUE(robot->click("Propagation/Marked range"));
     robot->frames(2);
-    EXPECT_EQ(region().matte->carry_from, 2);
-    EXPECT_EQ(region().matte->carry_to, 3);
+    EXPECT_EQ(region().matte->propagate_from, 2);
+    EXPECT_EQ(region().matte->propagate_to, 3);
     ASSERT_TRUE(robot->click("Propagation/Whole shot"));
     robot->frames(2);
-    EXPECT_FALSE(region().matte->carry_from || region().matte->carry_to);
+    EXPECT_FALSE(region().matte->propagate_from || region().matte->propagate_to);
     robot->key("Ctrl+Z");
     robot->frames(2);
-    EXPECT_EQ(region().matte->carry_to, 3);
+    EXPECT_EQ(region().matte->propagate_to, 3);
 }
 
 TEST(MatteLayer, TheLastKeyOfAHoldoutTakesItWithIt) {

@@ -1,7 +1,7 @@
 // What the preview shows at full size is what a render writes, byte for byte: with what is kept by
 // hand, pins, and a placement that changes over time.
 #include "app/render/render_job.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
 
@@ -90,13 +90,13 @@ class PreviewBytes : public SessionTest {
 
 TEST_F(PreviewBytes, WithAPieceAndASeamKeptByHand) {
     open_with_region();
-    session->act(ShowOverlay{Overlay::kPieces});
+    session->act(ShowOverlay{Overlay::kSourceMap});
     ASSERT_TRUE(wait([&] {
         const auto& over = session->view().overlay_picture;
         return over && over->provenance && over->provenance->plane;
     }));
     const auto from = session->view().overlay_picture->provenance;
-    const auto piece = piece_at(*from, {45.5f, 33.5f});
+    const auto piece = patch_at(*from, {45.5f, 33.5f});
     const auto seam = seam_at(*from, {60.5f, 30.5f});
     auto again = places_in(*from, {26, 20}, {36, 30});
     ASSERT_TRUE(piece && seam && again);

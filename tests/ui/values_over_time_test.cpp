@@ -1,6 +1,6 @@
 // Values over time, smaller pictures of a shot, and where a pixel comes from.
 #include "app/preview/proxy_shot.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "app/textures/provenance.h"
 #include "tests/ui/ui_harness.h"
 #include "ui/view_map.h"
@@ -93,7 +93,7 @@ TEST(Provenance, TwoHistoriesShareAPixelAsTheSeamSays) {
     from.ref_from_cur = LatticeField({32, 32}, 8);
     from.plane = two_patches();
     from.frame = 5;
-    from.two = TwoHistories{1, 9, 0.25f, {}};
+    from.two = TwoTracks{1, 9, 0.25f, {}};
     auto found = from.at({1.5f, 1.5f});
     ASSERT_THAT(found.histories, SizeIs(2));
     EXPECT_EQ(found.histories[0].frame, 1);
@@ -101,7 +101,7 @@ TEST(Provenance, TwoHistoriesShareAPixelAsTheSeamSays) {
     EXPECT_EQ(found.histories[1].frame, 9);
     EXPECT_FLOAT_EQ(found.histories[1].weight, 0.25f);
     // With a seam, what shows is where the history on this side of it has been.
-    TwoHistories::Seam seam;
+    TwoTracks::Seam seam;
     seam.before = LatticeField({32, 32}, 8);
     seam.after = LatticeField({32, 32}, 8);
     for (int j = 0; j < seam.after.nodes().height(); ++j)
@@ -129,7 +129,7 @@ TEST(Provenance, ThePapersModeCarriesWhatIsNotFresh) {
     from.temporal = TemporalMode::kPaper;
     from.fresh = 0.25f;
     from.frame = 5;
-    from.history_frame = 9;
+    from.track_frame = 9;
     auto found = from.at({1.5f, 1.5f});
     ASSERT_THAT(found.histories, SizeIs(1));
     EXPECT_EQ(found.histories[0].frame, 6);
@@ -149,15 +149,15 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     from->plane = plane;
     from->texture = "brick.png";
     from->texture_id = "0123456789ab";
-    from->reference_frame = from->history_frame = 1001;
+    from->reference_frame = from->track_frame = 1001;
     from->frame = 1003;
     auto over = std::make_shared<OverlayPicture>();
-    over->kind = Overlay::kPieces;
+    over->kind = Overlay::kSourceMap;
     over->frame = 1003;
     over->value = Matte(view.plate.size);
     over->where = Matte(view.plate.size, 255);
     over->provenance = from;
-    view.overlay = Overlay::kPieces;
+    view.overlay = Overlay::kSourceMap;
     view.overlay_picture = over;
     robot->frames(3);
     const DrawnItem* canvas = robot->find("Viewer/Canvas");

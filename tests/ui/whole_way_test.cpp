@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "app/textures/larger_original.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
@@ -40,7 +40,7 @@ class WholeWay : public SessionTest {
             [&] { return session->view().result_current && !session->view().stages.approximate; });
     }
     std::shared_ptr<const Provenance> provenance() {
-        session->act(ShowOverlay{Overlay::kPieces});
+        session->act(ShowOverlay{Overlay::kSourceMap});
         if (!wait([&] {
                 const auto& over = session->view().overlay_picture;
                 return over && over->provenance && over->provenance->plane;
@@ -68,7 +68,7 @@ TEST_F(WholeWay, FramesTellHowSteadyTheyAreAsThePreviewFills) {
     const auto known = [&] {
         int count = 0;
         for (const FrameMarks& mark : session->view().marks)
-            count += mark.flicker >= 0 && mark.flicker_plate >= 0 && mark.flicker_carried >= 0 &&
+            count += mark.flicker >= 0 && mark.flicker_plate >= 0 && mark.flicker_floor >= 0 &&
                      mark.chatter >= 0;
         return count;
     };
@@ -86,7 +86,7 @@ TEST_F(WholeWay, AKeptPieceStaysWhenTheVariationChanges) {
     paint_and_texture();
     const auto before = provenance();
     ASSERT_TRUE(before);
-    const auto piece = piece_at(*before, {45.5f, 33.5f});
+    const auto piece = patch_at(*before, {45.5f, 33.5f});
     ASSERT_TRUE(piece);
     const std::vector<int> frames = session->view().plate.frames;
     session->act(DoEdit{SetAmendments{{region().id, {}}, {*piece}}});

@@ -1,4 +1,4 @@
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 
 #include <algorithm>
 #include <array>
@@ -101,7 +101,7 @@ PlaneAmendment runs_of(const PlaneMap& map, std::vector<Vec2i> stored) {
 
 }  // namespace
 
-std::optional<PlaneAmendment> piece_at(const Provenance& from, Vec2 plate_pixel) {
+std::optional<PlaneAmendment> patch_at(const Provenance& from, Vec2 plate_pixel) {
     const auto start = stored_texel(from, plate_pixel);
     if (!start) return std::nullopt;
     const Texels texels(*from.plane);

@@ -13,7 +13,7 @@ namespace weft {
 
 /// The piece of the sample that shows at a plate pixel, up to its seams. Nothing where the texture
 /// is not grown. Takes well under a millisecond.
-[[nodiscard]] std::optional<PlaneAmendment> piece_at(const Provenance& from, Vec2 plate_pixel);
+[[nodiscard]] std::optional<PlaneAmendment> patch_at(const Provenance& from, Vec2 plate_pixel);
 
 /// A square of texels around a plate pixel, `reach` to each side: a seam with what it joins.
 [[nodiscard]] std::optional<PlaneAmendment> seam_at(const Provenance& from, Vec2 plate_pixel,
