@@ -1,4 +1,4 @@
-// The table of commands: what each is called, where it stands, its key, what it does and when.
+// The command table: names, keys, actions and conditions.
 #include <imgui.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Command command(const char* id, const char* category, const char* name, const ch
     return out;
 }
 
-// Opening something else asks first when there is unsaved work.
+// Asks first if there is unsaved work.
 void leave_for(Ctx& c, const std::string& what) {
     if (c.view.modified) {
         c.state.leave_asked = true;

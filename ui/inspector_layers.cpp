@@ -1,5 +1,4 @@
-// The inspector of the Mask workspace, its second half: what stands in front of the surface, and
-// how what is painted goes to the other frames.
+// Mask workspace, second part: holdouts and propagation.
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +51,7 @@ void layer_row(Ctx& c, const Region& region, int layer) {
     ImGui::PopID();
 }
 
-// Another region's matte serves as well.
+// Offers other regions' mattes as holdouts.
 void other_regions(Ctx& c, const Region& region) {
     for (const Leaf<Region>& other : c.view.project.regions) {
         if (other->id == region.id || other->matte->empty()) continue;
@@ -81,7 +80,7 @@ void propagation_progress(Ctx& c) {
     if (button(c, "Pause", {.icon = icons::kPause, .width = -1})) c.emit(PauseAnalysis{true});
 }
 
-// Which way, and how far.
+// Direction and range of propagation.
 void propagation_controls(Ctx& c, const Region& region, const MatteSource& source) {
     const Theme& t = c.theme;
     const SessionView& v = c.view;

@@ -25,7 +25,7 @@ void add_amendment(Ctx& c, const Region& region, PlaneAmendment one, Vec2 at) {
     std::vector<PlaneAmendment> all = *region.amendments;
     one.kind = c.state.keep_again ? PlaneAmendment::Kind::kAgain : PlaneAmendment::Kind::kKeep;
     if (c.state.keep_again) {
-        // The same place once more: another try.
+        // A second click on the same place tries another seed.
         if (const auto before = amendment_at(all, *provenance(c), at);
             before && all[*before].kind == PlaneAmendment::Kind::kAgain) {
             ++all[*before].seed;
@@ -65,7 +65,7 @@ std::int64_t texels_of(const PlaneAmendment& amendment) {
 void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
-    // What one works on has to be seen.
+    // The tool needs its overlay.
     if (c.view.overlay != Overlay::kSourceMap) {
         c.emit(ShowOverlay{Overlay::kSourceMap});
         c.state.keep_overlay = true;

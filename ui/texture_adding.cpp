@@ -1,4 +1,4 @@
-// Textures of one's own: a folder is brought into the library, or only shown.
+// The user's own textures: import a folder into the library, or browse it only.
 #include <algorithm>
 
 #include "ui/icons.h"
@@ -14,7 +14,7 @@ void show_folder(Ctx& c, const std::string& folder) {
     if (std::find(shown.begin(), shown.end(), folder) == shown.end()) shown.push_back(folder);
 }
 
-// What becomes of the pictures, and who is to be named for them.
+// Options and credits of the import.
 void library_choices(Ctx& c) {
     AddingState& a = c.state.adding;
     wrapped(c,

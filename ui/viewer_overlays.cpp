@@ -1,4 +1,4 @@
-// What is drawn over the picture: mattes, overlays with their legends, and in words what it is.
+// Overlays: mattes, diagnostics with legends, and the state line.
 #include "ui/viewer_overlays.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, 
     text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
 }
 
-// What passes in front of the selected region: red, since it is taken away.
+// Holdouts of the selected region: red, because they are cut out.
 static void draw_holdouts(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
     for (const RegionMatteView& holdout : v.holdouts) {
@@ -45,7 +45,7 @@ static void draw_holdouts(Ctx& c, ImDrawList& list, const ViewMap& map) {
 
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
-    // A line around the surface would be judged with it.
+    // No outline in Review, where it would disturb judging the edge.
     if (c.state.workspace == Workspace::kReview) return;
     const bool in_mask = c.state.workspace == Workspace::kMask;
     const ImVec2 min = map.to_screen({0, 0});
@@ -67,7 +67,8 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         draw.clip_min = map.min;
         draw.clip_max = map.max;
         draw.color = region_color(region->color, region->id);
-        // While one works on the texture only the outline shows, or its colour would mislead.
+        // Only the outline while working on the texture, because a coloured matte would falsify
+        // colours.
         draw.opacity = !in_mask ? 0.0f : selected ? 0.38f : 0.14f;
         draw.outline = selected;
         c.pictures.draw(list, draw);
@@ -127,7 +128,7 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     list.PopClipRect();
 }
 
-// The legend that stands beside every heat picture.
+// The legend of a heat map.
 void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const auto& over = c.view.overlay_picture;
     const Theme& t = c.theme;
@@ -165,7 +166,7 @@ struct State {
     std::string text;
     ImU32 color;
     const char* icon = nullptr;
-    float part = -1;  // of the work that it waits for
+    float part = -1;  // progress of the pending work, 0–1
 };
 
 State state_of_picture(const Ctx& c) {
@@ -220,7 +221,7 @@ State state_of_picture(const Ctx& c) {
 
 }  // namespace
 
-// What the picture is, and what is being worked out, in words.
+// The state line: what the picture shows and what is in progress.
 void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     const State state = state_of_picture(c);
@@ -229,7 +230,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
         icon_in(c, list, {x, min.y}, {x + t.px(18), max.y}, state.color, state.icon);
         x += t.px(24);
     }
-    // Errors may take all of the bar but for its controls.
+    // Errors may use the whole bar except its controls.
     const float room = std::max(t.px(60), max.x - x - t.px(616));
     ImGui::PushFont(t.small);
     const std::string shown = fitted(state.text, room);
@@ -243,7 +244,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     list.AddRectFilled({x, y}, {x + w * state.part, y + t.px(3)}, t.warn, t.px(2));
 }
 
-// Where the pixel under the mouse comes from.
+// The provenance of the pixel under the mouse.
 void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered) {
     c.state.viewer.provenance.clear();
     const auto& over = c.view.overlay_picture;
@@ -294,7 +295,7 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
     const float row = t.px(17), h = row * static_cast<float>(lines.size()) + t.px(10);
     w += t.px(18);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    // Beside the mouse, on the side where there is room.
+    // Beside the mouse, where there is room.
     const float x =
         mouse.x + t.px(18) + w < map.max.x ? mouse.x + t.px(18) : mouse.x - t.px(18) - w;
     const float y = std::clamp(mouse.y + t.px(14), map.min.y, std::max(map.min.y, map.max.y - h));

@@ -75,7 +75,7 @@ bool PlatePlayer::try_read(int frame, Reading& reading) const {
 }
 
 bool PlatePlayer::next_frame(int& frame) {
-    // As many of the wanted frames as fit, the most urgent first.
+    // Wants as many frames as fit, most urgent first.
     std::size_t room = budget_bytes_;
     for (const int candidate : wanted_) {
         if (errors_.contains(candidate)) continue;
@@ -100,7 +100,7 @@ bool PlatePlayer::next_frame(int& frame) {
 std::vector<PicturePtr> PlatePlayer::make_room(std::size_t bytes) {
     std::vector<PicturePtr> gone;
     if (pictures_.empty() || bytes_ + bytes <= budget_bytes_) return gone;
-    // Unwanted frames go first, then the least urgent.
+    // Frees unwanted frames first, then the least urgent.
     std::map<int, std::size_t> urgency;
     for (std::size_t k = 0; k < wanted_.size(); ++k)
         urgency.emplace(wanted_[k], k);

@@ -5,7 +5,7 @@
 namespace weft {
 namespace {
 
-// A moment without a new wish is time enough for full size.
+// Delay without a new request before rendering at full size.
 constexpr std::chrono::milliseconds kPause{350};
 
 }  // namespace

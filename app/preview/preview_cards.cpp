@@ -1,5 +1,4 @@
-// The small results beside the picture, made by the preview's rendering thread when the picture is
-// there.
+// The cards of the strip, rendered by the preview's rendering thread after the picture.
 #include <algorithm>
 
 #include "app/preview/preview_impl.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr int kLongest_px = 480;
 constexpr std::int64_t kCardPixels = 240'000;
 
-// The surroundings of a matte, about as wide as a card.
+// A crop around a matte, with the aspect ratio of a card.
 Recti around(const Recti& box, Size frame) {
     const int margin = std::max(box.width(), box.height()) / 6;
     Recti out{box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
@@ -25,7 +24,7 @@ Recti around(const Recti& box, Size frame) {
     out.x1 = out.x0 + width;
     out.y0 -= (height - out.height()) / 2;
     out.y1 = out.y0 + height;
-    // Moved inside rather than cut, so that all cards have one shape.
+    // Moved inside the frame rather than clipped, so that all cards have one shape.
     const auto inside = [](int& low, int& high, int limit) {
         if (low < 0) high -= low, low = 0;
         if (high > limit) low = std::max(0, low - (high - limit)), high = limit;
@@ -42,7 +41,7 @@ ImageF3 cut(const ImageF3& picture, const Recti& box) {
     return out;
 }
 
-// Whether what was found out for one project serves the other. Without light less is needed.
+// Returns true if the open analysis also serves this project. Without light, less is needed.
 bool served_by(const Project& wanted, const std::string& analysis) {
     if (analysis_key(wanted) == analysis) return true;
     Project lit = wanted;
@@ -71,7 +70,7 @@ Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const Car
     return make_picture(shrink(*picture_of(shot, pixels), kLongest_px));
 }
 
-// A surface that has no texture yet was not analysed with the others: its one frame is, here.
+// A region without a texture is not part of the shot's analysis: analyse this frame alone.
 Status Preview::Impl::analyse_card(OpenedShot& of, const CardRequest& request,
                                    const CancelToken& cancel) {
     of.analysis = analysis_key(request.project);
@@ -115,7 +114,7 @@ bool Preview::Impl::step_card(const PreviewRequest& now) {
             if (shared->cards.contains(request.key)) continue;
         }
         const bool served = served_by(request.project, current->analysis);
-        if (served && !ready(request.frame)) continue;  // its frame is still being analysed
+        if (served && !ready(request.frame)) continue;  // wait for the analysis of its frame
         auto shot = open(request.project, now.painted);
         if (!shot) return put(request, nullptr, shot.error().text());
         OpenedShot of{*shot, current->store, current->pixels, current->analysis};
@@ -137,7 +136,7 @@ bool Preview::Impl::step_card(const PreviewRequest& now) {
             if (token.cancelled()) return true;
             if (!grown) return put(request, nullptr, grown.error().text());
             const auto shared = guarded.lock();
-            if (shared->wanted->frame != now.frame) return true;  // that comes first
+            if (shared->wanted->frame != now.frame) return true;  // the new frame comes first
         }
         auto made = card_picture(of, request);
         if (!made) return put(request, nullptr, made.error().text());

@@ -18,7 +18,7 @@
 namespace weft {
 namespace {
 
-// About as many as the pictures that are compared may have.
+// Approximate size of the compared pictures.
 constexpr std::int64_t kComparedPixels = 130'000;
 
 float plain(const std::optional<double>& value) {
@@ -69,7 +69,7 @@ Steadiness measure_steadiness(const FramePair& pair) {
                          pair.now.matte, MeasuringEstimator::kFarneback, kChatterReachPx);
     MeasureOptions options;
     options.measure_drift = false;
-    // Next to the edge the small pictures mix two surfaces.
+    // Pixels at the edge of small pictures mix two surfaces.
     options.erode_px = 1;
     SequenceMeasure measure(options);
     Steadiness out;
@@ -88,12 +88,13 @@ Steadiness measure_steadiness(const FramePair& pair) {
     if (!pair.before_from_now.empty()) {
         const Matte visible =
             visible_in_both(motion, pair.before.matte, pair.now.matte, options.erode_px);
-        const TemporalError carried =
+        const TemporalError floor =
             carried_tde(luma_8bit(pair.before.result), pair.before_from_now, motion, visible);
-        if (carried.pixels > 0) out.flicker_floor = static_cast<float>(carried.tde);
+        if (floor.pixels > 0) out.flicker_floor = static_cast<float>(floor.tde);
     }
     if (pair.before.seams && pair.now.seams) {
-        // Whether seams stay on the texture; whether that stays on the surface is drift.
+        // Measures whether seams stay on the texture; whether the texture stays on the surface is
+        // drift.
         FlowField inside = pair.before_from_now;
         if (!inside.empty()) inside.valid = eroded_inside(pair.now.matte, options.erode_px);
         const float moved =
@@ -134,8 +135,7 @@ Expected<LatticeField> track_between(const OpenedShot& opened, std::size_t regio
     return compose(ref_from_now, inverse(ref_from_before));
 }
 
-// The next two neighbouring frames that are rendered and not compared yet. False when there are
-// none.
+// Compares the next pair of rendered neighbouring frames. Returns false if there is none.
 bool Preview::Impl::step_flicker(const PreviewRequest& now) {
     if (now.interactive) return false;
     const Shot& shot = *current->shot;
@@ -186,8 +186,8 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
         };
         auto there = matte_of(before), here = matte_of(frame);
         if (!there || !here) continue;
-        const auto carried = track_between(*current, k, before, frame);
-        pair.before_from_now = carried ? dense_flow(shrunk(*carried, factor)) : FlowField();
+        const auto track = track_between(*current, k, before, frame);
+        pair.before_from_now = track ? dense_flow(shrunk(*track, factor)) : FlowField();
         pair.before.matte = std::move(*there);
         pair.now.matte = std::move(*here);
         const Steadiness found = measure_steadiness(pair);

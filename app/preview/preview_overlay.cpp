@@ -22,7 +22,7 @@ std::uint8_t code(float v) {
     return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-// How far a coordinate is from the nearest line of a grid, in pixels of the plate.
+// Coverage of the nearest grid line at a coordinate, one plate pixel wide.
 float line_cover(float uv, float step, float texels_per_px) {
     const float to_line = std::abs(uv / step - std::round(uv / step)) * step;
     return std::clamp(1.5f - to_line / std::max(texels_per_px, 1e-4f), 0.0f, 1.0f);
@@ -42,7 +42,7 @@ Jacobian jacobian(const ImageF2& uv, int x, int y) {
             uv.pixel(x1, y)[1] - uv.pixel(x0, y)[1], uv.pixel(x, y1)[1] - uv.pixel(x, y0)[1]};
 }
 
-// A grid of the sample's size over the surface.
+// Draws a grid of the sample's size over the surface.
 void draw_grid(const TextureCoords& coords, Size sample, OverlayPicture& out) {
     out.unit = "sample";
     const auto step_u = static_cast<float>(std::max(8, sample.width / 4));
@@ -60,7 +60,7 @@ void draw_grid(const TextureCoords& coords, Size sample, OverlayPicture& out) {
     });
 }
 
-// How much larger the texture is here than it was placed: linear magnification of a texel.
+// Draws the linear magnification of texels relative to the placement.
 void draw_stretch(const TextureCoords& coords, OverlayPicture& out) {
     out.low = 0;
     out.high = 3;
@@ -113,7 +113,7 @@ void for_texels(const TextureCoords& coords, const PlaneMap& plane, OverlayPictu
     });
 }
 
-// Where pieces of the sample meet in the plane, by how much they differ there.
+// Draws the seams of the plane by the difference of the patches.
 void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
     out.unit = "difference at the seam";
     out.high = 64;
@@ -123,7 +123,7 @@ void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPictu
     });
 }
 
-// Pieces of the sample in greys of their own.
+// Draws each patch of the sample in its own grey.
 void draw_source_map(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
     for_texels(coords, plane, out, [&](int u, int v) {
         const std::int32_t* from = plane.source.pixel(u, v);
@@ -133,7 +133,7 @@ void draw_source_map(const TextureCoords& coords, const PlaneMap& plane, Overlay
     });
 }
 
-// Where the artist has kept the texture, or had it made again.
+// Marks locked and regenerated patches.
 void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const PlaneMap& plane,
                   OverlayPicture& out) {
     const int width = plane.source.width(), height = plane.source.height();
@@ -155,8 +155,8 @@ void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const Pla
     }
 }
 
-// How far the surface looks different from what it was on the reference frame: where motion has
-// lost it, or something else is seen.
+// Draws the appearance change since the reference frame, where motion was lost or something else is
+// visible.
 Status draw_confidence(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
                        OverlayPicture& out) {
     out.unit = "difference from the reference";
@@ -199,7 +199,7 @@ void draw_motion(const LatticeField& ref_from_cur, OverlayPicture& out) {
     }
 }
 
-// As the scene has kept it, or once more.
+// The plane from the scene, or synthesized again.
 Expected<std::shared_ptr<const TexturePlane>> grown_plane(const Shot& shot, const RegionPlan& plan,
                                                           const RegionScene& scene,
                                                           const CancelToken& cancel) {
@@ -215,8 +215,8 @@ std::string id_of(const ShotTexture& texture) {
     return texture.library_id.empty() ? texture.id.substr(0, 12) : "db:" + texture.library_id;
 }
 
-// Which references a frame of a locked texture was followed from, and how they share it
-// (SurfacePass::blend; a held drawing's own position in time is left out).
+// Finds the reference frames whose tracks a frame of a locked texture uses, with their weights
+// (SurfacePass::blend; the time offset of a held drawing is ignored).
 Status follow_tracks(const RegionPlan& plan, const AnalysisStore& store, const RegionScene& scene,
                      int region, Provenance& out) {
     std::vector<int> references = plan.reference_frames;
@@ -253,7 +253,7 @@ Status follow_tracks(const RegionPlan& plan, const AnalysisStore& store, const R
     return {};
 }
 
-// All but the plane.
+// Everything but the plane.
 Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
                                    const RegionScene& scene, int region, int frame) {
     const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
@@ -298,7 +298,7 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
     parallel_rows(map->energy.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < map->energy.width(); ++x) {
-                // Seams that cost next to nothing are to be seen as well.
+                // Draw seams of low cost too.
                 const PlaneEnergy here = texel_energy(atlas, position, {x, y}, true);
                 const double shown = here.length_px > 0 ? 48 + here.energy : 0;
                 map->energy.at(x, y) = static_cast<std::uint8_t>(std::min(255.0, shown));

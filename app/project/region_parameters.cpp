@@ -7,7 +7,7 @@ namespace {
 
 using namespace parameter_entry;
 
-/// Path: to the MatteSource inside Owner; empty when Owner is one.
+/// Path: member pointers to the MatteSource inside Owner; empty if Owner is one.
 template <class Owner, auto... Path>
 std::vector<Parameter<Owner>> matte_entries() {
     return {

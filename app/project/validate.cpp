@@ -26,7 +26,7 @@ class Finder {
         add(Severity::kWarning, key, std::move(what), std::move(what_to_do));
     }
 
-    /// Values that were put into a struct without passing the table.
+    /// Checks values that were set in a struct directly, not through the table.
     template <class Owner>
     void check_ranges(const Owner& owner, std::span<const Parameter<Owner>> table) {
         for (const Parameter<Owner>& parameter : table)
@@ -87,7 +87,7 @@ void check_texture(Finder& find, const Region& region) {
                 by({{setting::kSample}, {setting::kTemporalMode, "locked"}}));
 }
 
-/// Twice the signed area of the corner at b.
+/// Twice the signed area of the triangle at corner b.
 double turn(PlatePoint a, PlatePoint b, PlatePoint c) {
     return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }

@@ -105,7 +105,7 @@ void Session::request_preview() {
     request.overlay_region = selected_;
     if (const auto cards = strip_.cards()) request.cards = cards->requests;
     request.interactive = playback_.direction() != 0;
-    // The marked range, or as much around the playhead as a look needs.
+    // The marked range, or else this many frames around the playhead.
     constexpr int kAround = 24;
     const auto [first, last] = playback_.range();
     const int at = playback_.index();
@@ -116,7 +116,7 @@ void Session::request_preview() {
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     for (int k = from; k < std::min(at, to); ++k)
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
-    if (!preview_.try_request(request)) return;  // the next frame asks again
+    if (!preview_.try_request(request)) return;  // retried in the next frame
     request_pending_ = false;
     preview_reading_.frame = {};
     preview_reading_.rendered.clear();
@@ -140,7 +140,7 @@ void Session::apply_texture(const std::string& path, RegionId region) {
     if (recent.size() > kMost) recent.resize(kMost);
 }
 
-// A texture of the library becomes a file beside the project, so that the project needs no library.
+// Copies a library texture beside the project, so that the project does not need the library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
     fetching_.emplace();
     fetching_->region = region;
@@ -173,7 +173,7 @@ void Session::take_texture() {
 // ---- notices and time ------------------------------------------------------------------------
 
 void Session::notify(NoticeKind kind, std::string text) {
-    // The same again replaces the older one.
+    // A repeated notice replaces the earlier one.
     std::erase_if(notices_, [&](const Notice& n) { return n.text == text; });
     notices_.push_back({++last_notice_, kind, std::move(text), now_s_});
     constexpr std::size_t kMost = 5;
@@ -213,12 +213,12 @@ void Session::update(double now_s) {
     now_s_ = now_s;
     if (player_) {
         playback_.advance(now_s, view_.plate.fps > 0 ? view_.plate.fps : 24, plate_reading_.states);
-        (void)player_->try_want(playback_.upcoming());  // else the next frame asks again
+        (void)player_->try_want(playback_.upcoming());  // if it fails, retried in the next frame
     }
     part("mattes");
     painting_.update();
     take_changed_matte();
-    // What was rendered from mattes in memory may be kept under the names of their files now.
+    // Results from in-memory mattes may now be filed under the names of their files.
     const bool unwritten = shelf_.writing();
     request_pending_ |= mattes_unwritten_ && !unwritten;
     mattes_unwritten_ = unwritten;

@@ -1,4 +1,4 @@
-// What each action does.
+// Carries out each action.
 #include <algorithm>
 
 #include "app/project/codec/project_file.h"

@@ -1,5 +1,4 @@
-// What an artist chooses from what there is: textures for all regions, a larger original, an object
-// of a Cryptomatte.
+// Choices of the user: textures for all regions, a larger original, an object of a Cryptomatte.
 #include <algorithm>
 #include <filesystem>
 
@@ -18,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of a list by commas, with one more or without it.
+// Adds a name to a comma-separated list, or removes it.
 std::string changed_names(const std::string& names, const std::string& name, bool subtract) {
     std::vector<std::string> list;
     for (std::size_t from = 0; from < names.size();) {
@@ -42,7 +41,7 @@ std::string Session::texture_folder() const {
         .string();
 }
 
-// Textures of the library become files beside the project first; then all change in one step.
+// Copies library textures beside the project first, then changes all regions in one step.
 void Session::apply_textures(const ApplyTextures& action) {
     if (action.textures.empty()) return;
     file_tasks_.push_back(
@@ -98,7 +97,7 @@ void Session::use_larger_original(RegionId id) {
             TextureSource texture = now->texture;
             texture.sample = dir.empty() ? larger->path
                                          : fs::path(larger->path).lexically_relative(dir).string();
-            // As large on the plate as before: it has more pixels for the same piece of surface.
+            // Same size on the plate: the original has more pixels for the same piece of surface.
             auto changed = apply_edits(
                 history_.current(),
                 {SetTexture{{id, {}}, texture},

@@ -1,4 +1,4 @@
-// What the screen is shown through: the views of the OpenColorIO config in $OCIO.
+// View transforms: the views of the OpenColorIO config in $OCIO.
 #include <algorithm>
 
 #include "app/base/background.h"
@@ -6,7 +6,7 @@
 
 namespace weft {
 
-// A large config takes a good part of a second to read.
+// In the background: a large config takes a large part of a second to read.
 void Session::look_for_screens() {
     file_tasks_.push_back(in_background([this]() -> Finish {
         auto screens = list_screens();

@@ -1,4 +1,4 @@
-// The strip of small results on the document.
+// The strip of small results.
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 
@@ -21,7 +21,7 @@ StripQuery Session::strip_query() const {
     return out;
 }
 
-// The cards are asked for together with the picture; here what has come is put in their order.
+// Requests the cards together with the picture, and sorts finished ones into their order.
 void Session::show_strip() {
     StripView& shown = view_.strip;
     shown.kind = strip_.kind();

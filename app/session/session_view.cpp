@@ -1,4 +1,4 @@
-// Publishing what the panels see.
+// Updates the view that the panels show.
 #include <algorithm>
 #include <filesystem>
 
@@ -88,7 +88,7 @@ void Session::show_plate() {
     plate.fps = document().plate.fps > 0 ? document().plate.fps
                 : reader_->fps() > 0     ? reader_->fps()
                                          : 24;
-    // While a frame is decoded the last one stays: a black flash says nothing.
+    // Keep the previous picture while a frame is decoded, to avoid a black flash.
     if (!player_->try_read(playback_.frame(), plate_reading_) &&
         plate_reading_.frame != playback_.frame()) {
         plate_reading_.picture.reset();
@@ -111,7 +111,7 @@ void Session::show_mattes() {
         view_.mattes.push_back(matte_of(*region, 0, playback_.frame()));
     view_.holdouts.clear();
     const Region* region = painted_region();
-    // An undo may have taken the layer away.
+    // The layer may have been removed by undo.
     const int most = region ? static_cast<int>(region->holdouts->size()) : 0;
     if (layer_ > most + 1) layer_ = most;
     view_.matte_layer = layer_;
@@ -145,7 +145,7 @@ void Session::show_result() {
         last_result_ = final;
         last_result_frame_ = playback_.frame();
     }
-    // An older look at this very frame stays until the new one is there, marked as such.
+    // An older result of this frame stays until the new one is ready, and is marked as outdated.
     view_.result_picture =
         view_.result_wanted && last_result_frame_ == playback_.frame() ? last_result_ : nullptr;
     view_.overlay_picture = preview_reading_.overlay;
@@ -197,7 +197,7 @@ void Session::show_marks() {
         }
     }
     if (view_.report.state == QualityReport::State::kDone) {
-        // The first row has no frame before it to differ from.
+        // The first row has no previous frame.
         for (std::size_t r = 1; r < view_.report.rows.size(); ++r) {
             const QualityReport::Row& row = view_.report.rows[r];
             const auto at = std::lower_bound(frames.begin(), frames.end(), row.frame);

@@ -50,7 +50,7 @@ std::vector<Variant> variants_of(StripKind kind, const Region& region) {
     return out;
 }
 
-// Collects the cards one by one.
+// Collects the cards.
 struct CardMaker {
     const StripQuery& question;
     const StripSubject& subject;
@@ -60,7 +60,7 @@ struct CardMaker {
         out.requests.push_back(std::move(request));
         out.choices.push_back(std::move(choice));
     }
-    // False: the edit cannot be made.
+    // Returns false if the edit fails.
     [[nodiscard]] bool add_edited(const Project& from, const Edit& edit, std::string label,
                                   Action choice) const {
         auto changed = apply_edit(from, edit);
@@ -85,7 +85,7 @@ struct CardMaker {
                 names_library_texture(path) ? path : resolve_path(subject.folder, path);
             texture.plane.clear();
             const RegionRef ref{region.id, {}};
-            // A region without a texture is not shown yet; here it is.
+            // The region may have no texture and be disabled; enable it.
             const Expected<Project> shown =
                 subject.shown ? apply_edit(base, SetRegionParameter{ref, "enabled", true})
                               : Expected<Project>(base);
@@ -175,7 +175,7 @@ void Strip::ask(const StripQuery& question, StripSubject subject) {
 
 bool Strip::update() {
     auto newest = worker_.newest();
-    // What was asked before clear() is of no use any more.
+    // Ignore results of requests before clear().
     if (!asked_ || !newest || newest == cards_) return false;
     cards_ = std::move(newest);
     return true;

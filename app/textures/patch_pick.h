@@ -1,6 +1,6 @@
 #pragma once
-// From a place on the picture to places of the grown texture: what an artist keeps or has made
-// again.
+// Finds the texels of a synthesized texture at a place in the picture, for locking and regenerating
+// patches.
 
 #include <cstddef>
 #include <optional>
@@ -11,22 +11,23 @@
 
 namespace weft {
 
-/// The piece of the sample that shows at a plate pixel, up to its seams. Nothing where the texture
-/// is not grown. Takes well under a millisecond.
+/// The patch at a plate pixel, up to its seams. Nothing if the texture is not synthesized. Takes
+/// well under 1 ms.
 [[nodiscard]] std::optional<PlaneAmendment> patch_at(const Provenance& from, Vec2 plate_pixel);
 
-/// A square of texels around a plate pixel, `reach` to each side: a seam with what it joins.
+/// A square of texels around a plate pixel, `reach` on each side: a seam with the parts that it
+/// joins.
 [[nodiscard]] std::optional<PlaneAmendment> seam_at(const Provenance& from, Vec2 plate_pixel,
                                                     int reach = 24);
 
-/// Numbers the patches of a grown plane, from 1 in the order in which rows meet them: texels that
-/// show neighbours of one sample belong together. As large as the plane.
+/// Numbers the patches of a synthesized plane from 1 in row order; texels that show neighbouring
+/// sample pixels form a patch. Same size as the plane.
 [[nodiscard]] Image<std::int32_t, 1> number_patches(const PlaneMap& map);
 
-/// All texels that lie in a rectangle of the plate, at most 512 × 512 around its middle.
+/// All texels in a rectangle of the plate, at most 512 × 512 around its centre.
 [[nodiscard]] std::optional<PlaneAmendment> places_in(const Provenance& from, Vec2 a, Vec2 b);
 
-/// Which of the amendments reaches to this plate pixel; of several the last.
+/// The amendment that contains this plate pixel; the last one if there are several.
 [[nodiscard]] std::optional<std::size_t> amendment_at(const std::vector<PlaneAmendment>& amendments,
                                                       const Provenance& from, Vec2 plate_pixel);
 

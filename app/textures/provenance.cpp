@@ -11,7 +11,7 @@ int wrapped(float v, int n) {
     return k < 0 ? k + n : k;
 }
 
-// The patch at (u, v) and the nearest other one, on a plane that repeats.
+// The patch at (u, v) and the nearest other patch on a plane that repeats.
 std::optional<std::pair<int, int>> nearest_neighbours(const Image<std::int32_t, 1>& patch, int u,
                                                       int v) {
     const std::int32_t here = patch.at(u, v);
@@ -52,9 +52,9 @@ Provenance::Answer Provenance::at(Vec2 p) const {
     out.texel = texel_at(p);
     out.sample = texture;
     out.sample_id = texture_id;
-    const bool carried = temporal == TemporalMode::kLocked ||
+    const bool tracked = temporal == TemporalMode::kLocked ||
                          (temporal == TemporalMode::kPaper && frame != track_frame);
-    if (!carried) {
+    if (!tracked) {
         out.made_anew = 1;
     } else if (temporal == TemporalMode::kPaper) {
         out.made_anew = fresh;

@@ -96,7 +96,7 @@ void TextureShelf::scan(std::vector<std::string> folders) {
                        });
 }
 
-// With `listing_` held.
+// Requires the lock `listing_`.
 void TextureShelf::publish_cards() {
     std::vector<TextureCard> cards = folder_cards_;
     cards.insert(cards.end(), library_cards_.begin(), library_cards_.end());
@@ -162,7 +162,7 @@ void TextureShelf::serve_queue() {
         });
         if (stop_) return;
         if (!pending_details_.empty()) {
-            looking_up_ = pending_details_.back();  // what is looked at now
+            looking_up_ = pending_details_.back();  // newest request first
             pending_details_.pop_back();
             lock.unlock();
             look_up(looking_up_);
@@ -178,8 +178,7 @@ void TextureShelf::serve_queue() {
     }
 }
 
-// What is on the screen now, from the first to the last: everything seen is asked for in each
-// frame.
+// Requests of the current frame in order: everything visible is requested in each frame.
 TextureShelf::ThumbnailRequest TextureShelf::next_thumbnail() {
     constexpr std::chrono::milliseconds kOneFrame(50);
     const auto seen = pending_thumbnails_.back().asked - kOneFrame;
@@ -198,7 +197,7 @@ void TextureShelf::make_thumbnail(const ThumbnailRequest& request) {
         if (TextureLibrary* const from = library()) {
             const std::string id = request.path.substr(3);
             auto pixels = from->thumbnail(id);
-            // Not for a card on a dense screen: the original of a drawn texture is drawn again.
+            // Only for large previews: the original of a procedural texture must be drawn again.
             if (pixels && request.longest_px > 4 * kSample) {
                 if (auto larger = from->original(id)) pixels = std::move(larger);
             }
@@ -210,7 +209,7 @@ void TextureShelf::make_thumbnail(const ThumbnailRequest& request) {
             nullptr, nullptr);
         picture = make_picture(shrink(*whole, request.longest_px));
     }
-    std::vector<PicturePtr> gone;  // freed after the lock is
+    std::vector<PicturePtr> gone;  // destroyed after the lock is released
     const std::lock_guard lock(mutex_);
     if (picture) bytes_ += picture->size_bytes();
     kept_[name_of(request.path, request.longest_px)] = {picture, request.longest_px, ++clock_};
@@ -218,8 +217,8 @@ void TextureShelf::make_thumbnail(const ThumbnailRequest& request) {
     gone = trim();
 }
 
-// Those that were not looked at for longest go, and more than need be: looking for them takes a
-// while when there are thousands.
+// Frees the least recently used pictures, more than necessary, because sorting thousands takes
+// time.
 std::vector<PicturePtr> TextureShelf::trim() {
     std::vector<PicturePtr> gone;
     if (bytes_ <= budget_bytes_) return gone;

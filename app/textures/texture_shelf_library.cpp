@@ -1,4 +1,4 @@
-// The part of the shelf that asks the texture library.
+// The part of TextureShelf that accesses the texture library.
 #include "app/base/background.h"
 #include "app/textures/larger_original.h"
 #include "app/textures/texture_shelf.h"
@@ -23,14 +23,13 @@ std::string counted(int n, const char* one, const char* more) {
 }
 
 std::string outcome_of(const ImportReport& report) {
-    std::string out = "Brought in " + counted(report.samples, "sample", "samples") + " of " +
-                      counted(report.pictures, "picture", "pictures") + ".";
+    std::string out = "Imported " + counted(report.samples, "sample", "samples") + " from " +
+                      counted(report.pictures, "image", "images") + ".";
     if (report.skipped > 0)
-        out += " " + counted(report.skipped, "picture was", "pictures were") +
-               " in already, or are no colour maps.";
+        out += " " + counted(report.skipped, "image was", "images were") +
+               " skipped: already imported, or not a colour map.";
     if (!report.refused.empty())
-        out += " " +
-               counted(static_cast<int>(report.refused.size()), "picture was", "pictures were") +
+        out += " " + counted(static_cast<int>(report.refused.size()), "image was", "images were") +
                " left out; the first: " + report.refused.front().first + " (" +
                report.refused.front().second + ").";
     return out;
@@ -231,7 +230,7 @@ void TextureShelf::serve_imports() {
     }
 }
 
-// In the queue's thread.
+// Runs in the queue's thread.
 void TextureShelf::look_up(const std::string& path) {
     const auto info = library_->info(path.substr(3));
     if (!info) {

@@ -64,7 +64,7 @@ TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
     shell->state().adding.licence = "CC-BY-4.0";
     ASSERT_TRUE(robot->click("Add textures/Add"));
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
-    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("of 1 picture."));
+    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("from 1 image."));
     TextureCard added;
     ASSERT_TRUE(wait([&] {
         for (const TextureCard& card : *shell->textures().cards())
@@ -81,7 +81,7 @@ TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
     // Once more: nothing new, and it is said.
     shell->textures().import_folder({(folder / "mine").string(), "Ada", "CC-BY-4.0", false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
-    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("was in already"));
+    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("was skipped: already imported"));
     shell->textures().import_folder({(folder / "gone").string(), {}, {}, false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
     EXPECT_TRUE(shell->textures().importing().failed);

@@ -88,7 +88,7 @@ TEST(Provenance, PatchesAreNumberedInTheOrderOfTheRows) {
     EXPECT_EQ(patch.at(7, 7), 2);
 }
 
-TEST(Provenance, TwoHistoriesShareAPixelAsTheSeamSays) {
+TEST(Provenance, TheSeamDecidesBetweenTwoTracks) {
     Provenance from;
     from.ref_from_cur = LatticeField({32, 32}, 8);
     from.plane = two_patches();
