@@ -66,7 +66,7 @@ TEST(LatestWorker, AnswersAndKeepsTheAnswer) {
 }
 
 // Frames drawn while the work runs ask again; that must not make the work run again.
-TEST(LatestWorker, AKeyInFlightIsNotAskedAgain) {
+TEST(LatestWorker, APendingRequestIsNotRepeated) {
     Words worker;
     Held held;
     (void)worker.ask("key", held.work("answer"));
@@ -86,7 +86,7 @@ TEST(LatestWorker, AKeyInFlightIsNotAskedAgain) {
     EXPECT_FALSE(held.cancelled);
 }
 
-TEST(LatestWorker, OnlyTheNewestOfThoseThatWaitIsAnswered) {
+TEST(LatestWorker, OnlyTheNewestWaitingRequestIsAnswered) {
     Words worker;
     Held first;
     std::vector<std::string> ran;
@@ -107,7 +107,7 @@ TEST(LatestWorker, OnlyTheNewestOfThoseThatWaitIsAnswered) {
     EXPECT_EQ(worker.try_read("first"), nullptr) << "it was replaced";
 }
 
-TEST(LatestWorker, WhatGaveUpIsAskedAgain) {
+TEST(LatestWorker, ARequestWithoutAnAnswerCanBeRepeated) {
     Words worker;
     std::atomic<int> runs = 0;
     const auto second_time = [&](const CancelToken&) {
@@ -126,7 +126,7 @@ TEST(LatestWorker, WhatGaveUpIsAskedAgain) {
     EXPECT_EQ(held.runs, 2);
 }
 
-TEST(LatestWorker, TellsOfEachAnswer) {
+TEST(LatestWorker, ReportsEachAnswer) {
     std::atomic<int> arrived = 0;
     Words worker([&] { ++arrived; });
     for (const char* word : {"a", "b", "c"})
@@ -135,7 +135,7 @@ TEST(LatestWorker, TellsOfEachAnswer) {
     EXPECT_TRUE(wait([&] { return arrived == 3; }));
 }
 
-TEST(LatestWorker, EndsWithoutDoingWhatWaits) {
+TEST(LatestWorker, DropsTheWaitingRequestOnDestruction) {
     Held held;
     std::atomic<bool> ran = false;
     {
@@ -151,7 +151,7 @@ TEST(LatestWorker, EndsWithoutDoingWhatWaits) {
     EXPECT_FALSE(ran) << "dropped, or told at once that nobody waits";
 }
 
-TEST(LatestWorker, ManyThreadsMayAsk) {
+TEST(LatestWorker, AcceptsRequestsOfManyThreads) {
     Words worker;
     std::latch all(4);
     std::vector<std::thread> askers;
@@ -173,7 +173,7 @@ TEST(LatestWorker, ManyThreadsMayAsk) {
     }));
 }
 
-TEST(Published, GivesTheNewest) {
+TEST(Published, ReturnsTheNewest) {
     Published<int> number(1);
     EXPECT_EQ(*number.get(), 1);
     number.put(2);

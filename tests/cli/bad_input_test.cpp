@@ -18,7 +18,7 @@ TEST_F(BadInput, MissingFrameInTheMiddle) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
-TEST_F(BadInput, FramesThatThePlateHasNot) {
+TEST_F(BadInput, FramesMissingInThePlate) {
     make_shot(3);
     expect_failure(run_replace({"--frames", "2-9"}), 4, {"frames/####.png", "4-9", "1-3"});
     EXPECT_THAT(names("out"), IsEmpty());
@@ -151,7 +151,7 @@ TEST_F(BadInput, MatteEmptyOnTheGivenReferenceFrameNamesABetterOne) {
     EXPECT_EQ(run({"diff", "frames/####.png", "out/####.png", "--frames", "1"}).exit, 0);
 }
 
-TEST_F(BadInput, ReferenceFrameThatThePlateHasNot) {
+TEST_F(BadInput, ReferenceFrameMissingInThePlate) {
     make_shot(4, 1001);
     expect_failure(run_replace({"--reference-frame", "99"}), 4,
                    {"reference frame 99 is not in the plate (1001-1004)", "--reference-frame"});
@@ -241,7 +241,7 @@ TEST_F(BadInput, ConstantColourSampleWarnsAndWorks) {
             ASSERT_FLOAT_EQ(plane.rgb.row(y)[x], 102.0f / 255.0f);
 }
 
-TEST_F(BadInput, SampleThatIsNoPicture) {
+TEST_F(BadInput, SampleThatIsNotAnImage) {
     make_shot(2);
     put("words.png", "these are words");
     expect_failure(run_replace({"--plane", "words.png"}), 3, {"words.png"});

@@ -72,7 +72,7 @@ TEST_F(Contract, JsonPutsOneObjectOnStdoutAndProgressOnStderr) {
     EXPECT_THAT(outcome.err, HasSubstr("frame 2 2/2"));
 }
 
-TEST_F(Contract, ADryRunSaysWhatItWouldTakeAndWritesNothing) {
+TEST_F(Contract, ADryRunPrintsAnEstimateAndWritesNothing) {
     make_shot(2);
     const Outcome outcome = run_replace({"--dry-run", "--threads", "2"});
     expect_success(outcome);
@@ -170,7 +170,7 @@ TEST_F(Stopped, TerminatedRunLeavesWholeFramesAndResumesToTheSameBytes) {
         EXPECT_EQ(hash, whole.at(name)) << name;
 }
 
-TEST_F(Stopped, InterruptedRunSaysSoByItsExitCode) {
+TEST_F(Stopped, AnInterruptedRunHasItsExitCode) {
     WEFT_NEEDS_MOVIES();
     make_shot(16);
     options_.signal_when = folder_ / "out/0001.png";
@@ -183,7 +183,7 @@ TEST_F(Stopped, InterruptedRunSaysSoByItsExitCode) {
         EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
-TEST_F(Contract, MissingBackendIsAnErrorThatListsWhatThereIs) {
+TEST_F(Contract, AMissingBackendListsTheAvailableOnes) {
     make_shot(2);
     const Outcome outcome = run_replace({"--backend", "cuda"});
     if (outcome.exit == 0) GTEST_SKIP() << "there is a CUDA device here";

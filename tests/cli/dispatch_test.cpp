@@ -21,7 +21,7 @@ class Dispatch : public CliTest {
     int runs_ = 0;
 };
 
-TEST_F(Dispatch, OfInstructionsDoesNotShow) {
+TEST_F(Dispatch, InstructionSetsGiveTheSameBytes) {
     make_shot(3, 1, ".exr", PixelDepth::kFloat);
     const auto plain = rendered_with("UNSET", "");
     ASSERT_EQ(plain.size(), 3u);

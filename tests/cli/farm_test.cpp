@@ -233,7 +233,7 @@ TEST_F(Farm, OpenJdRefusesMoreTasksThanTheSchemaAllows) {
     EXPECT_EQ(openjd_violations(Json::parse(bytes("farm_2/template.json"))), Words());
 }
 
-TEST_F(Farm, NoScriptHoldsAName) {
+TEST_F(Farm, ScriptsContainNoNames) {
     make_project();
     fs::rename(folder_ / "shot.weft", folder_ / "x'; touch hacked; '.weft");
     for (const std::string engine : {"slurm", "openjd", "flamenco", "deadline", "opencue"}) {
@@ -261,7 +261,7 @@ TEST_F(Farm, RootsAreMapped) {
     EXPECT_EQ(run({"render", "shot.weft", "--map", "/nowhere"}).exit, 2);
 }
 
-TEST_F(Farm, ALookGoesFromShotToShot) {
+TEST_F(Farm, ALookIsAppliedToAnotherShot) {
     make_project();
     expect_success(run({"region", "set", "shot.weft", "card", "--rotate", "33", "--light-strength",
                         "0.25", "--temporal", "paper"}));
@@ -306,7 +306,7 @@ TEST_F(Farm, ACollectedProjectRendersTheSameElsewhere) {
     EXPECT_EQ(run({"collect", "shot.weft", "kept/here"}).exit, 2);
 }
 
-TEST_F(Farm, VersionAndDoctorSayWhatIsThere) {
+TEST_F(Farm, VersionAndDoctorListWhatIsAvailable) {
     EXPECT_THAT(run({"--version"}).out, HasSubstr("backends: cpu"));
     const Outcome doctor = run({"doctor", "--json"});
     expect_success(doctor);

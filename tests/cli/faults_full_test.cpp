@@ -15,7 +15,7 @@ struct Fault {
 
 class Faults : public CliTest, public ::testing::WithParamInterface<Fault> {};
 
-TEST_P(Faults, AtAnyCallLoseNothing) {
+TEST_P(Faults, LoseNothingAtAnyCall) {
     make_shot(4);
     const Words shot = replace({"--threads", "2"});
     expect_success(run(with_options(shot, {"-o", "whole/####.png"})));

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Interface, EveryCommand, ::testing::ValuesIn(every_comm
                          [](const auto& command) { return joined(command.param, "_"); });
 
 // No word of the libraries in what is said about a value.
-TEST(Interface, ValuesAreRefusedInOurWords) {
+TEST(Interface, ValueErrorsAreInWeftsOwnWords) {
     int refused = 0;
     for (const Words& path : every_command()) {
         const CommandLine names;
@@ -154,7 +154,7 @@ struct Slip {
 
 class Slips : public ::testing::TestWithParam<Slip> {};
 
-TEST_P(Slips, AreSaidInAWholeSentence) {
+TEST_P(Slips, AreReportedInAFullSentence) {
     const Error error = CommandLine().refuse(GetParam().words);
     EXPECT_EQ(error.text(), GetParam().said);
     EXPECT_EQ(error_json(error)["error"].value("field", ""), GetParam().field);

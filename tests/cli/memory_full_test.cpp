@@ -52,7 +52,7 @@ class Memory : public CliTest {
     }
 };
 
-TEST_F(Memory, AHundredFramesNeedWhatTwentyNeed) {
+TEST_F(Memory, DoesNotGrowWithTheNumberOfFrames) {
     make_4k(100);
     const double twenty = peak_bytes("1-20", "draft"), hundred = peak_bytes("1-100", "draft");
     std::printf("draft: 20 frames %.0f MB, 100 frames %.0f MB\n", twenty / 1e6, hundred / 1e6);
@@ -63,7 +63,7 @@ TEST_F(Memory, AHundredFramesNeedWhatTwentyNeed) {
     EXPECT_LT(best, 3e9);
 }
 
-TEST_F(Memory, AJobKeepsToTheMemoryThatItIsGiven) {
+TEST_F(Memory, AJobRespectsItsLimit) {
     make_4k(8);
     const double kept = peak_bytes("1-8", "final", "4", "2G");
     std::printf("final, 8 frames, four threads, --memory 2G: %.0f MB\n", kept / 1e6);

@@ -45,7 +45,7 @@ std::int64_t differing(const ImageF3& a, const ImageF3& b, const Matte& matte, b
 
 class OutsideTheMatte : public CliTest, public ::testing::WithParamInterface<Format> {};
 
-TEST_P(OutsideTheMatte, NotABitOfThePlateChanges) {
+TEST_P(OutsideTheMatte, ThePlateIsUnchanged) {
     const Format format = GetParam();
     const std::string extension = format.extension;
     make_shot(3, 1, extension, format.depth,

@@ -76,7 +76,7 @@ TEST_F(ProjectFile, SettingsAndActionsChangeIt) {
     EXPECT_THAT(valid.err, IsEmpty());
 }
 
-TEST_F(ProjectFile, AFlagCanBeTakenBack) {
+TEST_F(ProjectFile, AFlagCanBeTurnedOff) {
     make_project(1);
     add_card();
     const auto enabled = [&] {

@@ -52,7 +52,7 @@ std::string line_of(const Words& words) {
     return out;
 }
 
-TEST_F(Reading, WhateverIsNoFileIsRefusedAtOnce) {
+TEST_F(Reading, NonRegularFilesAreRefusedAtOnce) {
     make_project();
     const std::pair<const char*, const char*> cases[]{{"/dev/zero", "a device, not a file"},
                                                       {"pipe", "a named pipe, not a file"},
@@ -80,7 +80,7 @@ TEST_F(Reading, ActionsMayComeFromAPipe) {
     expect_one_line(bytes("said"), {"standard input"});
 }
 
-TEST_F(Reading, PicturesTooAreFilesOnly) {
+TEST_F(Reading, ImagesMustBeRegularFiles) {
     make_shot(2);
     for (const Words& texture : {Words{"--plane", "pipe"}, Words{"--texture", "pipe"}}) {
         SCOPED_TRACE(line_of(texture));

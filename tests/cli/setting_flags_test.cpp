@@ -45,7 +45,7 @@ TEST(SettingFlags, AreOptionsAndCommandsOfTheProgram) {
     }
 }
 
-TEST(SettingFlags, CarryTheirValues) {
+TEST(SettingFlags, IncludeTheirValues) {
     EXPECT_EQ(setting_flag({setting::kReferenceFrame, "1012"}), "--reference-frame 1012");
     EXPECT_EQ(setting_flag({setting::kTrustFolder, "/proj"}), "'weft trust /proj'");
     EXPECT_EQ(setting_flag({"placement.scale"}), "--scale");
@@ -54,7 +54,7 @@ TEST(SettingFlags, CarryTheirValues) {
 
 class OldFlags : public CliTest {};
 
-TEST_F(OldFlags, AreReadAndNotShown) {
+TEST_F(OldFlags, AreAcceptedAndHidden) {
     const std::string help = run({"region", "set", "--help"}).out;
     int old_flags = 0;
     for (const auto& parameter : region_parameters()) {

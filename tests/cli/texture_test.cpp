@@ -67,7 +67,7 @@ TEST_F(LibraryTexture, UnderAnExcludedLicenceIsRefused) {
                    {"unknown licence", "tile.png"});
 }
 
-TEST_F(LibraryTexture, IsKeptBesideTheProjectWhichNeedsNoLibraryThen) {
+TEST_F(LibraryTexture, IsCopiedBesideTheProject) {
     make_project();
     expect_success(add_region());
     EXPECT_THAT(names("shots/shot_textures"),
@@ -87,7 +87,7 @@ TEST_F(LibraryTexture, IsKeptBesideTheProjectWhichNeedsNoLibraryThen) {
                    7, {"GPL-2+"});
 }
 
-TEST_F(LibraryTexture, ComesWithSetAndApplyToo) {
+TEST_F(LibraryTexture, IsCopiedBySetAndApplyToo) {
     make_project();
     expect_success(run({"region", "add", kProject, "--name", "card", "--matte", "../masks/####.png",
                         "--texture", "../sample.png"}));
@@ -141,7 +141,7 @@ TEST_F(LibraryTexture, IsMarkedAndKept) {
     EXPECT_TRUE(Json::parse(kept.out)["searches"].empty());
 }
 
-TEST_F(LibraryTexture, IsComparedWithAPlateOnlyWhereMaterialsWereLearned) {
+TEST_F(LibraryTexture, NeedsATrainedDescriptorToCompare) {
     const Outcome found = run({"texture", "similar", "frames/0001.png", "--rectangle", "8,8,64,64",
                                "--db", "lib.db", "--json"});
     // Of one material nothing is learned by which to compare, and that is said.

@@ -30,7 +30,7 @@ TEST_F(Tools, ThePublishedSchemasAreThoseOfTheProgram) {
     }
 }
 
-TEST_F(Tools, PartsOfAPlaneWithoutEndFitTogether) {
+TEST_F(Tools, PartsOfAnUnboundedPlaneFitTogether) {
     expect_success(run({"synth", "sample.png", "-o", "a.png", "--endless", "--size", "150x120",
                         "--at", "-70,100", "--refine", "0"}));
     expect_success(run({"synth", "sample.png", "-o", "b.png", "--endless", "--size", "130x90",
@@ -190,7 +190,7 @@ TEST_F(Tools, MeasureComparesLightWithAPassAndTheResultWithATruth) {
     EXPECT_EQ(missing.exit, 4);
 }
 
-TEST_F(Tools, DiffSaysWhereSequencesDiffer) {
+TEST_F(Tools, DiffReportsWhereSequencesDiffer) {
     make_shot(3);
     fs::copy(folder_ / "frames", folder_ / "copy");
     const Outcome same = run({"diff", "frames/####.png", "copy/####.png"});
@@ -258,7 +258,7 @@ TEST_F(Tools, MattePrintsAConfidenceForEachFrame) {
                    2, {"mattes/0001.png", "--overwrite"});
 }
 
-TEST_F(Tools, MoviesGoOutAndComeIn) {
+TEST_F(Tools, MoviesAreWrittenAndRead) {
     WEFT_NEEDS_MOVIES();
     make_shot(3, 12);
     expect_success(run_replace({"--movie", "review.mkv"}));

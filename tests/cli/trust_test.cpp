@@ -36,14 +36,14 @@ class Trust : public CliTest {
     }
 };
 
-TEST_F(Trust, AProjectWritesBelowItsOwnFolder) {
+TEST_F(Trust, AProjectWritesInsideItsOwnFolder) {
     receive("out/####.png");
     expect_success(run({"render", "inbox/shot.weft"}));
     EXPECT_EQ(names("inbox/out").size(), 2u);
     EXPECT_FALSE(fs::exists(folder_ / "home/.config/weft"));
 }
 
-TEST_F(Trust, OutsideOfItItIsRefusedUntilTrusted) {
+TEST_F(Trust, WritingOutsideIsRefusedUntilTrusted) {
     receive(in("elsewhere/####.png"));
     expect_refused({"render", "inbox/shot.weft"});
     expect_refused({"render", "inbox/shot.weft", "--dry-run"});
@@ -58,7 +58,7 @@ TEST_F(Trust, OutsideOfItItIsRefusedUntilTrusted) {
     expect_refused({"render", "inbox/shot.weft"});
 }
 
-TEST_F(Trust, ByOtherWaysOutToo) {
+TEST_F(Trust, OtherPathsOutAreRefusedToo) {
     receive("../elsewhere/####.png");
     expect_refused({"render", "inbox/shot.weft"});
     receive("out/####.png", "../elsewhere/review.mkv");
@@ -70,7 +70,7 @@ TEST_F(Trust, ByOtherWaysOutToo) {
     EXPECT_THAT(names("target"), IsEmpty());
 }
 
-TEST_F(Trust, WhatTheUserNamesIsAllowed) {
+TEST_F(Trust, OutputsNamedByTheUserAreAllowed) {
     receive(in("elsewhere/####.png"));
     expect_success(run({"render", "inbox/shot.weft", "-o", "mine/####.png"}));
     EXPECT_EQ(names("mine").size(), 2u);
@@ -85,7 +85,7 @@ TEST_F(Trust, WhatTheUserNamesIsAllowed) {
         run({"submit", "inbox/shot.weft", "--to", "slurm", "-o", "farm", "--trust", "--resume"}));
 }
 
-TEST_F(Trust, WhatWasMadeHereIsTrustedWhereItIs) {
+TEST_F(Trust, ProjectsCreatedHereAreTrusted) {
     make_shot(2);
     fs::create_directories(folder_ / "work/below");
     expect_success(run({"new", "work/shot.weft", "--plate", "../frames/####.png", "-o",
@@ -106,7 +106,7 @@ TEST_F(Trust, WhatWasMadeHereIsTrustedWhereItIs) {
     EXPECT_NE(run({"render", "work/below/shot.weft", "--overwrite"}).exit, 7);
 }
 
-TEST_F(Trust, ListsThatAreNoneTrustNothing) {
+TEST_F(Trust, DamagedListsTrustNothing) {
     receive(in("elsewhere/####.png"));
     for (const std::string rubbish :
          {"", "{", "[]", R"({"schema":"weft.trusted/1","folders":[1,{"path":2},{"path":"/"}]})",

@@ -42,7 +42,7 @@ Matte patterned(Size size) {
 
 const std::vector<Vec2> kWay{{40, 50}, {90, 60}, {200, 300}, {500, 320}};
 
-TEST(MattePainting, NoWholeMatteIsCopiedInTheThreadOfThePen) {
+TEST(MattePainting, TheCallingThreadCopiesNoLargeMatte) {
     const Size size{12000, 8000};
     auto before = std::make_shared<const Matte>(size, std::uint8_t{3});
     const double start = thread_ms();
@@ -66,7 +66,7 @@ TEST(MattePainting, NoWholeMatteIsCopiedInTheThreadOfThePen) {
     EXPECT_EQ(before->at(40, 50), 3) << "the history keeps it";
 }
 
-TEST(MattePainting, IsWhatAStrokeOfTheSamePointsGives) {
+TEST(MattePainting, EqualsAStrokeThroughTheSamePoints) {
     for (const Size size : {Size{700, 500}, Size{300, 400}}) {
         const auto before = std::make_shared<const Matte>(patterned(size));
         for (const bool prepared : {true, false}) {

@@ -42,7 +42,7 @@ bool any(const Matte& matte) {
                        [](std::uint8_t v) { return v > 0; });
 }
 
-TEST(PaintedHoldouts, AreCarriedAndCutOut) {
+TEST(PaintedHoldouts, ArePropagatedAndCutOut) {
     const PaintedDisc shot;
     const ShotPlan plan = make_plan(painted_region({4, 5, 6}));
     MemoryAnalysisStore store;

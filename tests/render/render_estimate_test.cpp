@@ -57,7 +57,7 @@ TEST(RenderEstimate, TheAnalysisReachesToReferencesAndPaintedMattes) {
     EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
 }
 
-TEST(RenderEstimate, LearnsFromWhatARenderTook) {
+TEST(RenderEstimate, IsCalibratedByMeasuredTime) {
     // Foreseen 100 s, took 25: four times as fast; half of that in one step.
     const double once = calibrated_speed(1, 100, 25);
     EXPECT_NEAR(once, 2, 1e-9);

@@ -24,7 +24,7 @@ class EditorFiles : public ::testing::Test {
     fs::path folder_;
 };
 
-TEST_F(EditorFiles, SettingsComeBack) {
+TEST_F(EditorFiles, SettingsRoundTrip) {
     const std::string path = (folder_ / "a" / "editor.json").string();
     EXPECT_EQ(load_editor_settings(path), EditorSettings{});
     EditorSettings settings;

@@ -56,7 +56,7 @@ TEST(RenderRequest, TakesAllFramesWhereNoneAreNamed) {
     EXPECT_FALSE(render_request(action, Project{}, {7, 8}));
 }
 
-TEST(JobDesk, TellsOnceThatAJobEnded) {
+TEST(JobDesk, ReportsTheEndOfAJobOnce) {
     const fs::path folder =
         fs::temp_directory_path() / ("weft_job_desk_" + std::to_string(getpid()));
     {

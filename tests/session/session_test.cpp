@@ -117,7 +117,7 @@ TEST_F(SessionByActions, AStrokeIsShownKeptAndUndone) {
 }
 
 // The preview takes a stroke from memory: it waits for no disk, and not for one that is broken.
-TEST_F(SessionByActions, AStrokeIsPreviewedThoughItCannotBeWritten) {
+TEST_F(SessionByActions, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder_ / "state");
     std::ofstream(folder_ / "state" / "unsaved") << "in the place of the folder";
     open();
@@ -204,7 +204,7 @@ TEST_F(SessionByActions, PlaysStepsAndStops) {
     EXPECT_EQ(view().frame, 1);
 }
 
-TEST_F(SessionByActions, ARenderThatFailsIsTold) {
+TEST_F(SessionByActions, AFailedRenderIsReported) {
     open();
     paint();
     act(ApplyTexture{in("tile.png"), 0});

@@ -47,7 +47,7 @@ std::vector<std::string> labels(const StripCards& cards) {
     return out;
 }
 
-TEST(StripCards, ScalesAroundThePresentOne) {
+TEST(StripCards, ScalesAroundTheCurrentOne) {
     const StripCards cards = make_strip_cards(question(StripKind::kScale), subject());
     EXPECT_THAT(labels(cards),
                 ElementsAre("Scale 1.00", "Scale 1.42", "Scale 2.00", "Scale 2.82", "Scale 4.00"));
@@ -121,7 +121,7 @@ TEST(StripFrames, AreSpreadOverTheShotOrTheMarks) {
     EXPECT_THAT(sheet_frames(frames, 3, 4), ElementsAre(4, 5));
 }
 
-TEST(Strip, WorksOutTheNewestQuestionAndNoOlderOne) {
+TEST(Strip, AnswersTheNewestQueryOnly) {
     Strip strip;
     strip.show(StripKind::kScale, {}, false);
     EXPECT_EQ(strip.cards(), nullptr);

@@ -130,7 +130,7 @@ TEST_F(ReferenceChoiceTest, OnePaintedFrameIsTheReferenceAndOfSeveralTheFirstGoo
     EXPECT_EQ(chosen(painted, Numbers(12)), 5);
 }
 
-TEST_F(ReferenceChoiceTest, EmptyEverywhereIsTheFirstFrameAndSaysSo) {
+TEST_F(ReferenceChoiceTest, EmptyEverywhereKeepsTheFirstFrameAndIsReported) {
     for (int frame = 1; frame <= 300; ++frame)
         put(frame, Matte(kSize));
     const auto choice = choose_reference(region(), Numbers(300), nullptr);
@@ -150,7 +150,7 @@ TEST_F(ReferenceChoiceTest, AFileThatCannotBeReadIsNoReference) {
     EXPECT_FALSE(shows_nothing(region(), Numbers(3), 1, nullptr));
 }
 
-TEST_F(ReferenceChoiceTest, MattesThatWereLookedAtAreNotReadAgain) {
+TEST_F(ReferenceChoiceTest, ExaminedMattesAreNotReadAgain) {
     for (int frame = 1; frame <= 8; ++frame)
         put(frame, frame < 4 ? Matte(kSize) : box(20, 20));
     VisibilityCache memory;
@@ -175,7 +175,7 @@ TEST_F(ReferenceChoiceTest, ALongShotIsJudgedByAFewFrames) {
     EXPECT_EQ(memory.size(), 9u);
 }
 
-TEST_F(ReferenceChoiceTest, ALongShotWhoseMattesAreEmptyIsLookedThroughInSteps) {
+TEST_F(ReferenceChoiceTest, ALongShotOfEmptyMattesIsSampledInSteps) {
     put(1, Matte(kSize));
     for (int frame = 2; frame <= 1000; ++frame)
         fs::create_hard_link(file(1), file(frame));

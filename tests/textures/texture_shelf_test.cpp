@@ -111,7 +111,7 @@ class TextureShelfTest : public ::testing::Test {
     static inline std::unique_ptr<TextureShelf> shelf_;
 };
 
-TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
+TEST_F(TextureShelfTest, RepeatedRequestsRankARegionOnce) {
     const SurfaceQuery wall = surface();
     EXPECT_EQ(arrivals_of([&] {
                   shelf_->suggest_for("wall", wall);
@@ -122,7 +122,7 @@ TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
     EXPECT_TRUE(shelf_->suggestions("another").empty());
 }
 
-TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsRankASetOnce) {
     const SurfaceQuery wall = surface();
     Matte right(192, 144);
     for (int y = 40; y < 120; ++y)
@@ -138,14 +138,14 @@ TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
     EXPECT_FALSE(shelf_->together("both")->empty());
 }
 
-TEST_F(TextureShelfTest, AQuestionIsSearchedOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsSearchOnce) {
     TextureQuery stone;
     stone.words = "stone";
     EXPECT_EQ(arrivals_of([&] { return shelf_->search(stone) != nullptr; }), 1u);
     EXPECT_GE(shelf_->search(stone)->paths.size(), 12u);
 }
 
-TEST_F(TextureShelfTest, WhatIsLikeAPictureIsLookedForOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsFindSimilarTexturesOnce) {
     const PicturePtr plate = surface().plate;
     EXPECT_EQ(arrivals_of([&] {
                   shelf_->find_similar("here", plate, {40, 40, 120, 120});
@@ -154,13 +154,13 @@ TEST_F(TextureShelfTest, WhatIsLikeAPictureIsLookedForOnce) {
               1u);
 }
 
-TEST_F(TextureShelfTest, AThumbnailIsMadeOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsMakeAThumbnailOnce) {
     const std::string path = (folder_ / "large.png").string();
     ASSERT_TRUE(write_image(path, ImageF3(1600, 1200, 0.5f), {}, {.depth = PixelDepth::kU8}));
     EXPECT_EQ(arrivals_of([&] { return shelf_->thumbnail(path, 128) != nullptr; }), 1u);
 }
 
-TEST_F(TextureShelfTest, DetailsAreLookedUpOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsLookUpDetailsOnce) {
     const TextureCard card = shelf_->cards()->front();
     EXPECT_EQ(arrivals_of([&] { return !shelf_->details(card).author.empty(); }), 1u);
 }

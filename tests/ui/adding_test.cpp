@@ -58,7 +58,7 @@ class Adding : public SessionTest {
     std::string path_;
 };
 
-TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
+TEST_F(Adding, ImagesAreImportedWithAuthorAndLicence) {
     open_with_a_library();
     shell->state().adding.author = "Ada";
     shell->state().adding.licence = "CC-BY-4.0";
@@ -88,7 +88,7 @@ TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
     EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("gone"));
 }
 
-TEST_F(Adding, AFolderCanAlsoOnlyBeShown) {
+TEST_F(Adding, AFolderCanBeBrowsedWithoutImport) {
     open_with_a_library();
     ASSERT_TRUE(robot->click("Add textures/Browse folder only"));
     robot->frames(2);

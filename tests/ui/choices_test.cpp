@@ -55,7 +55,7 @@ class Choices : public CanvasTest {
     }
 };
 
-TEST_F(Choices, AClickKeepsThePieceUpToItsSeams) {
+TEST_F(Choices, AClickLocksThePatch) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
     click_at(on(10.5f, 10.5f));
@@ -69,7 +69,7 @@ TEST_F(Choices, AClickKeepsThePieceUpToItsSeams) {
     EXPECT_EQ(kept.runs[3], (TexelRun{0, 3, 20, 5, 3, 0, 0}));
 }
 
-TEST_F(Choices, AltLetsGoOfItAgain) {
+TEST_F(Choices, AltDeselects) {
     show_pieces();
     set_amendments({*patch_at(*two_pieces(), {10.5f, 10.5f})});
     go("Seams & Light", Tool::kKeep);
@@ -83,7 +83,7 @@ TEST_F(Choices, AltLetsGoOfItAgain) {
     EXPECT_THAT(set[0].amendments, IsEmpty());
 }
 
-TEST_F(Choices, TheSamePlaceMadeAgainIsAnotherTry) {
+TEST_F(Choices, RegeneratingAgainUsesAnotherSeed) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
     ASSERT_TRUE(robot->click("Keep/Regenerate"));
@@ -105,7 +105,7 @@ TEST_F(Choices, TheSamePlaceMadeAgainIsAnotherTry) {
     EXPECT_EQ(set[0].amendments[0].seed, seed + 1);
 }
 
-TEST_F(Choices, ADragKeepsWhatLiesInTheRectangle) {
+TEST_F(Choices, ADragLocksARectangle) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
     robot->stroke({on(12, 8), on(20, 14), on(28, 18)});
@@ -116,14 +116,14 @@ TEST_F(Choices, ADragKeepsWhatLiesInTheRectangle) {
     EXPECT_GT(set[0].amendments[0].runs.size(), 10u);
 }
 
-TEST_F(Choices, TheToolShowsThePieces) {
+TEST_F(Choices, TheToolShowsTheSourceMap) {
     go("Seams & Light", Tool::kKeep);
     robot->frames(1);
     ASSERT_FALSE(emitted<ShowOverlay>().empty());
     EXPECT_EQ(emitted<ShowOverlay>().back().overlay, Overlay::kSourceMap);
 }
 
-TEST_F(Choices, ThePiecesGoWithTheTool) {
+TEST_F(Choices, TheSourceMapIsHiddenWithTheTool) {
     go("Seams & Light", Tool::kKeep);
     robot->frames(1);
     view.overlay = Overlay::kSourceMap;
@@ -134,7 +134,7 @@ TEST_F(Choices, ThePiecesGoWithTheTool) {
     EXPECT_EQ(emitted<ShowOverlay>().front().overlay, Overlay::kNone);
 }
 
-TEST_F(Choices, APictureOfOnesOwnIsLookedFor) {
+TEST_F(Choices, SimilarTexturesToAnImageFileAreFound) {
     go("Texture", Tool::kPan);
     ASSERT_TRUE(robot->click("Materials/Find by picture…"));
     robot->frames(1);
@@ -186,7 +186,7 @@ TEST_F(Choices, LayersAreChosenForAJob) {
         << "PNG frames cannot hold them";
 }
 
-TEST_F(Choices, APenPressesTheBrush) {
+TEST_F(Choices, PenPressureControlsTheBrush) {
     go("Mask", Tool::kBrush);
     shell->state().pen_pressure = 0.4f;
     robot->stroke({on(100, 80), on(110, 90)});
@@ -201,7 +201,7 @@ TEST_F(Choices, APenPressesTheBrush) {
     EXPECT_FLOAT_EQ(emitted<BeginStroke>()[0].pressure, 1.0f);
 }
 
-TEST_F(Choices, ACryptomatteIsPickedOnTheCanvas) {
+TEST_F(Choices, ACryptomatteObjectIsPickedInTheViewer) {
     go("Mask", Tool::kCrypto);
     click_at(on(50.5f, 60.5f));
     robot->hold("Alt", true);
@@ -211,7 +211,7 @@ TEST_F(Choices, ACryptomatteIsPickedOnTheCanvas) {
                 ElementsAre(PickCryptomatte{{50, 60}, false}, PickCryptomatte{{50, 60}, true}));
 }
 
-TEST(PenPressure, ChangesTheSizeTheOpacityOrNothing) {
+TEST(PenPressure, ControlsSizeOrOpacityOrNothing) {
     const auto dab = [](bool size, bool opacity) {
         Matte matte(64, 64);
         Brush brush;
@@ -230,7 +230,7 @@ TEST(PenPressure, ChangesTheSizeTheOpacityOrNothing) {
     EXPECT_NEAR(faint.second, 128, 2);
 }
 
-TEST(PenDevices, TellsThePressureOfWhatIsAPen) {
+TEST(PenDevices, ReportPressureOfPensOnly) {
     PenDevices pens;
     EXPECT_FALSE(pens.pressure());
     pens.report(9, {{2, 500}});
@@ -251,7 +251,7 @@ TEST(PenDevices, TellsThePressureOfWhatIsAPen) {
     EXPECT_FALSE(pens.pressure()) << "a range of nothing";
 }
 
-TEST(WhereToCorrect, NamesTheFrameThatIsWorstAndWhy) {
+TEST(WhereToCorrect, NamesTheWorstFrameAndItsProblem) {
     std::vector<int> frames;
     std::vector<FrameMarks> marks(40);
     for (int k = 0; k < 40; ++k) {

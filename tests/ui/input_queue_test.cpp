@@ -71,7 +71,7 @@ TEST_F(Queue, AChordKeepsItsModifier) {
     EXPECT_FALSE(ImGui::IsKeyDown('S'));
 }
 
-TEST_F(Queue, AClickHappensWhereTheMouseWas) {
+TEST_F(Queue, AClickKeepsItsPosition) {
     queue.move({10, 20});
     queue.button(0, true, 1.0);
     queue.button(0, false, 1.05);
@@ -86,7 +86,7 @@ TEST_F(Queue, AClickHappensWhereTheMouseWas) {
     EXPECT_EQ(io->MousePos.x, 200);
 }
 
-TEST_F(Queue, ADoubleClickIsOneByTheClockOfTheHand) {
+TEST_F(Queue, ADoubleClickIsTimedByItsEvents) {
     queue.move({10, 20});
     for (const double at : {1.0, 1.15}) {
         queue.button(0, true, at);
@@ -137,7 +137,7 @@ TEST_F(Queue, TextComesBeforeTheKeyThatEndsIt) {
     EXPECT_TRUE(ImGui::IsKeyDown(kEnter));
 }
 
-TEST_F(Queue, LosingTheKeyboardLetsGo) {
+TEST_F(Queue, LosingFocusReleasesAllKeys) {
     queue.key('S', true);
     queue.button(0, true, 1);
     frame();

@@ -88,7 +88,7 @@ class PreviewBytes : public SessionTest {
     }
 };
 
-TEST_F(PreviewBytes, WithAPieceAndASeamKeptByHand) {
+TEST_F(PreviewBytes, EqualARenderWithALockedPatchAndSeam) {
     open_with_region();
     session->act(ShowOverlay{Overlay::kSourceMap});
     ASSERT_TRUE(wait([&] {
@@ -108,7 +108,7 @@ TEST_F(PreviewBytes, WithAPieceAndASeamKeptByHand) {
     expect_same_bytes("kept and made again");
 }
 
-TEST_F(PreviewBytes, WithPinsAndAPlacementThatChanges) {
+TEST_F(PreviewBytes, EqualARenderWithPinsAndAnAnimatedPlacement) {
     open_with_region();
     const ImageU8x3 before = shown(3);
     session->act(

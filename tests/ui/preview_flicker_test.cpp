@@ -37,7 +37,7 @@ FramePair steady_pair() {
     return pair;
 }
 
-TEST(PreviewFlicker, WhatMovesWithThePlateIsSteady) {
+TEST(PreviewFlicker, ATextureThatMovesWithThePlateIsStable) {
     const Steadiness found = measure_steadiness(steady_pair());
     EXPECT_GE(found.flicker, 0);
     EXPECT_LT(found.flicker, 1);
@@ -54,7 +54,7 @@ TEST(PreviewFlicker, AFlashIsMeasuredInLevelsAndThePlateIsNot) {
     EXPECT_LT(found.flicker_plate, 1);
 }
 
-TEST(PreviewFlicker, WhatTheMotionMissesIsNotTakenForFlicker) {
+TEST(PreviewFlicker, MotionErrorIsNotCountedAsFlicker) {
     FramePair pair = steady_pair();
     // The plate moves by two pixels, the texture is carried by three: along the plate's motion it
     // changes, as it does when carried so.
@@ -74,7 +74,7 @@ TEST(PreviewFlicker, WhatTheMotionMissesIsNotTakenForFlicker) {
     EXPECT_GT(flash.flicker, flash.flicker_floor + 15);
 }
 
-TEST(PreviewFlicker, AMatteLeftBehindAndSeamsThatCrawlAreToldInPlatePixels) {
+TEST(PreviewFlicker, ChatterAndCrawlingSeamsAreInPlatePixels) {
     FramePair pair = steady_pair();
     pair.now.matte = box(6);
     pair.plate_scale = 4;

@@ -53,7 +53,7 @@ TEST_F(EditorSession, AStrokeBecomesAKeyframeWithItsFile) {
 }
 
 // The preview takes it from memory: it waits for no disk, and not for one that is broken.
-TEST_F(EditorSession, AStrokeIsPreviewedThoughItCannotBeWritten) {
+TEST_F(EditorSession, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder / "state");
     std::ofstream(folder / "state" / "unsaved") << "in the place of the folder";
     open();
@@ -135,7 +135,7 @@ TEST_F(EditorSession, OneStrokeIsOneStepOfTheHistory) {
     EXPECT_EQ(matte().keyframes.at(1).path, first);
 }
 
-TEST_F(EditorSession, AltTakesAwayFromTheMatte) {
+TEST_F(EditorSession, AltSubtractsFromTheMatte) {
     open();
     paint();
     robot->hold("Alt", true);
@@ -177,7 +177,7 @@ TEST_F(EditorSession, SavingMakesPathsRelativeAndOpensAgain) {
     EXPECT_EQ(project(), before);
 }
 
-TEST_F(EditorSession, WhatWasPaintedIsRecoveredAfterACrash) {
+TEST_F(EditorSession, PaintingIsRecoveredAfterACrash) {
     open();
     paint();
     session->flush();
@@ -200,7 +200,7 @@ TEST_F(EditorSession, WhatWasPaintedIsRecoveredAfterACrash) {
     EXPECT_FALSE(fs::exists(recovery / "recovery-999999999.weft"));
 }
 
-TEST_F(EditorSession, AMissingFrameIsSaidAndTheOthersPlay) {
+TEST_F(EditorSession, AMissingFrameIsReportedAndTheOthersPlay) {
     std::ofstream(folder / "frames" / "0003.png") << "no picture";
     open();
     robot->key("Right");
@@ -237,7 +237,7 @@ TEST_F(EditorSession, ThePreviewShowsTheResultAndNeverAWrongOne) {
     EXPECT_THAT(shown, testing::Each(testing::IsNull()));
 }
 
-TEST_F(EditorSession, AProjectFromElsewhereWritesOutsideOfItsFolderOnceItIsTrusted) {
+TEST_F(EditorSession, AnUntrustedProjectWritesInsideItsFolderOnly) {
     open();
     paint();
     session->act(ApplyTexture{(folder / "tile.png").string(), 0});

@@ -66,7 +66,7 @@ class Together : public SessionTest {
     std::string library_path_;
 };
 
-TEST_F(Together, ASetIsTakenInOneStepAndPartOfItKept) {
+TEST_F(Together, ASetIsAppliedInOneStepAndTexturesCanBeKept) {
     make_library();
     open_two_regions();
     ASSERT_TRUE(offered());
@@ -98,7 +98,7 @@ TEST_F(Together, ASetIsTakenInOneStepAndPartOfItKept) {
     EXPECT_EQ(texture(1), "");
 }
 
-TEST_F(Together, OneRegionAloneIsToldWhatIsMissing) {
+TEST_F(Together, OneRegionIsNotEnough) {
     make_library();
     open_two_regions();
     ASSERT_TRUE(offered());

@@ -123,7 +123,7 @@ TEST(Provenance, TheSeamDecidesBetweenTwoTracks) {
     EXPECT_EQ(found.in_sample->x, 106);
 }
 
-TEST(Provenance, ThePapersModeCarriesWhatIsNotFresh) {
+TEST(Provenance, ThePaperModeTracksWhatIsNotFresh) {
     Provenance from;
     from.ref_from_cur = LatticeField({32, 32}, 8);
     from.temporal = TemporalMode::kPaper;
@@ -182,7 +182,7 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     EXPECT_THAT(viewer.provenance, SizeIs(0));
 }
 
-TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
+TEST_F(PanelTest, AKeyframeIsSetAndRemoved) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     clear();
@@ -240,7 +240,7 @@ TEST_F(PanelTest, CornersInPerspectiveAreDraggedOnTheCanvas) {
     EXPECT_NEAR(numbers[0], 80, 0.01);
 }
 
-TEST_F(PanelTest, ALineSaysHowLargeTheBricksAre) {
+TEST_F(PanelTest, AReferenceLineSetsTheScale) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     ASSERT_TRUE(robot->click("Scale by reference line"));

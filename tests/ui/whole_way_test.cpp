@@ -62,7 +62,7 @@ class WholeWay : public SessionTest {
     }
 };
 
-TEST_F(WholeWay, FramesTellHowSteadyTheyAreAsThePreviewFills) {
+TEST_F(WholeWay, StabilityIsMeasuredAsThePreviewFills) {
     open();
     paint_and_texture();
     const auto known = [&] {
@@ -81,7 +81,7 @@ TEST_F(WholeWay, FramesTellHowSteadyTheyAreAsThePreviewFills) {
     ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
 }
 
-TEST_F(WholeWay, AKeptPieceStaysWhenTheVariationChanges) {
+TEST_F(WholeWay, ALockedPatchStaysWhenTheSeedChanges) {
     open();
     paint_and_texture();
     const auto before = provenance();
@@ -137,7 +137,7 @@ TEST_F(WholeWay, LayersForCompositingAreShownInPlaceOfTheResult) {
     EXPECT_FALSE(session->view().layer);
 }
 
-TEST_F(WholeWay, DriftStretchAndSeamsAreFoundWhileOneWorks) {
+TEST_F(WholeWay, DriftStretchAndSeamsAreMeasuredInTheBackground) {
     open();
     paint_and_texture();
     ASSERT_TRUE(wait([&] {
@@ -152,7 +152,7 @@ TEST_F(WholeWay, DriftStretchAndSeamsAreFoundWhileOneWorks) {
     }
 }
 
-TEST_F(WholeWay, TheLargerOriginalTakesTheSamplesPlace) {
+TEST_F(WholeWay, TheLargerOriginalReplacesTheSample) {
     // A photograph of 384 px, of which the sample is the upper left half at half its size.
     const std::string path = (folder / "library.wtl").string();
     std::string id;
@@ -219,7 +219,7 @@ TEST_F(WholeWay, TheLargerOriginalTakesTheSamplesPlace) {
     EXPECT_DOUBLE_EQ(region().placement.scale, 3.0) << "one step of the history";
 }
 
-TEST_F(WholeWay, ACryptomattesObjectIsPickedAndTakenAwayAgain) {
+TEST_F(WholeWay, ACryptomatteObjectIsAddedAndRemoved) {
     std::filesystem::create_directory(folder / "cg");
     for (int frame = 1; frame <= 2; ++frame) {
         OIIO::ImageSpec spec(96, 64, 7, OIIO::TypeFloat);
@@ -261,7 +261,7 @@ TEST_F(WholeWay, ACryptomattesObjectIsPickedAndTakenAwayAgain) {
     EXPECT_EQ(region().matte->select.crypto, "Wall,Ball");
 }
 
-TEST_F(WholeWay, WithoutACryptomatteThePickSaysSo) {
+TEST_F(WholeWay, PickingWithoutACryptomatteIsReported) {
     open();
     robot->key("Ctrl+Shift+N");
     robot->frames(2);
