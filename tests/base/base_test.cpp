@@ -1,4 +1,4 @@
-// What the rooms of the app share: names of roots, pictures for the screen, folders, the clock.
+// app/base: path maps, screen images, folder lists, the frame clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

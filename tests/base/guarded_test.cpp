@@ -1,4 +1,4 @@
-// A shared value and its lock.
+// Tests of Guarded.
 #include "app/base/guarded.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// 3840×2160: what a render holds does not grow with the shot.
+// 3840×2160: the memory of a render does not grow with the shot.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class Memory : public CliTest {
   protected:
-    // Eight different plates that pan, there and back; the rest are links to them.
+    // Eight different panning plates, forwards and backwards; the rest are links to them.
     void make_4k(int count) {
         constexpr Size kSize{3840, 2160};
         constexpr int kPictures = 8, kPan_px = 5;

@@ -1,5 +1,5 @@
-// The command line's side of messages: every setting is an option that exists, and flags of old
-// names are read but not shown.
+// Settings in messages on the command line: every setting is an existing option; old flag names are
+// accepted but hidden.
 #include "app/cli/setting_flags.h"
 
 #include <gmock/gmock.h>

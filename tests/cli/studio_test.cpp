@@ -1,4 +1,4 @@
-// What a studio's files ask for: layers, versions, gaps, burn-in, cuts.
+// Studio features: layers, versions, gaps, burn-in, cuts.
 #include <nlohmann/json.hpp>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// One rule for every file that a command writes: never over an input, never over another file
-// without --overwrite, never through a link, never outside of --output-root.
+// The write rules for every command: never over an input, never over another file without
+// --overwrite, never through a link, never outside --output-root.
 #include <nlohmann/json.hpp>
 
 #include "engine/media/image_files.h"
@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 
 class WriteRules : public CliTest {
   protected:
-    // Everything that lies in the shot's folder but `but`, by its bytes.
+    // All files in the shot's folder except `but`, by their bytes.
     std::map<std::string, std::string> all_but(const std::vector<std::string>& but) const {
         std::map<std::string, std::string> out;
         for (auto at = fs::recursive_directory_iterator(folder_);
@@ -151,7 +151,7 @@ TEST_F(WriteRules, ResumeRefusesFramesOfOtherPrograms) {
     }
     expect_success(run_replace({"--overwrite"}));
     const auto frames = contents("out");
-    // Other settings of Weft's own are no reason to stop.
+    // Weft's files with other settings do not stop the run.
     expect_success(run_replace({"--resume", "--rotate", "5"}));
     EXPECT_NE(contents("out"), frames);
 }
