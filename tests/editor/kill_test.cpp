@@ -1,5 +1,5 @@
-// Killed at random moments while painting, saving and rendering: what was finished is there, and
-// no file is damaged.
+// The editor is killed at random moments while painting, saving and rendering: finished work
+// survives, and no file is damaged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -148,8 +148,8 @@ const Page kPages[] = {{"mask", "Mask", {}},
                        {"review", "Review", {}},
                        {"jobs", "Jobs", {24, 56, 112, 72}}};
 
-// Compares with pictures that somebody has looked at. With WEFT_UPDATE_GOLDEN in the environment
-// they are written anew.
+// Compares with reviewed golden pictures. With WEFT_UPDATE_GOLDEN in the environment they are
+// written instead.
 void expect_golden(const std::string& picture_path, const std::string& name,
                    const Recti& ignored = {}) {
     const auto picture = read_image(picture_path);

@@ -1,4 +1,4 @@
-// A stroke costs what it touches, not what the matte is large.
+// The cost of a stroke depends on what it touches, not on the size of the matte.
 #include "app/mattes/matte_painting.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(MattePainting, TheCallingThreadCopiesNoLargeMatte) {
         painting.move_to(at, 1);
     const double painted = thread_ms() - begun;
     EXPECT_LT(painted, copying / 4) << "copying takes " << copying << " ms";
-    // The points that the pen was faster with are there in the end.
+    // Points that arrived before the copy was ready are painted in the end.
     const auto done = painting.end();
     ASSERT_TRUE(done);
     for (const Vec2 at : kWay)

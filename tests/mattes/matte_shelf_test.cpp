@@ -1,4 +1,4 @@
-// Mattes are read once, however often they are asked for.
+// Repeated requests read a matte once.
 #include "app/mattes/matte_shelf.h"
 
 #include <gtest/gtest.h>

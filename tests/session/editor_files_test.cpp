@@ -1,4 +1,4 @@
-// What the editor keeps between sessions and after a crash.
+// Settings between sessions, and recovery after a crash.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

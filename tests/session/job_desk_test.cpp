@@ -1,4 +1,4 @@
-// What a render is asked to be, and what is said when it ends.
+// Render requests, and reports of finished jobs.
 #include "app/session/job_desk.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The session by its actions alone: what its parts give when they work together.
+// The session driven by actions only.
 #include "app/session/session.h"
 
 #include <gmock/gmock.h>
@@ -116,7 +116,7 @@ TEST_F(SessionByActions, AStrokeIsShownKeptAndUndone) {
     EXPECT_TRUE(region().matte->keyframes.empty());
 }
 
-// The preview takes a stroke from memory: it waits for no disk, and not for one that is broken.
+// The preview uses a stroke from memory, even if the disk fails.
 TEST_F(SessionByActions, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder_ / "state");
     std::ofstream(folder_ / "state" / "unsaved") << "in the place of the folder";

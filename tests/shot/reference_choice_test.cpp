@@ -1,4 +1,4 @@
-// Which frame becomes the reference when none is given: on made mattes, on the demo's and on clips.
+// The default reference frame on synthetic mattes, the demo and clips.
 #include "app/shot/reference_choice.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr Size kSize{64, 48};
 
-// A plate of which only the numbers and the size count.
+// A plate of which only frame numbers and size matter.
 class Numbers final : public FrameReader {
   public:
     explicit Numbers(int count, Size size = kSize, int first = 1) : size_(size) {

@@ -1,4 +1,4 @@
-// What the drawer asks for in every frame is worked out once.
+// Requests that the drawer repeats in every frame are answered once.
 #include "app/textures/texture_shelf.h"
 
 #include <gtest/gtest.h>
@@ -68,14 +68,14 @@ class TextureShelfTest : public ::testing::Test {
         fs::remove_all(folder_);
     }
 
-    // Without a pause: a question is asked again while it is worked on.
+    // Without a pause, so that the request is repeated while it is pending.
     static bool wait(const std::function<bool()>& done) {
         const auto end = Clock::now() + std::chrono::minutes(2);
         while (!done())
             if (Clock::now() > end) return false;
         return true;
     }
-    // Nothing arrives any more.
+    // Nothing changes any more.
     static bool settle() {
         auto seen = shelf_->changes();
         auto since = Clock::now();
@@ -88,7 +88,7 @@ class TextureShelfTest : public ::testing::Test {
             return Clock::now() - since > std::chrono::milliseconds(300);
         });
     }
-    // How much arrives when `asked` is asked without a pause until it has its answer.
+    // Number of changes while `asked` is requested repeatedly until it is answered.
     static std::uint64_t arrivals_of(const std::function<bool()>& asked) {
         const std::uint64_t before = shelf_->changes();
         EXPECT_TRUE(wait(asked));

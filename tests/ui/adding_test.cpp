@@ -1,4 +1,4 @@
-// Textures of one's own, from a folder into the library, by the window alone.
+// Importing a folder of textures into the library through the window.
 #include <cmath>
 
 #include "engine/media/frame_writer.h"
@@ -78,7 +78,7 @@ TEST_F(Adding, ImagesAreImportedWithAuthorAndLicence) {
     ASSERT_TRUE(robot->click("Add textures/Close"));
     robot->frames(2);
     EXPECT_FALSE(shell->state().adding.open);
-    // Once more: nothing new, and it is said.
+    // Importing again adds nothing, and the outcome says so.
     shell->textures().import_folder({(folder / "mine").string(), "Ada", "CC-BY-4.0", false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
     EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("was skipped: already imported"));

@@ -1,4 +1,4 @@
-// What an artist keeps, corrects, picks and sends out: what the panels emit.
+// Locking, correcting, picking and exporting: the actions that the panels emit.
 #include "app/mattes/paint.h"
 #include "app/session/where_to_correct.h"
 #include "app/textures/patch_pick.h"
@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// A plane of 64 × 48 texels made of two pieces that meet at x = 20.
+// A plane of 64 × 48 texels with two patches that meet at x = 20.
 std::shared_ptr<const Provenance> two_pieces() {
     auto plane = std::make_shared<PlaneMap>();
     plane->source = Image<std::int32_t, 2>(64, 48);
@@ -111,7 +111,7 @@ TEST_F(Choices, ADragLocksARectangle) {
     robot->stroke({on(12, 8), on(20, 14), on(28, 18)});
     const auto set = edits<SetAmendments>();
     ASSERT_THAT(set, SizeIs(1));
-    // 16 × 10 texels, of either piece.
+    // 16 × 10 texels of both patches.
     EXPECT_NEAR(texels(set[0].amendments[0]), 160, 30);
     EXPECT_GT(set[0].amendments[0].runs.size(), 10u);
 }

@@ -1,4 +1,4 @@
-// Nothing that happens between two frames is lost, and everything happens where it happened.
+// No event between two frames is lost, and each keeps its position.
 #include "ui/input_queue.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST_F(Queue, ADoubleClickIsTimedByItsEvents) {
         twice += ImGui::IsMouseDoubleClicked(0) ? 1 : 0;
     }
     EXPECT_EQ(twice, 1);
-    // Slow clicks are none, however few frames there were.
+    // Slow clicks are not a double click, however few frames there were.
     for (const double at : {5.0, 6.0}) {
         queue.button(0, true, at);
         queue.button(0, false, at + 0.05);

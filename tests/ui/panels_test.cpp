@@ -1,4 +1,4 @@
-// The panels on made views: what they emit, and that no state breaks them.
+// The panels on prepared views: the actions that they emit, and all states.
 #include <cmath>
 
 #include "tests/ui/ui_harness.h"

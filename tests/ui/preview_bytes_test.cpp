@@ -1,5 +1,5 @@
-// What the preview shows at full size is what a render writes, byte for byte: with what is kept by
-// hand, pins, and a placement that changes over time.
+// The full-size preview equals a render byte for byte, with locked patches, pins and an animated
+// placement.
 #include "app/render/render_job.h"
 #include "app/textures/patch_pick.h"
 #include "engine/media/image_files.h"
@@ -78,7 +78,7 @@ class PreviewBytes : public SessionTest {
             }
         }
     }
-    // How many pixels of a frame differ from what they were.
+    // Number of pixels of a frame that differ from before.
     static int changed(const ImageU8x3& a, const ImageU8x3& b) {
         int count = 0;
         for (int y = 0; y < a.height(); ++y)

@@ -1,4 +1,4 @@
-// What the strips below the ruler say of neighbouring frames, on pictures with known answers.
+// Measurements of the strips below the ruler on pictures with known answers.
 #include "app/preview/preview_flicker.h"
 
 #include <gtest/gtest.h>
@@ -56,8 +56,8 @@ TEST(PreviewFlicker, AFlashIsMeasuredInLevelsAndThePlateIsNot) {
 
 TEST(PreviewFlicker, MotionErrorIsNotCountedAsFlicker) {
     FramePair pair = steady_pair();
-    // The plate moves by two pixels, the texture is carried by three: along the plate's motion it
-    // changes, as it does when carried so.
+    // The plate moves by two pixels and the texture by three: along the plate's motion the texture
+    // changes.
     pair.now.result = waves(3);
     EXPECT_LT(measure_steadiness(pair).flicker_floor, 0);
     pair.before_from_now = FlowField(kSize);
@@ -67,7 +67,7 @@ TEST(PreviewFlicker, MotionErrorIsNotCountedAsFlicker) {
     const Steadiness carried = measure_steadiness(pair);
     EXPECT_GT(carried.flicker, 5);
     EXPECT_NEAR(carried.flicker_floor, carried.flicker, 0.2f);
-    // A flash is not carried.
+    // A flash is not explained by motion.
     pair.now.result = waves(3, 30.0f / 255);
     const Steadiness flash = measure_steadiness(pair);
     EXPECT_NEAR(flash.flicker_floor, carried.flicker_floor, 1e-4f);
@@ -91,7 +91,7 @@ TEST(PreviewFlicker, ChatterAndCrawlingSeamsAreInPlatePixels) {
     // Four pixels on two sides of a box of 80 × 60, four plate pixels each.
     EXPECT_NEAR(found.chatter, 4.0f * 4 * 60 / 140, 1.2f);
     EXPECT_NEAR(found.seam_motion, 6 * 4 / 2, 0.5f);
-    // Carried along with them, they stay on the texture.
+    // Moved along with it, the seams stay on the texture.
     pair.now.matte = pair.before.matte = Matte(kSize, 255);
     pair.before_from_now = FlowField(kSize);
     for (int y = 0; y < kSize.height; ++y)

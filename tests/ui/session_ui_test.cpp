@@ -1,4 +1,4 @@
-// The whole way from the hand to the document, without a window.
+// From user input to the document, without a window.
 #include <algorithm>
 #include <fstream>
 #include <thread>
@@ -52,7 +52,7 @@ TEST_F(EditorSession, AStrokeBecomesAKeyframeWithItsFile) {
     EXPECT_EQ(written->at(2, 2), 0);
 }
 
-// The preview takes it from memory: it waits for no disk, and not for one that is broken.
+// The preview uses the stroke from memory, even if the disk fails.
 TEST_F(EditorSession, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder / "state");
     std::ofstream(folder / "state" / "unsaved") << "in the place of the folder";
@@ -186,7 +186,7 @@ TEST_F(EditorSession, PaintingIsRecoveredAfterACrash) {
     for (const auto& entry : fs::directory_iterator(recovery))
         snapshot = entry.path();
     ASSERT_FALSE(snapshot.empty());
-    // As if another process, long gone, had left it.
+    // As if a process that has ended had left it.
     fs::copy_file(snapshot, recovery / "recovery-999999999.weft");
     const MatteSource painted = matte();
     restart_session();
@@ -251,7 +251,7 @@ TEST_F(EditorSession, AnUntrustedProjectWritesInsideItsFolderOnly) {
     }()}});
     session->act(SaveAs{path});
     ASSERT_TRUE(wait([&] { return !session->view().saving; }));
-    // What was made here is trusted; what came from somebody is not.
+    // Projects created here are trusted; received ones are not.
     EXPECT_FALSE(session->view().trust);
     EXPECT_TRUE(TrustList((folder / "trusted.json").string()).trusts(path));
     fs::remove(folder / "trusted.json");
@@ -267,7 +267,7 @@ TEST_F(EditorSession, AnUntrustedProjectWritesInsideItsFolderOnly) {
     EXPECT_TRUE(session->view().jobs.empty());
     ASSERT_FALSE(session->view().notices.empty());
     EXPECT_THAT(session->view().notices.back().text, HasSubstr(outside));
-    // The user's own choice of a place is no matter of trust.
+    // An output chosen by the user needs no trust.
     session->act(SubmitJob{"1-2", (folder / "chosen" / "####.png").string(), "", false, false});
     ASSERT_TRUE(wait([&] { return session->view().jobs.size() == 1; }));
     ASSERT_TRUE(session->view().trust);

@@ -1,4 +1,4 @@
-// Textures for all regions at once: asked for, looked through, kept in part, taken.
+// Texture sets for all regions: requesting, browsing, keeping textures, applying.
 #include <cmath>
 
 #include "tests/ui/ui_harness.h"
@@ -102,7 +102,7 @@ TEST_F(Together, OneRegionIsNotEnough) {
     make_library();
     open_two_regions();
     ASSERT_TRUE(offered());
-    // On another frame, before the mattes are carried there, nothing is offered for two.
+    // On another frame, before the mattes are propagated, no set of two is offered.
     session->act(
         DoEdit{SetRegionParameter{{session->view().project.regions[1]->id, {}}, "enabled", false}});
     robot->frames(3);

@@ -1,4 +1,4 @@
-// Values over time, smaller pictures of a shot, and where a pixel comes from.
+// Animated values, proxies of a shot, and provenance.
 #include "app/preview/proxy_shot.h"
 #include "app/textures/patch_pick.h"
 #include "app/textures/provenance.h"
@@ -100,7 +100,7 @@ TEST(Provenance, TheSeamDecidesBetweenTwoTracks) {
     EXPECT_FLOAT_EQ(found.histories[0].weight, 0.75f);
     EXPECT_EQ(found.histories[1].frame, 9);
     EXPECT_FLOAT_EQ(found.histories[1].weight, 0.25f);
-    // With a seam, what shows is where the history on this side of it has been.
+    // With a seam, each side shows its own track.
     TwoTracks::Seam seam;
     seam.before = LatticeField({32, 32}, 8);
     seam.after = LatticeField({32, 32}, 8);
@@ -176,7 +176,7 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     robot->frames(2);
     ASSERT_THAT(viewer.provenance, SizeIs(6));
     EXPECT_EQ(viewer.provenance[3], "Seam 1|2, difference 12");
-    // Beside the surface there is nothing to say.
+    // Outside the surface there is no provenance.
     robot->move({canvas->min.x + 2, canvas->min.y + 2});
     robot->frames(2);
     EXPECT_THAT(viewer.provenance, SizeIs(0));

@@ -1,5 +1,5 @@
-// Keeping, layers, originals and Cryptomattes on a real session: from the action to the document
-// and the picture.
+// Locked patches, layers, originals and Cryptomattes in a real session: from the action to the
+// document and the picture.
 #include <OpenImageIO/imageio.h>
 
 #include <bit>
@@ -49,7 +49,7 @@ class WholeWay : public SessionTest {
         return session->view().overlay_picture->provenance;
     }
     [[nodiscard]] const Region& region() const { return *session->view().project.regions.back(); }
-    // What the plane shows in a run, by its map.
+    // The sample pixels that the plane shows in a run, from its map.
     static bool shows(const PlaneMap& plane, const PlaneAmendment& kept) {
         for (const TexelRun& run : kept.runs) {
             for (int k = 0; k < run.count; ++k) {
@@ -75,7 +75,7 @@ TEST_F(WholeWay, StabilityIsMeasuredAsThePreviewFills) {
     // Every frame but the first has one before it.
     ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
     EXPECT_LT(session->view().marks[0].flicker, 0);
-    // Another light is another picture: nothing is known of it until it is rendered.
+    // Another light changes the picture: its measures are unknown until it is rendered.
     session->act(DoEdit{SetRegionParameter{{region().id, {}}, "light.strength", 0.25}});
     ASSERT_TRUE(wait([&] { return known() < 3; })) << known();
     ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
@@ -103,7 +103,7 @@ TEST_F(WholeWay, ALockedPatchStaysWhenTheSeedChanges) {
     EXPECT_NE(after->provenance->plane->source, before->plane->source) << "the rest is new";
     EXPECT_FALSE(after->marked.empty());
     EXPECT_EQ(after->marked.at(45, 33), 255);
-    // Without it the piece goes.
+    // Without it the patch changes.
     robot->key("Ctrl+Z");
     robot->key("Ctrl+Z");
     session->act(DoEdit{SetProjectParameter{"settings.seed", std::int64_t{5}}});
