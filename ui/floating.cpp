@@ -144,8 +144,7 @@ void leave_question(Ctx& c) {
         if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
         if (then.starts_with("/")) c.emit(OpenAny{then});
     };
-    // Leave only after the file is written; if saving failed, a notice says why and the document
-    // stays open.
+    // Leave only after the save; if it failed, a notice says why and the document stays open.
     if (c.state.leave_when_saved) {
         if (c.view.saving) return;
         if (!c.view.modified) return go();
