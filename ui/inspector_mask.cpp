@@ -88,7 +88,7 @@ void matte_source_card(Ctx& c, const Region& region) {
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
 }
 
-// What a tablet's pen changes by its pressure.
+// What pen pressure controls.
 void pressure_row(Ctx& c, Brush& brush) {
     int which = (brush.pressure_size ? 1 : 0) + (brush.pressure_opacity ? 2 : 0);
     if (!choice(c, "Pen pressure", {"Nothing", "Size", "Opacity", "Both"}, which,

@@ -1,5 +1,5 @@
 #pragma once
-// Names of enumerators. Internal: others use choice_name() of parameters.h.
+// Names of enumerators. Internal; other code uses choice_name() of parameters.h.
 
 #include <array>
 #include <string_view>
@@ -123,7 +123,7 @@ template <class E>
     return {};
 }
 
-/// `name` is one of the choices: normalise() has checked it.
+/// `name` is a valid choice, checked by normalise().
 template <class E>
 [[nodiscard]] constexpr E choice_from(std::string_view name) {
     for (const auto& [value, candidate] : Choices<E>::kNames)

@@ -1,5 +1,5 @@
-// How long functions and files may be. What is longer stands here with the reason, and goes from
-// here when it is short again.
+// Length limits of functions and files. Longer ones are listed here with a reason, and removed once
+// they are short enough.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr int kRoomLines = 4500;
 
 struct LongFunction {
     std::string_view path, name;
-    int at_most = 0;  ///< Lines that it may have.
+    int at_most = 0;  ///< Allowed number of lines.
 };
 struct Exception {
     std::string_view why;

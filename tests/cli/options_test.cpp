@@ -1,4 +1,4 @@
-// Every option of a render does what it says.
+// Every option of a render has its documented effect.
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -40,7 +40,7 @@ TEST_P(EveryValue, Renders) {
     EXPECT_THAT(outcome.err, IsEmpty());
     const ImageF3 plate = picture("frames/0002.png").rgb, result = picture("out/0002.png").rgb;
     EXPECT_GT(largest_difference(result, plate, interior(4)), 0.1f);
-    // Nothing turned black, white or into something that is no texture.
+    // No pixel became black, white or a colour that the texture lacks.
     double mean = 0;
     const Recti box = interior(4);
     for (int y = box.y0; y < box.y1; ++y)
@@ -51,9 +51,9 @@ TEST_P(EveryValue, Renders) {
     EXPECT_LT(mean, 0.9);
 }
 
-// Synthesis and time are told by options of a sample, the rest needs no synthesis.
+// Synthesis and temporal options need a sample; the others do not.
 Words sampled(const Words& more) {
-    Words words{"--plane", "", "--texture", "sample.png"};  // an empty plane is none
+    Words words{"--plane", "", "--texture", "sample.png"};  // an empty string: no plane
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -145,7 +145,7 @@ TEST_F(CliTest, EstimatedMotionKeepsTheTextureOnTheSurface) {
     EXPECT_LT(moved, 0.25 * still);
 }
 
-// Four colours, so that a turned or mirrored placement shows.
+// Four colours, so that a rotated or mirrored placement is visible.
 ImageF3 quadrants() {
     ImageF3 image(Size{64, 64});
     for (int y = 0; y < 64; ++y)
@@ -204,7 +204,7 @@ TEST_F(CliTest, HoldoutsKeepWhatPassesInFront) {
                   open = picture("out/0003.png").rgb;
     EXPECT_EQ(largest_difference(held, plate, bar), 0.0f);
     EXPECT_EQ(largest_difference(held, plate, {40, 60, 50, 61}), 0.0f);
-    // Beside the bar the same texture lies at the same place.
+    // Beside the bar the texture is at the same place.
     EXPECT_LT(largest_difference(held, open, {84, 40, 104, 78}), 0.1f);
 }
 

@@ -113,7 +113,7 @@ std::vector<Vec2i> tiles_that_differ(const ImageF3& a, const ImageF3& b, const R
     return out;
 }
 
-TEST(ScreenshotTiles, AWordThatGoesMissingIsSeen) {
+TEST(ScreenshotTiles, AMissingWordIsDetected) {
     ImageF3 before(320, 180, 0.12f);
     ImageF3 now = before;
     // Six letters of 2×3 in the middle of a dark panel.
@@ -149,8 +149,8 @@ const Page kPages[] = {{"mask", "Mask", {272, 104, 320, 112}},
                        {"review", "Review", {}},
                        {"jobs", "Jobs", {24, 56, 112, 72}}};
 
-// Compares with pictures that somebody has looked at. With WEFT_UPDATE_GOLDEN in the environment
-// they are written anew.
+// Compares with reviewed golden pictures. With WEFT_UPDATE_GOLDEN in the environment they are
+// written instead.
 void expect_golden(const std::string& picture_path, const std::string& name,
                    const Recti& ignored = {}) {
     const auto picture = read_image(picture_path);
@@ -196,7 +196,7 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
 
 // The analysis is paused from the first frame on, so that what is seen does not depend on the
 // machine.
-TEST(Screenshots, EveryWorkspaceLooksAsItDid) {
+TEST(Screenshots, EveryWorkspaceMatchesItsGoldenPicture) {
     const Sandbox sandbox;
     expect_golden_pages(
         sandbox, {"edit", "--demo", "--paused"},
@@ -214,14 +214,14 @@ void write_plates(const Sandbox& sandbox) {
         ASSERT_TRUE(write_image(sandbox.in(std::string("shot/") + name), frame, {}, {}));
 }
 
-TEST(Screenshots, AnEmptyShotSaysWhatToDoInEveryWorkspace) {
+TEST(Screenshots, AnEmptyShotMatchesItsGoldenPictures) {
     const Sandbox sandbox;
     write_plates(sandbox);
     expect_golden_pages(sandbox, {"edit", sandbox.in("shot")}, R"({"wait_for": "cached"})",
                         "empty_");
 }
 
-TEST(Screenshots, AFailingShotSaysWhyInEveryWorkspace) {
+TEST(Screenshots, AFailingShotMatchesItsGoldenPictures) {
     const Sandbox sandbox;
     write_plates(sandbox);
     // Absolute, so that the messages are the same in every sandbox.
@@ -267,7 +267,7 @@ void write_moving_shot(const Sandbox& sandbox) {
 }
 
 // Rendered and measured: graphs, heat strips and the worst frames with their pictures.
-TEST(Screenshots, AMeasuredRenderLooksAsItDid) {
+TEST(Screenshots, AMeasuredRenderMatchesItsGoldenPicture) {
     const Sandbox sandbox;
     write_moving_shot(sandbox);
     std::ofstream(sandbox.in("script.json"))
@@ -285,7 +285,7 @@ TEST(Screenshots, AMeasuredRenderLooksAsItDid) {
     expect_golden(sandbox.in("measured.png"), "review_measured");
 }
 
-TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
+TEST(Screenshots, TheWelcomeScreenMatchesItsGoldenPicture) {
     const Sandbox sandbox;
     const std::string out = sandbox.in("welcome.png");
     const Finished done = run(sandbox, {"edit", "--screenshot", out, "--size", "1280x720"});
@@ -294,7 +294,7 @@ TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
     expect_golden(out, "welcome");
 }
 
-TEST(Screenshots, AScriptThatFailsSaysWhichStep) {
+TEST(Screenshots, AFailingScriptNamesItsStep) {
     const Sandbox sandbox;
     std::ofstream(sandbox.in("script.json"))
         << "[{\"wait\": 0.1}, {\"click\": \"No such button\"}]";

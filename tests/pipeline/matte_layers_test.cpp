@@ -1,4 +1,4 @@
-// Painted holdouts, and mattes that are carried one way or between two frames.
+// Painted holdouts, and propagation in one direction or within a range.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -42,7 +42,7 @@ bool any(const Matte& matte) {
                        [](std::uint8_t v) { return v > 0; });
 }
 
-TEST(PaintedHoldouts, AreCarriedAndCutOut) {
+TEST(PaintedHoldouts, ArePropagatedAndCutOut) {
     const PaintedDisc shot;
     const ShotPlan plan = make_plan(painted_region({4, 5, 6}));
     MemoryAnalysisStore store;
@@ -109,7 +109,7 @@ TEST(MatteReach, BeyondItThereIsNoMatte) {
 }
 
 TEST(MatteReach, OneWayTheMatteComesFromOneSideOnly) {
-    // The key of frame 8 is elsewhere; forwards, frame 7 knows nothing of it.
+    // The keyframe of frame 8 is not used: forwards, frame 7 does not depend on it.
     MemoryShot shot = make_wall();
     shot.keys[{0, 3}] = box_matte({20, 16, 60, 96});
     shot.keys[{0, 8}] = box_matte({100, 16, 150, 96});

@@ -115,10 +115,10 @@ TEST(ImageTextModel, IsAskedBySearchesOfALibraryThatNamesIt) {
     EXPECT_THAT(found->hits[0].reasons, testing::Contains("looks like it to tiny"));
 
     query.text = "zorblax";  // a word of the model alone
-    const auto by_sight = library->search(query);
-    ASSERT_TRUE(by_sight);
-    ASSERT_EQ(by_sight->total, 1);
-    EXPECT_EQ(by_sight->hits[0].id, found->hits[0].id);
+    const auto by_image = library->search(query);
+    ASSERT_TRUE(by_image);
+    ASSERT_EQ(by_image->total, 1);
+    EXPECT_EQ(by_image->hits[0].id, found->hits[0].id);
 
     // Another connection names another one: the first goes over to it.
     const std::string other = model_in(scratch.at("other"), R"({"name": "other",

@@ -1,4 +1,4 @@
-// How the arguments of weft texture are written.
+// Arguments of weft texture.
 
 #include <memory>
 
@@ -248,17 +248,17 @@ void add_rest(CLI::App& group, CommandResult& result) {
     on_run(*add_texture_subcommand(group, "train", "Train the descriptor on the library", train),
            result, [=] { return texture_train_command(*train); });
 
-    const auto sight = std::make_shared<TextureCommandOptions>();
+    const auto model_common = std::make_shared<TextureCommandOptions>();
     const auto model = std::make_shared<TextureModelOptions>();
     command = add_texture_subcommand(
-        group, "model", "Set the image-text model for searches and recommendations", sight);
+        group, "model", "Set the image-text model for searches and recommendations", model_common);
     command
         ->add_option("folder", model->folder,
                      "Folder with model.json; default: print the current one")
         ->type_name("PATH");
     command->add_flag("--none", model->none, "Use no model");
     command->footer("Example:\n  weft texture model ~/models/clip");
-    on_run(*command, result, [=] { return texture_model_command(*sight, *model); });
+    on_run(*command, result, [=] { return texture_model_command(*model_common, *model); });
 
     add_evaluate(group, result);
 

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Scores are read by people too: four digits.
+// Rounds scores to four digits for readability.
 double number(float v) {
     return std::round(static_cast<double>(v) * 1e4) / 1e4;
 }
