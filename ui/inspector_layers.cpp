@@ -270,8 +270,8 @@ void propagation_section(Ctx& c, const Region& region) {
         wrapped(c, "Choose a texture to propagate the matte through the shot.", c.theme.quiet);
     } else {
         wrapped(c,
-                "Propagated through the shot. The strip below the ruler is light where confidence "
-                "unsure.",
+                "Propagated through the shot. The strip below the ruler is pale where the "
+                "confidence is low.",
                 c.theme.quiet);
     }
     section_gap(c);
