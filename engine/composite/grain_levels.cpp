@@ -12,12 +12,12 @@ namespace {
 constexpr std::size_t kBins = GrainModel::kBins;
 constexpr std::size_t kTerms = kBins + 1;  // variances and the share of detail
 constexpr int kRounds = 24;
-constexpr double kFirst = 0.15;  // share of the places below where the fit begins
-// Spreads from the fit at which a place counts half: above, what is more than chance is not grain;
-// below, places that were denoised or compressed flat are ignored too.
+constexpr double kFirst = 0.15;  // quantile of the places where the fit begins
+// Spreads from the fit at which a place counts half. Above, more than chance is not grain; below,
+// places that were denoised or compressed flat are ignored too.
 constexpr double kAbove = 0.6, kBelow = 4;
-constexpr double kLeastOfUsual = 0.02;  // of the first guess: a prediction is not below
-// The line over luma is stiff: how much its bends and slopes weigh beside all places.
+constexpr double kLeastOfUsual = 0.02;  // of the first guess: the least prediction
+// The line over luma is stiff: weights of its bends and slopes against all places.
 constexpr double kBend = 0.3, kSlope = 0.0005;
 
 using Row = std::array<double, kTerms>;

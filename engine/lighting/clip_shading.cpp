@@ -1,4 +1,4 @@
-// The light of a frame, the surface's reflectance known from the clip.
+// The shading of a frame, given the surface's reflectance from the whole clip.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,15 +12,16 @@
 namespace weft {
 namespace {
 
-constexpr int kDetailRadius = 3;  // small pixels: what is finer is compared
-constexpr int kWindow = 12;       // in which the frame is compared with the reflectance
+constexpr int kDetailRadius = 3;  // small pixels: the radius of detail
+// Small pixels: the radius in which frame and reflectance are compared.
+constexpr int kWindow = 12;
 constexpr float kDoubts = 0.35f, kTrusts = 0.7f;  // share of the reflectance's detail that shows
-constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noise
-constexpr float kOutlier = 3.0f;  // deviations of the detail: what stands out more is light
+constexpr float kMinEnergy = 1e-5f;               // ln² of detail; below this it is noise
+constexpr float kOutlier = 3.0f;  // deviations of the detail: larger residuals are light
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
 constexpr float kShown = 0.5f;
-constexpr std::int64_t kFewDoubts = 100;  // of so many places one may be in doubt
+constexpr std::int64_t kFewDoubts = 100;  // one in this many places may be in doubt
 
 ImageF1 box_mean(const ImageF1& plane, const ImageF1& weight, const ImageF1& total, int radius) {
     ImageF1 mean = weighted(plane, weight);
@@ -80,9 +81,9 @@ Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2&
     return seen;
 }
 
-// How much of the reflectance's detail the frame shows at its place, 0 to 1, in windows: the slope
-// of one on the other. Shadows and their edges are in the frame alone and have no part in it,
-// and count no more than detail of the reflectance would.
+// How much of the reflectance's detail the frame shows at its place, 0 to 1, by window: the slope
+// of one on the other. Shadows and their edges exist in the frame only, so they are limited to the
+// size of the reflectance's detail.
 ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
     ImageF1 total = seen.known;
     box_blur(total, kDetailRadius);
@@ -110,8 +111,8 @@ ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
     return share;
 }
 
-// Takes the noise, and what a small error of the motion leaves of the pattern, out of light whose
-// edges are its own.
+// Removes noise, and what small errors of the motion leave of the pattern. The light's own edges
+// stay.
 ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
     ImageF1 guide = weighted(luma, weight), total = weight;
     gaussian_blur(guide, kFineSigma);
@@ -126,8 +127,8 @@ ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
     return guide;
 }
 
-// Whether hardly any place has to be estimated from the frame alone, which costs more than all the
-// rest.
+// True if almost no place needs the estimate from the frame alone, which costs more than everything
+// else.
 bool shows_all(const ImageF1& weight, const ImageF1& share) {
     std::int64_t all = 0, doubtful = 0;
     for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i) {
@@ -138,7 +139,7 @@ bool shows_all(const ImageF1& weight, const ImageF1& share) {
     return doubtful * kFewDoubts <= all;
 }
 
-// Without the places that are in doubt: light is continued over them from around.
+// The sample without doubtful places; light is interpolated over them.
 SurfaceSample known_part(const SurfaceSample& sample, const ImageF1& share) {
     SurfaceSample out;
     out.box = sample.box, out.downscale = sample.downscale, out.full = sample.full;

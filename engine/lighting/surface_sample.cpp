@@ -14,12 +14,12 @@
 namespace weft {
 namespace {
 
-constexpr int kCovered = 128;        // visible from here on
-constexpr int kSure = 250;           // less is already a mixture
+constexpr int kCovered = 128;        // visible from this coverage on
+constexpr int kSure = 250;           // below this a pixel is a mixture
 constexpr float kRimWeight = 0.02f;  // enough to fill regions that are all rim
 constexpr int kMargin = 2;           // small pixels around the matte's box
 constexpr float kFloorOfMedian = 0.02f, kLeastFloorOfMedian = 0.002f;
-constexpr float kFloorOfDark = 0.5f;  // of the darkest tenth's upper end
+constexpr float kFloorOfDark = 0.5f;  // times the upper end of the darkest tenth
 
 // The box of covered pixels, in plate pixels.
 Recti covered_box(ViewU8x1 visible) {
@@ -43,7 +43,7 @@ Recti covered_box(ViewU8x1 visible) {
     return box;
 }
 
-// Trust of the pixels of row y in [x0, x1): 1 inside, kRimWeight at the rim, 0 outside.
+// Weights of the pixels of row y in [x0, x1): 1 inside, kRimWeight at the rim, 0 outside.
 void trust_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint8_t>& column_min,
                   float* trust) {
     const std::uint8_t* above = visible.row(std::max(0, y - 1));
@@ -62,7 +62,7 @@ void trust_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint
     }
 }
 
-// Mean colour of every block and its weight; R, G, B are kept in the sample's planes for now.
+// Mean colour and weight of every block; R, G, B are stored in the sample's planes for now.
 void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
     const int full_x0 = s.box.x0 * d;
     const int full_x1 = std::min(linear.width(), s.box.x1 * d);
@@ -98,7 +98,7 @@ void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
     });
 }
 
-// A small part of the surface's luminance, so that it goes with the exposure.
+// A small part of the surface's luminance, so that it scales with the exposure.
 float floor_of(const SurfaceSample& s) {
     std::vector<float> values;
     for (int y = 0; y < s.box.height(); ++y) {
@@ -109,7 +109,7 @@ float floor_of(const SurfaceSample& s) {
         }
     }
     const float median = median_of(values, 0.0f);
-    // In scene-linear light shade may be a hundredth of what the sun falls on.
+    // In scene-linear light, shade may be a hundredth of a sunlit area.
     const auto dark = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 10);
     float limit = median;
     if (dark != values.end()) {

@@ -19,7 +19,7 @@ constexpr float kLeastScalePx = 0.1f;
 constexpr int kTerms = 8;
 constexpr std::array<int, 2> kRadii = {3, 12};  // of local corrections, in steps
 constexpr std::array<float, 2> kSay = {1.0f, 0.05f};
-constexpr float kPlaneSay = 0.01f;  // of "no correction" beside them
+constexpr float kPlaneSay = 0.01f;  // weight of "no correction" against them
 
 using Terms = std::array<double, kTerms>;
 

@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr float kVoteWeight = 4;  // log odds of what both say, at the boundary as far from it
+constexpr float kVoteWeight = 4;  // log odds where both estimates agree
 
 // Bounds of where either estimate is inside.
 Recti joint_bounds(ViewF1 before, ViewF1 after) {
@@ -24,7 +24,7 @@ Recti joint_bounds(ViewF1 before, ViewF1 after) {
     return box;
 }
 
-// Two shapes brought together over an area. `share` is the later one's weight.
+// Two estimates of a shape, combined over an area. `share` is the later one's weight.
 struct JointShape {
     JointShape(ViewF1 before_phi, ViewF1 after_phi, float share, float band_px)
         : before(before_phi),
@@ -37,7 +37,7 @@ struct JointShape {
                 const float a = before.row(y)[x], b = after.row(y)[x];
                 const bool same = (a > 0) == (b > 0);
                 const float blend = a + share * (b - a);
-                // Where they disagree nothing is settled, however far the blended boundary is.
+                // Where they disagree nothing is settled, even far from the blended boundary.
                 expected.row(y)[x] = same ? blend : std::clamp(blend, 1 - band_px, band_px - 1);
                 agreed.row(y)[x] = !same ? 0 : (a > 0 ? std::min(a, b) : std::max(a, b));
                 votes.row(y)[x] = kVoteWeight * ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
@@ -55,7 +55,7 @@ struct JointShape {
     double agreeing = 0, either = 0;
 };
 
-// Soft edges are where either estimate has them.
+// Edges are soft where either estimate has a soft edge.
 Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, ViewU8x1 after,
              const JointShape& joint, float share, const MatteOptions& options) {
     if (!options.soft_edges) return found.matte;
@@ -82,7 +82,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
                               float position, ViewU8x3 frame, const MatteOptions& options) {
     if (position <= 0) return from_before;
     if (position >= 1) return from_after;
-    // Squared: a walk that is half as sure is more than twice as likely to be wrong.
+    // Squared: a walk with half the confidence is more than twice as likely to be wrong.
     const float before = std::max(from_before.confidence, 1e-3f);
     const float after = std::max(from_after.confidence, 1e-3f);
     const float before_weight = (1 - position) * before * before;
@@ -114,7 +114,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
         std::copy(matte.row(y), matte.row(y) + area.width(),
                   merged.matte.pixel(area.x0, area.y0 + y));
     }
-    // Two walks that never met before and end at the same shape confirm each other.
+    // Two independent walks that end at the same shape confirm each other.
     const auto agreement = static_cast<float>(joint.agreeing / joint.either);
     merged.confidence += (1 - merged.confidence) * agreement * agreement * agreement;
     return merged;
