@@ -32,7 +32,8 @@ struct NearColours {
 /// is thread-safe.
 class ColourPyramid {
   public:
-    / ColourPyramid(ViewF3 plate, ViewU8x1 matte, const Recti& box);
+    /// `box` bounds the pixels that are used, in plate pixels.
+    ColourPyramid(ViewF3 plate, ViewU8x1 matte, const Recti& box);
 
     /// Sums around the centre of pixel (x, y). The weight falls to a quarter at twice the distance.
     [[nodiscard]] NearColours near(int x, int y) const;
