@@ -1,6 +1,6 @@
 #pragma once
-// A texture plane: a sample grown into a larger image of the same texture by placing it again and
-// again and cutting along the best seams (Kwatra et al. 2003; the paper, 2.1–2.3).
+// A texture plane: a sample grown into a larger image of the same texture by repeated placement and
+// cuts along the best seams (Kwatra et al. 2003; the paper, 2.1–2.3).
 
 #include <cstdint>
 #include <optional>
@@ -20,23 +20,23 @@
 
 namespace weft {
 
-/// A picture that the plane should resemble (the warped previous frame in the paper's mode, a
-/// wanted illumination): enters placement costs and the data terms of the cut with `weight` (λ_t).
+/// A picture that the plane should resemble (the warped previous frame in the paper's mode, an
+/// illumination picture). It enters placement costs and the data terms of the cut with `weight`
+/// (λ_t, 0–1000).
 struct PlaneGuide {
-    ViewU8x3 target;  ///< As large as the plane.
+    ViewU8x3 target;  ///< Of the plane's size.
     ViewU8x1 known;   ///< 0 where the target is unknown.
     float weight = 1.0f;
 
-    /// Weights are integers in placement costs: of a filled pixel, and of a guided one.
+    /// Integer weights in placement costs: of a filled pixel, and of a guided one.
     static constexpr std::uint32_t kFillWeight = 256;
     [[nodiscard]] std::uint32_t guide_weight() const {
         return static_cast<std::uint32_t>(weight * static_cast<float>(kFillWeight) + 0.5f);
     }
 };
 
-/// Rounds of refinement that a plane gets unless told otherwise. In the first all cuts are made
-/// again, in the others further blocks are laid over the worst seams. Neither other seam methods
-/// nor guided planes are refined.
+/// The default number of refinement rounds. The first cuts all seams again, the others lay further
+/// blocks over the worst seams. Other seam methods and guided planes are not refined.
 inline constexpr int kDefaultRefinePasses = 2;
 
 struct PlaneOptions {
