@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kBatch = 256;
 
-// Features of samples that an earlier version of weft took in, from their pixels; a batch at a
-// time, so that what is done stays done.
+// Recomputes features that an earlier version stored, from the pixels; a batch at a time, so that
+// finished work stays.
 Status renew_features(Database& database, const CancelToken& cancel, const ProgressFn& progress) {
     const std::string old =
         "FROM pixels p LEFT JOIN features f ON f.sample = p.sample AND "

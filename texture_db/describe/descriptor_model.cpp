@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostOutputs = 40;
 constexpr double kShrinkage = 0.4;            // best of 0.1 and 0.4 on the evaluation photographs
 constexpr std::uint32_t kMagic = 0x31444c57;  // "WLD1"
-constexpr float kNowhere = 1e4f;  // the centre of a material with too few samples to have one
+constexpr float kNowhere = 1e4f;              // centre of a material with too few samples
 
 // The lower triangle L with L·Lᵀ = a, in place.
 bool cholesky(std::vector<double>& a, std::size_t n) {
@@ -113,8 +113,8 @@ Classes centres_of(const LabelledFeatures& data, const Standardised& s, std::siz
     return c;
 }
 
-// The pooled covariance inside the materials, every material with the same say up to a point (the
-// square root of its weight), shrunken towards its diagonal mean.
+// The pooled covariance within the materials, each weighted by the square root of its total weight,
+// shrunk towards its diagonal mean.
 std::vector<double> within(const LabelledFeatures& data, const Standardised& s, const Classes& c,
                            std::size_t d) {
     std::vector<double> w(d * d);

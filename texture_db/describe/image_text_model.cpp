@@ -47,7 +47,7 @@ Expected<std::string> contents(const std::string& folder, const std::string& fil
     return text;
 }
 
-// A name in the folder, not a path out of it.
+// True for a name in the folder, without a path.
 bool plain(const std::string& file) {
     return !file.empty() && file.find('/') == std::string::npos && file != "." && file != "..";
 }
@@ -133,7 +133,7 @@ Expected<ImageTextModel> ImageTextModel::open(const std::string& folder) {
         return unusable(folder, "OpenCV cannot read " + parts->described.image + ": " + e.err);
     }
     ImageTextModel model(std::move(parts));
-    // What length it gives is known only from a picture.
+    // The length of its vectors is known only after a picture was encoded.
     const ImageU8x3 grey(32, 32, 128);
     auto seen = model.see(grey);
     if (!seen) return unusable(folder, seen.error().message);

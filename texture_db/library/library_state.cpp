@@ -5,7 +5,8 @@
 namespace weft {
 
 Status TextureLibrary::State::refresh() {
-    // data_version tells of other connections, changes of this one's own writing.
+    // data_version detects writes by other connections; the change count detects this connection's
+    // own.
     WEFT_TRY(version, database->number("PRAGMA data_version"));
     WEFT_TRY(changes, database->number("SELECT count FROM changes"));
     if (index && version == loaded_data_version && changes == loaded_changes) return {};
@@ -34,7 +35,7 @@ Status TextureLibrary::State::read_sight() {
         sight_model.reset();
         return {};
     }
-    // Another process may have named another one, or looked again with changed files.
+    // Another process may have set another model, or encoded again with changed files.
     WEFT_TRY(identity, text_note(*database, kSightIdentityNote));
     if (sight_model && sight_model->identity() != identity) sight_model.reset();
     if (!sight_model) {

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what a TextureLibrary holds.
+// Internal: the state of a TextureLibrary.
 
 #include <memory>
 #include <mutex>
@@ -22,22 +22,22 @@ struct TextureLibrary::State {
     bool read_only = false;
     std::mutex mutex;  // guards everything below
     std::unique_ptr<Database> database;
-    // Loaded when first needed, and anew when the file has changed since.
+    // Loaded when first needed, and again after the file has changed.
     std::optional<SampleIndex> index;
     std::optional<DescriptorModel> model;
     std::optional<WordReader> words;
     std::int64_t loaded_data_version = -1, loaded_changes = -1;
 
-    // The image–text model that the library names, and what it made of the samples.
+    // The library's image–text model, and its vectors of the samples.
     std::optional<ImageTextModel> sight_model;
     std::optional<SampleSight> sight;
-    std::string sight_fault;  // why there is none though one is named
+    std::string sight_fault;  // why there are none although a model is set
     bool sight_tried = false;
     std::int64_t sight_changes = -1;
 
-    /// Opens the model that the library names and reads what it saw, unless that is done. Call
-    /// after refresh(), with the mutex held. A model that cannot be used is no error: `sight_fault`
-    /// says why.
+    /// Opens the library's model and reads its vectors, unless that is done. Call after refresh(),
+    /// with the mutex held. A model that cannot be used is not an error; `sight_fault` has the
+    /// reason.
     [[nodiscard]] Expected<LibrarySight> open_sight();
     /// Makes index, model and words current. Call with the mutex held.
     [[nodiscard]] Status refresh();

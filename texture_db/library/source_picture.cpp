@@ -22,8 +22,8 @@ Expected<ImageU8x3> read_picture_file(const std::string& path, long long max_pix
                                                 std::to_string(max_pixels / 1'000'000) +
                                                 " megapixels). Scale it down and import it again.");
     }
-    // A header may promise more than the file can hold: no format packs a pixel into less than
-    // about a thousandth of a byte.
+    // A header may claim more than the file can hold: no format packs a pixel into less than about
+    // a thousandth of a byte.
     std::error_code ignored;
     const auto bytes = static_cast<long long>(std::filesystem::file_size(path, ignored));
     if (!ignored && pixels > 4'000'000 && bytes < pixels / 1000) {

@@ -15,7 +15,7 @@ float near(float difference, float width) {
     return std::exp(-difference * difference / (2 * width * width));
 }
 
-// How two textures for two regions go together: told apart, but of one world.
+// How well two textures fit two regions together: distinguishable, but of one style.
 float coherence_of(const IndexedSample& a, const IndexedSample& b) {
     const LabColor &p = a.measured.mean, &q = b.measured.mean;
     const float apart = std::clamp(std::hypot(p.l - q.l, p.a - q.a, p.b - q.b) / 22, 0.0f, 1.0f);
@@ -28,7 +28,7 @@ float coherence_of(const IndexedSample& a, const IndexedSample& b) {
     return same * (0.35f * apart + 0.35f * harmony + 0.15f * saturation + 0.15f * contrast);
 }
 
-// What the image–text model takes the region for: the mean over its squares.
+// Materials of the region by the image–text model: the mean over its squares.
 Expected<std::vector<float>> seen_materials(ImageTextModel& model, const SampleIndex& index,
                                             ViewU8x3 plate, const RegionLook& look) {
     std::vector<std::string> names;
@@ -44,7 +44,7 @@ Expected<std::vector<float>> seen_materials(ImageTextModel& model, const SampleI
     return out;
 }
 
-// Beam search over the regions: the ten best beginnings are carried on.
+// Beam search over the regions, with the ten best partial scenes.
 std::vector<SceneSuggestion> together(const SampleIndex& index,
                                       const std::vector<std::vector<Suggestion>>& choices,
                                       int count) {

@@ -15,10 +15,10 @@ struct RegionRequest {
     std::string name;      ///< For messages.
     ViewU8x1 matte;        ///< Coverage, of the plate's size.
     std::string keep;      ///< Id of a texture to keep for this region, or empty.
-    std::string material;  ///< A material that the artist wants, or empty.
+    std::string material;  ///< A material that the artist asks for, or empty.
 };
 
-/// What the artist wants changed about the suggestions.
+/// How the artist wants the suggestions to differ.
 struct RecommendWish {
     std::string like;    ///< Id: more like this one.
     float warmer = 0;    ///< −1 colder … 1 warmer.
@@ -33,8 +33,8 @@ struct RecommendRequest {
     RecommendWish wish;
     int count = 12;  ///< Suggestions for each region.
     std::vector<std::string> excluded_licences;
-    /// How different the suggestions are from each other: 0 the best ones, 1 as different as can
-    /// be.
+    /// How different the suggestions are from each other: 0 the best ones, 1 as different as
+    /// possible.
     float diversity = 0.35f;
 };
 
@@ -57,7 +57,7 @@ struct Suggestion {
     std::vector<std::string> reasons;  ///< In words, the strongest first.
 };
 
-/// One way to think about the region: "Keep the material", "In harmony", "A contrast", …
+/// A group of suggestions: "Keep the material", "In harmony", "A contrast", …
 struct SuggestionScheme {
     std::string name;
     std::string why;
@@ -72,7 +72,7 @@ struct RegionSuggestions {
     std::vector<SuggestionScheme> schemes;
 };
 
-/// For all regions together: one texture for each, chosen to go with each other.
+/// For all regions together: one texture for each, chosen to fit each other.
 struct SceneSuggestion {
     float score = 0;
     std::vector<Suggestion> per_region;  ///< In the order of the request.
@@ -82,7 +82,7 @@ struct SceneSuggestion {
 struct Recommendation {
     std::vector<RegionSuggestions> regions;
     std::vector<SceneSuggestion> together;  ///< With two regions and more; best first.
-    std::string notice;  ///< What is amiss with the image–text model that the library names.
+    std::string notice;  ///< A problem with the library's image–text model, if there is one.
     double seconds = 0;
 };
 

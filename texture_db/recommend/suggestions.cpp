@@ -7,10 +7,10 @@
 namespace weft {
 namespace {
 
-// From these the diverse ones are taken: the best of a scheme, and the best of every material.
+// The pool for diverse suggestions: the best of a scheme, and the best of every material.
 constexpr std::size_t kPool = 120, kOfMaterial = 6;
 
-// How much each part counts in a scheme.
+// The weight of each term in a scheme.
 struct Weights {
     const char* name;
     const char* why;
@@ -27,9 +27,9 @@ constexpr Weights kSchemes[]{
     {"Another material", "something else that would look at home here", -1.0f, 1.8f, 1.6f, 0.8f,
      0.8f},
 };
-constexpr float kUnlikely = 0.1f;    // a role less likely than that gets no place
-constexpr float kLikely = 0.5f;      // from here on the region's role is spoken of
-constexpr float kGrowsWell = 0.55f;  // part of synthesis from which it is no matter
+constexpr float kUnlikely = 0.1f;    // a less likely role gets no place
+constexpr float kLikely = 0.5f;      // from here on the role is named
+constexpr float kGrowsWell = 0.55f;  // synthesis above this is good enough
 constexpr std::size_t kKeep = 0, kContrast = 3, kOther = 4;
 
 float score_of(const SuitedSample& c, const Weights& w) {
@@ -39,9 +39,9 @@ float score_of(const SuitedSample& c, const Weights& w) {
     const float sum = material + w.colour * p.colour + w.style * p.style + w.scale * p.scale +
                       w.synthesis * std::min(p.synthesis / kGrowsWell, 1.0f);
     const float weight = std::abs(w.material) + w.colour + w.style + w.scale + w.synthesis;
-    // A wish is a demand, and what cannot be seen at this size or does not grow is no use.
-    // How it grows decides only where it grows badly: else whatever is drawn evenly would win
-    // everywhere.
+    // Requests are strict, and a sample that is invisible at this size or does not synthesize is
+    // useless. Synthesis only counts where it is bad; otherwise evenly drawn textures would always
+    // win.
     const float grows = std::min(p.synthesis / kGrowsWell, 1.0f);
     return sum / weight * p.wish * (0.25f + 0.75f * p.use) * (0.35f + 0.65f * p.scale) *
            (0.5f + 0.5f * grows) * p.coherence;
@@ -144,15 +144,15 @@ std::vector<Scored> best_of(const SampleIndex& index, const RegionJudge& judge,
     return pool;
 }
 
-// Gives places to what the region may be, in proportion to how likely it is that (Sainte-Laguë
-// 1910): what it is, is not sure, so no reading of it takes all places.
+// Distributes places over the region's possible roles in proportion to their likelihood
+// (Sainte-Laguë 1910). The role is uncertain, so no role takes all places.
 class Places {
   public:
     explicit Places(const RoleWeights& likely) : likely_(likely) {
         for (float& l : likely_)
             l = l < kUnlikely ? 0 : l;
     }
-    // The role whose turn it is.
+    // The role that gets the next place.
     [[nodiscard]] std::size_t next() const {
         std::size_t best = 0;
         for (std::size_t r = 1; r < likely_.size(); ++r) {
@@ -167,8 +167,8 @@ class Places {
     RoleWeights likely_, given_{};
 };
 
-// Maximal marginal relevance (Carbonell & Goldstein 1998) among what serves as the role whose turn
-// it is; among all without `places`.
+// Maximal marginal relevance (Carbonell & Goldstein 1998) among the samples of the role that gets
+// the next place; among all without `places`.
 std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionJudge& judge, int count,
                             float diversity, std::optional<Places> places) {
     std::vector<Scored> out;
@@ -203,7 +203,7 @@ std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionJudge& 
     return out;
 }
 
-// The best of all schemes in turn, each texture once and each for the role whose turn it is.
+// The best of all schemes in turn, each texture once, each for the role that gets the next place.
 std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionJudge& judge,
                                     const std::vector<SuggestionScheme>& schemes, int count) {
     std::vector<Suggestion> out;
@@ -218,7 +218,7 @@ std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionJudge&
         }
         return false;
     };
-    int idle = 0;  // schemes in a row that had nothing
+    int idle = 0;  // consecutive schemes without a suggestion
     for (std::size_t turn = 0;
          static_cast<int>(out.size()) < count && idle < static_cast<int>(schemes.size()); ++turn) {
         const SuggestionScheme& scheme = schemes[turn % schemes.size()];

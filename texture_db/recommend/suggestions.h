@@ -1,5 +1,5 @@
 #pragma once
-// Internal: out of all samples that a region was judged for, the few that are shown.
+// Internal: selects the few samples to show, from all samples scored for a region.
 
 #include "texture_db/recommend/suitability.h"
 
@@ -11,7 +11,7 @@ namespace weft {
                                             const RegionRequest& region, const RegionLook& look,
                                             const RegionJudge& judge);
 
-/// A texture that the artist keeps, with its parts and reasons.
+/// The suggestion for a texture that the artist keeps, with its terms and reasons.
 [[nodiscard]] Suggestion suggestion_kept(const SampleIndex& index, const RegionJudge& judge,
                                          std::size_t sample);
 

@@ -13,12 +13,11 @@ namespace {
 using A = TextureAttribute;
 
 constexpr int kNeighbours = 9;
-// What the patches look like says less than where the region lies: a photograph's grey feathers
-// are as near to marble as to fur.
+// The appearance of the patches counts less than the region's position: a photograph's grey
+// feathers are as near to marble as to fur.
 constexpr float kSeenCounts = 0.4f, kLeastSeen = 0.08f;
-constexpr float kNameless =
-    0.04f;                       // what is left of a role that the region's name does not speak of
-constexpr float kServes = 0.7f;  // share of the best from which a material simply serves
+constexpr float kNameless = 0.04f;    // the weight of roles that the region's name does not name
+constexpr float kServes = 0.7f;       // share of the best from which a material counts fully
 constexpr float kBeliefWidth = 2.0f;  // of distances between descriptors
 
 // exp(−d²/2w²), the exponent alone: products of several take one exp.
@@ -35,12 +34,13 @@ float ramp(float v) {
 
 float scale_fit(const SampleLook& sample, const RegionLook& look) {
     const float repeats = look.short_side_px / sample.structure_px;
-    // Fewer than three of its structures do not read as the texture; above sixty it is noise.
+    // Fewer than three of its structures do not read as the texture; above sixty it looks like
+    // noise.
     const float enough = std::clamp((repeats - 1) / 3, 0.0f, 1.0f);
     return repeats > 60 ? enough * near(std::log2(repeats / 60), 1.2f) : enough;
 }
 
-// The geometric mean of three likenesses.
+// The geometric mean of three similarities.
 float style_fit(const SampleLook& sample, const RegionLook& look) {
     return std::exp(-(away(sample.contrast - std::min(look.rest_contrast, 0.8f), 0.35f) +
                       away(sample.saturation - look.rest_saturation, 0.25f) +
@@ -86,8 +86,8 @@ RegionJudge::RegionJudge(const SampleIndex& index, const DescriptorModel* model,
     find_role();
 }
 
-// Which materials the region looks like: for each of its patches every material is as likely as
-// its nearest sample and its middle are near (ranking.h), and the patches are averaged.
+// The materials that the region looks like: for each patch a material is as likely as its nearest
+// sample and its centre are near (ranking.h); the patches are averaged.
 void RegionJudge::vote(const DescriptorModel& model) {
     std::vector<float> near_ones, belief(votes_.size());
     for (const auto& descriptor : look_.descriptors) {
@@ -109,7 +109,7 @@ void RegionJudge::vote(const DescriptorModel& model) {
         typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
     }
     scale_votes();
-    // A model that has read of the world is believed as much as the library's own eye.
+    // An image–text model has the same weight as the library's own descriptor.
     for (std::size_t m = 0; m < look_.materials.size(); ++m)
         votes_[m] += look_.materials[m];
     scale_votes();
@@ -121,8 +121,8 @@ void RegionJudge::scale_votes() {
         v = most > 0 ? v / most : 0;
 }
 
-// What the region is in the picture, from what it looks like and where it lies; and how well each
-// material serves as that.
+// The region's role in the picture, from its appearance and its position; and how usual each
+// material is for that role.
 void RegionJudge::find_role() {
     for (int m = 0; m < index_.materials.size(); ++m)
         materials_.push_back(roles_of_material(index_.materials.text(m)));
@@ -143,7 +143,7 @@ void RegionJudge::find_role() {
     for (float& r : role_)
         r = sum > 0 ? r / sum : 1.0f / kSurfaceRoles;
     for (const RoleWeights& material : materials_) {
-        // What serves as everything speaks for nothing.
+        // A material that is usual for every role is no evidence.
         float use = 0;
         for (std::size_t r = 0; r < kSurfaceRoles; ++r)
             use += role_[r] * material[r] * material[r];

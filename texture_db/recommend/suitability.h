@@ -1,6 +1,6 @@
 #pragma once
-// Internal: how well every sample of a library suits one region, in parts; which of them are shown
-// is suggestions.h.
+// Internal: scores every sample of a library for one region, by terms; suggestions.h selects the
+// ones to show.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ namespace weft {
 struct SuitedSample {
     std::uint32_t sample = 0;  ///< Position in the index.
     ScoreTerms parts;
-    float stands_out = 0;  ///< 0 … 1: another lightness or hue than the region has now.
+    float stands_out = 0;  ///< 0 … 1: differs in lightness or hue from the region now.
 };
 
 /// Judges samples for one region. The references given must outlive it; immutable once made.
@@ -26,24 +26,23 @@ class RegionJudge {
                 const RegionLook& look);
 
     [[nodiscard]] SuitedSample judge(std::size_t sample) const;
-    /// Every sample that the licences and the region's wish for a material leave, in the order of
-    /// the index.
+    /// Every sample that the licences and the requested material allow, in the order of the index.
     [[nodiscard]] std::vector<SuitedSample> judge_all() const;
-    /// What the region looks like, by material of the index: 1 is the likeliest.
+    /// Likelihood of each material of the index for the region's appearance: 1 is the likeliest.
     [[nodiscard]] const std::vector<float>& votes() const { return votes_; }
     [[nodiscard]] float vote_of(std::size_t sample) const {
         return votes_[static_cast<std::size_t>(index_.looks[sample].material)];
     }
-    /// What the region most likely is in the picture.
+    /// The region's most likely role in the picture.
     [[nodiscard]] SurfaceRole role() const;
     /// How likely that is, 0 … 1.
     [[nodiscard]] float likely_role() const { return role_[static_cast<std::size_t>(role())]; }
     [[nodiscard]] const RoleWeights& roles() const { return role_; }
-    /// Whether a sample's material is usual in a role.
+    /// True if a sample's material is usual for a role.
     [[nodiscard]] bool serves(std::size_t sample, std::size_t role) const {
         return materials_[static_cast<std::size_t>(index_.looks[sample].material)][role] >= 0.6f;
     }
-    /// 0 … 1: how alike two samples are; 1 for two pieces of one picture.
+    /// 0 … 1: how similar two samples are; 1 for two samples of one picture.
     [[nodiscard]] float likeness(std::size_t a, std::size_t b) const;
 
   private:
@@ -61,7 +60,7 @@ class RegionJudge {
     RoleWeights role_{};                  // sums to 1
     std::vector<float> squared_;          // distance to the nearest patch, by sample
     float typical_ = 1;                   // distance of a near neighbour
-    std::size_t like_ = 0;                // the sample of the wish, or the index's size
+    std::size_t like_ = 0;                // the sample of `like`, or the index's size
 };
 
 }  // namespace weft

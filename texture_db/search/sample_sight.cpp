@@ -12,17 +12,17 @@ namespace {
 
 constexpr std::size_t kBatch = 64;
 
-// Looks at the next samples that were not yet looked at; returns how many. `after` is the last of
+// Encodes the next samples that have no vector yet; returns how many. `after` becomes the last of
 // them.
 Expected<std::int64_t> see_batch(Database& database, ImageTextModel& model,
                                  const std::string& unseen, std::int64_t& after) {
     WEFT_TRY(batch, pixels_behind(database, unseen, after, kBatch));
-    // The network takes its time: others may write meanwhile.
+    // The network is slow, so other processes may write meanwhile.
     std::vector<std::pair<std::int64_t, std::vector<std::int8_t>>> vectors;
     for (const auto& [key, png] : batch) {
         after = key;
         const auto pixels = decode_picture(png);
-        if (!pixels) continue;  // damaged: verify tells of it
+        if (!pixels) continue;  // damaged: verify reports it
         WEFT_TRY(seen, model.see(*pixels));
         vectors.emplace_back(key, bytes_of_sight(seen));
     }

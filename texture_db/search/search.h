@@ -1,5 +1,5 @@
 #pragma once
-// Internal: words and conditions over a library's samples (docs/TEXTURES.md).
+// Internal: search by words and conditions over a library's samples (docs/TEXTURES.md).
 
 #include <functional>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace weft {
 
-/// The image–text model that a library names and what it made of the samples.
+/// The image–text model of a library and its vectors of the samples.
 struct LibrarySight {
-    ImageTextModel* model = nullptr;       ///< Null: none, or it cannot be used.
+    ImageTextModel* model = nullptr;       ///< Null: no model, or it cannot be used.
     const SampleSight* samples = nullptr;  ///< Null: likewise.
-    std::string fault;                     ///< Why there is none though one is named.
+    std::string fault;                     ///< Why there are none although a model is set.
 };
-/// Called only where words are asked for: opening a model takes time.
+/// Called only for queries with words, because opening a model takes time.
 using OpenSight = std::function<Expected<LibrarySight>()>;
 
 /// TextureLibrary::search(). The caller holds the library's lock.

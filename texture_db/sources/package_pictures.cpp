@@ -43,7 +43,7 @@ CopyrightFile read_copyright(const std::string& unpacked, const std::string& pac
     return CopyrightFile::parse(text);
 }
 
-// The last two folders and the name: what stands before them is the same for a whole package.
+// The last two folders and the name; the folders before them are the same for a whole package.
 std::string telling_part(const std::string& path) {
     std::size_t at = path.size();
     for (int parts = 0; parts < 2 && at != std::string::npos && at > 0; ++parts)
@@ -56,7 +56,7 @@ class Collector {
     Collector(std::string package, CopyrightFile copyright)
         : package_(std::move(package)), copyright_(std::move(copyright)) {}
 
-    /// The material, or empty: not to be taken.
+    /// The material, or empty if the picture is not wanted.
     [[nodiscard]] std::string wanted(const std::string& source) {
         if (!is_picture(source) || names_a_thing(source) ||
             is_other_map(fs::path(source).filename().string()))
@@ -82,7 +82,7 @@ class Collector {
         photo.author = licence.author;
         photo.licence = licence.licence;
         photo.keep_original = true;
-        // A material that only the folder names is a guess, where nobody has looked.
+        // A material that only the folder names is a guess unless the package was inspected.
         if (!was_inspected(package_) &&
             material_of_path(fs::path(source).filename().string()).empty())
             photo.tags.push_back("guessed");
