@@ -90,12 +90,13 @@ void carry_controls(Ctx& c, const Region& region, const MatteSource& source) {
         set(changed);
         c.edit(set_layer(region, v.matte_layer, changed));
     };
-    int way = source.carry == CarryDirection::kBackward  ? 0
-              : source.carry == CarryDirection::kForward ? 2
-                                                         : 1;
+    int way = source.carry == PropagationDirection::kBackward  ? 0
+              : source.carry == PropagationDirection::kForward ? 2
+                                                               : 1;
     if (segments(c, "Direction", {"Backwards", "Both", "Forwards"}, way)) {
-        constexpr CarryDirection kWays[] = {CarryDirection::kBackward, CarryDirection::kBoth,
-                                            CarryDirection::kForward};
+        constexpr PropagationDirection kWays[] = {PropagationDirection::kBackward,
+                                                  PropagationDirection::kBoth,
+                                                  PropagationDirection::kForward};
         change([&](MatteSource& m) { m.carry = kWays[way]; });
     }
     const auto end = [](const std::optional<int>& frame, const char* otherwise) {

@@ -116,7 +116,7 @@ struct MatteSource {
     std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated …
     std::string frozen_files;  ///< … from files of this pattern.
     /// Which way painted mattes are carried, and between which frames; unset ends are the shot's.
-    CarryDirection carry = CarryDirection::kBoth;
+    PropagationDirection carry = PropagationDirection::kBoth;
     std::optional<int> carry_from, carry_to;
     Extras extra;
     [[nodiscard]] bool empty() const {

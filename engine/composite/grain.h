@@ -59,7 +59,7 @@ class GrainMeter {
         double count = 0;
     };
     struct Sums;
-    [[nodiscard]] Sums sums_of(const std::vector<float>& trust) const;
+    [[nodiscard]] Sums sums_of(const std::vector<float>& confidence) const;
 
     float quantum_;
     std::vector<Cell> cells_;

@@ -81,7 +81,7 @@ Row fitted(const std::vector<GrainPlace>& places, const std::vector<double>& wei
 
 GrainLevels grain_levels(const std::vector<GrainPlace>& places) {
     GrainLevels out;
-    out.trust.assign(places.size(), 0.0f);
+    out.confidence.assign(places.size(), 0.0f);
     if (places.empty()) return out;
     std::vector<float> sorted;
     for (const GrainPlace& p : places)
@@ -98,9 +98,9 @@ GrainLevels grain_levels(const std::vector<GrainPlace>& places) {
             const double spread = places[i].spread * expected[i];
             const double away = (places[i].variance - expected[i]) / spread;
             const double limit = away > 0 ? kAbove : kBelow;
-            const double trust = 1 / (1 + away * away / (limit * limit));
-            out.trust[i] = static_cast<float>(trust);
-            weights[i] = trust / (spread * spread);
+            const double confidence = 1 / (1 + away * away / (limit * limit));
+            out.confidence[i] = static_cast<float>(confidence);
+            weights[i] = confidence / (spread * spread);
         }
         fit = fitted(places, weights, true);
         if (fit[kBins] < 0) fit = fitted(places, weights, false), fit[kBins] = 0;

@@ -19,7 +19,7 @@ struct GrainPlace {
 struct GrainLevels {
     std::array<double, GrainModel::kBins> variance{};  ///< At the middle of each step of luma, ≥ 0.
     double of_detail = 0;                              ///< Variance per unit of detail, ≥ 0.
-    std::vector<float> trust;  ///< By place, 0 to 1: how far it shows grain alone.
+    std::vector<float> confidence;  ///< By place, 0 to 1: how far it shows grain alone.
 };
 
 /// The lower edge of the places' variance: a line between the steps of luma, plus a share of their

@@ -203,10 +203,11 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
     }
 }
 
-GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& trust) const {
+GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& confidence) const {
     std::vector<double> of_block(blocks_.size(), 0.0);
     for (std::size_t i = 0; i < cells_.size(); ++i)
-        of_block[cells_[i].block] += static_cast<double>(trust[i]) * trust[i] * cells_[i].count;
+        of_block[cells_[i].block] +=
+            static_cast<double>(confidence[i]) * confidence[i] * cells_[i].count;
     Sums sums;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const Block& block = blocks_[b];
@@ -246,7 +247,7 @@ GrainModel GrainMeter::model() const {
     std::array<GrainSpectrum, 3> spectra;
     std::array<GrainLevels, 3> levels;
     for (int pass = 0; pass < 2; ++pass) {
-        std::vector<float> trust(cells_.size(), 1.0f);
+        std::vector<float> confidence(cells_.size(), 1.0f);
         for (std::size_t c = 0; c < 3; ++c) {
             std::vector<GrainPlace> places;
             for (const Cell& cell : cells_) {
@@ -260,10 +261,10 @@ GrainModel GrainMeter::model() const {
                      cell.detail[c], static_cast<float>(std::sqrt(2 * kPixelsOfOne / cell.count))});
             }
             levels[c] = grain_levels(places);
-            for (std::size_t i = 0; i < trust.size(); ++i)
-                trust[i] = std::min(trust[i], levels[c].trust[i]);
+            for (std::size_t i = 0; i < confidence.size(); ++i)
+                confidence[i] = std::min(confidence[i], levels[c].confidence[i]);
         }
-        const Sums sums = sums_of(trust);
+        const Sums sums = sums_of(confidence);
         for (std::size_t c = 0; c < 3; ++c)
             spectra[c] = grain_spectrum(sums.products[c], sums.lookup);
         const auto correlation = [&](std::size_t k, std::size_t a, std::size_t b) {

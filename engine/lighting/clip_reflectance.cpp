@@ -177,7 +177,7 @@ ClipReflectance ReflectanceGatherer::finish() {
     still.box = out.box;
     still.downscale = downscale_;
     still.full = Size{out.box.width() * downscale_, out.box.height() * downscale_};
-    still.luma = over_time(out.box, kLit, out.trust, [](const Part& part, int u, int v) {
+    still.luma = over_time(out.box, kLit, out.confidence, [](const Part& part, int u, int v) {
         return part.luma.row(v)[u] - part.level;
     });
     still.paint = over_time(out.box, kMiddle, still.weight,
@@ -188,14 +188,14 @@ ClipReflectance ReflectanceGatherer::finish() {
         return {};
     }
     ImageF1 light = log_shading(still, options_);
-    out.value = difference_of(still.luma, light, out.trust);
-    const int period = pattern_period_px(out.value, out.trust, kLongestPeriod);
+    out.value = difference_of(still.luma, light, out.confidence);
+    const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
     if (period > 0) {
         // Here larger features of the pattern can be separated from light than in a single frame:
         // up to the pattern's period.
-        light =
-            light_beyond_period(light, out.trust, out.value, static_cast<float>(period) * kPeriods);
-        out.value = difference_of(still.luma, light, out.trust);
+        light = light_beyond_period(light, out.confidence, out.value,
+                                    static_cast<float>(period) * kPeriods);
+        out.value = difference_of(still.luma, light, out.confidence);
     }
     return out;
 }

@@ -14,11 +14,11 @@
 namespace weft {
 
 /// ln reflectance on the downscaled picture of the reference frame. `box` may extend beyond that
-/// picture. 0 where trust is 0.
+/// picture. 0 where confidence is 0.
 struct ClipReflectance {
     Recti box;
     ImageF1 value;
-    ImageF1 trust;  ///< Confidence, 0 to 1: the share of the frames that show the place.
+    ImageF1 confidence;  ///< Confidence, 0 to 1: the share of the frames that show the place.
 };
 
 /// Gathers a surface's frames. Not thread-safe.

@@ -143,17 +143,17 @@ double energy(const ImageF1& plane, const ImageF1& weight) {
 }
 
 // The coefficients, scaled down where they explain little.
-std::array<double, kTerms> trusted_coefficients(const Terms& differences, const ImageF1& target,
-                                                const ImageF1& weight) {
+std::array<double, kTerms> shrunk_coefficients(const Terms& differences, const ImageF1& target,
+                                               const ImageF1& weight) {
     const Normal normal = normal_equations(differences, target, weight);
     std::array<double, kTerms> coefficients = solve(normal);
     double explained = 0;
     for (std::size_t k = 0; k < kTerms; ++k)
         explained += coefficients[k] * normal[k][kTerms];
     const double share = explained / std::max(1e-12, energy(target, weight));
-    const double trust = smooth_step(share, kExplainsNothing, kExplains);
+    const double confidence = smooth_step(share, kExplainsNothing, kExplains);
     for (double& c : coefficients)
-        c *= trust;
+        c *= confidence;
     return coefficients;
 }
 
@@ -183,7 +183,7 @@ ImageF1 chromatic_reflectance(const SurfaceSample& sample, int window_px) {
     Terms differences;
     for (std::size_t k = 0; k < kTerms; ++k)
         differences[k] = high_pass(terms[k], sample.weight, weight_mean, window_px);
-    const auto coefficients = trusted_coefficients(differences, target, shade.weight_of_paint());
+    const auto coefficients = shrunk_coefficients(differences, target, shade.weight_of_paint());
 
     ImageF1 explained(sample.box.size());
     parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {

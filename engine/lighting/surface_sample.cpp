@@ -44,8 +44,8 @@ Recti covered_box(ViewU8x1 visible) {
 }
 
 // Weights of the pixels of row y in [x0, x1): 1 inside, kRimWeight at the rim, 0 outside.
-void trust_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint8_t>& column_min,
-                  float* trust) {
+void weights_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint8_t>& column_min,
+                    float* weights) {
     const std::uint8_t* above = visible.row(std::max(0, y - 1));
     const std::uint8_t* here = visible.row(y);
     const std::uint8_t* below = visible.row(std::min(visible.height() - 1, y + 1));
@@ -58,7 +58,7 @@ void trust_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint
         const int around = std::min(std::min(lowest[std::max(a, x - 1)], lowest[x]),
                                     lowest[std::min(b - 1, x + 1)]);
         const bool sure = here[x] >= kSure && around >= kCovered;
-        trust[x - x0] = here[x] < kCovered ? 0.0f : sure ? 1.0f : kRimWeight;
+        weights[x - x0] = here[x] < kCovered ? 0.0f : sure ? 1.0f : kRimWeight;
     }
 }
 
@@ -69,15 +69,15 @@ void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
     const float per_block = 1.0f / static_cast<float>(d * d);
     parallel_rows(s.box.height(), 8, [&](int y0, int y1) {
         std::vector<std::uint8_t> column_min(static_cast<std::size_t>(linear.width()));
-        std::vector<float> trust(static_cast<std::size_t>(full_x1 - full_x0));
+        std::vector<float> weights(static_cast<std::size_t>(full_x1 - full_x0));
         for (int y = y0; y < y1; ++y) {
             float *w = s.weight.row(y), *r = s.red_green.row(y);
             float *g = s.luma.row(y), *b = s.blue_green.row(y);
             const int top = (s.box.y0 + y) * d;
             for (int fy = top; fy < std::min(linear.height(), top + d); ++fy) {
-                trust_of_row(visible, fy, full_x0, full_x1, column_min, trust.data());
+                weights_of_row(visible, fy, full_x0, full_x1, column_min, weights.data());
                 const float* p = linear.pixel(full_x0, fy);
-                const float* t = trust.data();
+                const float* t = weights.data();
                 const float* end = t + (full_x1 - full_x0);
                 for (int i = 0; t < end; ++i) {
                     for (const float* last = std::min(end, t + d); t < last; ++t, p += 3) {

@@ -51,10 +51,10 @@ float least_difference(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
 
 BackgroundPlate::BackgroundPlate(ViewU8x3 frame, ViewF1 phi)
     : picture_(frame.size()), known_(frame.size()) {
-    learn(frame, phi);
+    update(frame, phi);
 }
 
-void BackgroundPlate::learn(ViewU8x3 frame, ViewF1 phi) {
+void BackgroundPlate::update(ViewU8x3 frame, ViewF1 phi) {
     parallel_rows(frame.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < frame.width(); ++x) {

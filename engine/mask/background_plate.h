@@ -22,7 +22,7 @@ class BackgroundPlate {
     [[nodiscard]] ImageF1 odds(ViewU8x3 frame, ViewF1 expected_phi, const Recti& area) const;
 
     /// Adds what lies outside the found shape.
-    void learn(ViewU8x3 frame, ViewF1 phi);
+    void update(ViewU8x3 frame, ViewF1 phi);
 
   private:
     ImageU8x3 picture_;

@@ -16,12 +16,12 @@ constexpr float kEdgeWidthPx = 1.5f;
 
 // Chosen by sweeps on DAVIS blackswan and dance-twirl and on two objects of a rendered clip. Most
 // have little effect there; a colour weight too small against the smoothness lets the matte leak.
-constexpr float kTrustFrom = 0.6f;    // separability below which colours do not count
-constexpr float kTrustRange = 0.35f;  // range above it over which they gain full weight
+constexpr float kSeparableFrom = 0.6f;    // separability below which colours do not count
+constexpr float kSeparableRange = 0.35f;  // range above it over which they gain full weight
 constexpr float kColorWeight = 1.5f;
 // Shape prior: distance for one unit of log odds, without colours.
 constexpr float kShapeReachPx = 4;
-constexpr float kTrustedReachPx = 6;    // added to it where colours are reliable
+constexpr float kSeparableReachPx = 6;  // added to it where colours are reliable
 constexpr float kGrowthPenalty = 0.5f;  // log odds against inside, beyond the expected boundary
 constexpr float kSmoothness = 2;
 constexpr float kWideWeight = 2.3f;
@@ -48,10 +48,10 @@ Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colo
                 const std::uint8_t* c = frame.pixel(x, y);
                 const ColorProbability p = colors.at(x, y, Vec3(c[0], c[1], c[2]));
                 const float q = std::clamp(p.inside, 0.01f, 0.99f);
-                const float trust =
-                    std::clamp((p.separability - kTrustFrom) / kTrustRange, 0.0f, 1.0f);
-                e.log_odds.row(y)[x] = kColorWeight * trust * std::log(q / (1 - q)) +
-                                       d / (kShapeReachPx + kTrustedReachPx * trust) -
+                const float confidence =
+                    std::clamp((p.separability - kSeparableFrom) / kSeparableRange, 0.0f, 1.0f);
+                e.log_odds.row(y)[x] = kColorWeight * confidence * std::log(q / (1 - q)) +
+                                       d / (kShapeReachPx + kSeparableReachPx * confidence) -
                                        kGrowthPenalty * std::clamp(-d / 3, 0.0f, 1.0f);
                 if (!further_odds.empty()) e.log_odds.row(y)[x] += further_odds.row(y)[x];
                 if (!wide_odds.empty()) e.log_odds.row(y)[x] += kWideWeight * wide_odds.row(y)[x];

@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr float kVoteWeight = 4;  // log odds where both estimates agree
+constexpr float kAgreedOdds = 4;  // log odds where both estimates agree
 
 // Bounds of where either estimate is inside.
 Recti joint_bounds(ViewF1 before, ViewF1 after) {
@@ -31,7 +31,7 @@ struct JointShape {
           after(after_phi),
           expected(before.size()),
           agreed(before.size()),
-          votes(before.size()) {
+          side_odds(before.size()) {
         for (int y = 0; y < before.height(); ++y) {
             for (int x = 0; x < before.width(); ++x) {
                 const float a = before.row(y)[x], b = after.row(y)[x];
@@ -40,8 +40,8 @@ struct JointShape {
                 // Where they disagree nothing is settled, even far from the blended boundary.
                 expected.row(y)[x] = same ? blend : std::clamp(blend, 1 - band_px, band_px - 1);
                 agreed.row(y)[x] = !same ? 0 : (a > 0 ? std::min(a, b) : std::max(a, b));
-                votes.row(y)[x] = kVoteWeight * ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
-                                                 share * std::clamp(b / 2, -1.0f, 1.0f));
+                side_odds.row(y)[x] = kAgreedOdds * ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
+                                                     share * std::clamp(b / 2, -1.0f, 1.0f));
                 agreeing += same && a > 0 ? 1 : 0;
                 either += a > 0 || b > 0 ? 1 : 0;
             }
@@ -50,8 +50,8 @@ struct JointShape {
 
     ViewF1 before, after;  ///< Signed distances, pixels.
     ImageF1 expected;      ///< The same distances blended, pixels.
-    ImageF1 agreed;  ///< Distance to the nearer boundary where both take the same side, else 0.
-    ImageF1 votes;   ///< Log odds for inside by the estimates' weights.
+    ImageF1 agreed;     ///< Distance to the nearer boundary where both take the same side, else 0.
+    ImageF1 side_odds;  ///< Log odds for inside by the estimates' weights.
     double agreeing = 0, either = 0;
 };
 
@@ -106,7 +106,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
         w.source_centers = {w.center};
     const LocalColorField colors(std::move(windows), {{part, joint.agreed, 1.5f, 1.0f, 1.0f}},
                                  scale.window_half_px, scale.sample_stride, part.size());
-    const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.votes,
+    const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.side_odds,
                                                   ViewF1(), scale, options.steadiness);
     const Matte matte = soften(part, found, from_before.matte.view().crop(area),
                                from_after.matte.view().crop(area), joint, share, options);

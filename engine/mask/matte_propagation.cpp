@@ -111,8 +111,8 @@ struct MatteWalker::State {
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
-    LocalColorField learn_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
-                                 const Recti& area) const;
+    LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
+                               const Recti& area) const;
 };
 
 MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options) {
@@ -146,8 +146,8 @@ MatteWalker& MatteWalker::operator=(MatteWalker&&) noexcept = default;
 // The surface's colours come from the keyframe, so that a leak is not taken for surface. The
 // surroundings change as the surface moves; their colours come from the last frame and from this
 // one.
-LocalColorField MatteWalker::State::learn_colors(ViewU8x3 part, const TransportedShape& shape,
-                                                 ViewF2 key_from_cur, const Recti& area) const {
+LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedShape& shape,
+                                               ViewF2 key_from_cur, const Recti& area) const {
     std::vector<ColorWindow> windows = place_windows(shape.phi, scale.window_step_px);
     for (ColorWindow& w : windows) {
         const float* d = shape.prev_from_cur.pixel(w.center.x, w.center.y);
@@ -201,7 +201,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         const TransportedShape shape = transport_shape(s.phi, prev_from_cur, area, s.scale);
         const ViewU8x3 part = frame.crop(area);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
-        const LocalColorField colors = s.learn_colors(part, shape, key_from_cur, area);
+        const LocalColorField colors = s.fit_colors(part, shape, key_from_cur, area);
         const ImageF1 matched =
             match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
                             Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
@@ -220,7 +220,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         paste(s.key_from_prev, key_from_cur, area);
     }
     estimate.confidence = s.confidence;
-    s.plate.learn(frame, phi);
+    s.plate.update(frame, phi);
     s.phi = std::move(phi);
     s.frame = copy_of(frame);
     s.last = estimate.matte;

@@ -73,8 +73,8 @@ class ManifestReader {
         ++at_;
         return out;
     }
-    // Four digits; of a surrogate pair each half is kept as three bytes, which is what a name's
-    // hash was not made of, but such names are not found in practice.
+    // Four digits. Each half of a surrogate pair becomes three bytes. A name's hash is not made of
+    // those, but such names do not occur in practice.
     Status unicode(std::string& out) {
         unsigned code = 0;
         for (int k = 0; k < 4; ++k, ++at_) {

@@ -28,8 +28,8 @@ std::size_t bytes_of(const Raster& raster) {
                       raster.samples);
 }
 
-// The frames of one movie by number. Going back means decoding again from the start; on the way the
-// frames before the wanted one are kept, because stepping back usually continues.
+// The frames of one movie by number. Going back means decoding again from the start; the frames
+// before the requested one are kept on the way, because stepping back usually continues.
 class MovieFrames {
   public:
     explicit MovieFrames(const std::string& path) : decoder_(path) {}
@@ -83,8 +83,8 @@ struct MovieFacts {
     PixelDepth depth = PixelDepth::kU8;
     double fps = 0;
     double pixel_aspect = 1;
-    int frames = 0;         ///< That can be decoded.
-    int claimed = 0;        ///< What the container says; 0 when it does not.
+    int frames = 0;         ///< frames that can be decoded
+    int claimed = 0;        ///< number by the container; 0 if it does not say
     int damaged = 0;        ///< Frames that were decoded with errors.
     int first_damaged = 0;  ///< Counted from 0.
     bool high_dynamic_range = false;
@@ -191,7 +191,8 @@ class MoviePlate final : public FrameReader {
     mutable MovieFrames decoded_;
 };
 
-// Containers lie about their number of frames, so they are counted. `frame` is the first one.
+// Containers are unreliable about their number of frames, so frames are counted. `frame`: the
+// first.
 Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::string& path,
                     MovieFacts& facts) {
     FramePacing pacing;
@@ -209,9 +210,9 @@ Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::stri
         if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
     }
     facts.claimed = decoder.claimed_frames();
-    // Frames that could not be decoded leave gaps, which have a warning of their own.
-    const bool all_there = facts.claimed <= facts.frames || decoder.claims_by_duration();
-    facts.variable_rate = facts.damaged == 0 && all_there && pacing.varies();
+    // Frames that could not be decoded leave gaps, which have their own warning.
+    const bool complete = facts.claimed <= facts.frames || decoder.claims_by_duration();
+    facts.variable_rate = facts.damaged == 0 && complete && pacing.varies();
     if (facts.variable_rate) facts.claimed = facts.frames;
     const auto [shortest, longest] = pacing.durations();
     facts.shortest_s = static_cast<double>(shortest) * decoder.tick_s();

@@ -397,8 +397,8 @@ Matte motion_weights(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 valid, int border
         for (int x = 0; x < out.width(); ++x) {
             if (d[x] <= border || valid.at(x, y) == 0) continue;
             // Sobel's sum of 24 is a slope of about 3 levels per pixel: half the weight.
-            const float trust = e[x] / (e[x] + 24.0f);
-            out.at(x, y) = static_cast<std::uint8_t>(std::lround(10 + 245 * trust));
+            const float confidence = e[x] / (e[x] + 24.0f);
+            out.at(x, y) = static_cast<std::uint8_t>(std::lround(10 + 245 * confidence));
         }
     }
     return out;

@@ -27,7 +27,8 @@ struct Job {
     }
     // Between two keys, propagation in both directions gives two estimates to merge.
     [[nodiscard]] bool merged(int frame) const {
-        return reach.direction == CarryDirection::kBoth && between_keys(frame) && !is_key(frame);
+        return reach.direction == PropagationDirection::kBoth && between_keys(frame) &&
+               !is_key(frame);
     }
     // The frames that the walk visits in each direction.
     [[nodiscard]] FrameSpan forward() const {

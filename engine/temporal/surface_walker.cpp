@@ -92,7 +92,7 @@ struct SurfaceWalker::State {
         return 6 * visible_px < largest_px;
     }
     bool reanchor(ViewU8x1 visible);
-    void carry_stretched();
+    void advance_stretched();
     void note_steady(ViewU8x1 visible, std::int64_t visible_px);
     void find_late(const RegistrationPicture& cur, ViewU8x1 visible);
     void wait_out_of_view();
@@ -254,7 +254,7 @@ bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
 }
 
 // Both tracks lie on the same surface, so the registration's correction holds for both.
-void SurfaceWalker::State::carry_stretched() {
+void SurfaceWalker::State::advance_stretched() {
     if (hiding_left == 0 || --hiding_left == 0) {
         stretched = {};
         return;
@@ -325,12 +325,12 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
     if (s.is_hidden(visible_px)) {
         s.wait_out_of_view();
-        if (hiding) s.carry_stretched();
+        if (hiding) s.advance_stretched();
         return keep();
     }
     const auto noted = [&]() -> const LatticeField& {
         s.note_steady(visible, visible_px);
-        if (hiding) s.carry_stretched();
+        if (hiding) s.advance_stretched();
         return keep();
     };
     const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);

@@ -16,7 +16,7 @@ Region full_region() {
     matte.steadiness = 0.75;
     matte.frozen = {10, 11};
     matte.frozen_files = "final/####.png";
-    matte.carry = CarryDirection::kBackward;
+    matte.carry = PropagationDirection::kBackward;
     matte.carry_from = -5;
     matte.carry_to = 100;
     r.matte = matte;
@@ -24,7 +24,7 @@ Region full_region() {
     holdout.files = "hold/####.png";
     MatteSource painted;
     painted.keyframes = {{12, {"mattes/hand.png", {}}}};
-    painted.carry = CarryDirection::kForward;
+    painted.carry = PropagationDirection::kForward;
     r.holdouts = std::vector<MatteSource>{holdout, painted};
     r.texture = {
         "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};

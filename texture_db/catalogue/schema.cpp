@@ -54,12 +54,12 @@ CREATE TABLE saved_search(name TEXT PRIMARY KEY, query TEXT NOT NULL);
 constexpr const char* kForget = "DELETE FROM model; DELETE FROM descriptor;";
 
 // Version 4: an image–text model's vector of each sample (sample_embeddings.h).
-constexpr const char* kSight = R"sql(
+constexpr const char* kEmbeddings = R"sql(
 CREATE TABLE sight(sample INTEGER PRIMARY KEY REFERENCES sample(key) ON DELETE CASCADE,
     data BLOB NOT NULL);
 )sql";
 
-constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget, kSight};
+constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget, kEmbeddings};
 
 Status upgrade(Database& database, int from) {
     for (int version = from; version < kLibrarySchema; ++version) {

@@ -32,9 +32,9 @@ class ImageTextModel {
     [[nodiscard]] const std::string& identity() const;
     [[nodiscard]] int dimensions() const;
     /// The picture's vector, of length 1. Errors: Unreadable if the network fails on it.
-    [[nodiscard]] Expected<std::vector<float>> see(ViewU8x3 picture);
+    [[nodiscard]] Expected<std::vector<float>> encode_image(ViewU8x3 picture);
     /// The mean of the known words' vectors, of length 1; empty if no word is known.
-    [[nodiscard]] std::vector<float> read(std::string_view text) const;
+    [[nodiscard]] std::vector<float> encode_text(std::string_view text) const;
     /// exp(scale × cosine) over the given words, summing to 1; 0 for an unknown word.
     [[nodiscard]] std::vector<float> likelihoods(std::span<const float> seen,
                                                  const std::vector<std::string>& words) const;

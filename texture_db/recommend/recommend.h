@@ -19,7 +19,7 @@ struct RegionRequest {
 };
 
 /// How the artist wants the suggestions to differ.
-struct RecommendWish {
+struct RecommendAdjustments {
     std::string like;    ///< Id: more like this one.
     float warmer = 0;    ///< −1 colder … 1 warmer.
     float brighter = 0;  ///< −1 … 1.
@@ -30,7 +30,7 @@ struct RecommendWish {
 struct RecommendRequest {
     ViewU8x3 plate;  ///< sRGB frame.
     std::vector<RegionRequest> regions;
-    RecommendWish wish;
+    RecommendAdjustments adjust;
     int count = 12;  ///< Suggestions for each region.
     std::vector<std::string> excluded_licences;
     /// How different the suggestions are from each other: 0 the best ones, 1 as different as
@@ -40,14 +40,14 @@ struct RecommendRequest {
 
 /// The terms of a suggestion's score, each 0 … 1.
 struct ScoreTerms {
-    float material = 0;   ///< Similarity to the region's present material.
-    float use = 0;        ///< Usual for the region's role: a wall, the ground, a garment …
-    float colour = 0;     ///< Harmony with the rest of the frame.
-    float style = 0;      ///< Contrast, saturation and detail as in the rest of the frame.
-    float scale = 0;      ///< Structure fits the region's size.
-    float synthesis = 0;  ///< How well the sample synthesizes.
-    float wish = 1;       ///< How well it meets the request; 1 without one.
-    float coherence = 1;  ///< Coherence with the textures of the other regions; 1 with one region.
+    float material = 0;    ///< Similarity to the region's present material.
+    float use = 0;         ///< Usual for the region's role: a wall, the ground, a garment …
+    float colour = 0;      ///< Harmony with the rest of the frame.
+    float style = 0;       ///< Contrast, saturation and detail as in the rest of the frame.
+    float scale = 0;       ///< Structure fits the region's size.
+    float synthesis = 0;   ///< How well the sample synthesizes.
+    float adjustment = 1;  ///< How well it meets the request; 1 without one.
+    float coherence = 1;   ///< Coherence with the textures of the other regions; 1 with one region.
 };
 
 struct Suggestion {

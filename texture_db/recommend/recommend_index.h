@@ -12,7 +12,7 @@ namespace weft {
 /// may be null. Pure, except for the image–text model's own state.
 [[nodiscard]] Expected<Recommendation> recommend_from(const SampleIndex& index,
                                                       const DescriptorModel* model,
-                                                      const LibrarySight& sight,
+                                                      const LibraryEmbeddings& embeddings,
                                                       const RecommendRequest& request);
 
 }  // namespace weft

@@ -107,7 +107,7 @@ class Filter {
 // How certainly the image–text model finds the words in a sample: 0 … 1 from its similarity in
 // standard deviations. With normally distributed similarities, 2 % of a library lie above kSeen.
 constexpr float kSeen = 2;
-float seen_in(float deviations) {
+float certainty_of(float deviations) {
     return 1 / (1 + std::exp(-2 * (deviations - kSeen)));
 }
 
@@ -132,12 +132,12 @@ std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
             if (seen.empty())
                 out.push_back({i, 1});
             else if (seen[i] > kSeen)
-                out.push_back({i, seen_in(seen[i])});
+                out.push_back({i, certainty_of(seen[i])});
         } else if (all_words && every) {
             const float words = std::pow(product, 1.0f / static_cast<float>(terms.size()));
-            out.push_back({i, seen.empty() ? words : 0.7f * words + 0.3f * seen_in(seen[i])});
+            out.push_back({i, seen.empty() ? words : 0.7f * words + 0.3f * certainty_of(seen[i])});
         } else if (all_words && !seen.empty() && seen[i] > kSeen) {
-            out.push_back({i, 0.6f * seen_in(seen[i])});
+            out.push_back({i, 0.6f * certainty_of(seen[i])});
         } else if (!all_words && sum > 0.5f) {
             out.push_back({i, 0.9f * sum / static_cast<float>(terms.size())});
         }
@@ -294,7 +294,7 @@ Expected<std::set<std::string>> members_of(Database& database, const std::string
 }  // namespace
 
 Expected<SearchResult> search_index(Database& database, const SampleIndex& index,
-                                    const WordReader& words, const OpenSight& open_sight,
+                                    const WordReader& words, const OpenEmbeddings& open_embeddings,
                                     const SearchQuery& query) {
     const auto start = Clock::now();
     SearchResult out;
@@ -304,12 +304,14 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
     // A query of unknown words only finds nothing instead of everything.
     const bool nothing = terms.empty() && !out.ignored.empty();
     std::vector<float> seen;
-    LibrarySight sight;
+    LibraryEmbeddings embeddings;
     if (!terms.empty() || nothing) {
-        WEFT_TRY(opened, open_sight());
-        sight = opened;
-        if (sight.samples) seen = likeness_to_words(*sight.samples, sight.model->read(query.text));
-        if (!sight.fault.empty()) out.understood.push_back(sight.fault);
+        WEFT_TRY(opened, open_embeddings());
+        embeddings = opened;
+        if (embeddings.samples)
+            seen =
+                similarity_to_words(*embeddings.samples, embeddings.model->encode_text(query.text));
+        if (!embeddings.fault.empty()) out.understood.push_back(embeddings.fault);
     }
     std::vector<Scored> hits = nothing && seen.empty()
                                    ? std::vector<Scored>()
@@ -329,7 +331,7 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
         const IndexedSample& s = index.samples[hits[i].sample];
         std::vector<std::string> reasons = reasons_of(terms, index, s);
         if (!seen.empty() && seen[hits[i].sample] > kSeen)
-            reasons.push_back("looks like it to " + sight.model->name());
+            reasons.push_back("looks like it to " + embeddings.model->name());
         out.hits.push_back(
             {s.id, s.name, index.materials.text(s.material), hits[i].score, std::move(reasons)});
     }

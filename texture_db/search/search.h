@@ -5,24 +5,24 @@
 #include <string>
 
 #include "texture_db/catalogue/index.h"
-#include "texture_db/search/sample_sight.h"
+#include "texture_db/search/sample_embeddings.h"
 #include "texture_db/search/word_reader.h"
 
 namespace weft {
 
 /// The image–text model of a library and its vectors of the samples.
-struct LibrarySight {
-    ImageTextModel* model = nullptr;       ///< Null: no model, or it cannot be used.
-    const SampleSight* samples = nullptr;  ///< Null: likewise.
-    std::string fault;                     ///< Why there are none although a model is set.
+struct LibraryEmbeddings {
+    ImageTextModel* model = nullptr;            ///< Null: no model, or it cannot be used.
+    const SampleEmbeddings* samples = nullptr;  ///< Null: likewise.
+    std::string fault;                          ///< Why there are none although a model is set.
 };
 /// Called only for queries with words, because opening a model takes time.
-using OpenSight = std::function<Expected<LibrarySight>()>;
+using OpenEmbeddings = std::function<Expected<LibraryEmbeddings>()>;
 
 /// TextureLibrary::search(). The caller holds the library's lock.
 [[nodiscard]] Expected<SearchResult> search_index(Database& database, const SampleIndex& index,
                                                   const WordReader& words,
-                                                  const OpenSight& open_sight,
+                                                  const OpenEmbeddings& open_embeddings,
                                                   const SearchQuery& query);
 
 }  // namespace weft

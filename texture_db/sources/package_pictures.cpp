@@ -58,7 +58,7 @@ class Collector {
 
     /// The material, or empty if the picture is not wanted.
     [[nodiscard]] std::string wanted(const std::string& source) {
-        if (!is_picture(source) || names_a_thing(source) ||
+        if (!is_picture(source) || names_an_object(source) ||
             is_other_map(fs::path(source).filename().string()))
             return {};
         std::string material = material_of_path(telling_part(source));
@@ -121,8 +121,8 @@ Status take_archive(const std::string& archive, const std::string& extracted,
 
 }  // namespace
 
-bool names_a_thing(const std::string& path) {
-    static const std::set<std::string> kThings{
+bool names_an_object(const std::string& path) {
+    static const std::set<std::string> kObjects{
         "sign",    "signs",    "logo",     "text",    "poster",   "banner",     "flag",
         "menu",    "icon",     "icons",    "gui",     "font",     "fonts",      "door",
         "doors",   "window",   "windows",  "screen",  "monitor",  "skybox",     "skies",
@@ -146,7 +146,7 @@ bool names_a_thing(const std::string& path) {
         "truck",   "boat",     "bus"};
     const std::string words = words_of_name(telling_part(path));
     for (const std::string& word : split_words(words)) {
-        if (kThings.contains(word)) return true;
+        if (kObjects.contains(word)) return true;
     }
     return false;
 }

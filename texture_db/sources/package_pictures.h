@@ -26,6 +26,6 @@ struct PackagePictures {
                                                               const CancelToken& cancel);
 
 /// Returns true if a path names an object (a sign, a door, a screen) instead of a surface.
-[[nodiscard]] bool names_a_thing(const std::string& path);
+[[nodiscard]] bool names_an_object(const std::string& path);
 
 }  // namespace weft

@@ -11,27 +11,27 @@
 
 namespace weft {
 
-struct SuitedSample {
+struct ScoredSample {
     std::uint32_t sample = 0;  ///< Position in the index.
     ScoreTerms parts;
     float stands_out = 0;  ///< 0 … 1: differs in lightness or hue from the region now.
 };
 
 /// Judges samples for one region. The references given must outlive it; immutable once made.
-class RegionJudge {
+class RegionScorer {
   public:
-    /// `request.wish.like` is a full id or empty.
-    RegionJudge(const SampleIndex& index, const DescriptorModel* model,
-                const RecommendRequest& request, const RegionRequest& region,
-                const RegionLook& look);
+    /// `request.adjust.like` is a full id or empty.
+    RegionScorer(const SampleIndex& index, const DescriptorModel* model,
+                 const RecommendRequest& request, const RegionRequest& region,
+                 const RegionLook& look);
 
-    [[nodiscard]] SuitedSample judge(std::size_t sample) const;
+    [[nodiscard]] ScoredSample score(std::size_t sample) const;
     /// Every sample that the licences and the requested material allow, in the order of the index.
-    [[nodiscard]] std::vector<SuitedSample> judge_all() const;
+    [[nodiscard]] std::vector<ScoredSample> score_all() const;
     /// Likelihood of each material of the index for the region's appearance: 1 is the likeliest.
-    [[nodiscard]] const std::vector<float>& votes() const { return votes_; }
-    [[nodiscard]] float vote_of(std::size_t sample) const {
-        return votes_[static_cast<std::size_t>(index_.looks[sample].material)];
+    [[nodiscard]] const std::vector<float>& material_likelihoods() const { return likelihoods_; }
+    [[nodiscard]] float material_likelihood(std::size_t sample) const {
+        return likelihoods_[static_cast<std::size_t>(index_.looks[sample].material)];
     }
     /// The region's most likely role in the picture.
     [[nodiscard]] SurfaceRole role() const;
@@ -46,8 +46,8 @@ class RegionJudge {
     [[nodiscard]] float likeness(std::size_t a, std::size_t b) const;
 
   private:
-    void vote(const DescriptorModel& model);
-    void scale_votes();
+    void find_materials(const DescriptorModel& model);
+    void scale_materials();
     void find_role();
 
     const SampleIndex& index_;
@@ -55,12 +55,12 @@ class RegionJudge {
     const RegionRequest& region_;
     const RegionLook& look_;
     ColourHarmony harmony_;
-    std::vector<float> votes_, use_;      // by material
-    std::vector<RoleWeights> materials_;  // by material
-    RoleWeights role_{};                  // sums to 1
-    std::vector<float> squared_;          // distance to the nearest patch, by sample
-    float typical_ = 1;                   // distance of a near neighbour
-    std::size_t like_ = 0;                // the sample of `like`, or the index's size
+    std::vector<float> likelihoods_, use_;  // by material
+    std::vector<RoleWeights> materials_;    // by material
+    RoleWeights role_{};                    // sums to 1
+    std::vector<float> squared_;            // distance to the nearest patch, by sample
+    float typical_ = 1;                     // distance of a near neighbour
+    std::size_t like_ = 0;                  // the sample of `like`, or the index's size
 };
 
 }  // namespace weft
