@@ -60,7 +60,7 @@ class Study {
 
     Status prepare() {
         if (options_.folder.empty())
-            return fail(ErrorCode::kUsage, "No folder to write to is set. Give one with -o.");
+            return fail(ErrorCode::kUsage, "No output folder is set. Give one with -o.");
         WEFT_CHECK_OK(check_study(options_));
         WEFT_TRY(fence, make_fence(result_.project, options_.limits));
         rule_.fence = fence;
@@ -73,7 +73,7 @@ class Study {
                                              options_.texture_library, rule_));
         result_.project = std::move(kept);
         if (result_.project.regions.size() != 1)
-            return fail(ErrorCode::kUsage, "A study is of one region.");
+            return fail(ErrorCode::kUsage, "A study needs exactly one region.");
         WEFT_TRY(shot, open_shot(result_.project));
         WEFT_CHECK_OK(check_texture_licences(*shot));
         result_.frames = shot->plan.frames;

@@ -15,9 +15,10 @@ namespace {
 constexpr int kDetailRadius = 3;  // small pixels: the radius of detail
 // Small pixels: the radius in which frame and reflectance are compared.
 constexpr int kWindow = 12;
-constexpr float kHidden = 0.35f, kShown = 0.7f;  // share of the reflectance's detail that shows
-constexpr float kMinEnergy = 1e-5f;              // ln² of detail; below this it is noise
-constexpr float kOutlier = 3.0f;  // deviations of the detail: larger residuals are light
+constexpr float kNoneShown = 0.35f,
+                kAllShown = 0.7f;    // share of the reflectance's detail that shows
+constexpr float kMinEnergy = 1e-5f;  // ln² of detail; below this it is noise
+constexpr float kOutlier = 3.0f;     // deviations of the detail: larger residuals are light
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
 constexpr float kShown = 0.5f;
@@ -105,8 +106,8 @@ ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
     for (std::size_t i = 0; i < share.size_bytes() / sizeof(float); ++i) {
         if (!(seen.known.data()[i] > 0)) continue;
         const float least = kMinEnergy * weight.data()[i];
-        share.data()[i] =
-            smooth_step((shown.data()[i] + least) / (whole.data()[i] + least), kHidden, kShown);
+        share.data()[i] = smooth_step((shown.data()[i] + least) / (whole.data()[i] + least),
+                                      kNoneShown, kAllShown);
     }
     return share;
 }

@@ -290,8 +290,8 @@ Status make_folder(const std::string& folder, const WriteRule& rule) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (!error) return {};
-    return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be made: " +
-                                            error.message() + ". Choose another.");
+    return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be created: " +
+                                            error.message() + ". Choose another folder.");
 }
 
 Status make_folder_of(const std::string& path, const WriteRule& rule) {

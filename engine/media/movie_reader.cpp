@@ -128,7 +128,7 @@ class MoviePlate final : public FrameReader {
         }
         if (!raster) {
             return tl::unexpected(
-                damaged(path_, "frame " + std::to_string(frame) + " cannot be decoded any more"));
+                damaged(path_, "frame " + std::to_string(frame) + " can no longer be decoded"));
         }
         if (raster->info.size != facts_.size) {
             return tl::unexpected(another_size(path_, frame, raster->info.size, facts_.size));
@@ -144,7 +144,7 @@ class MoviePlate final : public FrameReader {
     std::vector<std::string> warnings() const override {
         std::vector<std::string> found;
         if (facts_.claimed > facts_.frames) {
-            found.push_back(path_ + " says it has " + std::to_string(facts_.claimed) +
+            found.push_back(path_ + " claims " + std::to_string(facts_.claimed) +
                             " frames, but only " + std::to_string(facts_.frames) +
                             " can be decoded. It may be cut off: compare it with its source.");
         }
@@ -152,7 +152,7 @@ class MoviePlate final : public FrameReader {
             found.push_back(path_ + " is damaged in " + std::to_string(facts_.damaged) +
                             " frames, first in " +
                             std::to_string(frames_.front() + facts_.first_damaged) +
-                            ". Look at them, or copy the movie again.");
+                            ". Check these frames, or copy the movie again.");
         }
         if (facts_.high_dynamic_range) {
             found.push_back(path_ +

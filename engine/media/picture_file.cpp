@@ -78,8 +78,7 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path
     std::array<char, 16> head{};
     WEFT_TRY(count, file.read_at(0, head.data(), head.size()));
     const std::string reader = reader_of(path, {head.data(), count});
-    if (reader.empty())
-        return tl::unexpected(damaged(path, "it begins like no known kind of picture"));
+    if (reader.empty()) return tl::unexpected(damaged(path, "its kind is unknown"));
     // OpenImageIO lets libpng print errors of the header.
     if (reader == "png") WEFT_CHECK_OK(probe_png(path));
     auto input = OIIO::ImageInput::create(reader);

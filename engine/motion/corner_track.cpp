@@ -91,12 +91,12 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
         }
         if (!good) {
             return unreadable(
-                "Its line " + std::to_string(number) +
+                "Line " + std::to_string(number) +
                 " is not a frame and the x and y of four corners. Write nine numbers on each "
                 "line: the frame, then x and y of the four corners");
         }
         if (!track.emplace(frame, quad).second)
-            return unreadable("Frame " + std::to_string(frame) + " is there twice");
+            return unreadable("Frame " + std::to_string(frame) + " occurs twice");
     }
     return completed(std::move(track));
 }

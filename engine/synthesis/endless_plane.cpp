@@ -163,7 +163,7 @@ Expected<EndlessPlane::Part> EndlessPlane::read(const Recti& rect,
                                                 const CancelToken& cancel) const {
     if (rect.empty() || rect.x0 < -kFurthest || rect.y0 < -kFurthest || rect.x1 > kFurthest ||
         rect.y1 > kFurthest) {
-        return fail(ErrorCode::kUsage, "No such part of a texture plane can be read.");
+        return fail(ErrorCode::kUsage, "The requested part is empty or beyond ±2^30 texels.");
     }
     try {
         Part out{ImageU8x3(rect.size()), Image<std::int32_t, 2>(rect.size())};

@@ -112,7 +112,7 @@ TEST(ImageTextModel, IsAskedBySearchesOfALibraryThatNamesIt) {
     const auto red = library->thumbnail(found->hits[0].id);
     ASSERT_TRUE(red);
     EXPECT_GT(red->at(0, 0, 0), 200);
-    EXPECT_THAT(found->hits[0].reasons, testing::Contains("looks like it to tiny"));
+    EXPECT_THAT(found->hits[0].reasons, testing::Contains("matches according to tiny"));
 
     query.text = "zorblax";  // a word of the model alone
     const auto by_sight = library->search(query);

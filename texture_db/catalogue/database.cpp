@@ -163,7 +163,7 @@ Expected<std::unique_ptr<Database>> Database::open(const std::string& path, bool
         fs::create_directories(fs::path(path).parent_path(), error);
         if (error) {
             return fail(ErrorCode::kUnreadable, "The folder of the texture library " + path +
-                                                    " cannot be made: " + error.message() + ".");
+                                                    " cannot be created: " + error.message() + ".");
         }
     }
     sqlite3* handle = nullptr;

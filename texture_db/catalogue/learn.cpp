@@ -22,7 +22,7 @@ Status renew_features(Database& database, const CancelToken& cancel, const Progr
     std::int64_t done = 0, after = -1;
     while (done < total) {
         if (cancel.cancelled())
-            return fail(static_cast<ErrorCode>(cancel.reason()), "Learning was stopped.");
+            return fail(static_cast<ErrorCode>(cancel.reason()), "Training was stopped.");
         WEFT_TRY(batch, pixels_behind(database, old, after, kBatch));
         if (batch.empty()) break;
         std::vector<std::vector<float>> features(batch.size());  // empty: the pixels are damaged
@@ -74,7 +74,7 @@ Status train_descriptor(Database& database, const CancelToken& cancel, const Pro
     WEFT_TRY(model, learn_descriptor(data));
     if (progress) progress({"learn", 1, 2, 0, 0});
     if (cancel.cancelled())
-        return fail(static_cast<ErrorCode>(cancel.reason()), "Learning was stopped.");
+        return fail(static_cast<ErrorCode>(cancel.reason()), "Training was stopped.");
     std::vector<std::vector<float>> descriptors(keys.size());
     parallel_for(keys.size(),
                  [&](std::size_t i) { descriptors[i] = model.describe(data.features[i]); });

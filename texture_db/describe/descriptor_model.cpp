@@ -260,15 +260,16 @@ Expected<DescriptorModel> learn_descriptor(const LabelledFeatures& data) {
         ++counts[static_cast<std::size_t>(label)];
     if (std::count_if(counts.begin(), counts.end(), [](int n) { return n >= 10; }) < 2) {
         return fail(ErrorCode::kUsage,
-                    "There is too little to learn from: at least two materials of ten samples "
-                    "each are needed. Import more textures first.");
+                    "Training needs at least two materials of ten samples each. Import more "
+                    "textures first.");
     }
     const std::size_t d = data.features.front().size();
     const Standardised s = standardise(data);
     const Classes classes = centres_of(data, s, d);
     std::vector<double> l = within(data, s, classes, d);
     if (!cholesky(l, d))
-        return fail(ErrorCode::kRenderFailed, "The samples are too alike to learn from.");
+        return fail(ErrorCode::kRenderFailed,
+                    "The samples are too similar to train on. Import more varied textures.");
 
     // Between-class directions, whitened: B = L⁻¹ (c_m − c), at most as many as materials; their
     // singular vectors from the small matrix BᵀB.

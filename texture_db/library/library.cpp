@@ -127,7 +127,7 @@ Expected<TextureInfo> TextureLibrary::info(const std::string& given) {
     info.original_size = {static_cast<int>(q.integer(10)), static_cast<int>(q.integer(11))};
     info.original_in_file = !q.is_null(12);
     if (!read_measured(q.blob(13), info.measured))
-        return fail(ErrorCode::kUnreadable, "What is known of texture " + id + " is damaged.");
+        return fail(ErrorCode::kUnreadable, "The measurements of texture " + id + " are damaged.");
     info.synthesisability = static_cast<float>(q.real(14));
     info.favourite = !q.is_null(15);
     info.rating = static_cast<int>(q.integer(16));

@@ -319,7 +319,7 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
     if (hits.empty() && terms.size() > 1) {
         hits = score_all(index, filter, terms, false, {});
         if (!hits.empty())
-            out.understood.push_back("no texture fits every word: the nearest are shown");
+            out.understood.push_back("no texture matches every word: the nearest are shown");
     }
     out.total = static_cast<int>(hits.size());
     if (query.facets) count_facets(hits, index, out);
@@ -331,7 +331,7 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
         const IndexedSample& s = index.samples[hits[i].sample];
         std::vector<std::string> reasons = reasons_of(terms, index, s);
         if (!seen.empty() && seen[hits[i].sample] > kSeen)
-            reasons.push_back("looks like it to " + embeddings.model->name());
+            reasons.push_back("matches according to " + embeddings.model->name());
         out.hits.push_back(
             {s.id, s.name, index.materials.text(s.material), hits[i].score, std::move(reasons)});
     }

@@ -54,7 +54,7 @@ class Builder {
         fs::create_directories(work_, error);
         if (error) {
             return fail(ErrorCode::kUnreadable,
-                        "The folder " + work_ + " cannot be made: " + error.message() + ".");
+                        "The folder " + work_ + " cannot be created: " + error.message() + ".");
         }
         WEFT_CHECK_OK(check_space());
         if (options_.starter) WEFT_CHECK_OK(add_starter_textures(library_, cancel_, progress_));

@@ -65,7 +65,7 @@ Status check_counts(const InputFile& file, const std::string& path) {
                 return tl::unexpected(damaged_archive(path, "it has more than a million entries"));
             if (count > room)
                 return tl::unexpected(
-                    damaged_archive(path, "it counts more entries than it has room for"));
+                    damaged_archive(path, "it claims more entries than it can hold"));
         }
     }
     return {};
