@@ -103,7 +103,7 @@ class Study {
         return {};
     }
 
-    // The ideal texture is placed where the first frame has it.
+    // The ideal texture is placed by the first frame.
     void set_reference() {
         if (!result_.project.regions.front()->reference_frames.empty()) return;
         result_.project.regions.front() = result_.project.regions.front().with(
@@ -130,7 +130,7 @@ class Study {
         spec.threads = options_.threads;
         spec.existing = options_.overwrite ? ExistingFrames::kOverwrite : ExistingFrames::kRefuse;
         spec.limits = options_.limits;
-        // Every method pays for its own analysis, or the times would depend on their order.
+        // Every method computes its own analysis; otherwise the times would depend on the order.
         spec.cache.keep = false;
         return spec;
     }
@@ -168,7 +168,7 @@ class Study {
         job.project.regions.front() = job.project.regions.front().with([&](Region& r) {
             r.texture.sample.clear();
             r.texture.also.clear();
-            // Synthesized from a sample, it is not fitted into corners.
+            // A texture synthesized from a sample is not fitted into corners.
             if (result_.project.regions.front()->texture.plane.empty()) r.placement.fit = false;
             r.texture.plane = plane_path_;
             r.texture.space.clear();
