@@ -82,7 +82,7 @@ class Study {
         if (result_.frames.size() < 2 || result_.frames.back() - result_.frames.front() + 1 !=
                                              static_cast<int>(result_.frames.size())) {
             return fail(ErrorCode::kUsage,
-                        "A study needs two frames or more that follow each other (--frames 1-24).");
+                        "A study needs at least two consecutive frames (--frames 1-24).");
         }
         result_.project.settings.frames = format_frame_list(result_.frames);
         if (result_.project.regions.front()->matte->files.empty()) WEFT_CHECK_OK(make_mattes());

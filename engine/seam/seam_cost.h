@@ -22,9 +22,9 @@ enum class SeamCost {
 /// Fills `problem.right` and `problem.down` from the old picture A and the new picture B (each as
 /// large as `problem.cells`, 8-bit RGB) with Kwatra et al. 2003, eq. 1 and section 3.2:
 ///   V_pq = (‖A(p)−B(p)‖ + ‖A(q)−B(q)‖) / (‖A(p)−A(q)‖ + ‖B(p)−B(q)‖ + ε) · kSeamCostScale,
-/// rounded to the nearest integer, so that a seam prefers places where both pictures have an edge;
-/// the more so the smaller ε (`gradient_floor`).
-/// Pixels that take no part may hold anything. Pure; thread-safe.
+/// rounded to the nearest integer. A seam prefers places where both pictures have an edge; a
+/// smaller ε (`gradient_floor`) makes that preference stronger. Pixels outside the overlap may have
+/// any value. Pure; thread-safe.
 void fill_seam_costs(ViewU8x3 a, ViewU8x3 b, SeamProblem& problem,
                      float gradient_floor = kGradientFloor);
 
