@@ -86,14 +86,14 @@ struct TexturePlane {
 [[nodiscard]] Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas,
                                                      const TexturePlane& plane);
 
-/// Whether a sample of this size can be grown with this overlap. Errors: Usage, saying what would
-/// do.
+/// Checks that a sample of this size can be grown with this overlap (px). Errors: Usage, with the
+/// sizes that are allowed.
 [[nodiscard]] Status check_sample(Size sample, int overlap_px);
 
-/// Grows a plane. Deterministic: the same samples and options give the same bytes, whatever the
-/// number of threads. Errors: Usage when there is no sample or more than 64, when a sample is
-/// smaller than twice 12 px on a side or than the overlap, or the size is not in [1, 16384];
-/// NoSpace; cancelled. A constant-colour sample is not an error: the plane is that colour.
+/// Grows a plane. Deterministic: the same samples and options give the same bytes for any number of
+/// threads. Errors: Usage if there is no sample or more than 64, a sample is smaller than 24 px on
+/// a side or than the overlap, or the size is not in [1, 16384]; NoSpace; cancelled. A sample of
+/// one colour is not an error: the plane has that colour.
 [[nodiscard]] Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples,
                                                 const PlaneOptions& options,
                                                 const CancelToken& cancel = {},
@@ -102,8 +102,7 @@ struct TexturePlane {
                                                 const CancelToken& cancel = {},
                                                 const ProgressFn& progress = {});
 
-/// What an artist should know about a sample before it is grown, or nothing: that it is one flat
-/// colour.
+/// A warning about a sample before it is grown (that it is one flat colour), if there is one.
 [[nodiscard]] std::optional<std::string> sample_warning(ViewU8x3 sample);
 
 }  // namespace weft
