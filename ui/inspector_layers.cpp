@@ -151,12 +151,13 @@ void propagation_controls(Ctx& c, const Region& region, const MatteSource& sourc
         set(changed);
         c.edit(set_layer(region, v.matte_layer, changed));
     };
-    int way = source.propagate_direction == CarryDirection::kBackward  ? 0
-              : source.propagate_direction == CarryDirection::kForward ? 2
-                                                                       : 1;
+    int way = source.propagate_direction == PropagationDirection::kBackward  ? 0
+              : source.propagate_direction == PropagationDirection::kForward ? 2
+                                                                             : 1;
     if (segments(c, "Direction", {"Backwards", "Both", "Forwards"}, way)) {
-        constexpr CarryDirection kWays[] = {CarryDirection::kBackward, CarryDirection::kBoth,
-                                            CarryDirection::kForward};
+        constexpr PropagationDirection kWays[] = {PropagationDirection::kBackward,
+                                                  PropagationDirection::kBoth,
+                                                  PropagationDirection::kForward};
         change([&](MatteSource& m) { m.propagate_direction = kWays[way]; });
     }
     const auto end = [](const std::optional<int>& frame, const char* otherwise) {

@@ -39,11 +39,11 @@ struct Choices<MotionDirection> {
         {{MotionDirection::kForward, "forward"}, {MotionDirection::kBackward, "backward"}}};
 };
 template <>
-struct Choices<CarryDirection> {
-    static constexpr std::array<std::pair<CarryDirection, std::string_view>, 3> kNames{
-        {{CarryDirection::kBoth, "both"},
-         {CarryDirection::kForward, "forward"},
-         {CarryDirection::kBackward, "backward"}}};
+struct Choices<PropagationDirection> {
+    static constexpr std::array<std::pair<PropagationDirection, std::string_view>, 3> kNames{
+        {{PropagationDirection::kBoth, "both"},
+         {PropagationDirection::kForward, "forward"},
+         {PropagationDirection::kBackward, "backward"}}};
 };
 template <>
 struct Choices<ZoneKind> {

@@ -120,7 +120,7 @@ struct MatteSource {
     std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated,
     std::string frozen_files;  ///< from files of this pattern.
     /// Direction and range in which painted mattes are propagated; unset ends: the shot's.
-    CarryDirection propagate_direction = CarryDirection::kBoth;
+    PropagationDirection propagate_direction = PropagationDirection::kBoth;
     std::optional<int> propagate_from, propagate_to;
     Extras extra;
     [[nodiscard]] bool empty() const {

@@ -75,7 +75,7 @@ TEST_F(OldFlags, AreAcceptedAndHidden) {
     const Region& region = *project->regions.front();
     EXPECT_EQ(region.finish.focus, 0.5);
     EXPECT_EQ(region.light.form, LightForm::kDetail);
-    EXPECT_EQ(region.matte->propagate_direction, CarryDirection::kForward);
+    EXPECT_EQ(region.matte->propagate_direction, PropagationDirection::kForward);
 }
 
 }  // namespace

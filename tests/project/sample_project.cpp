@@ -16,7 +16,7 @@ Region full_region() {
     matte.steadiness = 0.75;
     matte.frozen = {10, 11};
     matte.frozen_files = "final/####.png";
-    matte.propagate_direction = CarryDirection::kBackward;
+    matte.propagate_direction = PropagationDirection::kBackward;
     matte.propagate_from = -5;
     matte.propagate_to = 100;
     r.matte = matte;
@@ -24,7 +24,7 @@ Region full_region() {
     holdout.files = "hold/####.png";
     MatteSource painted;
     painted.keyframes = {{12, {"mattes/hand.png", {}}}};
-    painted.propagate_direction = CarryDirection::kForward;
+    painted.propagate_direction = PropagationDirection::kForward;
     r.holdouts = std::vector<MatteSource>{holdout, painted};
     Zone zone;
     zone.value = 0.25;

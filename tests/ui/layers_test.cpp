@@ -97,7 +97,7 @@ TEST_F(PaintedLayers, DirectionAndRangeAreChosenInTheInspector) {
     open();
     ASSERT_TRUE(robot->click("Propagation/Forwards"));
     robot->frames(2);
-    EXPECT_EQ(region().matte->propagate_direction, CarryDirection::kForward);
+    EXPECT_EQ(region().matte->propagate_direction, PropagationDirection::kForward);
     session->act(MarkRange{2, 3});
     robot->frames(2);
     ASSERT_TRUE(robot->click("Propagation/Marked range"));

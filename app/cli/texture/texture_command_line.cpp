@@ -169,12 +169,13 @@ void add_recommend(CLI::App& group, CommandResult& result) {
         ->delimiter(',');
     command->add_option("--material", o->materials, "For each matte: the material, or -")
         ->delimiter(',');
-    command->add_option("--like", o->wish.like, "More like this sample")->type_name("ID");
+    command->add_option("--like", o->adjust.like, "More like this sample")->type_name("ID");
     const auto range = number(-1.0, 1.0);
-    command->add_option("--warmer", o->wish.warmer, "-1 colder … 1 warmer")->check(range);
-    command->add_option("--brighter", o->wish.brighter, "-1 darker … 1 brighter")->check(range);
-    command->add_option("--rougher", o->wish.rougher, "-1 smoother … 1 rougher")->check(range);
-    command->add_option("--larger", o->wish.larger, "-1 finer … 1 larger structure")->check(range);
+    command->add_option("--warmer", o->adjust.warmer, "-1 colder … 1 warmer")->check(range);
+    command->add_option("--brighter", o->adjust.brighter, "-1 darker … 1 brighter")->check(range);
+    command->add_option("--rougher", o->adjust.rougher, "-1 smoother … 1 rougher")->check(range);
+    command->add_option("--larger", o->adjust.larger, "-1 finer … 1 larger structure")
+        ->check(range);
     command->add_option("--count", o->count, "Suggestions for each region [12]")
         ->transform(whole_number(1, 100));
     command->add_option("--diversity", o->diversity, "0 the best … 1 the most different [0.35]")

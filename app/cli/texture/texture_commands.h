@@ -39,7 +39,7 @@ struct TextureRecommendOptions {
     std::vector<std::string> mattes;
     std::vector<std::string> keeps;      ///< Texture to keep for each matte, "-" for none.
     std::vector<std::string> materials;  ///< Material for each matte, "-" for none.
-    RecommendWish wish;
+    RecommendAdjustments adjust;
     int count = 12;
     float diversity = 0.35f;
     std::vector<std::string> excluded_licences;

@@ -51,7 +51,7 @@ Json suggestion_json(const Suggestion& s) {
               {"style", number(p.style)},
               {"scale", number(p.scale)},
               {"synthesis", number(p.synthesis)},
-              {"wish", number(p.wish)},
+              {"wish", number(p.adjustment)},
               {"coherence", number(p.coherence)}}}};
 }
 

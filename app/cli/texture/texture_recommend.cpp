@@ -120,7 +120,7 @@ CommandResult texture_recommend_command(const TextureCommandOptions& common,
     for (std::size_t i = 0; i < scene.mattes.size(); ++i)
         request.regions.push_back(
             {scene.names[i], scene.mattes[i].view(), given(o.keeps, i), given(o.materials, i)});
-    request.wish = o.wish;
+    request.adjust = o.adjust;
     request.count = o.count;
     request.diversity = o.diversity;
     request.excluded_licences = o.excluded_licences;
