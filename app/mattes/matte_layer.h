@@ -12,7 +12,8 @@ namespace weft {
 /// adds a zone or a holdout.
 [[nodiscard]] int first_layer(const Region& region);
 [[nodiscard]] int last_layer(const Region& region);
-/// The edit that replaces this layer by `source`; a number beyond the last holdout or zone adds one.
+/// The edit that replaces this layer by `source`; a number beyond the last holdout or zone adds
+/// one.
 [[nodiscard]] Edit set_layer(const Region& region, int layer, MatteSource source);
 /// The edit that removes a painted keyframe; a holdout or zone without keyframes is removed too.
 [[nodiscard]] Edit without_layer_key(const Region& region, int layer, int frame);
