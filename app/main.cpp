@@ -40,12 +40,12 @@ Expected<int> edit(const EditArguments& given) {
 
 int main(int argc, char** argv) {
 #ifdef __GLIBC__
-    // Pictures are made in one thread and let go in another. With a heap for each thread, which is
-    // glibc's way, what is let go is not found again, and the peak grows with the shot: 1.76 GB in
-    // place of 1.54 for six 4K frames.
+    // Images are allocated in one thread and freed in another. With glibc's default of one heap per
+    // thread, freed memory is not reused and the peak grows with the shot: 1.76 GB instead of 1.54
+    // GB for six 4K frames.
     mallopt(M_ARENA_MAX, 1);
 #endif
-    // Without a command it opens the editor, where there is a display to open it on.
+    // Without a command, open the editor if a display is available.
     char command[] = "edit";
     char* with_edit[] = {argv[0], command, nullptr};
     if (argc < 2 && weft::has_display()) return weft::run_cli(2, with_edit, weft::edit);

@@ -1,5 +1,5 @@
-// The inner loops of synthesis: the placement search by each method and instruction set, the
-// minimum cut by each solver, and whole planes.
+// Benchmarks of the inner loops of synthesis: the placement search by each method and instruction
+// set, the minimum cut by each solver, and whole planes.
 
 #include <benchmark/benchmark.h>
 
@@ -46,7 +46,7 @@ ImageU8x3 noise(int w, int h, std::uint64_t seed) {
     return out;
 }
 
-// An L of 36 px over a block for a sample of `side` px, all translations of the first sweep.
+// An L of 36 px over a block for a sample of `side` px, with all translations of the first sweep.
 void search(benchmark::State& state, SearchMethod method, Isa isa) {
     if (!isa_available(isa)) {
         state.SkipWithError("this processor lacks the instruction set");
@@ -81,7 +81,7 @@ BENCHMARK_CAPTURE(search, fft_scalar, SearchMethod::kFft, Isa::kScalar)
     ->Arg(200)
     ->Arg(488);
 
-// An interior patch whose whole border is old, with old seams' costs: what refinement cuts.
+// An interior patch whose whole border is old, with the costs of old seams: the cut of refinement.
 SeamProblem interior_problem(int side) {
     const ImageU8x3 a = noise(side, side, 3), b = noise(side, side, 4), c = noise(side, side, 6);
     SeamProblem p;

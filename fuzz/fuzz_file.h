@@ -1,5 +1,5 @@
 #pragma once
-// Bytes as a file, for readers that want a name.
+// Writes bytes to a file, for readers that need a name.
 #include <unistd.h>
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 #include <cstdlib>
 #include <string>
 
-// What was freed last is kept to find late uses of it: 256 MB by default, and large pictures beside
-// it exceed libFuzzer's limit without any fault.
+// The quarantine of freed memory finds late uses. At its default of 256 MB, large pictures would
+// exceed libFuzzer's limit without any fault.
 extern "C" inline const char* __asan_default_options() {
     return "quarantine_size_mb=16";
 }
 
 namespace weft::fuzz {
 
-/// The same name all the time, so that nothing piles up; private to the process.
+/// Always the same name, so that files do not accumulate; private to the process.
 inline std::string put_file(const std::uint8_t* data, std::size_t size, const char* extension) {
     static const std::string stem = [] {
         const char* folder = std::getenv("TMPDIR");

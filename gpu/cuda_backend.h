@@ -3,9 +3,9 @@
 
 namespace weft {
 
-/// Adds "cuda" to the registry, and "cuda-candidate" and "cuda-pixel", which differ in how they
-/// search for placements and which `auto` never takes. Making one says what is missing on this
-/// machine, if anything is.
+/// Adds "cuda" to the registry, and "cuda-candidate" and "cuda-pixel", which use other strategies
+/// for the placement search and which `auto` never takes. Creating one fails with the reason if
+/// this machine lacks something.
 void register_cuda(BackendRegistry& registry);
 
 }  // namespace weft

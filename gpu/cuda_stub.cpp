@@ -4,9 +4,10 @@
 namespace weft {
 
 Expected<std::shared_ptr<Device>> open_cuda_device() {
-    return fail(ErrorCode::kNoBackend,
-                "CUDA cannot be used here: this build has no CUDA in it (nvcc was not found, or "
-                "WEFT_CUDA is OFF).");
+    return fail(
+        ErrorCode::kNoBackend,
+        "CUDA cannot be used here: this build does not include CUDA (nvcc was not found, or "
+        "WEFT_CUDA is OFF).");
 }
 
 }  // namespace weft

@@ -1,6 +1,6 @@
 #pragma once
-// What the backend asks of a device: memory, copies, kernels, waiting. CudaDevice is the real one;
-// tests run the same backend on a device emulated by the host, and make it fail.
+// The device interface of the backend: memory, copies, kernels, waiting. CudaDevice is the real
+// one; tests run the same backend on a device emulated on the host, also with injected failures.
 
 #include <cstddef>
 #include <memory>
@@ -27,9 +27,9 @@ struct CopyRows {
     std::size_t row_bytes = 0, rows = 0;
 };
 
-/// Thread-safe; work in one queue runs in order, and the caller must keep a queue to one thread at
-/// a time. Errors: NoSpace when memory is short, NoBackend for everything after which the device
-/// cannot be used any more.
+/// Thread-safe. Work in one queue runs in order, and the caller must use a queue from one thread at
+/// a time. Errors: NoSpace if memory is short, NoBackend for anything after which the device is
+/// unusable.
 class Device {
   public:
     using Queue = void*;
@@ -73,8 +73,8 @@ struct PinnedHostMemory {
     static void release(Device& device, Memory memory) noexcept { device.release_pinned(memory); }
 };
 
-/// Memory of one kind that grows as it is asked to. Growing forgets what was in it and must not
-/// happen while work with it is queued.
+/// Memory of one kind that grows on demand. Growing discards the content and must not happen while
+/// work with it is queued.
 template <class Kind>
 class GrowingBuffer {
   public:

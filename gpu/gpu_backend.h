@@ -9,7 +9,7 @@ namespace weft {
 
 class GpuState;
 
-/// How the placement search is dealt out to threads. All find the same.
+/// How the placement search is distributed over threads. All strategies find the same.
 enum class SearchStrategy {
     kTiled,      ///< Candidates in registers; what `cuda` uses.
     kCandidate,  ///< The paper's candidate-level strategy.
@@ -19,10 +19,10 @@ enum class SearchStrategy {
 struct GpuBackendOptions {
     std::string name = "cuda";
     SearchStrategy strategy = SearchStrategy::kTiled;
-    std::size_t plane_bytes = 0;  ///< Of texture planes kept on the device; 0: a quarter of it.
+    std::size_t plane_bytes = 0;  ///< Memory for texture planes on the device; 0: a quarter of it.
 };
 
-/// Backend on a device. What the device fails at the CPU does instead, and remarks() tells it.
+/// A backend on a device. The CPU takes over what the device fails at; remarks() reports it.
 class GpuBackend final : public Backend {
   public:
     explicit GpuBackend(std::shared_ptr<Device> device, GpuBackendOptions options = {});

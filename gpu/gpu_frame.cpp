@@ -38,7 +38,7 @@ int wrap_of(WrapMode wrap) {
     return kernels::kWrapClamp;
 }
 
-// What a layer sends along, one after the other in pinned memory.
+// The data of a layer, stored contiguously in pinned memory.
 class Parcel {
   public:
     explicit Parcel(PinnedBuffer& staging) : staging_(staging) {}
@@ -146,7 +146,7 @@ Status sample_plane_on(GpuState& state, const SampleRequest& request, ImageView<
     WEFT_TRY(place, state.take_place());
     std::shared_ptr<const DevicePlane> plane;  // Held until nothing is queued any more.
     const Status status = sample_at(state, *place, plane, request, out);
-    // After a failure the place may still be at work: wait, then let it go.
+    // After a failure the queue may still be running: wait before the place is released.
     if (!status && !state.device()->wait(place->queue.get())) return status;
     state.give_back(std::move(place));
     return status;

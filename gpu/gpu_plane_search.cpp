@@ -36,7 +36,7 @@ Expected<std::unique_ptr<GpuPlaneSearch>> GpuPlaneSearch::open(std::shared_ptr<G
 }
 
 GpuPlaneSearch::~GpuPlaneSearch() {
-    // Nothing may be in the queue when the buffers go. A failure here has no one to tell.
+    // The queue must be empty before the buffers are released. A failure here cannot be reported.
     if (queue_.get()) (void)state_->device()->wait(queue_.get()).has_value();
 }
 
@@ -72,7 +72,7 @@ Status GpuPlaneSearch::add_sample(ViewU8x3 sample) {
                h = static_cast<std::size_t>(sample.height());
     const std::size_t pixel_bytes = w * h * sizeof(std::uint32_t),
                       square_bytes = (w + 1) * h * sizeof(std::uint32_t);
-    // It lives on when this fails, until nothing is queued any more.
+    // It stays after a failure, until the queue is empty.
     Sample& s = samples_.emplace_back();
     s.size = sample.size();
     WEFT_CHECK_OK(state_->reserve(s.pixels, pixel_bytes));
@@ -103,8 +103,7 @@ Status GpuPlaneSearch::add_sample(ViewU8x3 sample) {
     return {};
 }
 
-// Room in the pinned memory that copies are made from. When there is none left, everything queued
-// has to be done first.
+// Reserves pinned memory that copies read from. If none is left, waits for everything queued.
 Expected<std::size_t> GpuPlaneSearch::stage(std::size_t bytes) {
     const std::size_t rounded = (bytes + 255) / 256 * 256;
     if (staged_bytes_ + rounded > staging_.bytes()) {

@@ -8,9 +8,9 @@
 
 namespace weft {
 
-/// PlaneSearch on a device. A placement costs one copy of what changed, one kernel for the costs
-/// (two with a guide), one for the choice, and one wait: the choice is written straight into memory
-/// of the host.
+/// PlaneSearch on a device. A placement costs one copy of the changes, one kernel for the costs
+/// (two with a guide), one for the choice, and one wait; the choice is written directly into host
+/// memory.
 class GpuPlaneSearch final : public PlaneSearch {
   public:
     [[nodiscard]] static Expected<std::unique_ptr<GpuPlaneSearch>> open(

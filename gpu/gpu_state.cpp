@@ -27,7 +27,7 @@ void GpuState::free_idle() {
     shrink_planes(0);
 }
 
-// Planes that somebody works with stay, because their owner holds them, too.
+// Planes in use stay, because their users hold them too.
 void GpuState::shrink_planes(std::size_t limit_bytes) {
     std::size_t bytes = 0;
     for (const auto& plane : planes_)
@@ -68,7 +68,7 @@ Expected<std::shared_ptr<const DevicePlane>> GpuState::upload(const PlanePyramid
     }
     WEFT_CHECK_OK(reserved);
     const Status sent = send_levels(pyramid, *plane, queue);
-    // Whatever came of it, nothing may write to the plane's memory when it is let go.
+    // In any case nothing may still write to the plane's memory when it is released.
     const Status done = device_->wait(queue);
     WEFT_CHECK_OK(sent);
     WEFT_CHECK_OK(done);

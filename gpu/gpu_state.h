@@ -1,6 +1,6 @@
 #pragma once
-// What the operations of one GPU backend share: the device, the texture planes on it, the work
-// places of frames, and what went wrong.
+// Shared state of a GPU backend's operations: the device, the texture planes on it, the buffers of
+// frames, and failures.
 
 #include <atomic>
 #include <list>
@@ -37,13 +37,13 @@ class GpuState {
         : device_(std::move(device)), plane_bytes_(plane_bytes) {}
 
     [[nodiscard]] const std::shared_ptr<Device>& device() const { return device_; }
-    /// After an error that the device does not come back from.
+    /// True after an error that the device does not recover from.
     [[nodiscard]] bool lost() const { return lost_; }
-    /// Takes note of a failure; `instead` says what happens now, in the report's words.
+    /// Records a failure; `instead` says what happens now, for the report.
     void note(const Error& error, const std::string& instead);
     [[nodiscard]] std::vector<std::string> remarks() const;
 
-    /// Reserves memory, and when there is too little, frees what is only kept for later.
+    /// Reserves memory; if there is too little, first frees what is only cached.
     template <class Buffer>
     [[nodiscard]] Status reserve(Buffer& buffer, std::size_t bytes) {
         Status status = buffer.reserve(device_, bytes);

@@ -1,4 +1,4 @@
-// The table of commands: what each is called, where it stands, its key, what it does and when.
+// The command table: names, keys, actions and conditions.
 #include <imgui.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Command command(const char* id, const char* category, const char* name, const ch
     return out;
 }
 
-// Opening something else asks first when there is unsaved work.
+// Asks first if there is unsaved work.
 void leave_for(Ctx& c, const std::string& what) {
     if (c.view.modified) {
         c.state.leave_asked = true;
@@ -195,8 +195,9 @@ void add_view_commands(std::vector<Command>& out) {
     add_overlay("view.grid", "Texture grid", icons::kGrid, "G", Overlay::kGrid);
     add_overlay("view.stretch", "Stretch", icons::kScale, "S", Overlay::kStretch);
     add_overlay("view.arrows", "Motion arrows", icons::kMotion, "V", Overlay::kMotion);
-    add_overlay("view.trust", "Tracking confidence", icons::kAlert, "Shift+T", Overlay::kTrust);
-    add_overlay("view.pieces", "Source map", icons::kCrosshairs, "Shift+X", Overlay::kPieces);
+    add_overlay("view.trust", "Tracking confidence", icons::kAlert, "Shift+T",
+                Overlay::kConfidence);
+    add_overlay("view.pieces", "Source map", icons::kCrosshairs, "Shift+X", Overlay::kSourceMap);
     using Channel = DisplaySettings::Channel;
     const auto add_channel = [&](const char* id, const char* name, const char* key, Channel which) {
         out.push_back(command(

@@ -11,7 +11,8 @@ namespace weft {
 void set_workspace(UiState& state, Workspace workspace) {
     if (state.workspace == workspace) return;
     state.workspace = workspace;
-    // A stroke where one does not expect to paint would be a nasty surprise.
+    // Never start with a brush outside the Mask workspace: an accidental stroke would change the
+    // matte.
     state.tool = workspace == Workspace::kMask ? Tool::kBrush : Tool::kPan;
     state.brush.outline.clear();
     state.shape_drawing = false;

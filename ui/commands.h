@@ -1,6 +1,6 @@
 #pragma once
-// Everything that can be done by name: menus, shortcuts, tooltips, the palette and the sheet of
-// shortcuts all come from this one table.
+// Commands: menus, shortcuts, tooltips, the command palette and the list of shortcuts are all made
+// from this table.
 
 #include <functional>
 #include <map>
@@ -15,7 +15,7 @@ namespace weft {
 struct Ctx;
 
 struct Command {
-    std::string id;        ///< "view.fit": stable, in the settings file.
+    std::string id;        ///< "view.fit": stable, stored in the settings file.
     std::string category;  ///< "View"
     std::string name;      ///< "Fit to window"
     const char* icon = "";
@@ -23,11 +23,11 @@ struct Command {
     bool repeats = false;
     std::function<void(Ctx&)> run;
     std::function<bool(const Ctx&)> enabled;  ///< Null: always.
-    std::function<bool(const Ctx&)> checked;  ///< Null: not a switch.
+    std::function<bool(const Ctx&)> checked;  ///< Null: not checkable.
     KeyChord key;
 };
 
-/// The table itself, in the order of the menus; keys are the defaults, not yet read.
+/// All commands in menu order, with default keys.
 [[nodiscard]] std::vector<Command> all_commands();
 
 class Commands {
@@ -35,13 +35,13 @@ class Commands {
     Commands();
     [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
     [[nodiscard]] const Command* find(std::string_view id) const;
-    /// "Ctrl+S", or nothing.
+    /// Key of a command, such as "Ctrl+S"; empty: none.
     [[nodiscard]] std::string key_of(std::string_view id) const;
-    /// The defaults, changed by what the settings say; what cannot be read is left at its default.
+    /// Sets the keys: defaults, overridden by the settings. Invalid entries keep the default.
     void bind(const std::map<std::string, std::string>& changed);
-    /// Commands that share a key within a context, as "Save and Fit the picture: Ctrl+S".
+    /// Duplicate shortcuts within a context, as "Save and Fit to window: Ctrl+S".
     [[nodiscard]] std::vector<std::string> collisions() const;
-    /// Runs what the pressed keys stand for. Nothing happens while a text is being typed.
+    /// Runs the commands of the pressed keys, except while text is being typed.
     void dispatch(Ctx& ctx) const;
     void run(std::string_view id, Ctx& ctx) const;
 

@@ -1,6 +1,5 @@
 #pragma once
-// What every panel is given: the session as it stands, a place for the actions that it wants done,
-// and the look.
+// The context passed to every panel: the session's view, a list for actions, and the theme.
 
 #include <functional>
 #include <string>
@@ -20,7 +19,7 @@
 
 namespace weft {
 
-/// Where a widget was drawn, by its label: what scripts and tests click on.
+/// The place of a widget by its label, for scripts and tests.
 struct DrawnItem {
     std::string name;  ///< "Inspector/Scale"
     ImVec2 min, max;
@@ -40,18 +39,15 @@ struct Ctx {
     std::vector<DrawnItem>* items = nullptr;  ///< Null: widgets are not recorded.
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;
-    /// Does actions at once and brings the view up to date with them; null: like emit().
+    /// Performs actions at once and updates the view; null: like emit().
     std::function<void(const std::vector<Action>&)> act_now;
     std::string panel;  ///< Prefix of the items' names.
 
-    void emit(Action action) { actions.push_back(std::move(action)); }
-    /// For what this very frame is to show: a stroke under the brush.
-    void emit_now(std::vector<Action> all) {
-        if (act_now) return act_now(all);
-        actions.insert(actions.end(), all.begin(), all.end());
-    }
-    void edit(Edit what) { emit(DoEdit{std::move(what)}); }
-    /// Notes the last ImGui item under a name.
+    void emit(Action action);
+    /// For actions whose result must be visible in the current frame, such as a brush stroke.
+    void emit_now(const std::vector<Action>& all);
+    void edit(Edit what);
+    /// Records the last ImGui item under a name.
     void note(std::string_view name, bool enabled = true);
     void note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled = true);
 };

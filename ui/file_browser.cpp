@@ -1,4 +1,4 @@
-// Finding shots, textures and places to write to: sequences as one entry, with a picture.
+// The file browser for shots, textures and output paths: a sequence is one entry with a thumbnail.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -180,7 +180,7 @@ const char* icon_of(EntryKind kind) {
     return icons::kFile;
 }
 
-// Returns the entry that was chosen by a double click, or null.
+// Returns the double-clicked entry, or null.
 const FolderEntry* entries(Ctx& c, const std::vector<FolderEntry>& all, ImVec2 size) {
     const Theme& t = c.theme;
     BrowserState& b = c.state.browser;

@@ -1,4 +1,4 @@
-// What floats over the rest: the palette, the sheet of shortcuts, settings, history.
+// Floating windows: command palette, shortcuts, settings, history.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace weft::ui {
 namespace {
 
-// How well a name answers what was typed: all letters in order, words' beginnings count more.
+// Score of a name for the typed text: all letters in order; beginnings of words count more.
 int score(const std::string& name, const std::string& typed) {
     int total = 0;
     std::size_t at = 0;
@@ -144,7 +144,7 @@ void leave_question(Ctx& c) {
         if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
         if (then.starts_with("/")) c.emit(OpenAny{then});
     };
-    // Only when it is on the disk; what went wrong stands in a notice, and the work stays here.
+    // Leave only after the save; if it failed, a notice says why and the document stays open.
     if (c.state.leave_when_saved) {
         if (c.view.saving) return;
         if (!c.view.modified) return go();
@@ -249,7 +249,7 @@ void tour(Ctx& c) {
     const float width = t.px(380);
     const ImVec2 text = ImGui::CalcTextSize(now.text, nullptr, false, width - t.px(32));
     const float h = text.y + t.px(104);
-    // Over the picture, above whatever lies below it; the page of jobs has its room on the right.
+    // Over the picture, above the panels below it; the render page has room on the right.
     const float body = screen.y - t.px(66);
     const float panel_h = c.state.workspace == Workspace::kTexture ? t.px(c.state.drawer_h)
                           : c.state.workspace == Workspace::kLight ? t.px(c.state.strip_h)

@@ -1,5 +1,5 @@
 #pragma once
-// How windows look that float over the rest.
+// The style of floating windows.
 
 #include <imgui.h>
 
@@ -7,8 +7,8 @@
 
 namespace weft::ui {
 
-/// Begins a window of the panel's colour with a border and round corners, without a title bar.
-/// ImGui::End() belongs to every call. `flags` come on top of its own.
+/// Begins a window with the panel's colour, a border and round corners, without a title bar. Always
+/// call ImGui::End(). `flags` are added to its own.
 void begin_floating(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, ImVec2 padding,
                     ImGuiWindowFlags flags = 0);
 

@@ -1,4 +1,4 @@
-// Where a correction would help most: a list whose entries go there.
+// Suggested keyframes: a list; a click goes to the frame.
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Icons of the Material Design Icons web font 1.x (private use area), as UTF-8.
+// Icons of the Material Design Icons web font 1.x (private use area) as UTF-8.
 
 namespace weft::icons {
 

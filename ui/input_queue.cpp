@@ -6,8 +6,8 @@
 namespace weft {
 namespace {
 
-// GLFW's codes.
-constexpr int kFirstNamed = 256;  // Esc, Enter, arrows, …: keys that print nothing
+// GLFW key codes.
+constexpr int kFirstNamed = 256;  // Esc, Enter, arrows, …: keys without a character
 constexpr int kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342, kLeftSuper = 343;
 constexpr int kRightShift = 344, kRightControl = 345, kRightAlt = 346, kRightSuper = 347;
 
@@ -47,12 +47,12 @@ void InputQueue::wheel(float x, float y) {
 }
 
 void InputQueue::leave() {
-    // A drag goes on outside.
+    // A drag continues outside the window.
     if (std::none_of(std::begin(down_), std::end(down_), [](bool down) { return down; }))
         move({-FLT_MAX, -FLT_MAX});
 }
 
-void InputQueue::let_go() {
+void InputQueue::release_all() {
     const ImGuiIO& io = ImGui::GetIO();
     for (int code = 0; code < IM_ARRAYSIZE(io.KeysDown); ++code)
         if (io.KeysDown[code]) key(code, false);
@@ -64,7 +64,8 @@ bool InputQueue::must_wait(const Event& event, const Had& had) {
     switch (event.kind) {
         case Event::Kind::kKey:
             if (holds(had.keys, event.code)) return true;
-            // A chord is seen with its modifiers, a click with those that were held.
+            // A key needs its modifiers down in the same frame; a click needs those held at the
+            // time.
             if (is_modifier(event.code)) return had.key || had.button || had.character;
             return had.button || (had.character && event.code >= kFirstNamed);
         case Event::Kind::kCharacter:
@@ -79,7 +80,8 @@ bool InputQueue::must_wait(const Event& event, const Had& had) {
     return false;
 }
 
-// ImGui goes by the time of its frames, which may be further apart than two clicks.
+// ImGui measures double clicks by frame times, and two frames may be further apart than the two
+// clicks.
 bool InputQueue::second_click(const Event& press) {
     Press& last = last_press_[press.code];
     const bool near = std::hypot(mouse_.x - last.at.x, mouse_.y - last.at.y) < kDoubleClickPx;

@@ -1,6 +1,6 @@
 #pragma once
-// What the window system reports between two frames, given to ImGui so that nothing is lost: a key
-// that is pressed and released between two frames is down in one and up in the next.
+// Queues events between frames so that ImGui loses none: a key that is pressed and released between
+// two frames is down in one frame and up in the next.
 
 #include <imgui.h>
 
@@ -9,11 +9,11 @@
 
 namespace weft {
 
-/// ImGui 1.86 looks at the state of keys and buttons once a frame and has no queue of its own. One
+/// ImGui 1.86 samples keys and buttons once per frame and has no event queue. Belongs to one
 /// thread.
 class InputQueue {
   public:
-    /// `key`: a GLFW key code. `at_s`: when it happened, on a clock that never goes back.
+    /// `key`: a GLFW key code. `at_s`: time of the event on a monotonic clock.
     void key(int key, bool down);
     void character(unsigned code);
     void button(int button, bool down, double at_s);
@@ -21,14 +21,14 @@ class InputQueue {
     void wheel(float x, float y);
     /// The mouse left the window.
     void leave();
-    /// The keyboard went elsewhere: what is down will be reported to nobody.
-    void let_go();
+    /// The window lost focus: releases all keys, because their release will not be reported.
+    void release_all();
 
-    /// Before ImGui::NewFrame(): hands over events in their order, at most one change of a key or a
-    /// button each, a button always where the mouse was then. The rest waits for the next frames.
+    /// Call before ImGui::NewFrame(): passes on events in order, at most one change per key or
+    /// button, with the mouse where the button changed. The rest waits for the next frames.
     void feed(ImGuiIO& io);
     [[nodiscard]] bool pending() const { return !events_.empty(); }
-    /// Where the mouse went in this frame while the left button was down, for tools that draw.
+    /// Path of the mouse in this frame while the left button was down, for drawing tools.
     [[nodiscard]] const std::vector<ImVec2>& path() const { return path_; }
 
   private:
@@ -39,7 +39,7 @@ class InputQueue {
         ImVec2 at{0, 0};
         double at_s = 0;
     };
-    /// What this frame has had so far.
+    /// Events passed on in this frame.
     struct Had {
         bool key = false, named_key = false, character = false;
         bool button = false, moved = false, wheel = false;

@@ -1,4 +1,4 @@
-// The right side: regions on top, then what the workspace is about.
+// The inspector: the list of regions, then the workspace's sections.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,7 @@ void region_list(Ctx& c) {
     }
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(2)});
     const float width = ImGui::GetContentRegionAvail().x;
-    // The topmost layer first, as layers are read.
+    // Top layer first, like a layer list.
     for (std::size_t row = v.project.regions.size(); row-- > 0;) {
         const Region& region = *v.project.regions[row];
         ImGui::PushID(static_cast<int>(region.id));

@@ -1,5 +1,4 @@
-// The inspector of the Mask workspace, its second half: what stands in front of the surface, and
-// how what is painted goes to the other frames.
+// Mask workspace, second part: holdouts and propagation.
 #include <algorithm>
 #include <cmath>
 
@@ -80,7 +79,7 @@ void back_to_matte(Ctx& c) {
         c.emit(SelectMatteLayer{0});
 }
 
-// A button that begins a new holdout or zone.
+// Button that adds a holdout or zone.
 void begin_layer(Ctx& c, const char* label, const char* tip, int layer) {
     if (!button(c, label,
                 {.icon = icons::kBrush,
@@ -114,7 +113,7 @@ void zone_value(Ctx& c, const Region& region, std::size_t zone) {
         c.emit(TryEdit{set});
 }
 
-// Another region's matte serves as well.
+// Offers other regions' mattes as holdouts.
 void other_regions(Ctx& c, const Region& region) {
     for (const Leaf<Region>& other : c.view.project.regions) {
         if (other->id == region.id || other->matte->empty()) continue;
@@ -132,7 +131,7 @@ void other_regions(Ctx& c, const Region& region) {
     }
 }
 
-void carry_progress(Ctx& c) {
+void propagation_progress(Ctx& c) {
     const SessionView& v = c.view;
     const float part = v.preview.total > 0 ? static_cast<float>(v.preview.done) /
                                                  static_cast<float>(v.preview.total)
@@ -143,8 +142,8 @@ void carry_progress(Ctx& c) {
     if (button(c, "Pause", {.icon = icons::kPause, .width = -1})) c.emit(PauseAnalysis{true});
 }
 
-// Which way, and how far.
-void carry_controls(Ctx& c, const Region& region, const MatteSource& source) {
+// Direction and range of propagation.
+void propagation_controls(Ctx& c, const Region& region, const MatteSource& source) {
     const Theme& t = c.theme;
     const SessionView& v = c.view;
     const auto change = [&](auto&& set) {
@@ -152,41 +151,43 @@ void carry_controls(Ctx& c, const Region& region, const MatteSource& source) {
         set(changed);
         c.edit(set_layer(region, v.matte_layer, changed));
     };
-    int way = source.carry == CarryDirection::kBackward  ? 0
-              : source.carry == CarryDirection::kForward ? 2
-                                                         : 1;
+    int way = source.propagate_direction == PropagationDirection::kBackward  ? 0
+              : source.propagate_direction == PropagationDirection::kForward ? 2
+                                                                             : 1;
     if (segments(c, "Direction", {"Backwards", "Both", "Forwards"}, way)) {
-        constexpr CarryDirection kWays[] = {CarryDirection::kBackward, CarryDirection::kBoth,
-                                            CarryDirection::kForward};
-        change([&](MatteSource& m) { m.carry = kWays[way]; });
+        constexpr PropagationDirection kWays[] = {PropagationDirection::kBackward,
+                                                  PropagationDirection::kBoth,
+                                                  PropagationDirection::kForward};
+        change([&](MatteSource& m) { m.propagate_direction = kWays[way]; });
     }
     const auto end = [](const std::optional<int>& frame, const char* otherwise) {
         return frame ? std::to_string(*frame) : std::string(otherwise);
     };
     info_row(c, "Frames",
-             source.carry_from || source.carry_to
-                 ? end(source.carry_from, "the first") + " to " + end(source.carry_to, "the last")
+             source.propagate_from || source.propagate_to
+                 ? end(source.propagate_from, "the first") + " to " +
+                       end(source.propagate_to, "the last")
                  : "the whole shot",
              "Other frames have no matte unless one is painted");
     const bool marked = v.mark_in || v.mark_out;
     const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
-    if (button(
-            c, "Marked range",
-            {.enabled = marked && (source.carry_from != v.mark_in || source.carry_to != v.mark_out),
-             .tip = "Propagates it between the in and out points only",
-             .width = half}))
+    if (button(c, "Marked range",
+               {.enabled = marked && (source.propagate_from != v.mark_in ||
+                                      source.propagate_to != v.mark_out),
+                .tip = "Propagates it between the in and out points only",
+                .width = half}))
         change([&](MatteSource& m) {
-            m.carry_from = v.mark_in;
-            m.carry_to = v.mark_out;
+            m.propagate_from = v.mark_in;
+            m.propagate_to = v.mark_out;
         });
     ImGui::SameLine();
     if (button(c, "Whole shot",
-               {.enabled = source.carry_from || source.carry_to,
+               {.enabled = source.propagate_from || source.propagate_to,
                 .tip = "Propagates it to all frames",
                 .width = half}))
         change([](MatteSource& m) {
-            m.carry_from.reset();
-            m.carry_to.reset();
+            m.propagate_from.reset();
+            m.propagate_to.reset();
         });
 }
 
@@ -260,9 +261,9 @@ void propagation_section(Ctx& c, const Region& region) {
                 c.theme.quiet);
         return section_gap(c);
     }
-    carry_controls(c, region, source);
+    propagation_controls(c, region, source);
     if (v.preview.analysing) {
-        carry_progress(c);
+        propagation_progress(c);
     } else if (v.analysis_paused) {
         if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
             c.emit(PauseAnalysis{false});
@@ -270,8 +271,8 @@ void propagation_section(Ctx& c, const Region& region) {
         wrapped(c, "Choose a texture to propagate the matte through the shot.", c.theme.quiet);
     } else {
         wrapped(c,
-                "Propagated through the shot. The strip below the ruler is light where confidence "
-                "unsure.",
+                "Propagated through the shot. The strip below the ruler is pale where the "
+                "confidence is low.",
                 c.theme.quiet);
     }
     section_gap(c);

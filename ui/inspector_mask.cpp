@@ -10,9 +10,9 @@
 namespace weft::ui {
 namespace {
 
-void matte_source_card(Ctx& c, const Region& region) {
+// Which layer the brush is on, where it is not the matte itself.
+void layer_banner(Ctx& c) {
     const Theme& t = c.theme;
-    const MatteSource matte = c.view.painted_source();
     if (c.view.matte_layer > 0)
         banner(c, icons::kLayers, t.warn,
                "You are painting a holdout, layer " + std::to_string(c.view.matte_layer) +
@@ -22,6 +22,12 @@ void matte_source_card(Ctx& c, const Region& region) {
                "You are painting light zone " +
                    std::to_string(zone_of_layer(c.view.matte_layer) + 1) +
                    ". The region's matte stays as it is.");
+}
+
+void matte_source_card(Ctx& c, const Region& region) {
+    const Theme& t = c.theme;
+    const MatteSource matte = c.view.painted_source();
+    layer_banner(c);
     if (!matte.files.empty() || !matte.select.crypto.empty()) {
         if (!matte.select.crypto.empty())
             info_row(c, "Cryptomatte", matte.select.crypto, matte.select.crypto.c_str());
@@ -82,7 +88,7 @@ void matte_source_card(Ctx& c, const Region& region) {
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
 }
 
-// What a tablet's pen changes by its pressure.
+// What pen pressure controls.
 void pressure_row(Ctx& c, Brush& brush) {
     int which = (brush.pressure_size ? 1 : 0) + (brush.pressure_opacity ? 2 : 0);
     if (!choice(c, "Pen pressure", {"Nothing", "Size", "Opacity", "Both"}, which,

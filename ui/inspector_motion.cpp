@@ -1,4 +1,4 @@
-// The inspector of the Motion workspace: what the texture follows.
+// Motion workspace: the source of the surface's motion.
 #include <algorithm>
 #include <cmath>
 

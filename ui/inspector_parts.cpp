@@ -1,4 +1,4 @@
-// Parts of the inspector: shapes, corrections, lamps, and where a result comes from.
+// Parts of the inspector: shapes, corrections, lamps and credits.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -171,7 +171,7 @@ void lamps_controls(Ctx& c, const Region& region) {
     }
 }
 
-// Where what one sees comes from, for licences and for making it again.
+// The source of the texture, for licences and for rendering again.
 void provenance_section(Ctx& c, const Region& region) {
     if (!section(c, "Source", false)) return;
     const PanelName panel(c, "Provenance");
@@ -184,7 +184,7 @@ void provenance_section(Ctx& c, const Region& region) {
     }
     info_row(c, plane ? "Picture" : "Sample", std::filesystem::path(path).filename().string(),
              path.c_str());
-    // What came from the library is named by its id.
+    // Library textures are named by their id.
     TextureCard card;
     card.path = library_name_of(path);
     if (!card.path.empty()) {

@@ -1,4 +1,4 @@
-// The inspector of the Texture workspace: the texture and where it lies.
+// Texture workspace: the texture and its placement.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace weft::ui {
 namespace {
 
-// Beyond this a texel is seen as such.
+// Above this magnification single texels are visible.
 constexpr double kMostMagnified = 1.5;
 
 void magnified_warning(Ctx& c, const Region& region) {
@@ -17,7 +17,7 @@ void magnified_warning(Ctx& c, const Region& region) {
     const KeyedNumbers& keys = region.placement.scale_keys;
     if (!keys.empty()) scale = keys.at(c.view.frame)[0];
     if (scale <= kMostMagnified) return;
-    // What came from the library may have a larger original.
+    // A library texture may have a larger original.
     TextureCard card;
     card.path = library_name_of(region.texture.sample);
     if (!card.path.empty()) card = c.textures.details(card);

@@ -1,4 +1,4 @@
-// What to render, what it will take, and what is being rendered.
+// The render page: settings, estimate and jobs.
 #include <algorithm>
 #include <cmath>
 
@@ -84,10 +84,10 @@ RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality
     in.speed = c.settings.render_speed;
     count_regions(v.project, in);
     in.layers = !c.state.output.layers.empty();
-    // The preview's analysis serves a render of its quality.
-    const bool there = v.preview_quality == quality && v.result_current && !v.preview.analysing;
+    // The preview's analysis is reused by a render of the same quality.
+    const bool analysed = v.preview_quality == quality && v.result_current && !v.preview.analysing;
     in.analysed =
-        there || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
+        analysed || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
     return estimate_render(in);
 }
 
@@ -123,7 +123,7 @@ double estimate(Ctx& c, const std::vector<int>& frames) {
     return now.seconds;
 }
 
-// Layers for compositing, and where they go.
+// Layers for compositing and their files.
 void layer_choice(Ctx& c) {
     const Theme& t = c.theme;
     ExportState& e = c.state.output;
@@ -164,7 +164,7 @@ void take_layers(const ExportState& e, SubmitJob& job) {
         job.layers_path = folder_of(job.output) + "/layers/####.exr";
 }
 
-// Why it cannot be rendered, with the region's name if a region is the reason.
+// The reason why it cannot be rendered, with the region's name if it concerns a region.
 std::string in_words(const Ctx& c, const Issue& problem) {
     for (const Leaf<Region>& region : c.view.project.regions)
         if (const auto found = c.view.unready.find(region->id); found != c.view.unready.end())
@@ -230,7 +230,7 @@ void export_card(Ctx& c, ImVec2 size) {
     const Issue* problem = nullptr;
     for (const Issue& issue : c.view.issues)
         if (issue.severity == Severity::kError && !problem) problem = &issue;
-    // The output is chosen here, so it may be missing in the document.
+    // The output is set here, so it may be missing in the document.
     const bool ready = problem == nullptr || problem->where.find("output") != std::string::npos;
     const bool no_plate = c.view.plate.state == PlateView::State::kFailed;
     if (!ready)
@@ -249,7 +249,7 @@ void export_card(Ctx& c, ImVec2 size) {
         if (e.with_movie) job.movie = folder_of(e.output) + ".mp4";
         job.overwrite = e.existing == 2;
         job.skip_existing = e.existing == 1;
-        job.foreseen_s = seconds;
+        job.estimated_s = seconds;
         take_layers(e, job);
         c.emit(job);
     }
@@ -423,12 +423,12 @@ void jobs_page(Ctx& c, ImVec2 size) {
 
 void learn_from_jobs(Ctx& c) {
     for (const JobView& job : c.view.jobs) {
-        if (job.state != JobState::kDone || job.foreseen_s <= 0 ||
+        if (job.state != JobState::kDone || job.estimated_s <= 0 ||
             c.state.calibrated_jobs.contains(job.id))
             continue;
         c.state.calibrated_jobs.insert(job.id);
         c.settings.render_speed =
-            calibrated_speed(c.settings.render_speed, job.foreseen_s, job.elapsed_s);
+            calibrated_speed(c.settings.render_speed, job.estimated_s, job.elapsed_s);
     }
 }
 

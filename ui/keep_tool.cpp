@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/viewer.h"
@@ -25,7 +25,7 @@ void add_amendment(Ctx& c, const Region& region, PlaneAmendment one, Vec2 at) {
     std::vector<PlaneAmendment> all = *region.amendments;
     one.kind = c.state.keep_again ? PlaneAmendment::Kind::kAgain : PlaneAmendment::Kind::kKeep;
     if (c.state.keep_again) {
-        // The same place once more: another try.
+        // A second click on the same place tries another seed.
         if (const auto before = amendment_at(all, *provenance(c), at);
             before && all[*before].kind == PlaneAmendment::Kind::kAgain) {
             ++all[*before].seed;
@@ -49,7 +49,7 @@ void click(Ctx& c, const Region& region, Vec2 at) {
         return;
     }
     const bool seam = c.state.keep_seams != io.KeyShift;
-    if (auto one = seam ? seam_at(from, at) : piece_at(from, at))
+    if (auto one = seam ? seam_at(from, at) : patch_at(from, at))
         add_amendment(c, region, std::move(*one), at);
 }
 
@@ -65,9 +65,9 @@ std::int64_t texels_of(const PlaneAmendment& amendment) {
 void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
-    // What one works on has to be seen.
-    if (c.view.overlay != Overlay::kPieces) {
-        c.emit(ShowOverlay{Overlay::kPieces});
+    // The tool needs its overlay.
+    if (c.view.overlay != Overlay::kSourceMap) {
+        c.emit(ShowOverlay{Overlay::kSourceMap});
         c.state.keep_overlay = true;
     }
     if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

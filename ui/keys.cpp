@@ -22,7 +22,7 @@ constexpr std::array kNamed{
     NamedKey{"F4", 293},       NamedKey{"F5", 294},        NamedKey{"F6", 295},
     NamedKey{"F7", 296},       NamedKey{"F8", 297},        NamedKey{"F9", 298},
     NamedKey{"F10", 299},      NamedKey{"F11", 300},       NamedKey{"F12", 301}};
-// Keys that stand for the character they print on a US keyboard.
+// Keys that print this character on a US keyboard.
 constexpr std::string_view kPrinting = "',-./0123456789;=ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]`";
 
 }  // namespace

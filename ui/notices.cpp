@@ -1,4 +1,4 @@
-// Messages over the picture: questions first, then what happened, the newest first.
+// Notices over the picture: questions first, then messages, newest first.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,7 +11,7 @@
 namespace weft::ui {
 namespace {
 
-// Boxes one below the other; on the page of renders from the bottom up, clear of the queue.
+// A stack of boxes; on the render page from the bottom up, clear of the queue.
 class NoticeStack {
   public:
     explicit NoticeStack(Ctx& c)
@@ -24,8 +24,8 @@ class NoticeStack {
     }
     [[nodiscard]] float width() const { return width_; }
 
-    /// `buttons(at, height)` draws into the box, whose corner is `at`; below the text `extra`
-    /// pixels are left for them.
+    /// `buttons(at, height)` draws into the box with corner `at`; `extra` pixels below the text are
+    /// left for it.
     template <class Buttons>
     void add(const std::string& id, NoticeKind kind, const std::string& text, float extra,
              Buttons&& buttons) {
@@ -46,7 +46,7 @@ class NoticeStack {
         y_ += low_ ? -t.px(8) : h + t.px(8);
     }
 
-    /// A box that asks for one of two answers.
+    /// A box with two answers.
     template <class Answer>
     void ask(const std::string& id, const std::string& text, const char* yes, const char* icon,
              const char* no, Answer&& answer) {
@@ -60,7 +60,7 @@ class NoticeStack {
     }
 
   private:
-    // The bar and the icon that tell the kind; the icon stands in the middle of the text's height.
+    // The coloured bar and the icon of the kind; the icon is vertically centred on the text.
     void draw(NoticeKind kind, ImVec2 at, float text_height, float height) const {
         const Theme& t = c_.theme;
         const ImU32 color = kind == NoticeKind::kGood      ? t.good

@@ -1,6 +1,5 @@
 #pragma once
-// The parts of the window. Each draws itself into the place it is given, from the session's view,
-// and emits actions.
+// The panels. Each draws itself into its place from the session's view and emits actions.
 
 #include "ui/ctx.h"
 
@@ -16,7 +15,7 @@ void texture_drawer(Ctx& c, ImVec2 size);
 void review_panel(Ctx& c, ImVec2 size);
 void strip_panel(Ctx& c, ImVec2 size);
 void jobs_page(Ctx& c, ImVec2 size);
-/// Takes what finished jobs tell of this machine's speed into the settings.
+/// Calibrates the estimate with the times of finished jobs.
 void learn_from_jobs(Ctx& c);
 void welcome(Ctx& c, ImVec2 size);
 
@@ -28,7 +27,7 @@ void motion_inspector(Ctx& c);
 void light_inspector(Ctx& c);
 void review_inspector(Ctx& c);
 void keep_section(Ctx& c, const Region& region);
-/// The frames on which a correction would help most; `mattes_only`: of the matte alone.
+/// Suggested keyframes; `mattes_only`: those of the matte only.
 void hints_section(Ctx& c, bool mattes_only);
 void holdouts_section(Ctx& c, const Region& region);
 void zones_section(Ctx& c, const Region& region);
@@ -37,15 +36,15 @@ void shape_controls(Ctx& c);
 void corrections_section(Ctx& c, const Region& region);
 void lamps_controls(Ctx& c, const Region& region);
 void provenance_section(Ctx& c, const Region& region);
-/// What stands where a region is wanted and none is selected.
+/// Placeholder when no region is selected.
 void no_region(Ctx& c);
 
-// What floats over the rest.
+// Floating windows.
 void notices(Ctx& c);
 void command_palette(Ctx& c);
 void shortcut_sheet(Ctx& c);
 void settings_window(Ctx& c);
-/// How a folder of textures is added: into the library, or only shown.
+/// The window for adding a folder of textures: import it, or browse it only.
 void adding_window(Ctx& c);
 void shot_window(Ctx& c);
 void history_window(Ctx& c);
@@ -54,20 +53,21 @@ void file_browser(Ctx& c);
 void leave_question(Ctx& c);
 void tour(Ctx& c);
 
-/// The inspector's section of how the texture goes through time.
+/// The inspector's section for temporal parameters.
 void time_section(Ctx& c, const Region& region);
-/// Sliders, choices and texts of one parameter of a region, from its entry in the table.
+/// The control of one parameter of a region, from its table entry.
 void region_parameter(Ctx& c, const Region& region, std::string_view key,
                       const char* label = nullptr);
-/// The same for one that may change over time: `keys` is the key of its text of keys.
+/// The control of an animatable parameter; `keys` is the key of its keyframes.
 void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::string_view keys,
                      const char* label = nullptr);
-/// A colour space: built in, or one of the OpenColorIO config's. `usual`: what an empty one means.
+/// A colour space control: built-in spaces or those of the OpenColorIO config. `usual`: the meaning
+/// of an empty value.
 void space_parameter(Ctx& c, std::string_view key, const char* label, const char* usual);
 void project_parameter(Ctx& c, std::string_view key, const char* label = nullptr);
-/// The label of a parameter's slider by its full key: "Scale"; empty where it has none.
+/// The label of a parameter by its full key, such as "Scale"; empty if it has none.
 [[nodiscard]] std::string_view parameter_label(std::string_view key);
-/// A choice in an artist's words: "Locked to the surface" for "locked"; else the name itself.
+/// The label of a choice: "Locked to the surface" for "locked"; without a label, its name.
 [[nodiscard]] std::string choice_label(std::string_view key, std::string_view name);
 
 }  // namespace weft::ui

@@ -1,4 +1,5 @@
-// Controls of the document's parameters, from the tables that also give the command line its flags.
+// Controls of the document's parameters, generated from the tables that also define the
+// command-line flags.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,7 @@
 namespace weft::ui {
 namespace {
 
-// How a number's slider runs; what may be typed is the table's own range.
+// Range and speed of a slider; typed values may use the table's full range.
 struct Shape {
     std::string_view key;
     const char* label;
@@ -37,7 +38,7 @@ constexpr Shape kShapes[] = {
     {"plate.fps", "Frame rate", 0, 120, 3, false, "fps"},
 };
 
-// Choices in an artist's words; the names in files stay as they are.
+// Labels of choices; names in files are not affected.
 struct Word {
     std::string_view key, name;
     const char* shown;
@@ -88,7 +89,7 @@ std::string label_of(const ParameterInfo& info, const char* given) {
     return label;
 }
 
-// Draws the control; `emit(value, final)` is called with what the artist set.
+// Draws the control; calls `emit(value, final)` with the new value.
 template <class Emit>
 void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const char* given,
              Emit&& emit) {
@@ -153,7 +154,7 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
             return;
         }
         case ParameterKind::kPaths: {
-            // One after another in a row, between semicolons.
+            // Several paths in one row, separated by semicolons.
             std::string value = format_parameter(info, now);
             std::replace(value.begin(), value.end(), '\n', ';');
             if (text_row(c, label.c_str(), value, "none", help.c_str()) != Change::kDone) return;
@@ -194,7 +195,7 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
     }
 }
 
-// A rhombus: empty where a value does not change over time, filled on the frame of a key.
+// A keyframe button: hollow without animation, filled on a keyframe.
 bool key_button(Ctx& c, const char* name, bool here, bool anywhere) {
     const Theme& t = c.theme;
     const float side = t.px(20);
@@ -268,7 +269,7 @@ void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::st
         const auto* one = std::get_if<double>(&value);
         return std::vector<double>{one ? *one : 0.0};
     };
-    // Before the row: what is drawn first is what the mouse is over.
+    // Drawn before the row, because the first item drawn receives the mouse.
     const bool here = keys.has(c.view.frame);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float label_w = std::floor(ImGui::GetContentRegionAvail().x * 0.38f);

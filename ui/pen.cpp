@@ -15,7 +15,7 @@ void PenDevices::report(int device, const std::map<int, double>& values) {
     if (value == values.end()) return;
     const double part =
         (value->second - pen->second.least) / (pen->second.most - pen->second.least);
-    // A pen that does not press is above the tablet.
+    // Zero pressure: the pen hovers above the tablet.
     if (part > 0)
         now_ = static_cast<float>(std::min(part, 1.0));
     else

@@ -1,5 +1,5 @@
 #pragma once
-// The pressure of a tablet's pen, from whatever tells it.
+// Pen pressure of a tablet, from any source.
 
 #include <map>
 #include <memory>
@@ -7,22 +7,22 @@
 
 namespace weft {
 
-/// Asked once a frame, from the window's thread.
+/// Queried once per frame from the window's thread.
 class PenSource {
   public:
     virtual ~PenSource() = default;
-    /// 0 – 1; nothing while no pen touches the tablet, or there is none.
+    /// Pressure, 0–1; nothing if no pen touches the tablet.
     [[nodiscard]] virtual std::optional<float> pressure() = 0;
 };
 
-/// Makes pressures of what pens report: numbered values of numbered devices.
+/// Converts raw device values to pressure.
 class PenDevices {
   public:
-    /// `device` reports its pressure as value `number`, between `least` and `most`.
+    /// Registers that `device` reports pressure as value `number`, from `least` to `most`.
     void add(int device, int number, double least, double most);
     void clear() { pens_.clear(), now_.reset(); }
     [[nodiscard]] bool empty() const { return pens_.empty(); }
-    /// The values of a device that have changed. Devices that are not pens are skipped.
+    /// Reports changed values of a device. Devices that are not pens are ignored.
     void report(int device, const std::map<int, double>& values);
     /// As PenSource::pressure().
     [[nodiscard]] std::optional<float> pressure() const { return now_; }

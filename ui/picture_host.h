@@ -1,5 +1,5 @@
 #pragma once
-// What the panels ask of the window: pictures on the screen. Nothing else of it is known here.
+// Interface from the panels to the window, for drawing pictures.
 
 #include <imgui.h>
 
@@ -7,19 +7,19 @@
 
 namespace weft {
 
-/// How a picture is shown; no pixel that is written is touched by it.
+/// Display settings; they do not affect rendered files.
 struct DisplaySettings {
     float exposure = 0;  ///< Stops.
     float gamma = 1;
     enum class Channel : int { kColor, kRed, kGreen, kBlue, kLuma };
     Channel channel = Channel::kColor;
     enum class Curve : int { kSrgb, kVideo, kRaw };
-    Curve curve = Curve::kSrgb;  ///< From linear light to the screen; kVideo: BT.1886.
-    std::shared_ptr<const ScreenView> screen;  ///< In place of `curve`, unless it is null.
+    Curve curve = Curve::kSrgb;                ///< Display curve; kVideo: BT.1886.
+    std::shared_ptr<const ScreenView> screen;  ///< Replaces `curve` if not null.
     bool operator==(const DisplaySettings&) const = default;
 };
 
-/// As the artist set it, through the screen's view that the session has ready.
+/// The settings with the session's current view transform.
 [[nodiscard]] inline DisplaySettings on_screen(DisplaySettings display, const SessionView& view) {
     display.screen = view.screen;
     display.curve = view.screen_name.view == kScreenVideo ? DisplaySettings::Curve::kVideo
@@ -28,39 +28,38 @@ struct DisplaySettings {
     return display;
 }
 
-/// A picture, or a comparison of two, to be drawn at a place on the screen.
+/// A picture, or a comparison of two, to draw on screen.
 struct PictureDraw {
-    PicturePtr a, b;  ///< b: what `a` is compared with.
+    PicturePtr a, b;  ///< b: compared with `a`; may be null
     enum class Mode : int { kSingle, kWipe, kDifference };
     Mode mode = Mode::kSingle;
-    int pane =
-        0;  ///< Which place of the screen; until a large picture has come, it keeps the last.
-    ImVec2 min{0, 0}, max{0, 0};            ///< Where the whole picture lies, in screen pixels.
-    ImVec2 clip_min{0, 0}, clip_max{0, 0};  ///< What of it may be painted.
-    float wipe = 0.5f;                      ///< Left of this part of the picture is `a`.
+    int pane = 0;  ///< Slot on screen; it keeps the last picture until a large one is uploaded.
+    ImVec2 min{0, 0}, max{0, 0};            ///< Rectangle of the whole picture, screen px.
+    ImVec2 clip_min{0, 0}, clip_max{0, 0};  ///< Clip rectangle.
+    float wipe = 0.5f;                      ///< Wipe position, 0–1; `a` is on the left.
     bool smooth = true;                     ///< Interpolate when magnified.
     DisplaySettings display;
 };
 
-/// A matte in a colour over the picture, or values as heat.
+/// A coloured matte, or a heat map, over the picture.
 struct MatteDraw {
     ViewU8x1 pixels;
-    std::uint64_t key = 0;      ///< Of the texture that holds it.
-    std::uint64_t version = 0;  ///< Another number: other pixels.
-    Recti changed;              ///< What differs from the version before; empty: everything.
-    ViewU8x1 where;             ///< For heat: where it holds. Empty: everywhere.
+    std::uint64_t key = 0;      ///< Key of its texture.
+    std::uint64_t version = 0;  ///< Changes with the pixels.
+    Recti changed;              ///< Changed part since the previous version; empty: everything.
+    ViewU8x1 where;             ///< For heat: mask of valid pixels; empty: all.
     bool heat = false;
     ImVec2 min{0, 0}, max{0, 0}, clip_min{0, 0}, clip_max{0, 0};
     ImU32 color = 0;
     float opacity = 0.4f;
-    bool outline = false;  ///< A line along the edge.
+    bool outline = false;  ///< Draws the edge as a line.
 };
 
-/// Draws in the order of the draw list that it is given. One thread.
+/// Draws in the order of the given draw list. Belongs to one thread.
 class PictureHost {
   public:
     virtual ~PictureHost() = default;
-    /// A texture for ImGui's own drawing (thumbnails); null when there is none to be had.
+    /// A texture for ImGui (thumbnails); null if unavailable.
     [[nodiscard]] virtual ImTextureID texture(const PicturePtr& picture) = 0;
     virtual void draw(ImDrawList& list, const PictureDraw& draw) = 0;
     virtual void draw(ImDrawList& list, const MatteDraw& draw) = 0;
@@ -68,7 +67,7 @@ class PictureHost {
     /// Shows a folder in the desktop's file manager.
     virtual void reveal(const std::string& path) = 0;
     virtual void toggle_fullscreen() = 0;
-    /// A window of its own for the picture alone, on another screen where there is one.
+    /// Opens or closes a second window with the picture only, on another monitor if there is one.
     virtual void toggle_second_window() {}
 };
 

@@ -1,4 +1,4 @@
-// How steady the result is, frame by frame, beside the plate's own figures.
+// Quality of the result frame by frame, next to the plate's.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,7 +12,7 @@ namespace {
 
 using Row = QualityReport::Row;
 
-// The newest finished render, or nothing.
+// The newest finished render, or null.
 const JobView* newest_render(const Ctx& c) {
     const JobView* found = nullptr;
     for (const JobView& job : c.view.jobs)
@@ -20,7 +20,7 @@ const JobView* newest_render(const Ctx& c) {
     return found;
 }
 
-// `from`: the first row that has the value.
+// `from`: first row with a value.
 void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row::*plate,
            std::size_t from = 0) {
     const Theme& t = c.theme;
@@ -69,7 +69,7 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
     tooltip(c, "Blue: the result. Grey: the plate, over the same pixels. Drag to scrub");
 }
 
-// A value of a frame as a heat strip shows it; below 0: not known.
+// Heat value of a frame; below 0: not known.
 struct Heat {
     const char* name;
     const char* tip;
@@ -85,11 +85,10 @@ std::vector<Heat> heats_of(const Ctx& c) {
         {"Seams", "How much steeper the picture is at seams than beside them", {}},
         {"Drift", "How different the surface looks from its reference frame", {}},
         {"Matte", "How far the matte's edge departs from the picture's motion", {}}};
-    // An edge that jumps by so many pixels is as bad as it gets.
+    // Edge motion of this many px is the worst on the scale.
     constexpr float kWorstChatter_px = 4;
     for (const FrameMarks& mark : c.view.marks) {
-        out[0].values.push_back(
-            flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_carried));
+        out[0].values.push_back(flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_floor));
         out[1].values.push_back(mark.seam);
         out[2].values.push_back(mark.drift);
         out[3].values.push_back(mark.chatter / kWorstChatter_px);
@@ -97,7 +96,7 @@ std::vector<Heat> heats_of(const Ctx& c) {
     return out;
 }
 
-// One strip a figure, as wide as the panel; dark where all is well. A click goes to the frame.
+// One strip per measure, dark where the value is good. A click goes to the frame.
 void heat_strips(Ctx& c) {
     const Theme& t = c.theme;
     const SessionView& v = c.view;
@@ -140,7 +139,7 @@ void heat_strips(Ctx& c) {
     ImGui::Dummy({0, t.px(2)});
 }
 
-// A frame and how bad it is, in figures.
+// A frame with its measure.
 struct Worst {
     int frame = 0;
     float badness = 0;
@@ -155,11 +154,11 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
         switch (by) {
             case 0:
                 if (mark.flicker < 0) return std::nullopt;
-                return Worst{0, mark.flicker - std::max(mark.flicker_plate, mark.flicker_carried),
-                             number(mark.flicker, 2) +
-                                 (mark.flicker_carried < 0
-                                      ? ", plate " + number(mark.flicker_plate, 2)
-                                      : ", at best " + number(mark.flicker_carried, 2))};
+                return Worst{
+                    0, mark.flicker - std::max(mark.flicker_plate, mark.flicker_floor),
+                    number(mark.flicker, 2) + (mark.flicker_floor < 0
+                                                   ? ", plate " + number(mark.flicker_plate, 2)
+                                                   : ", at best " + number(mark.flicker_floor, 2))};
             case 1: {
                 if (mark.seam < 0) return std::nullopt;
                 std::string text = number(100 * mark.seam, 0) + "% steeper";
@@ -188,7 +187,7 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
     return out;
 }
 
-// The picture of a frame that was measured; empty: none was.
+// Path of a measured frame; empty: none.
 std::string picture_of(const Ctx& c, int frame) {
     for (const Row& row : c.view.report.rows)
         if (row.frame == frame) return row.file;

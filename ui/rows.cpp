@@ -1,4 +1,4 @@
-// Rows of an inspector: a label, a control, and a dot where it is not the default.
+// Inspector rows: a label, a control, and a dot if the value is not the default.
 #include "ui/widgets.h"
 
 #include <imgui_stdlib.h>
@@ -31,7 +31,7 @@ Row begin_row(Ctx& c, const char* label, const char* tip, float reserve_right) {
     return {{at.x + label_w, at.y}, avail - label_w - reserve_right};
 }
 
-// The dot that says "not the default" and resets.
+// The dot of a changed value; a click resets it.
 bool reset_dot(Ctx& c, const char* label, bool differs) {
     const Theme& t = c.theme;
     ImGui::SameLine(0, 0);
@@ -119,7 +119,8 @@ Change slider(Ctx& c, const SliderSpec& s, double& value) {
             c.state.drag_moved = false;
         }
         if (active && ImGui::IsMouseDragging(0, t.px(3))) {
-            // From where it was, so that a click alone changes nothing; Shift for a tenth.
+            // Relative to the start, so that a click alone changes nothing. Shift: a tenth of the
+            // speed.
             const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
             const double moved = fine * ImGui::GetMouseDragDelta(0, 0).x / (max.x - min.x);
             value = from_unit(s, std::clamp(to_unit(s, c.state.drag_start) + moved, 0.0, 1.0));
@@ -202,7 +203,7 @@ bool input(Ctx& c, const char* name, std::string& value, const char* hint, float
     ImGui::PopStyleVar();
     const float room = width - pad - t.px(8);
     if (!ImGui::IsItemActive() && ImGui::CalcTextSize(value.c_str()).x > room) {
-        // Too long: both ends say more than the beginning alone.
+        // Too long: shorten in the middle, because both ends are informative.
         ImDrawList& list = *ImGui::GetWindowDrawList();
         const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
         list.AddRectFilled(min, max, t.field, t.radius);
@@ -222,7 +223,7 @@ bool input(Ctx& c, const char* name, std::string& value, const char* hint, float
 Change text_row(Ctx& c, const char* label, std::string& value, const char* hint, const char* tip) {
     ImGui::PushID(label);
     const Row row = begin_row(c, label, tip, c.theme.px(16));
-    // What is being typed lives here until it is finished, so that the document changes once.
+    // Typed text is kept here until it is finished, so that the document changes once.
     const std::string name = c.panel + "/" + visible(label);
     const bool typing = c.state.typing == name;
     std::string& text = typing ? c.state.typing_text : value;

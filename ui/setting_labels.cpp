@@ -11,7 +11,7 @@ namespace {
 
 using Entry = std::pair<std::string_view, std::string_view>;
 
-// Sections, fields and menu entries that are not sliders of the document's parameters.
+// Labels of sections, fields and menu entries that are not parameter sliders.
 constexpr std::array kLabels{Entry{setting::kAddRegion, "Regions ▸ +"},
                              Entry{setting::kBackend, "Backend"},
                              Entry{setting::kCryptoFiles, "Cryptomatte"},

@@ -1,4 +1,4 @@
-// Shapes of curves, scribbles, and the rectangle to find similar textures by.
+// Tools for roto shapes and scribbles, and the rectangle for finding similar textures.
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +26,8 @@ void finish_drawing(Ctx& c) {
     c.state.shape_drawing = false;
 }
 
-// A click makes a corner, a drag a curve; the first point, or Enter, closes.
+// A click adds a corner, a drag a curve point; clicking the first point, or Enter, closes the
+// shape.
 void draw_new(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     RotoShape& shape = c.state.shape;
     const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);
@@ -57,7 +58,8 @@ void draw_new(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (hovered && !ImGui::IsMouseDown(0)) open.points.push_back({mouse, {0, 0}, {0, 0}, 0});
     constexpr std::size_t kSteps = 16;
     line = outline_of(open, kSteps);
-    line.resize(std::max<std::size_t>(1, line.size() - (kSteps - 1)));  // without the way back
+    // without the closing segment
+    line.resize(std::max<std::size_t>(1, line.size() - (kSteps - 1)));
     outline(c, map, line, false, c.theme.accent_hover);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (const RotoPoint& p : shape.points)
@@ -65,7 +67,7 @@ void draw_new(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (closes) list.AddCircle(first, c.theme.px(8), c.theme.accent_hover, 20, c.theme.px(2));
 }
 
-// The points of a shape that is there. Returns whether something was let go.
+// Edits the points of an existing shape. Returns true if a drag ended.
 bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
     bool done = false;
     const ImU32 color = c.theme.accent_hover;
@@ -82,7 +84,7 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
             over |= grip != Grip::kNone;
             if (grip != Grip::kHeld && grip != Grip::kLetGo) return;
             way = end - p.at;
-            // Both sides stay in line unless Alt breaks them.
+            // Both handles stay collinear unless Alt breaks them.
             const float length = std::hypot(way.x, way.y), opposite = std::hypot(other.x, other.y);
             if (!ImGui::GetIO().KeyAlt && length > 0 && opposite > 0)
                 other = way * (-opposite / length);
@@ -102,7 +104,7 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
             return true;
         }
         if (grip != Grip::kHeld && grip != Grip::kLetGo) continue;
-        // With Ctrl the drag sets the feather, with Shift the whole shape moves.
+        // Ctrl drags the feather, Shift moves the whole shape.
         if (ImGui::GetIO().KeyCtrl) {
             p.feather_px = std::hypot(at.x - p.at.x, at.y - p.at.y);
         } else if (ImGui::GetIO().KeyShift) {
@@ -134,7 +136,7 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         }
     }
     if (over || any_handle_held(c) || !active || !ImGui::IsMouseClicked(0)) return;
-    if (!s.shape.points.empty() && !ImGui::GetIO().KeyAlt) return;  // Alt begins another one
+    if (!s.shape.points.empty() && !ImGui::GetIO().KeyAlt) return;  // Alt starts a new shape
     s.shape = {};
     s.shape.points.push_back({map.to_plate(ImGui::GetIO().MousePos), {0, 0}, {0, 0}, 0});
     s.shape_drawing = true;
@@ -142,7 +144,7 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
 
 void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
     ScribbleState& s = c.state.scribbles;
-    // Lines belong to one frame of one region.
+    // Scribbles belong to one frame of one region.
     if (s.frame != c.view.frame || s.region != c.view.selected)
         s = {c.view.frame, c.view.selected, {}, {}, false, false};
     const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);

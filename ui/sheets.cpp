@@ -1,4 +1,4 @@
-// Windows in the middle of the screen: the keys, the settings, what the shot is.
+// Dialogs: keyboard shortcuts, settings, shot settings.
 #include "ui/sheets.h"
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 
 namespace weft::ui {
 
-// A window in the middle of the screen, closed by its cross or Esc.
+// A centred dialog, closed by its button or Esc.
 bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const Theme& t = c.theme;
     size.x = std::min(size.x, screen.x - t.px(32));
     size.y = std::min(size.y, screen.y - t.px(32));
-    // In front of everything but the choices that were opened from it.
+    // In front of everything except its own pop-ups.
     if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
         ImGui::SetNextWindowFocus();
     begin_floating(t, title,
@@ -133,7 +133,7 @@ void settings_window(Ctx& c) {
     end_sheet(c);
 }
 
-// What the plate is and what the shot works in.
+// The plate and the shot's colour settings.
 void shot_window(Ctx& c) {
     if (!c.state.shot_open) return;
     const Theme& t = c.theme;

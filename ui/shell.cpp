@@ -68,7 +68,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     if (!sheet) commands_.dispatch(c);
     layout(c);
     part("windows");
-    // Nobody looks at the strip elsewhere.
+    // The strip is hidden elsewhere.
     const bool strip_seen =
         view.open && !state_.panels_hidden &&
         (state_.workspace == Workspace::kLight ||
@@ -160,7 +160,7 @@ void Shell::layout(Ctx& c) {
     state_.inspector_w = std::clamp(state_.inspector_w, 240.0f, most_w);
     const float inspector_w = panels ? std::floor(t.px(state_.inspector_w)) : 0;
     const float tools_w = panels ? t.px(44) : 0;
-    // On a low screen the picture comes first.
+    // On a low screen, give the picture priority.
     const bool low = screen.y / t.scale < 800;
     const float timeline_least = low ? 84.0f : 96.0f;
     float timeline_unscaled = std::clamp(state_.timeline_h, timeline_least, 260.0f);
@@ -169,7 +169,7 @@ void Shell::layout(Ctx& c) {
     const bool drawer = panels && state_.workspace == Workspace::kTexture;
     const bool report = panels && state_.workspace == Workspace::kReview;
     const bool four = state_.viewer.compare == Compare::kFourUp;
-    // Four pictures need the room that the strip would take.
+    // The four-up view needs the room of the strip.
     const bool strip =
         panels && state_.workspace == Workspace::kLight && !(four && screen.y / t.scale < 1100);
     const bool sheet = strip && state_.sheet();
@@ -179,7 +179,7 @@ void Shell::layout(Ctx& c) {
         : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 196)
         : strip  ? t.px(sheet ? state_.sheet_h : state_.strip_h)
                  : 0;
-    // Unless the artist has drawn it larger, the picture keeps more than half.
+    // By default the picture keeps more than half of the height; the user may enlarge the panels.
     const UiState fresh;
     const float most_h = std::min(body_h - timeline_h - least_view, (low ? 0.34f : 0.36f) * body_h);
     const bool own_size = (drawer && state_.drawer_h > fresh.drawer_h) ||

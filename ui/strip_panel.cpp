@@ -1,5 +1,5 @@
-// Small results: frames of the shot, this frame with other textures or settings, or a contact sheet
-// of settings on several frames.
+// The strip of small results: frames of the shot, this frame with other textures or settings, or a
+// contact sheet of settings on several frames.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace weft::ui {
 namespace {
 
-// What the texture card compares: what is liked, then what was used last.
+// Textures to compare: favourites, then recently used ones.
 std::vector<std::string> textures_to_try(const Ctx& c) {
     std::vector<std::string> out;
     const auto add = [&](const std::vector<std::string>& list) {
@@ -28,7 +28,7 @@ std::vector<std::string> textures_to_try(const Ctx& c) {
     return out;
 }
 
-// The picture in `min`–`max`, or what it waits for.
+// Draws the picture into `min`–`max`, or its state.
 void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -45,7 +45,7 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
                                  t.radius);
         return;
     }
-    // The frames before it, or the picture that is looked at.
+    // Wait for earlier cards or for the main picture.
     const PreviewView& preview = c.view.preview;
     const std::string waiting = preview.analysing && preview.total > 0
                                     ? "After the analysis, " + std::to_string(preview.done) + "/" +
@@ -96,8 +96,8 @@ void row_of_cards(Ctx& c, ImVec2 at, ImVec2 size, float aspect) {
              {w, size.y});
 }
 
-// Settings one below the other, each on the same frames: a button takes the setting, a picture
-// goes to its frame.
+// Settings as rows, each on the same frames. A button applies the setting; a picture goes to its
+// frame.
 void contact_sheet(Ctx& c, ImVec2 at, ImVec2 size, float aspect) {
     const Theme& t = c.theme;
     const auto& cards = c.view.strip.cards;
@@ -158,7 +158,7 @@ void strip_panel(Ctx& c, ImVec2 size) {
                  "Shows each setting on the same frames of the marked range or of the shot");
     }
     const StripView& strip = c.view.strip;
-    // The session follows what is chosen here, and stops when the panel is hidden.
+    // Tells the session what to show, and to stop when the panel is hidden.
     const std::vector<std::string> textures =
         c.state.strip == StripKind::kTextures ? textures_to_try(c) : std::vector<std::string>{};
     if (strip.kind != c.state.strip || textures != c.state.strip_textures ||

@@ -1,4 +1,4 @@
-// Textures of one's own: a folder is brought into the library, or only shown.
+// The user's own textures: import a folder into the library, or browse it only.
 #include <algorithm>
 
 #include "ui/icons.h"
@@ -14,7 +14,7 @@ void show_folder(Ctx& c, const std::string& folder) {
     if (std::find(shown.begin(), shown.end(), folder) == shown.end()) shown.push_back(folder);
 }
 
-// What becomes of the pictures, and who is to be named for them.
+// Options and credits of the import.
 void library_choices(Ctx& c) {
     AddingState& a = c.state.adding;
     wrapped(c,
@@ -69,7 +69,7 @@ void adding_window(Ctx& c) {
     ImGui::Dummy({0, t.px(8)});
     if (button(c, "Add", {.icon = icons::kPlus, .look = Look::kPrimary})) {
         if (a.how == 0) {
-            c.textures.bring_in({a.folder, a.author, a.licence, a.keep_originals});
+            c.textures.import_folder({a.folder, a.author, a.licence, a.keep_originals});
             a.asked = true;
         } else {
             show_folder(c, a.folder);

@@ -1,19 +1,19 @@
 #pragma once
-// Internal to the texture drawer: its parts.
+// Internal: parts of the texture drawer.
 
 #include "ui/ctx.h"
 
 namespace weft::ui {
 
-/// A texture's middle in a square.
+/// The centre of a texture as a square thumbnail.
 void texture_thumbnail(Ctx& c, const std::string& path, ImVec2 min, ImVec2 max);
-/// Makes the last item a texture that can be dragged.
+/// Makes the last item a drag source for the texture.
 void texture_drag_source(Ctx& c, const TextureCard& card);
-/// What suits the selected region, on the artist's frame.
+/// Suggestions for the selected region on the current frame.
 void suggested(Ctx& c, const std::vector<TextureCard>& cards);
-/// One texture for each region, chosen to go with each other.
+/// Suggested sets: one texture for each region, chosen to match.
 void suggested_together(Ctx& c, const std::vector<TextureCard>& cards);
-/// Where the textures come from, under which licence, and what they look like.
+/// Filters by origin, licence and look.
 void texture_facets(Ctx& c);
 
 }  // namespace weft::ui

@@ -1,4 +1,4 @@
-// Textures: what there is, what suits the region, and one of them large.
+// The texture drawer: library, suggestions and large preview.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -34,16 +34,16 @@ bool matches(const Ctx& c, const TextureCard& card, const std::string& wanted) {
     return text.find(wanted) != std::string::npos;
 }
 
-// Chooses what is shown, when something that it depends on has changed.
+// Updates the shown cards if a condition has changed.
 void update_cache(Ctx& c, const std::shared_ptr<const std::vector<TextureCard>>& cards) {
     DrawerState& d = c.state.drawer;
     DrawerCache& cache = d.cache;
     const std::string wanted = lower_case(d.search);
-    // The library knows its words better than a comparison of letters does.
+    // Prefer the library's search over matching letters.
     std::shared_ptr<const std::vector<std::string>> answered = c.textures.similar(d.similar_key);
     if (d.similar_key.empty()) {
-        const TextureQuestion question{wanted + (d.look.empty() ? "" : " " + d.look), d.origin,
-                                       d.licence};
+        const TextureQuery question{wanted + (d.look.empty() ? "" : " " + d.look), d.origin,
+                                    d.licence};
         d.answer = c.textures.search(question);
         if (d.answer) answered = {d.answer, &d.answer->paths};
     }
@@ -244,7 +244,7 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = std::max(1, static_cast<int>((room + gap) / (side + gap)));
     const int rows = (static_cast<int>(shown.size()) + columns - 1) / columns;
-    // Only what is seen is drawn, and only that asks for its thumbnails.
+    // Draws only visible cards, and requests only their thumbnails.
     ImGuiListClipper clipper;
     clipper.Begin(rows, row_h);
     while (clipper.Step()) {
@@ -277,7 +277,7 @@ void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     list.AddRectFilled(at, max, t.field, t.radius);
     if (const PicturePtr picture = c.textures.thumbnail(card.path, 512)) {
         if (const ImTextureID id = c.pictures.texture(picture)) {
-            // Repeated, at one screen pixel a texel, so that its joins can be judged.
+            // Tiled at one screen pixel per texel, to judge the joins.
             const float w = static_cast<float>(picture->size.width);
             const float h = static_cast<float>(picture->size.height);
             list.PushClipRect(at, max, true);
@@ -324,16 +324,16 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
     const float left = t.px(196), count_w = t.px(330);
-    // One texture, large: once one is picked. Until then its room belongs to the others.
+    // The large preview, once a texture is selected. Until then the cards use its room.
     const auto picked = std::find_if(cards->begin(), cards->end(), [&](const TextureCard& card) {
         return card.path == c.state.drawer.picked;
     });
-    // It opens a moment after the click: the second click of a double one finds the same texture.
+    // Opens shortly after the click, so that the second click of a double click hits the same card.
     DrawerState& d = c.state.drawer;
     constexpr double kMomentS = 0.35;
     if (picked == cards->end()) d.large_shown = false;
-    d.large_due = picked != cards->end() && !d.large_shown;
-    if (d.large_due && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
+    d.large_pending = picked != cards->end() && !d.large_shown;
+    if (d.large_pending && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
         d.large_shown = true;
     const float right = d.large_shown ? std::clamp(size.x * 0.24f, t.px(200), t.px(320)) : 0;
     const float head = t.px(38), body = size.y - head;

@@ -1,4 +1,4 @@
-// The chips that narrow the library.
+// Filter chips of the library.
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/texture_cards.h"
@@ -7,11 +7,11 @@
 namespace weft::ui {
 namespace {
 
-// Words of the library's own that say how a texture looks.
+// The library's words for how a texture looks.
 constexpr const char* kLooks[] = {"dark", "light",  "rough",  "smooth",    "striped", "regular",
                                   "fine", "coarse", "glossy", "colourful", "warm",    "cold"};
 
-// One chip that opens a list; an entry is taken or given back.
+// A chip with a list; an entry is selected or cleared.
 void chip_list(Ctx& c, const char* name, std::string& value,
                const std::vector<TextureCount>& entries) {
     const Theme& t = c.theme;
@@ -38,7 +38,7 @@ void chip_list(Ctx& c, const char* name, std::string& value,
 
 }  // namespace
 
-// Where the textures come from, under which licence, and what they look like.
+// Filters by origin, licence and look.
 void texture_facets(Ctx& c) {
     DrawerState& d = c.state.drawer;
     const auto all = c.textures.everything();

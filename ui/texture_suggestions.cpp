@@ -1,4 +1,4 @@
-// What suits a region, or all regions together, and why.
+// Suggestions for a region, or for all regions, with reasons.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ void texture_thumbnail(Ctx& c, const std::string& path, ImVec2 min, ImVec2 max) 
     if (!picture) return;
     const ImTextureID id = c.pictures.texture(picture);
     if (!id) return;
-    // A square out of its middle.
+    // A square from its centre.
     const float w = static_cast<float>(picture->size.width);
     const float h = static_cast<float>(picture->size.height);
     const float u = w > h ? 0.5f * (1 - h / w) : 0, v = h > w ? 0.5f * (1 - w / h) : 0;
@@ -36,7 +36,7 @@ void texture_drag_source(Ctx& c, const TextureCard& card) {
 
 namespace {
 
-// The line above the suggestions, with the choice between one region and all.
+// The heading, with the choice between one region and all.
 void suggestion_heading(Ctx& c, const std::string& text) {
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, c.theme.quiet);
@@ -49,7 +49,7 @@ void suggestion_heading(Ctx& c, const std::string& text) {
     tooltip(c, "Suggests one texture for each region, chosen to match");
 }
 
-// One suggestion: the artist's own frame with the texture on it, and why.
+// One suggestion: the current frame with the texture on it, and the reason.
 void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, ImVec2 at,
                 ImVec2 size) {
     const Theme& t = c.theme;
@@ -73,7 +73,7 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
         if (mine && made.note == card.path) shown = made.picture;
     const ImTextureID id = shown ? c.pictures.texture(shown) : nullptr;
     if (id) {
-        // Filled, its middle cut to the card's shape.
+        // Crops the centre to the card's shape.
         const float pw = static_cast<float>(shown->size.width);
         const float ph = static_cast<float>(shown->size.height);
         const float wide = size.x / size.y, is = pw / ph;
@@ -83,7 +83,7 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
         const float corner = t.px(30);
         texture_thumbnail(c, card.path, {max.x - corner, max.y - corner}, max);
     } else {
-        // Until it is made the texture itself, repeated.
+        // Shows the tiled texture until the result is ready.
         list.PushClipRect(at, max, true);
         for (float x = at.x; x < max.x; x += size.y)
             texture_thumbnail(c, card.path, {x, at.y}, {x + size.y, max.y});
@@ -103,7 +103,7 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
     ImGui::PopFont();
 }
 
-// Everything that the answer depends on.
+// A key of everything that the result depends on.
 std::string together_key(const Ctx& c, const std::vector<TogetherRegion>& regions,
                          std::size_t cards) {
     std::string key = std::to_string(cards) + "/" + c.view.project.settings.excluded_licences;
@@ -112,7 +112,7 @@ std::string together_key(const Ctx& c, const std::vector<TogetherRegion>& region
     return key;
 }
 
-// The regions that have a matte on this frame; what is kept is named by its id in the library.
+// The regions with a matte on this frame; textures to keep are named by library id.
 std::vector<TogetherRegion> regions_together(const Ctx& c) {
     std::vector<TogetherRegion> out;
     for (const RegionMatteView& matte : c.view.mattes) {
@@ -127,7 +127,7 @@ std::vector<TogetherRegion> regions_together(const Ctx& c) {
     return out;
 }
 
-// "Keep this texture": a lock for each region that has a texture of the library.
+// A lock for each region with a library texture: keep this texture.
 void keep_chips(Ctx& c, const std::vector<TogetherRegion>& regions) {
     std::vector<RegionId>& kept = c.state.drawer.kept;
     bool any = false;
@@ -260,7 +260,7 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
         suggestion(c, *card, s, {at.x + step * static_cast<float>(shown), at.y}, {w, h});
         ++shown;
     }
-    // Rendered on the frame while somebody looks at them.
+    // Rendered on the frame only while visible.
     if (c.view.strip.kind != StripKind::kSuggested || paths != c.state.strip_textures) {
         c.state.strip_textures = paths;
         c.emit(ShowStrip{StripKind::kSuggested, paths});

@@ -18,12 +18,12 @@ constexpr const char* kStrong = "/usr/share/fonts/opentype/inter/Inter-SemiBold.
 constexpr const char* kIcons =
     "/usr/share/fonts/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf";
 
-// Latin, Greek (the symbols of the method), punctuation, arrows and mathematical signs.
+// Latin, Greek (symbols of the method), punctuation, arrows and mathematical signs.
 constexpr ImWchar kTextRanges[] = {0x0020, 0x017F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x2070,
                                    0x209F, 0x2190, 0x22FF, 0x25A0, 0x25FF, 0};
 constexpr ImWchar kIconRanges[] = {icons::kFirst, icons::kLast, 0};
 
-// Inter's em is 0.826 of its line height, which is what ImGui calls the size.
+// Inter's em is 0.826 of its line height, which ImGui uses as font size.
 constexpr float kLinePerEm = 1.21f;
 
 ImFont* load(const char* path, float em_px, float icon_px) {
@@ -50,7 +50,7 @@ ImFont* load(const char* path, float em_px, float icon_px) {
     return font;
 }
 
-// Tabular figures, so that numbers that change do not jump: every digit as wide as the widest.
+// Tabular figures, so that changing numbers do not jump: all digits get the width of the widest.
 void make_figures_tabular(ImFont* font) {
     float widest = 0;
     for (ImWchar c = '0'; c <= '9'; ++c)
@@ -193,7 +193,7 @@ ImU32 region_color(int index, unsigned id) {
 }
 
 ImU32 heat_color(float value) {
-    // Control points along inferno (Smith and van der Walt 2015), mixed linearly.
+    // Samples of the inferno colour map (Smith and van der Walt 2015), interpolated linearly.
     constexpr unsigned kPoints[] = {0x000004, 0x1F0C48, 0x550F6D, 0x88226A, 0xBA3655,
                                     0xE35933, 0xF98C0A, 0xF9C932, 0xFCFFA4};
     constexpr int kLast = 8;
@@ -208,10 +208,10 @@ ImU32 heat_color(float value) {
     return IM_COL32(mix(16), mix(8), mix(0), 255);
 }
 
-float flicker_heat(float flicker, float plate, float carried) {
+float flicker_heat(float flicker, float plate, float floor) {
     constexpr float kKnown = 0.15f, kWorst = 6.0f;
     if (flicker < 0) return -1;
-    return std::clamp(kKnown + std::max(0.0f, flicker - std::max(plate, carried)) / kWorst, 0.0f,
+    return std::clamp(kKnown + std::max(0.0f, flicker - std::max(plate, floor)) / kWorst, 0.0f,
                       1.0f);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How the editor looks, as named tokens: no panel has a colour or a distance of its own.
+// The editor's theme as named tokens; panels define no colours or distances of their own.
 
 #include <imgui.h>
 
@@ -8,14 +8,14 @@
 namespace weft {
 
 struct Theme {
-    // Surfaces: neutral grey, so that the picture is the most colourful thing on the screen.
+    // Surfaces are neutral grey, so that they do not affect colour judgement.
     ImU32 surround, panel, raised, field, line;
     ImU32 text, quiet, off;
     ImU32 accent, accent_hover, accent_press, on_accent;
     ImU32 good, warn, bad;
-    ImU32 hover;  ///< Laid over whatever is under the mouse.
-    ImU32 scrim;  ///< Behind what floats over the picture.
-    // Distances in pixels, already scaled.
+    ImU32 hover;  ///< Overlay of the item under the mouse.
+    ImU32 scrim;  ///< Background of floating items over the picture.
+    // Distances, px, already scaled.
     float scale = 1;
     float gap, pad, group, row, radius, splitter, splitter_hit, thumb;
     float icon_button;
@@ -24,29 +24,29 @@ struct Theme {
     ImFont* strong = nullptr;
     ImFont* small = nullptr;
     ImFont* title = nullptr;
-    ImFont* display = nullptr;  ///< The name on the welcome screen, and large icons.
+    ImFont* display = nullptr;  ///< For the title of the welcome screen and large icons.
 
     [[nodiscard]] float px(float unscaled) const { return unscaled * scale; }
 };
 
-/// The tokens; fonts are not set.
+/// Returns the tokens, without fonts.
 [[nodiscard]] Theme make_theme(bool dark, bool grey_surround, float scale);
-/// Puts the tokens into ImGui's own style.
+/// Applies the tokens to ImGui's style.
 void apply_theme(const Theme& theme);
-/// Loads the fonts into the current context's atlas. Without the packages' fonts the built-in one
-/// is used.
+/// Loads the fonts into the current context's atlas. If the font packages are missing, the built-in
+/// font is used.
 void load_fonts(Theme& theme);
 
-/// Told apart by colour-blind eyes (Okabe and Ito 2008). Any index.
+/// Colours that colour-blind users can distinguish (Okabe and Ito 2008). Any index.
 [[nodiscard]] ImU32 region_color(int index);
-/// Its own colour, or one by its id where none was chosen.
+/// The region's colour, or one by its id if none is set.
 [[nodiscard]] ImU32 region_color(int index, unsigned id);
-/// A perceptually even map from dark to light, 0–1: seams, flicker, confidence.
+/// A perceptually uniform colour map from dark to light, 0–1: seams, flicker, confidence.
 [[nodiscard]] ImU32 heat_color(float value);
-/// Heat of a frame's flicker beyond the plate's own and beyond what a texture moved unchanged
-/// has, all in 8-bit steps (below 0: not known); below 0 where nothing is known.
-[[nodiscard]] float flicker_heat(float flicker, float plate, float carried);
-/// The same colour, its opacity multiplied.
+/// Heat of a frame's flicker above the plate's and above that of a texture moved unchanged, all in
+/// 8-bit steps (below 0: not known); below 0 if the flicker is not known.
+[[nodiscard]] float flicker_heat(float flicker, float plate, float floor);
+/// The colour with its opacity multiplied.
 [[nodiscard]] ImU32 faded(ImU32 color, float opacity);
 
 }  // namespace weft

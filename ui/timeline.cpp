@@ -1,4 +1,4 @@
-// Transport, ruler, keyframes, what is cached, and how sure or steady each frame is.
+// The timeline: transport, ruler, keyframes, cache, and confidence and quality strips.
 #include <algorithm>
 #include <cmath>
 
@@ -44,7 +44,7 @@ void transport(Ctx& c, ImVec2 size) {
                 std::to_string(v.mark_out.value_or(v.plate.frames.back())),
             t.accent_hover);
     }
-    // The legend of the tracks, right aligned.
+    // The legend of the rows, right-aligned.
     float right = origin.x + size.x - t.px(12);
     const auto legend = [&](const char* text, ImU32 color, int shape) {
         const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text).x;
@@ -122,13 +122,13 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
     const SessionView& v = c.view;
     const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
     const float cache_y = top, cache_h = t.px(4);
-    // Keys under the bars, and under them, where there is room, what is to be looked at.
+    // Keyframes below the bars; suggested keyframes below them if there is room.
     const float keys_y = std::min(top + t.px(18), bottom - t.px(6));
     list.AddRectFilled({scale.x0 - half, cache_y}, {scale.x1 + half, cache_y + cache_h},
                        faded(t.field, 1.0f));
     bool confident = false;
     const auto run = [&](auto&& has, float y, float h, ImU32 color) {
-        // Neighbouring frames become one bar.
+        // Merges neighbouring frames into one bar.
         for (std::size_t k = 0; k < v.marks.size(); ++k) {
             if (!has(v.marks[k])) continue;
             const std::size_t from = k;
@@ -147,7 +147,7 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
         const float x = std::floor(scale.x_of(v.plate.frames[k])) + 0.5f;
         if (mark.confidence >= 0) {
             confident = true;
-            // Dark where it is sure, light where it wants a look.
+            // Dark where confidence is high, light where it is low.
             list.AddRectFilled({x - half, heat_y}, {x + half, heat_y + t.px(6)},
                                heat_color(1.0f - mark.confidence));
         }
@@ -159,7 +159,7 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
             list.AddQuadFilled({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y},
                                t.text);
     }
-    // One thin strip for each figure that is known, upwards from the bottom.
+    // A thin strip for each known measure, from the bottom up.
     float strip_y = confident ? heat_y - t.px(5) : heat_y + t.px(1);
     const float strip_h = t.px(4);
     const auto strip = [&](auto&& value_of) {
@@ -177,9 +177,9 @@ void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float botto
     strip([](const FrameMarks& m) { return m.drift; });
     strip([](const FrameMarks& m) { return m.seam; });
     strip([](const FrameMarks& m) {
-        return flicker_heat(m.flicker, m.flicker_plate, m.flicker_carried);
+        return flicker_heat(m.flicker, m.flicker_plate, m.flicker_floor);
     });
-    // Where a correction would help most.
+    // Suggested keyframes.
     for (const CorrectionHint& hint : v.to_correct) {
         const float x = std::floor(scale.x_of(hint.frame)) + 0.5f, y = top - t.px(1);
         list.AddTriangleFilled({x - t.px(4), y - t.px(6)}, {x + t.px(4), y - t.px(6)}, {x, y},
@@ -205,7 +205,7 @@ void timeline(Ctx& c, ImVec2 size) {
         end_panel(c);
         return;
     }
-    // Half a frame's bar reaches beyond the first and the last frame.
+    // Half a bar extends beyond the first and the last frame.
     const int first = v.plate.frames.front(), last = v.plate.frames.back();
     const float inset = std::max(
         t.px(16), (field_max.x - field_min.x) * 0.5f / static_cast<float>(last - first + 1));

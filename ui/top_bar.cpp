@@ -1,4 +1,4 @@
-// Menus, the project's name, the workspaces, and what the machine computes with.
+// The top bar: menus, project name, workspaces and backend.
 #include <cmath>
 
 #include "ui/icons.h"
@@ -120,7 +120,7 @@ void top_bar(Ctx& c, ImVec2 size) {
     menus(c);
     const float after_menus = ImGui::GetItemRectMax().x;
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    // The name of the project, with a dot while there is something to save.
+    // The project's name, with a dot if there are unsaved changes.
     float name_right = after_menus;
     if (c.view.open) {
         const float room =
@@ -136,7 +136,7 @@ void top_bar(Ctx& c, ImVec2 size) {
     }
     const float right = origin.x + size.x - t.px(108);
     if (c.view.open) workspace_tabs(c, origin, name_right, right);
-    // What it computes with, and the settings.
+    // Backend and settings.
     ImGui::SetCursorScreenPos({origin.x + size.x - t.px(38), origin.y + t.px(6)});
     if (icon_button(c, icons::kSettings, "Settings", c.state.settings_open, "edit.settings"))
         c.commands.run("edit.settings", c);
@@ -227,7 +227,7 @@ void status_bar(Ctx& c, ImVec2 size) {
 void tool_strip(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Tools", size, t.panel, false, t.px(6));
-    // What one does in this workspace; every tool has its key anywhere.
+    // Tools of this workspace; shortcuts of tools work everywhere.
     static const std::vector<const char*> kTools[] = {
         {"tool.pan", "tool.brush", "tool.eraser", "tool.lasso", "tool.polygon", "tool.shape",
          "tool.flood", "tool.scribble", "tool.crypto"},

@@ -1,5 +1,5 @@
 #pragma once
-// Canvas maths: between the plate's pixels and the screen's.
+// Converts between plate pixels and screen pixels.
 
 #include <imgui.h>
 
@@ -9,11 +9,11 @@
 
 namespace weft {
 
-/// Where the plate lies on the screen. `zoom`: screen pixels of a plate pixel across; `aspect`: a
-/// pixel's width over its height.
+/// The plate's position on screen. `zoom`: screen pixels per plate pixel horizontally; `aspect`:
+/// pixel aspect ratio.
 struct ViewMap {
-    ImVec2 min, max;  ///< The part of the screen that the view fills.
-    Vec2 center;      ///< Plate pixel in its middle.
+    ImVec2 min, max;  ///< Screen rectangle of the view.
+    Vec2 center;      ///< Plate pixel at its centre.
     float zoom = 1;
     float aspect = 1;
 
@@ -32,7 +32,7 @@ struct ViewMap {
 
 inline constexpr float kLeastZoom = 0.01f, kMostZoom = 64.0f;
 
-/// The zoom at which a picture fills the view but for a margin, in screen pixels.
+/// The zoom that fits a picture into the view with a margin, in screen pixels.
 [[nodiscard]] inline float fit_zoom(ImVec2 view, Size picture, float margin) {
     if (picture.empty()) return 1;
     const float zoom = std::min((view.x - 2 * margin) / static_cast<float>(picture.width),
@@ -40,7 +40,7 @@ inline constexpr float kLeastZoom = 0.01f, kMostZoom = 64.0f;
     return std::clamp(zoom, kLeastZoom, kMostZoom);
 }
 
-/// The centre after zooming such that what is under `at` stays there.
+/// The centre after zooming about `at`, whose plate position stays fixed.
 [[nodiscard]] inline Vec2 zoom_about(const ViewMap& map, ImVec2 at, float new_zoom) {
     const Vec2 under = map.to_plate(at);
     ViewMap next = map;

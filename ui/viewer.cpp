@@ -1,4 +1,4 @@
-// The picture, what is drawn over it, and the tools that work on it.
+// The viewer: the picture, its overlays and tools.
 #include "ui/viewer.h"
 
 #include <imgui_internal.h>  // BeginDragDropTargetCustom
@@ -72,7 +72,7 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
     return {{whole, shown_result(c), nullptr, {}, "", true}};
 }
 
-// What the screen is taken for: a built-in curve, or a view of the OpenColorIO config.
+// The view transform: a built-in curve, or a view of the OpenColorIO config.
 void screen_choice(Ctx& c) {
     const Theme& t = c.theme;
     const ScreenName& now = c.view.screen_name;
@@ -120,7 +120,7 @@ void screen_choice(Ctx& c) {
     ImGui::PopStyleVar(2);
 }
 
-// Zoom, exposure, gamma, channels and comparisons, at the foot of the picture.
+// The viewer's controls: zoom, exposure, gamma, channels and comparisons.
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     ViewerState& s = c.state.viewer;
@@ -209,7 +209,7 @@ void read_pixel(Ctx& c, const ViewMap& map, const PicturePtr& picture, bool hove
     const Size plate = c.view.plate.size;
     if (!rect_of(plate).contains(at.x, at.y)) return;
     s.pixel = at;
-    // The picture may be a smaller one of the same frame.
+    // The picture may be a proxy of the frame.
     s.value = picture->at(at.x * picture->size.width / plate.width,
                           at.y * picture->size.height / plate.height);
 }
@@ -233,7 +233,7 @@ void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     }
 }
 
-// The line of the wipe can be taken and moved; true while the mouse is on it.
+// Lets the user drag the wipe line; returns true while the mouse is on it.
 bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
     ViewerState& s = c.state.viewer;
     if (s.compare != Compare::kWipe || s.hold_original) return false;
@@ -260,7 +260,7 @@ void draw_wipe(Ctx& c, ImDrawList& list, const ViewMap& map) {
             c.theme.on_accent, icons::kCompare);
 }
 
-// The way out of frames that are not where they were.
+// Offers to relink missing frames.
 void relink(Ctx& c) {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     const float w = c.theme.px(180);
@@ -273,7 +273,7 @@ void relink(Ctx& c) {
     c.state.browser.just_opened = true;
 }
 
-// What went wrong, whole, where one looks.
+// Shows the full error message in the viewer.
 void failure(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     if (c.view.preview.state != PreviewView::State::kFailed || !c.view.result_wanted) return;
     const Theme& t = c.theme;
@@ -316,7 +316,7 @@ void no_picture(Ctx& c) {
 void viewer(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Viewer", size, t.surround, false, 0);
-    // A bar at the foot says what is seen and how, so that nothing covers the picture.
+    // A bar at the bottom describes the view, so that nothing covers the picture.
     const float bar_h = t.px(30);
     const ImVec2 min = ImGui::GetCursorScreenPos(), foot(min.x + size.x, min.y + size.y);
     size.y = std::max(t.px(40), size.y - bar_h);
@@ -354,7 +354,7 @@ void viewer(Ctx& c, ImVec2 size) {
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const std::vector<Pane> panes = panes_of(c, min, max);
-    // The pane under the mouse is the one that is worked in; all share zoom and centre.
+    // Tools work in the pane under the mouse; all panes share zoom and centre.
     ViewMap map = panes.front().map;
     for (const Pane& pane : panes)
         if (pane.map.contains(ImGui::GetIO().MousePos)) map = pane.map;

@@ -8,9 +8,9 @@
 
 namespace weft::ui {
 
-/// What the brush does: before the picture is drawn, so that this frame's picture has it.
+/// Handles brush input before drawing, so that this frame shows the stroke.
 void brush_input(Ctx& c, const ViewMap& map, bool active);
-/// Shapes and placing with the mouse on the canvas, and the brush's ring.
+/// Handles shapes and transforms with the mouse, and draws the brush outline.
 void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void keep_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// Applies a texture to the region under the mouse, or to the selected one.

@@ -1,4 +1,4 @@
-// Pins and lamps on the canvas.
+// Handles of pins and lamps in the viewer.
 #include "ui/viewer_handles.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ void line(Ctx& c, const ViewMap& map, Vec2 from, Vec2 to, ImU32 color) {
     list.AddLine(map.to_screen(from), map.to_screen(to), color, c.theme.px(1.5f));
 }
 
-// What is said at a handle, legible on any picture.
+// The text beside a handle, legible on any picture.
 void tag(Ctx& c, ImVec2 at, const char* text) {
     const Theme& t = c.theme;
     const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text).x;
@@ -74,7 +74,7 @@ bool any_handle_held(const Ctx& c) {
     return !c.state.handle_held.empty();
 }
 
-// A click holds a place of the texture where it is; a drag takes it where it belongs.
+// A click pins the texture in place; a drag moves it to where it belongs.
 void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
@@ -130,7 +130,7 @@ void set_lamp(Ctx& c, const Region& region, std::size_t index, const std::vector
         c.emit(TryEdit{set});
 }
 
-// Two numbers of a lamp are a place on the plate.
+// A handle for two numbers of a lamp that are a point on the plate.
 bool place_handle(Ctx& c, const ViewMap& map, const std::string& id, std::vector<float>& n,
                   std::size_t x, bool hovered, ImU32 color, Grip& grip) {
     Vec2 at{n[x], n[x + 1]};

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to the viewer: things that are taken hold of on the canvas.
+// Internal to the viewer: handles that can be dragged.
 
 #include "ui/ctx.h"
 #include "ui/view_map.h"
@@ -8,8 +8,8 @@ namespace weft::ui {
 
 enum class Grip : std::uint8_t { kNone, kNear, kTaken, kHeld, kLetGo };
 
-/// A dot at `at` that can be dragged; `at` follows the mouse while it is held. Ids are unique in a
-/// view; one handle at most is held.
+/// A draggable dot; `at` follows the mouse during the drag. Ids are unique within a view; at most
+/// one handle is dragged.
 Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool hovered, ImU32 color,
             bool filled = true);
 [[nodiscard]] bool any_handle_held(const Ctx& c);
@@ -19,7 +19,7 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered);
 void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void scribble_tool(Ctx& c, const ViewMap& map, bool active);
 void similar_tool(Ctx& c, const ViewMap& map, bool active);
-/// Where the mouse went in this frame, on the plate: frames may be far apart, strokes are not.
+/// The mouse path of this frame on the plate, so that strokes are smooth at low frame rates.
 [[nodiscard]] std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map);
 
 }  // namespace weft::ui

@@ -1,4 +1,4 @@
-// What is drawn over the picture: mattes, overlays with their legends, and in words what it is.
+// Overlays: mattes, diagnostics with legends, and the state line.
 #include "ui/viewer_overlays.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, 
     text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
 }
 
-// The selected region's holdouts or zones.
+// Holdouts or zones of the selected region.
 static void draw_layers(Ctx& c, ImDrawList& list, const ViewMap& map,
                         const std::vector<RegionMatteView>& layers, ImU32 color) {
     const SessionView& v = c.view;
@@ -48,7 +48,7 @@ static void draw_layers(Ctx& c, ImDrawList& list, const ViewMap& map,
 
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
-    // A line around the surface would be judged with it.
+    // No outline in Review, where it would disturb judging the edge.
     if (c.state.workspace == Workspace::kReview) return;
     const bool in_mask = c.state.workspace == Workspace::kMask;
     const ImVec2 min = map.to_screen({0, 0});
@@ -70,7 +70,8 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         draw.clip_min = map.min;
         draw.clip_max = map.max;
         draw.color = region_color(region->color, region->id);
-        // While one works on the texture only the outline shows, or its colour would mislead.
+        // Only the outline while working on the texture, because a coloured matte would falsify
+        // colours.
         draw.opacity = !in_mask ? 0.0f : selected ? 0.38f : 0.14f;
         draw.outline = selected;
         c.pictures.draw(list, draw);
@@ -90,11 +91,11 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     draw.where = over->where;
     draw.key = 1'000'000;
     draw.version = over->id;
-    draw.heat = over->kind != Overlay::kGrid && over->kind != Overlay::kPieces;
+    draw.heat = over->kind != Overlay::kGrid && over->kind != Overlay::kSourceMap;
     draw.color = t.text;
-    draw.opacity = over->kind == Overlay::kSeams    ? 1.0f
-                   : over->kind == Overlay::kPieces ? 0.4f
-                                                    : 0.75f;
+    draw.opacity = over->kind == Overlay::kSeams       ? 1.0f
+                   : over->kind == Overlay::kSourceMap ? 0.4f
+                                                       : 0.75f;
     draw.min = map.to_screen({0, 0});
     draw.max = map.to_screen(
         {static_cast<float>(over->value.width()), static_cast<float>(over->value.height())});
@@ -133,7 +134,7 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     list.PopClipRect();
 }
 
-// The legend that stands beside every heat picture.
+// The legend of a heat map.
 void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const auto& over = c.view.overlay_picture;
     const Theme& t = c.theme;
@@ -142,7 +143,7 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
                                              "Seams", "Motion",       "Trust",   "Pieces"};
     const std::string name = kNames[static_cast<int>(c.view.overlay)];
     const bool scale = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion &&
-                       over->kind != Overlay::kPieces;
+                       over->kind != Overlay::kSourceMap;
     const float w = t.px(220), h = scale ? t.px(52) : t.px(26);
     const ImVec2 a(max.x - w - t.px(10), min.y + t.px(10)),
         b(max.x - t.px(10), min.y + t.px(10) + h);
@@ -171,7 +172,7 @@ struct State {
     std::string text;
     ImU32 color;
     const char* icon = nullptr;
-    float part = -1;  // of the work that it waits for
+    float part = -1;  // progress of the pending work, 0–1
 };
 
 State state_of_picture(const Ctx& c) {
@@ -226,7 +227,7 @@ State state_of_picture(const Ctx& c) {
 
 }  // namespace
 
-// What the picture is, and what is being worked out, in words.
+// The state line: what the picture shows and what is in progress.
 void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
     const State state = state_of_picture(c);
@@ -235,7 +236,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
         icon_in(c, list, {x, min.y}, {x + t.px(18), max.y}, state.color, state.icon);
         x += t.px(24);
     }
-    // Errors may take all of the bar but for its controls.
+    // Errors may use the whole bar except its controls.
     const float room = std::max(t.px(60), max.x - x - t.px(616));
     ImGui::PushFont(t.small);
     const std::string shown = fitted(state.text, room);
@@ -249,7 +250,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     list.AddRectFilled({x, y}, {x + w * state.part, y + t.px(3)}, t.warn, t.px(2));
 }
 
-// Where the pixel under the mouse comes from.
+// The provenance of the pixel under the mouse.
 void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered) {
     c.state.viewer.provenance.clear();
     const auto& over = c.view.overlay_picture;
@@ -300,7 +301,7 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
     const float row = t.px(17), h = row * static_cast<float>(lines.size()) + t.px(10);
     w += t.px(18);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    // Beside the mouse, on the side where there is room.
+    // Beside the mouse, where there is room.
     const float x =
         mouse.x + t.px(18) + w < map.max.x ? mouse.x + t.px(18) : mouse.x - t.px(18) - w;
     const float y = std::clamp(mouse.y + t.px(14), map.min.y, std::max(map.min.y, map.max.y - h));

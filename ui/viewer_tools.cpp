@@ -1,4 +1,4 @@
-// Painting, shapes and placing with the mouse.
+// Painting, shapes and transforms with the mouse.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ void paint(Ctx& c, const ViewMap& map, bool hovered) {
     BrushState& b = c.state.brush;
     const ImGuiIO& io = ImGui::GetIO();
     if (hovered || b.painting) brush_ring(c, map);
-    // Ctrl and the right button drag the size, as other painters do.
+    // Ctrl with the right button changes the brush size, as in other paint tools.
     if (hovered && io.KeyCtrl && ImGui::IsMouseDragging(1, 0))
         b.brush.radius_px =
             std::clamp(b.brush.radius_px + io.MouseDelta.x / map.zoom, 0.5f, 2000.0f);
@@ -109,7 +109,7 @@ void polygon(Ctx& c, const ViewMap& map, bool hovered, bool active) {
                        c.theme.px(2));
 }
 
-// A line whose length is known in bricks.
+// The reference line: its length in repeats sets the scale.
 void measure(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     UiState& s = c.state;
     if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -119,7 +119,7 @@ void measure(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         const ImVec2 a = map.to_screen(s.measured->first), b = map.to_screen(s.measured->second);
         list.AddLine(a, b, IM_COL32(0, 0, 0, 170), c.theme.px(4));
         list.AddLine(a, b, c.theme.accent_hover, c.theme.px(2));
-        // A tick at every brick's end.
+        // A tick at every repeat.
         const float dx = b.x - a.x, dy = b.y - a.y, length = std::max(1.0f, std::hypot(dx, dy));
         const ImVec2 across(-dy / length * c.theme.px(5), dx / length * c.theme.px(5));
         for (int k = 1; k < s.measured_count && s.measured_count <= 60; ++k) {
@@ -140,7 +140,7 @@ void measure(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     s.handle_offset = {0, 0};
 }
 
-// The corners of a placement in perspective, each to be dragged where it belongs.
+// Handles of a corner pin.
 bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovered) {
     if (!region.placement.corners_px) return false;
     static constexpr const char* kNames[] = {"corner 1", "corner 2", "corner 3", "corner 4"};
@@ -173,7 +173,7 @@ bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovere
     return taken;
 }
 
-// The texture's placement by hand: drag to move, with Shift to turn, with Ctrl to scale.
+// Transforms the texture: drag to move, Shift to rotate, Ctrl to scale.
 void place(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
@@ -267,7 +267,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (c.view.plate.size.empty()) return;
     if (c.state.keep_overlay && c.state.tool != Tool::kKeep) {
         c.state.keep_overlay = false;
-        if (c.view.overlay == Overlay::kPieces) c.emit(ShowOverlay{Overlay::kNone});
+        if (c.view.overlay == Overlay::kSourceMap) c.emit(ShowOverlay{Overlay::kNone});
     }
     switch (c.state.tool) {
         case Tool::kPan:
@@ -311,7 +311,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
 void drop_texture(Ctx& c, const ViewMap& map, const std::string& path) {
     const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
     RegionId target = c.view.selected;
-    // The topmost region whose matte lies under the mouse.
+    // Find the topmost region with a matte under the mouse.
     for (const RegionMatteView& matte : c.view.mattes) {
         const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
         if (x < 0 || y < 0 || x >= matte.pixels.width() || y >= matte.pixels.height()) continue;

@@ -1,4 +1,4 @@
-// Before anything is open.
+// The welcome screen.
 #include <algorithm>
 #include <cmath>
 

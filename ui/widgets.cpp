@@ -6,23 +6,10 @@
 
 #include "ui/icons.h"
 
-namespace weft {
-
-void Ctx::note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled) {
-    if (!items) return;
-    items->push_back({(panel.empty() ? "" : panel + "/") + std::string(name), min, max, enabled});
-}
-
-void Ctx::note(std::string_view name, bool enabled) {
-    note(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), enabled);
-}
-
-}  // namespace weft
-
 namespace weft::ui {
 namespace {
 
-// The face of a button: surface by state, then what the caller writes on it.
+// Draws a button's background by state; the caller draws its content.
 void face(Ctx& c, ImVec2 min, ImVec2 max, Look look, bool enabled, bool hovered, bool held) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const Theme& t = c.theme;
@@ -80,7 +67,7 @@ std::string fitted(const std::string& text, float width, bool middle) {
     static const std::string kDots = "…";
     std::size_t low = 0, high = text.size();
     const auto cut = [&](std::size_t keep) {
-        const auto whole = [&](std::size_t at) {  // never inside a UTF-8 character
+        const auto whole = [&](std::size_t at) {  // never inside a UTF-8 sequence
             while (at > 0 && at < text.size() && (text[at] & 0xC0) == 0x80)
                 --at;
             return at;
@@ -124,11 +111,11 @@ void icon_in(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, cons
 
 void tooltip(Ctx& c, const char* text, const char* command) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    if (ImGui::IsMouseDown(0)) return;  // what is being done is not to be covered
+    if (ImGui::IsMouseDown(0)) return;  // no tooltips during a drag
     const std::string key = command ? c.commands.key_of(command) : std::string();
     if ((!text || !*text) && key.empty()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.theme.px(8), c.theme.px(5)});
-    // Below what it explains, never over its words; above where there is no room.
+    // Below the item so that its text stays visible; above it if there is no room.
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     const bool low = max.y + c.theme.px(90) > ImGui::GetIO().DisplaySize.y;
     const bool tall = max.y - min.y > c.theme.px(80);
@@ -209,7 +196,7 @@ bool segments(Ctx& c, const char* name, const std::vector<const char*>& labels, 
     for (std::size_t k = 0; k < labels.size(); ++k) {
         if (k) ImGui::SameLine();
         ImGui::PushID(static_cast<int>(k));
-        // The last one ends where the row does.
+        // The last one fills the rest of the row.
         const float rest = k + 1 == labels.size() ? width - each * static_cast<float>(k) : each;
         const bool pressed = ImGui::InvisibleButton("##s", {rest, t.row});
         ImGui::PopID();

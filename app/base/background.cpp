@@ -20,12 +20,12 @@ void keep_thread_priority() {
 
 void lower_thread_priority() {
     if (!gives_way) return;
-    // On Linux a nice value belongs to a thread; where it cannot be set, nothing is lost but some
-    // smoothness. 10 is a ninth of the window's share. Not 19: memory is mapped under a lock of the
-    // whole process, and a thread that is hardly ever run would keep it for as long.
+    // On Linux, nice values are per thread. Failing to set one costs only smoothness. 10 gives a
+    // ninth of the window's share of the processor. 19 would be too low: memory mapping takes a
+    // lock of the whole process, and a thread that rarely runs would hold it for too long.
     constexpr int kNice = 10;
     (void)setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
-    // Waking up, it does not interrupt what draws.
+    // SCHED_BATCH: a thread that wakes up does not preempt the thread that draws.
     const sched_param none{};
     (void)sched_setscheduler(0, SCHED_BATCH, &none);
 }

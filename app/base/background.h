@@ -1,5 +1,5 @@
 #pragma once
-// Work that gives way to the window.
+// Background work at a lower priority than the window.
 
 #include <future>
 #include <type_traits>
@@ -7,15 +7,14 @@
 
 namespace weft {
 
-/// The calling thread, and threads and processes that it starts, run at a lower priority from now
-/// on.
+/// Lowers the priority of the calling thread and of threads and processes that it starts later.
 void lower_thread_priority();
 
-/// Without a window there is nothing to give way to: threads that start from now on keep their
-/// priority. For scripts and tests; before the first session.
+/// Keeps the priority of threads that start from now on, because no window competes with them. For
+/// scripts and tests; call it before the first session.
 void keep_thread_priority();
 
-/// Runs `work` in a thread of its own at that lower priority.
+/// Runs `work` in a new thread at that lower priority.
 template <class F>
 [[nodiscard]] std::future<std::invoke_result_t<std::decay_t<F>>> in_background(F&& work) {
     return std::async(std::launch::async, [work = std::forward<F>(work)]() mutable {

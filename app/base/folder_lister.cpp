@@ -19,7 +19,7 @@ struct Run {
     std::string first_file;
 };
 
-// The name with its last number as placeholders, or nothing.
+// The name with its last number replaced by placeholders; empty if there is no number.
 std::string pattern_of(const std::string& name, int& number) {
     const std::size_t stem = fs::path(name).stem().string().size();
     std::size_t end = stem;

@@ -1,5 +1,5 @@
 #pragma once
-// What a folder holds, as a file browser shows it: numbered pictures as one entry.
+// Lists a folder for the file browser; a numbered sequence is one entry.
 
 #include <future>
 #include <memory>
@@ -15,15 +15,15 @@ enum class EntryKind : std::uint8_t { kFolder, kSequence, kMovie, kPicture, kPro
 struct FolderEntry {
     EntryKind kind = EntryKind::kOther;
     std::string name;     ///< "plate.####.exr"
-    std::string path;     ///< What to open: a pattern for a sequence.
+    std::string path;     ///< Path to open: a pattern for a sequence.
     std::string detail;   ///< "1001–1048, 48 frames"
-    std::string preview;  ///< A picture that shows what it is; empty: none.
+    std::string preview;  ///< Image for the thumbnail; empty: none.
 };
 
 /// Errors: Unreadable. Folders first, then by name.
 [[nodiscard]] Expected<std::vector<FolderEntry>> list_folder(const std::string& folder);
 
-/// Lists in the background. One thread calls.
+/// Lists folders in the background. Belongs to one thread.
 class FolderLister {
   public:
     /// The entries of a folder; null while they are being read.

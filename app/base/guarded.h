@@ -1,22 +1,22 @@
 #pragma once
-// A value that several threads share, and the lock without which nobody gets at it.
+// A value shared between threads, accessible only through its lock.
 
 #include <mutex>
 #include <utility>
 
 namespace weft {
 
-/// Thread-safe: the value is reached through lock() and try_lock() only.
+/// Thread-safe: the value is accessed through lock() and try_lock() only.
 template <class T>
 class Guarded {
   public:
-    /// Holds the lock while it lives. Null after a try_lock() that failed.
+    /// Holds the lock during its lifetime. Null after a try_lock() that failed.
     class Access {
       public:
         explicit operator bool() const { return lock_.owns_lock(); }
         T* operator->() const { return value_; }
         T& operator*() const { return *value_; }
-        /// For a condition variable to wait with.
+        /// The lock, for a condition variable.
         [[nodiscard]] std::unique_lock<std::mutex>& lock() { return lock_; }
 
       private:
@@ -28,7 +28,7 @@ class Guarded {
     };
 
     [[nodiscard]] Access lock() const { return {value_, std::unique_lock(mutex_)}; }
-    /// Never waits.
+    /// Does not block.
     [[nodiscard]] Access try_lock() const {
         return {value_, std::unique_lock(mutex_, std::try_to_lock)};
     }

@@ -29,7 +29,7 @@ void LatestThread::run(WorkerPriority priority) {
         while (sem_wait(&posted_) != 0 && errno == EINTR) {
         }
         if (stop_) return;
-        // A job that replaced another posted twice: the second time there is none.
+        // take() is empty if a newer job replaced the one that this wake-up was for.
         if (const auto job = next_.take()) (*job)();
     }
 }

@@ -1,8 +1,9 @@
 #pragma once
-// One question at a time for a background thread: the newest wins, and the asker never waits.
+// Runs one request at a time in a background thread. The newest request wins, and the caller never
+// waits.
 //
-// No lock is shared with the worker. A worker of low priority may be interrupted at any point, for
-// as long as a busy machine likes; a lock that it holds then would stop the window.
+// The caller and the worker share no lock: a low-priority worker may be preempted for a long time
+// on a busy machine, and a lock held by it would block the window.
 
 #include <semaphore.h>
 
@@ -19,7 +20,7 @@
 
 namespace weft {
 
-/// Room for one value that some threads leave and others take. Thread-safe and wait-free.
+/// A slot for one value that some threads put and others take. Thread-safe and wait-free.
 template <class T>
 class Mailbox {
   public:
@@ -28,24 +29,23 @@ class Mailbox {
     Mailbox(const Mailbox&) = delete;
     Mailbox& operator=(const Mailbox&) = delete;
 
-    /// Replaces, and frees, a value that nobody has taken.
+    /// Replaces and frees a value that was not taken.
     void put(std::unique_ptr<T> value) { delete slot_.exchange(value.release()); }
-    /// Null: there is none.
+    /// Returns null if the slot is empty.
     [[nodiscard]] std::unique_ptr<T> take() { return std::unique_ptr<T>(slot_.exchange(nullptr)); }
 
   private:
     std::atomic<T*> slot_{nullptr};
 };
 
-/// The newest value of something that workers make and the window shows. Thread-safe. put() is
-/// wait-free; get() waits for no put(), only for another get(): call it from threads of one
-/// priority.
+/// The newest of a series of values that workers produce and the window shows. Thread-safe. put()
+/// is wait-free; get() waits only for another get(), so call it from threads of one priority.
 template <class T>
 class Published {
   public:
     using Ptr = std::shared_ptr<const T>;
 
-    /// get() gives null until the first put().
+    /// get() returns null until the first put().
     Published() = default;
     explicit Published(T first) : seen_(std::make_shared<const T>(std::move(first))) {}
 
@@ -64,18 +64,18 @@ class Published {
     mutable Ptr seen_;
 };
 
-/// Of a worker's thread: kBackground gives way to the window, kWindow is for work of a few
-/// milliseconds that the window's next frame shows.
+/// Priority of a worker's thread. kBackground yields to the window; kWindow is for work of a few
+/// milliseconds whose result the next frame of the window shows.
 enum class WorkerPriority : std::uint8_t { kBackground, kWindow };
 
-/// A thread that runs the newest job it was given; one that has not begun when another comes is
+/// A thread that runs the newest posted job. A job that has not started when another is posted is
 /// dropped.
 class LatestThread {
   public:
     using Job = std::function<void()>;
 
     explicit LatestThread(WorkerPriority priority);
-    /// Waits for the job that has begun. One that has not is dropped.
+    /// Waits for the running job. A job that has not started is dropped.
     ~LatestThread();
     LatestThread(const LatestThread&) = delete;
     LatestThread& operator=(const LatestThread&) = delete;
@@ -92,23 +92,23 @@ class LatestThread {
     std::thread thread_;
 };
 
-/// Answers questions of one kind in a thread of its own. A question is named by its key, which
-/// stands for all that the answer depends on. At most one question is worked on and one waits; a
-/// newer one replaces the waiting one and cancels the other. Asking the same again, in every frame
-/// that is drawn, does nothing while the question waits, is worked on, or is answered.
+/// Answers requests of one kind in its own thread. A request is identified by its key, which covers
+/// everything that the answer depends on. At most one request runs and one waits: a newer one
+/// replaces the waiting one and cancels the running one. Repeating a request (for example in every
+/// drawn frame) does nothing while it waits, runs or is answered.
 ///
 /// Thread-safe: ask(), try_read() and newest() never wait for the worker, only for each other; call
-/// them from threads of one priority. Callers that ask different things in turn keep each other
-/// from an answer: give each a worker of its own.
+/// them from threads of one priority. Callers that alternate between different requests would
+/// cancel each other: give each its own worker.
 template <class Key, class Result>
 class LatestWorker {
   public:
     using ResultPtr = std::shared_ptr<const Result>;
-    /// Runs in the worker's thread. May return nothing once the token is cancelled, which nobody
-    /// waits for any more; where it is not cancelled, the question may be asked again.
+    /// Runs in the worker's thread. It may return nothing once the token is cancelled. If it
+    /// returns nothing without cancellation, the request may be repeated.
     using Work = std::function<std::optional<Result>(const CancelToken&)>;
 
-    /// `arrived` is called in the worker's thread after each answer; it must be thread-safe.
+    /// `arrived` is called in the worker's thread after each answer. It must be thread-safe.
     explicit LatestWorker(std::function<void()> arrived = {},
                           WorkerPriority priority = WorkerPriority::kBackground)
         : arrived_(std::move(arrived)), thread_(priority) {}
@@ -116,7 +116,7 @@ class LatestWorker {
     LatestWorker(const LatestWorker&) = delete;
     LatestWorker& operator=(const LatestWorker&) = delete;
 
-    /// The answer, or null and then the question is asked, unless it has been.
+    /// Returns the answer, or null and starts the request unless it is already pending.
     ResultPtr ask(const Key& key, Work work) {
         const std::lock_guard lock(askers_);
         take_answer();
@@ -134,21 +134,21 @@ class LatestWorker {
         return last_.key == key ? last_.result : nullptr;
     }
 
-    /// The answer to this question; null: it is not there, or a newer question has replaced it.
+    /// The answer to this request; null: not available yet, or replaced by a newer request.
     [[nodiscard]] ResultPtr try_read(const Key& key) const {
         const std::lock_guard lock(askers_);
         take_answer();
         return last_.key == key ? last_.result : nullptr;
     }
 
-    /// The latest answer, whatever was asked; null before the first.
+    /// The latest answer to any request; null before the first.
     [[nodiscard]] ResultPtr newest() const {
         const std::lock_guard lock(askers_);
         take_answer();
         return last_.result;
     }
 
-    /// Whether the newest question is not answered yet.
+    /// Returns true while the newest request has no answer.
     [[nodiscard]] bool busy() const {
         const std::lock_guard lock(askers_);
         take_answer();
@@ -167,17 +167,17 @@ class LatestWorker {
         if (fresh->result)
             last_ = std::move(*fresh);
         else if (fresh->serial == serial_)
-            asked_.reset();  // it gave up
+            asked_.reset();  // The work returned no answer.
     }
 
     const std::function<void()> arrived_;
     mutable std::mutex askers_;
-    mutable std::optional<Key> asked_;  // waiting, worked on, or answered
+    mutable std::optional<Key> asked_;  // waiting, running or answered
     std::uint64_t serial_ = 0;
     CancelToken token_;  // of asked_
     mutable Answer last_;
     mutable Mailbox<Answer> answers_;
-    LatestThread thread_;  // ends first
+    LatestThread thread_;  // destroyed first
 };
 
 }  // namespace weft

@@ -6,15 +6,15 @@
 
 namespace weft {
 
-/// A root that has another name on this machine: "/mnt/proj=/Volumes/proj".
+/// A root folder with another path on this machine: "/mnt/proj=/Volumes/proj".
 struct RootMap {
     std::string from, to;
 };
-/// Errors: Usage when there is no "=", or nothing in front of it.
+/// Errors: Usage when there is no "=", or nothing before it.
 [[nodiscard]] Expected<RootMap> parse_root_map(const std::string& text);
 
-/// Every path of the project that lies below a root, below the other one; the first map that fits
-/// counts. A root ends at a slash: /proj does not fit /project.
+/// Moves every path of the project below a root to the other root. The first map that matches wins.
+/// Roots match whole folder names: /proj does not match /project.
 [[nodiscard]] Project with_mapped_roots(const Project& project, const std::vector<RootMap>& maps);
 
 }  // namespace weft

@@ -31,13 +31,14 @@ std::uint16_t float_to_half(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const auto sign = static_cast<std::uint16_t>((bits >> 16) & 0x8000u);
     const float magnitude = std::abs(value);
-    if (std::isnan(value)) return 0;  // Shown as black; the read-out of the file says NaN.
+    if (std::isnan(value)) return 0;  // Shown as black; the pixel read-out shows NaN.
     if (magnitude >= 65504.0f) return static_cast<std::uint16_t>(sign | 0x7BFFu);
     if (magnitude < 6.1035156e-5f) {
         return static_cast<std::uint16_t>(
             sign | static_cast<std::uint16_t>(std::lround(magnitude * 16777216.0f)));
     }
-    const std::uint32_t rounded = (bits & 0x7FFFFFFFu) + 0x1000u;  // Half up: good for a display.
+    // Rounds half up: exact enough for display.
+    const std::uint32_t rounded = (bits & 0x7FFFFFFFu) + 0x1000u;
     return static_cast<std::uint16_t>(sign | ((rounded - 0x38000000u) >> 13));
 }
 

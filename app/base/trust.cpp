@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "weft.trusted/1";
 
-// Of the file, or of what would be in a folder: absolute and without symbolic links.
+// The parent folder of a path, which may not exist yet: absolute and without symbolic links.
 std::string folder_of(const std::string& file) {
     return fs::path(real_path(file)).parent_path().string();
 }
@@ -26,7 +26,7 @@ std::string real_folder(const std::string& folder) {
     return folder_of((fs::path(folder) / "file").string());
 }
 
-// As it is written: on another machine the same path may lead through other links.
+// Not resolved: on another machine the path may lead through other symbolic links.
 void add_folder_of(const std::string& file, std::vector<std::string>& folders) {
     if (file.empty()) return;
     std::error_code ignored;
@@ -42,7 +42,7 @@ bool lies_in(const std::string& path, const std::string& folder) {
 }  // namespace
 
 TrustList TrustList::of_user() {
-    // Without a home there is no place that is the user's alone.
+    // Without a home directory no place belongs to the user alone.
     if (const char* given = std::getenv("XDG_CONFIG_HOME"); given && *given == '/')
         return TrustList((fs::path(given) / "weft" / "trusted.json").string());
     if (const char* home = std::getenv("HOME"); home && *home == '/')

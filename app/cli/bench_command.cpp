@@ -29,7 +29,7 @@ double cpu_s() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Mean and deviation of a quantity over runs.
+// Mean and standard deviation over runs.
 struct Figure {
     double sum = 0, squares = 0;
     int n = 0;
@@ -88,7 +88,7 @@ std::string line_of(const std::string& name, const Runs& r) {
     return text;
 }
 
-// The plane with each texel next to a seam in red.
+// The plane with the texels beside seams in red.
 Status write_seams(const std::string& path, const TexturePlane& plane, const WriteRule& rule) {
     ImageF3 out(plane.pixels.size());
     for (int y = 0; y < out.height(); ++y) {
@@ -233,7 +233,7 @@ CommandResult bench_command(const BenchOptions& options) {
     WEFT_TRY(sample, middle_of(options.sample));
     if (!options.repetition_of.empty()) return report_repetition(options, sample);
     if (options.lighting) return report_lighting(options, sample);
-    // It takes minutes: each line is printed when it is known.
+    // The benchmark takes minutes, so each line is printed as soon as it is known.
     if (!json_output()) {
         print(stdout, backend.name() + ", " + std::string(isa_name(current_isa())) + ", " +
                           std::to_string(thread_count()) + " thread(s), overlap 36 px, sample " +

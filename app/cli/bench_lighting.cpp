@@ -17,7 +17,7 @@
 namespace weft {
 namespace {
 
-constexpr int kFrames = 8;  // of the clip: each of them is evidence, and each is lit
+constexpr int kFrames = 8;  // all are used as evidence and all are relit
 
 double cpu_s() {
     timespec t{};

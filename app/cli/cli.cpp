@@ -17,14 +17,14 @@
 namespace weft {
 namespace {
 
-// Known before the arguments are parsed, so that what is wrong with them is an object too.
+// Needed before parsing, so that usage errors are JSON objects too.
 bool asks_for_json(int argc, char** argv) {
     for (int i = 1; i < argc; ++i)
         if (std::string_view(argv[i]) == "--json") return true;
     return false;
 }
 
-// CLI11 answers help and version itself; everything else is wrong usage.
+// CLI11 handles --help and --version; every other exception is a usage error.
 int parse_and_run(int argc, char** argv, const EditCommand& edit) {
     CommandResult result;
     CLI::App app;
@@ -44,9 +44,9 @@ int parse_and_run(int argc, char** argv, const EditCommand& edit) {
 }  // namespace
 
 int run_cli(int argc, char** argv, const EditCommand& edit) {
-    // A write beyond the limit on a file's size then fails as on a full disk, with our message.
+    // Ignored, so that writing beyond the file size limit fails like a full disk, with a message.
     std::signal(SIGXFSZ, SIG_IGN);
-    keep_libraries_steady();
+    make_libraries_deterministic();
     set_json_output(asks_for_json(argc, argv));
     set_setting_namer(setting_flag);
     try {
@@ -59,7 +59,7 @@ int run_cli(int argc, char** argv, const EditCommand& edit) {
         return conclude(
             fail(ErrorCode::kNoSpace, "Out of memory. Use fewer --threads or smaller plates."));
     } catch (const std::exception&) {
-        // Messages of libraries do not help the user; a debugger finds the place.
+        // Messages of libraries do not help the user.
         return conclude(fail(ErrorCode::kRenderFailed,
                              "Internal error: an unexpected exception. Please report it with the "
                              "command line."));

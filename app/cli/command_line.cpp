@@ -6,7 +6,7 @@
 namespace weft {
 namespace {
 
-// On every command, so that none can be without it. run_cli() reads it out of the arguments.
+// Added to every command. run_cli() reads it from the arguments.
 void add_json_flag(CLI::App& app) {
     app.add_flag_function(
         "--json", [](std::int64_t) {},
@@ -15,7 +15,7 @@ void add_json_flag(CLI::App& app) {
         add_json_flag(*command);
 }
 
-// For packagers of Weft only, so it is hidden in --help.
+// For packagers only, so hidden in --help.
 void add_man(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("man", "Print the manual page");
     command->group("");

@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands, free of how their arguments were written.
+// The subcommands, independent of how their arguments are written.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@
 
 namespace weft {
 
-/// How a job is run, whatever it renders.
+/// Options of a run that do not depend on what it renders.
 struct RunOptions {
     std::string backend = "auto";
     int threads = 0;
@@ -29,20 +29,21 @@ struct RunOptions {
     JobStage stage = JobStage::kAll;
     std::int64_t memory_bytes = 0;  ///< 0: no limit.
     std::string settings;           ///< As JobSpec has it.
-    std::string project_file;       ///< Whose outputs are the project's own; empty: of nobody's.
+    std::string project_file;       ///< Project file that the outputs belong to; empty: none.
     NamedByUser by_user;
-    std::string recipe;              ///< Path of the recipe file.
-    std::string output_root;         ///< Nothing is written elsewhere; empty: anywhere.
+    std::string recipe;       ///< Path of the recipe file.
+    std::string output_root;  ///< Folder that all writes must stay in; empty: no restriction.
     std::vector<std::string> roots;  ///< As WriteLimits has it.
-    std::vector<std::string> reads;  ///< Read besides the project's inputs: its file, a job.
+    /// Files read besides the project's inputs: the project file, a job.
+    std::vector<std::string> reads;
     bool dry_run = false;
     AnalysisCacheOptions cache;
-    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
+    std::string texture_library;  ///< Library of textures "db:ID"; empty: the user's own.
     std::string report;           ///< Path of the JSON report.
     ProgressStyle progress = ProgressStyle::kPlain;
 };
 
-/// Prints the document's warnings. Errors: Usage, what is wrong with it.
+/// Prints the document's warnings. Errors: Usage when the document has an error.
 [[nodiscard]] Status check_document(const Project& project);
 
 /// `weft replace` and `weft render`: the project has its paths resolved.
@@ -62,7 +63,7 @@ struct SubmitOptions {
     bool run = false, trust = false;
     WriteFlags write;
 };
-/// `weft submit`, and `weft task`, which the farm's machines run.
+/// `weft submit`, and `weft task`, which farm workers run.
 CommandResult submit_command(const SubmitOptions& options);
 CommandResult task_command(const std::string& job, const std::string& stage, int index,
                            const RunOptions& given);
@@ -72,7 +73,8 @@ CommandResult doctor_command(const std::string& assets);
 /// `weft --version`: "weft 0.1.0 (commit abc1234), backends: cpu"
 Answer version_answer();
 
-/// `weft cryptomatte`: what a frame's Cryptomatte holds, or what covers pixel `at` ("X,Y").
+/// `weft cryptomatte`: lists a frame's Cryptomatte objects, or finds the one that covers pixel `at`
+/// ("X,Y").
 CommandResult cryptomatte_command(const std::string& path, const std::string& at);
 
 struct VerifyCommandOptions {
@@ -88,11 +90,11 @@ CommandResult matte_command(const Project& project, const std::string& output,
 struct SynthOptions {
     std::vector<std::string> samples;
     std::string output, source_map, texture_space;
-    std::string light;  ///< Picture of a wanted illumination; empty: none.
+    std::string light;  ///< Image of the target illumination; empty: none.
     double light_weight = 0.1;
-    std::string isa;  ///< Empty: the best there is.
+    std::string isa;  ///< Empty: the best available.
     std::string backend = "cpu";
-    bool endless = false;  ///< A part of a plane without end, whose first texel is `at`.
+    bool endless = false;  ///< A part of an unbounded plane, with its first texel at `at`.
     Vec2i at{0, 0};
     PlaneOptions plane;
     int threads = 0;
@@ -105,9 +107,9 @@ struct BenchOptions {
     std::vector<int> sizes;
     int runs = 10;
     int threads = 1;
-    std::string seams;      ///< Folder for pictures of the seams; empty: none.
-    bool lighting = false;  ///< Only what light costs beside the paper's synthesis.
-    /// Planes of other programs: only their repetition is measured.
+    std::string seams;      ///< Folder for images of the seams; empty: none.
+    bool lighting = false;  ///< Only the cost of relighting relative to the paper's synthesis.
+    /// Planes made by other programs, of which only the repetition is measured.
     std::vector<std::string> repetition_of;
     std::string isa, backend = "cpu";
     WriteFlags write;
@@ -117,40 +119,42 @@ CommandResult bench_command(const BenchOptions& options);
 struct MeasureCommandOptions {
     Project project;  ///< Plate, matte, placement, motion; paths resolved.
     std::string result;
-    std::string texture;  ///< Plane to compare with; empty: none.
+    std::string texture;  ///< Reference plane; empty: none.
     std::string motion_estimator = "deepflow";
-    std::string truth;  ///< The scene rendered with the new material; empty: none.
+    std::string truth;  ///< Ground truth: the scene rendered with the new material; empty: none.
     double truth_blur_px = 0;
-    std::string pictures;  ///< Folder for pictures of the light; empty: none.
+    std::string pictures;  ///< Folder for images of the light; empty: none.
     std::string cache;
     int threads = 0;
     WriteFlags write;
 };
 CommandResult measure_command(const MeasureCommandOptions& options);
 
-/// `weft study`; threads, overwrite and the like are in `options` already.
+/// `weft study`; `options` already holds threads, overwrite and the like.
 CommandResult study_command(const StudyOptions& options, const RunOptions& run);
 
 struct DiffOptions {
     std::string a, b;
     std::string frames;
     double tolerance = 0;  ///< Largest difference that counts as the same.
-    /// Where `b` should look like `a`: features, interior, soft edge. Empty: no such comparison.
+    /// Matte of the surface for measuring features, interior and soft edge separately. Empty: not
+    /// measured.
     std::string matte;
     std::optional<int> matte_value;
     std::string matte_channel;
-    std::string worst;  ///< Picture of the ten worst crops to write, or empty.
+    std::string worst;  ///< Image of the ten worst crops; empty: none.
     WriteFlags write;
 };
 CommandResult diff_command(const DiffOptions& options);
 
 CommandResult info_command(const std::string& path);
-/// A fault of the document as an error whose context is its place.
+/// Converts an issue of the document to an error with its place as context.
 [[nodiscard]] Error error_of(const Issue& issue);
 CommandResult validate_command(const std::string& path, bool files);
 CommandResult new_command(const std::string& path, const Project& project, const WriteFlags& write);
-/// A project file changed by a file of actions, by a new region, by another region instead of the
-/// one at `index`. Textures of the library `library` (empty: the user's own) are kept beside it.
+/// Changes a project file: applies a file of actions, adds a region, or replaces the region at
+/// `index`. Textures of the library `library` (empty: the user's own) are copied beside the
+/// project.
 CommandResult apply_command(const std::string& path, const std::string& actions,
                             const std::string& library, bool dry_run);
 CommandResult region_add_command(const std::string& path, Region region,

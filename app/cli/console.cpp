@@ -18,8 +18,8 @@ namespace {
 bool speaks_openjd = false;
 bool answers_json = false;
 
-// Signal handlers may touch nothing but this flag and this pipe.
-// Never destroyed: a signal, and end_in_time(), may come while the process ends.
+// The only data that signal handlers access. Never destroyed, because a signal or end_in_time() may
+// come during exit.
 const CancelToken& signal_token() {
     static const auto* const token = new CancelToken;
     return *token;
@@ -34,9 +34,9 @@ void on_signal(int signal) {
     errno = saved;
 }
 
-// Work looks at the token between its steps, and a step of a large plate may be long. Whatever is
-// in the middle of one when this time is over is left where it stands: no frame is visible before
-// it is whole, and what is half written is removed here.
+// Ends the process if cancelling takes too long. Work checks the token between steps, and one step
+// of a large plate may be slow. No incomplete frame becomes visible, because frames are written
+// under temporary names; those are removed here.
 void end_in_time() {
     constexpr auto kGrace = std::chrono::milliseconds(1500);
     char byte = 0;
@@ -62,7 +62,8 @@ std::string plain_line(const ProgressEvent& e) {
     return line;
 }
 
-// Progress is a percentage that never falls within a task; one task is one stage or few.
+// Open Job Description wants a percentage that never decreases within a task; a task has one stage
+// or a few.
 std::string openjd_lines(const ProgressEvent& e) {
     char line[160];
     const double percent =
@@ -82,7 +83,7 @@ std::string json_line(const ProgressEvent& e) {
            "\n";
 }
 
-// With --json stdout belongs to the one object.
+// With --json, stdout holds only the answer.
 std::FILE* progress_stream() {
     return answers_json ? stderr : stdout;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What goes to which stream: results and progress to stdout, messages to stderr. With --json
-// exactly one object goes to stdout and progress to stderr.
+// Output streams: results and progress go to stdout, messages to stderr. With --json, stdout holds
+// exactly one object and progress goes to stderr.
 
 #include <cstdio>
 #include <string>
@@ -12,28 +12,27 @@
 
 namespace weft {
 
-/// kOpenJd: the lines that Open Job Description reads on stdout.
+/// kOpenJd: lines that Open Job Description parses from stdout.
 enum class ProgressStyle { kPlain, kJson, kNone, kOpenJd };
 
-/// Prints to a stream and flushes it, so that a farm's log is never behind. Control characters but
-/// line breaks and tabs are escaped as JSON has it (engine/core/printable.h); what comes from files
-/// and may hold line breaks goes through printable() before.
+/// Prints and flushes, so a farm's log is always current. Control characters other than line breaks
+/// and tabs are escaped as in JSON (engine/core/printable.h). Pass text from files, which may
+/// contain line breaks, through printable() first.
 void print(std::FILE* stream, std::string_view text);
 void print_warning(std::string_view text);
-/// Prints the error to stderr, and among the progress too where Open Job Description listens.
+/// Prints the error to stderr, and to the progress stream for Open Job Description.
 void report_error(const Error& error);
 
-/// Whether --json was given: stdout then belongs to the one object that conclude() prints, and
-/// progress goes to stderr. Set once, before a command runs.
+/// Returns true if --json was given. Set once, before a command runs.
 [[nodiscard]] bool json_output();
 void set_json_output(bool on);
 
-/// One line for each finished frame: "frame 1042 37/100 37.0% 1.84s"; other stages by name.
-/// It goes to stdout, and to stderr with --json.
+/// Prints one line per finished frame: "frame 1042 37/100 37.0% 1.84s", or the name of another
+/// stage. To stdout, or to stderr with --json.
 [[nodiscard]] ProgressFn progress_printer(ProgressStyle style);
 
-/// A token that SIGINT and SIGTERM cancel, with the exit codes 130 and 143. What has not ended by
-/// itself 1.5 s later is ended: the process then leaves no temporary file behind.
+/// A token that SIGINT and SIGTERM cancel (exit codes 130 and 143). If the process does not stop
+/// within 1.5 s it is ended; temporary files are removed first.
 [[nodiscard]] CancelToken cancel_on_signals();
 
 }  // namespace weft

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Frames of the plate above the same frames of the result, at half size, in one picture.
+// Writes plate frames above the same result frames, at half size, as one image.
 Status write_contact_sheet(const Project& project, const std::string& path, const WriteRule& rule) {
     WEFT_TRY(plate, open_plate(project.plate.path, {}));
     WEFT_TRY(result, open_plate(project.output.path, {}));
@@ -52,7 +52,7 @@ CommandResult demo_command(const std::string& assets, const std::string& given_o
     Project project = resolve_paths(written, project_dir(path));
     project.output.path = (fs::path(output) / "####.png").string();
     project.output.movie = (fs::path(output) / "demo.mp4").string();
-    // The default folder is the demo's own: a second run replaces what the first one left.
+    // The default folder belongs to the demo: a second run replaces the first.
     RunOptions demo_run = run;
     if (given_output.empty()) demo_run.overwrite = !run.skip_existing;
     const std::string sheet = (fs::path(output) / "contact_sheet.png").string();

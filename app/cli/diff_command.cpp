@@ -126,7 +126,7 @@ std::string likeness_text(const SequenceLikeness& likeness) {
     return line;
 }
 
-// Codes of 8 bits as an image to write.
+// Writes 8-bit codes as an image.
 Status write_strip(const std::string& path, const SequenceLikeness& likeness,
                    const WriteRule& rule) {
     const ImageU8x3 strip = strip_of(likeness.worst());

@@ -1,4 +1,4 @@
-// weft doctor: what is found on this machine, what is missing, and what to do about it.
+// weft doctor: checks what is available on this machine and says how to fix what is missing.
 
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// kAbsent: Weft works without it.
+/// kAbsent: optional; Weft works without it.
 enum class Standing { kOk, kAbsent, kFix };
 
 struct Finding {
@@ -34,7 +34,7 @@ Finding cpu_finding() {
 Finding cuda_finding() {
     if (const auto choice = choose_backend("cuda"))
         return {"backend cuda", choice->backend->description(), ""};
-    // What `auto` noted has the reason alone.
+    // The message of `auto` without the backend's name.
     std::string why = "no CUDA device is available";
     if (const auto best = choose_backend("auto"))
         for (const std::string& line : best->passed_over)

@@ -6,8 +6,8 @@
 
 namespace weft {
 
-/// What `--threads`, `--isa` and `--backend` ask of the tools that grow planes: sets the first two
-/// for the process and opens the third. Errors: NoBackend when this machine has not got it.
+/// Applies `--threads` and `--isa` to the process and opens the backend, for tools that synthesize
+/// planes. Errors: NoBackend when this machine does not have it.
 [[nodiscard]] Expected<BackendChoice> choose_engine(int threads, const std::string& isa,
                                                     const std::string& backend);
 

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// from_chars() takes no plus sign.
+// from_chars() rejects a plus sign.
 template <class Number>
 bool read_number(std::string_view text, Number& out) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -32,7 +32,7 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
                 return fmt::format("must be a whole number from {} to {}, not '{}'.", least, most,
                                    text);
             }
-            text = std::to_string(value);  // CLI11 would take 010 for an octal number
+            text = std::to_string(value);  // CLI11 would read 010 as octal
             return {};
         },
         "");

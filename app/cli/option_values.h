@@ -1,6 +1,6 @@
 #pragma once
-// Checks of what an option is given. Their messages are sentences about the option ("must be a
-// whole number from 0 to 1024, not 'abc'."), to which usage.cpp adds its name.
+// Validators of option values. Their messages are sentences about the option ("must be a whole
+// number from 0 to 1024, not 'abc'."); usage.cpp adds the option's name.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -25,7 +25,7 @@ constexpr std::int64_t kLeastInt = std::numeric_limits<std::int32_t>::min(),
 /// "a, b or c"
 [[nodiscard]] std::string either(const std::vector<std::string>& words);
 
-/// For Option::transform(): one of these words, for the value beside it.
+/// For Option::transform(): one of these words, replaced by its value.
 template <class Value>
 [[nodiscard]] CLI::Validator choice(std::vector<std::pair<std::string, Value>> values) {
     std::vector<std::string> words;
@@ -36,7 +36,8 @@ template <class Value>
             std::string wrong = known(text);
             for (const auto& [word, value] : values) {
                 if (word != text) continue;
-                text = std::to_string(static_cast<int>(value));  // as CLI11 reads an enumeration
+                // CLI11 reads enumerations as numbers
+                text = std::to_string(static_cast<int>(value));
                 break;
             }
             return wrong;

@@ -78,7 +78,7 @@ void add_region_remove(CLI::App& group, CommandResult& result) {
     on_run(*command, result, [=] { return region_remove_command(*path, *region); });
 }
 
-// "120,80:132,75": what shows at the first point belongs at the second.
+// "120,80:132,75": moves the texture at the first point to the second.
 Expected<CorrectionPin> pin_from(const std::string& text) {
     CorrectionPin pin;
     int used = 0;

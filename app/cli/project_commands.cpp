@@ -1,5 +1,5 @@
-// weft new, region, apply, info and validate: a project file is read, changed through edits, and
-// written whole.
+// weft new, region, apply, info and validate. A project file is read, changed by edits, and written
+// atomically.
 
 #include <nlohmann/json.hpp>
 
@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What is told of a project on disk: where it is and how many regions it has.
+// The answer after saving a project: its path and number of regions.
 Answer saved_answer(const std::string& path, const Project& project) {
     return {Json{{"project", absolute_path(path)}, {"regions", project.regions.size()}}};
 }
@@ -33,7 +33,7 @@ CommandResult saved(const std::string& path, const Project& project) {
     return saved_answer(path, project);
 }
 
-// Textures of a library are kept beside the project first.
+// Copies textures of a library beside the project before saving.
 CommandResult saved_with_textures(const std::string& path, const Project& project,
                                   const std::string& library) {
     WEFT_TRY(kept, keep_library_textures(project, path, library));
@@ -77,7 +77,7 @@ CommandResult new_command(const std::string& path, const Project& project,
     const Project whole = resolve_paths(project, project_dir(path));
     WEFT_TRY(rule, write_rule(write, {}, whole));
     WEFT_CHECK_OK(save_project(path, project, rule));
-    // What was made here is its user's own.
+    // A project created here is trusted.
     if (!outputs_outside(whole, path).empty()) {
         std::string folder = project_dir(path);
         if (folder.empty()) folder = ".";
@@ -157,7 +157,7 @@ CommandResult region_list_command(const std::string& path) {
 
 namespace {
 
-// Adds each planned region's reference frame to its entry, and returns them as lines of text.
+// Adds each planned region's reference frame to its JSON entry and returns them as text lines.
 std::string add_references(const Project& project, const Shot& shot, Json& regions) {
     std::string text;
     for (std::size_t k = 0; k < shot.references.size(); ++k) {
@@ -205,7 +205,7 @@ CommandResult info_command(const std::string& path) {
 
 namespace {
 
-// What is wrong, for people and for programs.
+// Adds an issue to the text and the JSON of the answer.
 void tell(const Issue& issue, Answer& answer) {
     const bool wrong = issue.severity == Severity::kError;
     answer.text += (wrong ? "error: " : "warning: ") + issue.text() + "\n";

@@ -18,7 +18,7 @@ std::string help_of(const ParameterInfo& info) {
     return help;
 }
 
-// What stands for the value in --help. Units are in the description.
+// The placeholder of a value in --help. The description gives the unit.
 std::string placeholder(const ParameterInfo& info) {
     switch (info.kind) {
         case ParameterKind::kInteger:
@@ -135,7 +135,8 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
 
 namespace {
 
-// One flag's texts as the table reads them: the last one, all of a repeatable one, four corners.
+// Joins the values given to one flag in the form that the table parses: the last value, all values
+// of a repeatable flag, or four corners.
 std::string joined(const ParameterInfo& info, const std::vector<std::string>& texts) {
     if (!info.repeatable && info.kind != ParameterKind::kCorners) return texts.back();
     std::string out;
@@ -178,7 +179,7 @@ Status ProjectFlags::apply(Project& project) const {
 Status ProjectFlags::apply(Region& region) const {
     WEFT_CHECK_OK(apply_given(region, region_));
     if (!mattes_.empty()) {
-        MatteSource matte = *region.matte;  // how it is read stays
+        MatteSource matte = *region.matte;  // keeps channel, value and inversion
         matte.files.clear();
         matte.keyframes.clear();
         matte.select.crypto.clear();
@@ -193,7 +194,7 @@ Status ProjectFlags::apply(Region& region) const {
             MatteSource holdout;
             WEFT_CHECK_OK(add_matte_text(holdout, text));
             if (!holdout.select.crypto.empty()) holdout.files = crypto_files_;
-            // What is painted on several frames is one layer.
+            // Keyframes on several frames form one holdout layer.
             const auto painted =
                 std::find_if(holdouts.begin(), holdouts.end(),
                              [](const MatteSource& h) { return !h.keyframes.empty(); });

@@ -1,5 +1,5 @@
 #pragma once
-// Command-line flags out of the parameter tables (app/project/parameters.h).
+// Command-line flags generated from the parameter tables (app/project/parameters.h).
 
 #include <CLI/CLI.hpp>
 #include <list>
@@ -11,21 +11,21 @@
 
 namespace weft {
 
-/// Flags of one subcommand for everything that a project and a region hold, and what was given.
+/// The flags of one subcommand for project and region parameters, and their given values.
 class ProjectFlags {
   public:
-    /// Which flags a subcommand has.
+    /// Selects the flags of a subcommand.
     struct Which {
         bool plate = true, output = true, render = true, matte = true, region = true;
     };
     ProjectFlags(CLI::App& command, const Which& which);
 
-    /// Sets whatever was given on the command line. Errors: Usage.
+    /// Applies the given flags. Errors: Usage.
     [[nodiscard]] Status apply(Project& project) const;
     [[nodiscard]] Status apply(Region& region) const;
     /// Returns true if the flag of a project's parameter was given, by Parameter::full_key().
     [[nodiscard]] bool given(std::string_view key) const;
-    /// A project of one region out of the flags alone, paths as given.
+    /// Builds a project of one region from the flags alone; paths as given.
     [[nodiscard]] Expected<Project> project() const;
 
   private:

@@ -36,7 +36,7 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     spec.settings = run.settings;
     spec.limits = {run.output_root, run.reads, run.roots};
     spec.report = run.report;
-    // One part of a render makes no recipe.
+    // A single stage writes no recipe.
     if (run.stage == JobStage::kAll) spec.recipe = run.recipe;
     return spec;
 }
@@ -56,7 +56,7 @@ RenderEstimate estimate_of(const Project& project, const Shot& shot, unsigned th
     return estimate_render(in);
 }
 
-// What would be rendered, and what it would take.
+// Lists what would be rendered, with an estimate of time, memory and disk.
 CommandResult dry_run(const Project& project, const RunOptions& run) {
     OpenShotOptions open;
     open.texture_library = run.texture_library;
@@ -134,7 +134,7 @@ CommandResult render_command(const Project& given, const RunOptions& run) {
         WEFT_TRY(versioned, version_up(project));
         project = std::move(versioned);
     }
-    // Reports and errors are read elsewhere, too.
+    // Absolute, since reports and errors may be read from another folder.
     project = resolve_paths(project, absolute_path("."));
     if (run.overwrite + run.skip_existing + run.resume > 1) {
         return fail(ErrorCode::kUsage, std::string(run.resume ? "--resume" : "--skip-existing") +

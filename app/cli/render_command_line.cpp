@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// Relative paths of `project` mean the current folder.
+// Relative paths of `project` refer to the current folder.
 CommandResult run_render(const Project& project, const RunOptions& run) {
     WEFT_CHECK_OK(check_document(project));
     return render_command(project, run);

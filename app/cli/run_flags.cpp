@@ -1,4 +1,4 @@
-// What commands that render or analyse share.
+// Flags shared by commands that render or analyse.
 
 #include <filesystem>
 
@@ -26,7 +26,7 @@ void add_memory_flag(CLI::App& command, RunOptions& run) {
                 const auto bytes = parse_bytes(text);
                 if (!bytes) throw CLI::ValidationError("--memory", bytes.error().message);
                 run.memory_bytes = *bytes;
-                set_decode_limit_bytes(*bytes / 2);  // before any picture is opened
+                set_decode_limit_bytes(*bytes / 2);  // before the first image is opened
             },
             "Memory limit (3G, 800M): fewer frames are processed at the same time")
         ->type_name("BYTES");

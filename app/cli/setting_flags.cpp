@@ -11,7 +11,7 @@ namespace {
 
 using Entry = std::pair<std::string_view, std::string_view>;
 
-// What is no parameter of the document, or has its flags beside the tables.
+// Settings outside the parameter tables.
 constexpr std::array kFlags{Entry{setting::kBackend, "--backend"},
                             Entry{setting::kCache, "--cache"},
                             Entry{setting::kChunk, "--chunk"},

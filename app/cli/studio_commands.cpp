@@ -95,14 +95,14 @@ Expected<FarmEngine> farm_engine(const SubmitOptions& options) {
     return engine->second;
 }
 
-// The project as the machines see it.
+// The project with paths as the farm workers see them.
 Expected<Project> project_for_machines(const SubmitOptions& options) {
     WEFT_TRY(maps, root_maps(options.maps));
     WEFT_TRY(loaded, load_project(options.project));
     return with_mapped_roots(resolve_paths(loaded, project_dir(options.project)), maps);
 }
 
-// What `weft render` would refuse is refused here, not by a task.
+// Fail now, rather than in a task, for whatever `weft render` would refuse.
 Expected<std::vector<std::string>> write_job(const SubmitOptions& options, FarmEngine engine) {
     WEFT_TRY(project, project_for_machines(options));
     WEFT_CHECK_OK(check_document(project));
@@ -136,7 +136,7 @@ Expected<std::vector<std::string>> write_job(const SubmitOptions& options, FarmE
     farm.existing = spec.existing;
     farm.roots = permitted_roots(farm.project, options.project, by_user, trusted);
     if (!options.write.root.empty()) farm.roots = {fs::absolute(options.write.root).string()};
-    // To go on with a job is to replace its files.
+    // Resuming a job replaces its files.
     WriteFlags write = options.write;
     write.overwrite =
         write.overwrite || (spec.existing != ExistingFrames::kRefuse &&
@@ -166,7 +166,7 @@ CommandResult submit_command(const SubmitOptions& options) {
 
 CommandResult task_command(const std::string& job, const std::string& stage, int index,
                            const RunOptions& given) {
-    // Before anything can go wrong, so that it is told in the farm's words.
+    // First, so that errors are also printed in the farm's format.
     static_cast<void>(progress_printer(given.progress));
     WEFT_TRY(task, read_farm_task(job, stage, index));
     RunOptions run = given;
@@ -180,7 +180,7 @@ CommandResult task_command(const std::string& job, const std::string& stage, int
     run.overwrite = task.existing == ExistingFrames::kOverwrite;
     run.skip_existing = task.existing == ExistingFrames::kSkip;
     run.resume = task.existing == ExistingFrames::kResume;
-    run.backend = "cpu";  // the same pixels on every machine
+    run.backend = "cpu";  // for identical pixels on every machine
     return render_command(task.project, run);
 }
 

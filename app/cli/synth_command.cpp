@@ -33,8 +33,8 @@ Status write_plane(const std::string& path, const TexturePlane& plane, const Wri
     return write_image(path, pixels, {}, write);
 }
 
-// The source map: R and G are the sample's x and y of each texel; B the sample's number, plus 256
-// times its orientation.
+// Writes the source map: R and G are the sample's x and y for each texel; B is the sample's index
+// plus 256 times its orientation.
 Status write_source_map(const std::string& path, const TexturePlane& plane, const WriteRule& rule) {
     ImageF3 map(plane.source.size());
     for (int y = 0; y < map.height(); ++y) {
@@ -60,7 +60,7 @@ Expected<ImageU8x3> read_sample(const std::string& path, const std::string& spac
     return make_views(picture.rgb, *display_from_texture).display;
 }
 
-// V of the picture, stretched over the plane (nearest pixel: illumination is smooth).
+// V of the image, stretched over the plane (nearest neighbour, since illumination is smooth).
 Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
     Image<std::uint8_t, 1> out(plane);
     for (int y = 0; y < plane.height; ++y) {
@@ -74,7 +74,7 @@ Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
     return out;
 }
 
-// The texels from `at` on of a plane without end.
+// Reads texels of an unbounded plane, starting at `at`.
 Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const PlaneOptions& grow,
                                     Vec2i at) {
     if (samples.size() > 1 || grow.tileable || grow.guide || grow.orientations.rotations ||
@@ -192,7 +192,7 @@ CommandResult synth_command(const SynthOptions& options) {
     const Backend& backend = *chosen.backend;
     WEFT_TRY(plane, run(options, backend));
     Answer answer;
-    // Measuring repetition takes longer than growing a small plane.
+    // Only for JSON: measuring repetition takes longer than synthesizing a small plane.
     if (json_output()) answer.json = json_of(plane, measure_repetition(plane), backend, options);
     const PlaneStats& s = plane.stats;
     char line[256];

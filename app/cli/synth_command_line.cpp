@@ -17,7 +17,7 @@ void add_isa(CLI::App& command, std::string& isa) {
         ->type_name("");
 }
 
-// A GPU takes longer to start than a plane of ordinary size to grow, so it has to be asked for.
+// CPU by default: starting a GPU takes longer than synthesizing a plane of ordinary size.
 void add_backend(CLI::App& command, std::string& backend) {
     command
         .add_option(

@@ -1,4 +1,4 @@
-// weft trust
+// weft trust.
 
 #include <memory>
 
@@ -15,7 +15,7 @@ struct TrustOptions {
     bool list = false;
 };
 
-// The list as it is now.
+// The current list.
 Answer list_answer(const TrustList& trusted) {
     Answer answer;
     answer.json = {

@@ -1,5 +1,5 @@
 #pragma once
-// --overwrite and --output-root, on every command that writes files.
+// --overwrite and --output-root, for every command that writes files.
 
 #include <string>
 #include <vector>
@@ -15,16 +15,16 @@ namespace weft {
 
 struct WriteFlags {
     bool overwrite = false;
-    std::string root;  ///< Of --output-root; empty: none.
+    std::string root;  ///< Value of --output-root; empty: none.
 };
 
 /// Adds both flags.
 void add_write_flags(CLI::App& command, WriteFlags& flags);
-/// Only --output-root, for a command that has its own --overwrite.
+/// Adds --output-root only, for a command that has its own --overwrite.
 void add_output_root_flag(CLI::App& command, std::string& root);
 
-/// The rule for a command's outputs, which may not be written over `reads` (files, folders,
-/// patterns) or over an input of `project`, whose paths are absolute. Errors: as make_fence().
+/// The write rule for a command's outputs. They must not overwrite `reads` (files, folders,
+/// patterns) or an input of `project`, whose paths are absolute. Errors: as make_fence().
 [[nodiscard]] Expected<WriteRule> write_rule(const WriteFlags& flags,
                                              const std::vector<std::string>& reads,
                                              const Project& project = {});

@@ -93,7 +93,7 @@ void EditorApp::frame(double now_s) {
         const std::string path = (std::filesystem::path(options_.assets) / own).string();
         folders.push_back(path);
     }
-    shell_->textures().look_in(std::move(folders));
+    shell_->textures().scan(std::move(folders));
     session_->update(now_s);
     clock_.enter("ImGui");
     ImGui::NewFrame();
@@ -104,7 +104,7 @@ void EditorApp::frame(double now_s) {
     for (const Action& action : actions)
         session_->act(action);
     clock_.enter("settings");
-    // Settings are few; they are written a while after they changed.
+    // Settings are small: compare and write them every 2 s.
     if (now_s - settings_checked_s_ > 2) {
         settings_checked_s_ = now_s;
         if (!(settings_ == saved_settings_) && options_.script.empty()) {
@@ -132,8 +132,8 @@ bool EditorApp::idle() const {
     return !session_->busy() && !shell_->waiting() && !pictures_.pending();
 }
 
-std::uint64_t EditorApp::news() const {
-    return session_->news() + shell_->textures().arrivals();
+std::uint64_t EditorApp::changes() const {
+    return session_->changes() + shell_->textures().changes();
 }
 
 void EditorApp::close() {

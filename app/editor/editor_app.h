@@ -1,5 +1,5 @@
 #pragma once
-// The session and its interface, put together: what a window or a script drives frame by frame.
+// The session with its user interface, driven frame by frame by a window or a script.
 
 #include <memory>
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace weft {
 
-/// What the interface itself takes of a frame, on the processor; drawing by OpenGL excluded.
+/// Processor time of the interface per frame, without OpenGL drawing.
 struct FrameTimes {
-    double last_ms = 0, worst_ms = 0, sum_ms = 0;  ///< By the clock.
-    double cpu_worst_ms = 0, cpu_sum_ms = 0;       ///< This thread's own work.
+    double last_ms = 0, worst_ms = 0, sum_ms = 0;  ///< Wall-clock time.
+    double cpu_worst_ms = 0, cpu_sum_ms = 0;       ///< CPU time of this thread.
     int frames = 0;
 };
 
-/// Needs a current OpenGL context and a current ImGui context. One thread.
+/// Needs a current OpenGL and a current ImGui context. Belongs to one thread.
 class EditorApp {
   public:
     explicit EditorApp(const EditorOptions& options);
@@ -26,23 +26,23 @@ class EditorApp {
 
     /// Errors: shaders that do not compile.
     [[nodiscard]] Status start();
-    /// Between the backends' NewFrame() and drawing: everything but OpenGL's own work.
+    /// Draws the interface. Call it between NewFrame() of the backends and rendering.
     void frame(double now_s);
-    /// Fonts are reloaded if the scale has changed; returns whether they were.
+    /// Reloads the fonts if the scale has changed; returns true if it did.
     bool update_look(double monitor_scale);
 
     [[nodiscard]] Session& session() { return *session_; }
     [[nodiscard]] Shell& shell() { return *shell_; }
     [[nodiscard]] GlPictures& pictures() { return pictures_; }
     [[nodiscard]] const EditorSettings& settings() const { return settings_; }
-    /// Whether the window may sleep until something happens.
+    /// Returns true if the window may sleep until the next event.
     [[nodiscard]] bool idle() const;
-    [[nodiscard]] std::uint64_t news() const;
+    [[nodiscard]] std::uint64_t changes() const;
     [[nodiscard]] bool wants_to_leave() { return shell_->state().leave; }
     [[nodiscard]] const FrameTimes& times() const { return times_; }
-    /// Of the frame that is being drawn. On in debug builds, and where WEFT_WATCHDOG is set.
+    /// Clock of the current frame. Enabled in debug builds, and when WEFT_WATCHDOG is set.
     [[nodiscard]] FrameClock& clock() { return clock_; }
-    /// Says on stderr which part held up a frame that took too long.
+    /// Reports to stderr which part delayed a slow frame.
     void watch() const;
     void reset_times() { times_ = {}; }
     void close();

@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-constexpr int kSecondWindow = 1000;  // its place; the panes have small numbers
+constexpr int kSecondWindow = 1000;  // its slot; the viewer's panes have small numbers
 
 GLint at(GLuint program, const char* name) {
     return glGetUniformLocation(program, name);
@@ -66,8 +66,8 @@ void GlPictures::begin_frame() {
     textures_.begin_frame();
 }
 
-// A picture that is on its way is finished before the next one begins: else none would ever come
-// while a large plate plays.
+// Finishes an upload before starting the next one; otherwise no frame of a large plate would ever
+// be complete during playback.
 unsigned GlPictures::texture_at(int place, const PicturePtr& wanted) {
     Place& p = places_[place];
     if (!wanted) {
@@ -201,8 +201,8 @@ void GlPictures::bind_picture(unsigned program, unsigned unit, unsigned texture,
     glUniform1i(at(program, name), static_cast<GLint>(unit));
 }
 
-// A picture shown smaller than it is: the shader takes the mean under each pixel of the screen,
-// by taps that lie at most two texels apart, which is as far as one of them sees.
+// For a picture shown reduced, the shader averages the texels under each screen pixel. Taps are at
+// most two texels apart, because bilinear filtering covers two texels.
 void GlPictures::set_footprint(unsigned program, Size picture, float width, float height) const {
     const float across = static_cast<float>(picture.width) / std::max(1.0f, width);
     const float down = static_cast<float>(picture.height) / std::max(1.0f, height);
@@ -235,7 +235,7 @@ void GlPictures::show_alone(const PicturePtr& picture, const DisplaySettings& di
     const unsigned id = texture_at(kSecondWindow, picture);
     if (!id) return;
     if (fresh) {
-        // Vertex arrays are not shared between contexts.
+        // Vertex arrays are not shared between OpenGL contexts.
         glGenVertexArrays(1, &alone_);
         glBindVertexArray(alone_);
         glBindBuffer(GL_ARRAY_BUFFER, quad_buffer_);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in OpenGL: textures by the pictures' ids, and the shaders that show them.
+// Pictures in OpenGL: a texture cache by picture id, and the display shaders.
 
 #include <cstdint>
 #include <functional>
@@ -14,12 +14,12 @@
 
 namespace weft {
 
-/// Needs a current OpenGL 3.3 context for its whole life. One thread.
+/// Needs a current OpenGL 3.3 context during its lifetime. Belongs to one thread.
 class GlPictures final : public PictureHost {
   public:
     GlPictures();
     ~GlPictures() override;
-    /// Errors: a shader that does not compile, with the driver's words.
+    /// Errors: a shader that does not compile, with the driver's message.
     [[nodiscard]] Status make_shaders();
 
     [[nodiscard]] ImTextureID texture(const PicturePtr& picture) override;
@@ -33,16 +33,16 @@ class GlPictures final : public PictureHost {
     void toggle_second_window() override {
         if (on_second_window) on_second_window();
     }
-    /// Draws a picture alone, as large as fits, into the current context, which shares this one's
-    /// textures. `aspect`: width of a pixel over its height; `fresh`: for the first time there.
+    /// Draws one picture, fitted to `size`, into the current context, which shares this one's
+    /// textures. `aspect`: pixel aspect ratio; `fresh`: the first call in that context.
     void show_alone(const PicturePtr& picture, const DisplaySettings& display, float aspect,
                     int width, int height, bool fresh);
-    /// Forgets the orders of the last frame and textures that were not used for a while.
+    /// Clears the last frame's draw calls and frees textures that have not been used for a while.
     void begin_frame();
-    /// Whether a picture of the last frame is still on its way to the screen.
+    /// Returns true while a picture of the last frame is being uploaded.
     [[nodiscard]] bool pending() const { return textures_.pending(); }
     std::function<void()> on_fullscreen, on_second_window;
-    std::function<void(std::string)> on_problem;  ///< Words for the artist.
+    std::function<void(std::string)> on_problem;  ///< Called with a message for the user.
 
   private:
     struct Order;
@@ -51,7 +51,7 @@ class GlPictures final : public PictureHost {
         std::uint64_t version = 0;
         Size size;
     };
-    // What a place on the screen shows: the last picture that was all there, and the next one.
+    // A slot on the screen: the last complete picture and the next one.
     struct Place {
         PicturePtr shown, next;
     };
@@ -69,9 +69,10 @@ class GlPictures final : public PictureHost {
     GlScreen screen_;
     std::map<int, Place> places_;
     std::map<std::uint64_t, Matte> mattes_;
-    std::list<Order> orders_;  // stable addresses: draw lists point to them until the frame is over
+    // a list, because draw lists hold pointers to its entries until the frame ends
+    std::list<Order> orders_;
     unsigned picture_program_ = 0, matte_program_ = 0, quad_ = 0, quad_buffer_ = 0;
-    unsigned alone_ = 0;  // the vertex array of the second context
+    unsigned alone_ = 0;  // vertex array of the second context
 };
 
 }  // namespace weft

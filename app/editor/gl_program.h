@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// Needs a current OpenGL context. 0 when it does not compile; the driver's words are added to
-/// `log`.
+/// Compiles and links a program. Needs a current OpenGL context. Returns 0 on failure and adds the
+/// driver's message to `log`.
 [[nodiscard]] unsigned link_program(const char* vertex, const char* fragment, std::string& log);
 
 }  // namespace weft

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-constexpr unsigned kFirstUnit = 2;  // the pictures have the two before
+constexpr unsigned kFirstUnit = 2;  // units 0 and 1 hold the pictures
 
 GLuint upload(const ScreenShader::Table& table, GLenum target) {
     GLuint id = 0;
@@ -37,7 +37,7 @@ GLuint upload(const ScreenShader::Table& table, GLenum target) {
     return id;
 }
 
-// The first line of a shader names the language's version and must stay the first.
+// Inserts the view's code after the first line: a #version line must stay first.
 std::string with_screen(std::string_view picture, const std::string& screen) {
     const std::size_t first_line = picture.find('\n') + 1;
     std::string out(picture.substr(0, first_line));

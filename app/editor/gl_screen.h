@@ -1,6 +1,5 @@
 #pragma once
-// A view of OpenColorIO on the graphics card: the program that shows pictures through it, and its
-// tables.
+// An OpenColorIO view on the GPU: the shader that applies it, and its lookup tables.
 
 #include <memory>
 #include <string>
@@ -10,8 +9,8 @@
 
 namespace weft {
 
-/// Needs a current OpenGL 3.3 context for its whole life; a second context that shares its objects
-/// may use it too. One thread.
+/// Needs a current OpenGL 3.3 context during its lifetime; a second context that shares its objects
+/// may use it too. Belongs to one thread.
 class GlScreen {
   public:
     GlScreen() = default;
@@ -19,12 +18,12 @@ class GlScreen {
     GlScreen(const GlScreen&) = delete;
     GlScreen& operator=(const GlScreen&) = delete;
 
-    /// Makes the program and the tables of another view than the last one; null: none. The answer:
-    /// what the driver says against it, once.
+    /// Builds the program and tables if the view has changed; null: none. Returns the driver's
+    /// error message once, otherwise an empty string.
     [[nodiscard]] std::string prepare(const std::shared_ptr<const ScreenView>& view);
-    /// 0 while there is no view, or the driver does not take it.
+    /// 0 without a view, or if the driver rejects it.
     [[nodiscard]] unsigned program() const { return program_; }
-    /// Tables to the texture units from 2 on, for the program in use.
+    /// Binds the tables to texture units from 2 on, for the program in use.
     void bind() const;
 
   private:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
 constexpr int kPiecePixels = 1 << 18;
-constexpr double kGrantedMs = 5;  // of this thread's own time, a frame
+constexpr double kGrantedMs = 5;  // CPU time per frame
 
 double thread_ms() {
     timespec now{};
@@ -79,7 +79,7 @@ GlTextures::Texture& GlTextures::made(const PicturePtr& picture, Values values) 
     const auto old = bytes_ + fresh.bytes > kBudgetBytes ? oldest() : textures_.end();
     if (old != textures_.end() && old->second.size == fresh.size &&
         old->second.format == fresh.format) {
-        // Memory that is there already costs nothing: a large new one costs more than its pixels.
+        // Reuse the old texture's memory: allocating a large texture costs more than its upload.
         fresh.id = old->second.id;
         textures_.erase(old);
         return textures_[key] = fresh;

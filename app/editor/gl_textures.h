@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as textures: handed to OpenGL a piece a frame, so that no frame waits for a large one.
+// Uploads pictures to OpenGL in parts, so that no frame waits for a large one.
 
 #include <cstdint>
 #include <map>
@@ -9,11 +9,11 @@
 
 namespace weft {
 
-/// Needs a current OpenGL 3.3 context for its whole life. One thread.
+/// Needs a current OpenGL 3.3 context during its lifetime. Belongs to one thread.
 class GlTextures {
   public:
-    /// Whether the texture's values are linear light (decoded by the driver before it filters), or
-    /// the picture's codes as they stand, as ImGui's own shader shows them.
+    /// Values of the texture: linear light (the driver decodes before filtering), or the picture's
+    /// codes unchanged, as ImGui's shader shows them.
     enum class Values : int { kLinear, kCodes };
 
     GlTextures() = default;
@@ -21,20 +21,20 @@ class GlTextures {
     GlTextures(const GlTextures&) = delete;
     GlTextures& operator=(const GlTextures&) = delete;
 
-    /// The picture's texture once all of it is there, else 0. Each call hands a piece over; further
-    /// ones as long as this frame's time for it lasts.
+    /// Returns the picture's texture once it is uploaded completely, otherwise 0. Each call uploads
+    /// a part, and more parts while this frame's time lasts.
     [[nodiscard]] unsigned in_pieces(const PicturePtr& picture);
-    /// The same at once: for small ones.
+    /// Uploads a small picture at once.
     [[nodiscard]] unsigned whole(const PicturePtr& picture, Values values);
-    /// A new frame: time is granted anew, textures that nobody used go when they are many.
+    /// Starts a frame: resets the upload time, and frees unused textures when there are many.
     void begin_frame();
-    /// Whether a picture that was asked for in this frame is not all there.
+    /// Returns true if a picture requested in this frame is incomplete.
     [[nodiscard]] bool pending() const { return pending_; }
 
   private:
     struct Texture {
         unsigned id = 0;
-        int rows = 0;  // handed over so far
+        int rows = 0;  // uploaded so far
         Size size;
         int format = 0;
         std::size_t bytes = 0;
@@ -47,7 +47,8 @@ class GlTextures {
     void trim();
 
     std::map<std::uint64_t, Texture> textures_;
-    std::vector<std::uint16_t> staging_;  // rows with a fourth channel, which drivers copy fastest
+    // rows padded to four channels, which drivers copy fastest
+    std::vector<std::uint16_t> staging_;
     std::size_t bytes_ = 0;
     std::uint64_t frame_ = 0;
     double spent_ms_ = 0;

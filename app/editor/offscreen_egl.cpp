@@ -1,4 +1,4 @@
-// No window: EGL without a surface, drawing into a framebuffer, driven by a script.
+// Without a window: EGL without a surface draws into a framebuffer, driven by a script.
 #define GL_GLEXT_PROTOTYPES
 #define EGL_EGLEXT_PROTOTYPES
 #include <EGL/egl.h>
@@ -124,7 +124,7 @@ Expected<int> run_offscreen(const EditorOptions& options) {
     io.IniFilename = nullptr;
     io.DisplaySize = {static_cast<float>(options.width), static_cast<float>(options.height)};
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
-    // The window system's numbers for the keys that ImGui itself knows.
+    // GLFW's key codes for ImGui's named keys.
     const std::pair<ImGuiKey, int> keys[] = {
         {ImGuiKey_Tab, 258},     {ImGuiKey_LeftArrow, 263}, {ImGuiKey_RightArrow, 262},
         {ImGuiKey_UpArrow, 265}, {ImGuiKey_DownArrow, 264}, {ImGuiKey_Home, 268},
@@ -150,8 +150,8 @@ Expected<int> run_offscreen(const EditorOptions& options) {
             app.clock().end();
             app.watch();
         };
-        // Only what is written is drawn: nothing would hold a software renderer back from piling up
-        // frames that are not displayed.
+        // Draws only frames that are written. Without vertical sync, a software renderer would
+        // queue frames that nobody sees.
         const auto write = [&](const std::string& path) {
             canvas.begin();
             ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -5,7 +5,7 @@
 
 namespace weft {
 
-/// The pens of the desktop, or null where it does not tell about them.
+/// Opens the tablet pens of the desktop; null if it does not report them.
 [[nodiscard]] std::unique_ptr<PenSource> open_pen();
 
 }  // namespace weft

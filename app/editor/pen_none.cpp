@@ -1,4 +1,4 @@
-// Where XInput 2 is not there, a pen is a mouse.
+// Without XInput 2, a pen acts as a mouse.
 #include "app/editor/pen.h"
 
 namespace weft {

@@ -1,5 +1,4 @@
-// Pens of the X server, by XInput 2: raw reports, on a connection of their own, so that the
-// window's is left alone.
+// Tablet pens through XInput 2: raw events on a separate connection, so that GLFW's is unaffected.
 #include <X11/Xlib.h>
 #include <X11/extensions/XInput2.h>
 
@@ -47,7 +46,7 @@ class X11Pen final : public PenSource {
     void look_for_pens() {
         pens_.clear();
         const Atom wanted = XInternAtom(display_, "Abs Pressure", True);
-        if (wanted == None) return;  // no driver has ever named it
+        if (wanted == None) return;  // no driver has defined this axis
         int count = 0;
         XIDeviceInfo* devices = XIQueryDevice(display_, XIAllDevices, &count);
         for (int k = 0; k < count; ++k) {
@@ -67,7 +66,7 @@ class X11Pen final : public PenSource {
         const double* next = raw.raw_values;
         for (int k = 0; k < 8 * raw.valuators.mask_len; ++k)
             if (XIMaskIsSet(raw.valuators.mask, k)) values[k] = *next++;
-        // What the driver reports of a slave comes under its own number.
+        // Events of a slave device carry its own number.
         pens_.report(raw.sourceid, values);
     }
 

@@ -45,7 +45,7 @@ class ScriptRunner {
     std::function<void()> frame_;
     std::function<Status(const std::string&)> write_;
     Robot robot_;
-    std::map<std::string, std::string> times_;  // lines of the step "times", by the file's path
+    std::map<std::string, std::string> times_;  // lines of the step "times", by file path
 };
 
 bool ScriptRunner::reached(const std::string& what) const {
@@ -94,17 +94,17 @@ Status ScriptRunner::wait_for(const std::string& what, double patience_s) {
     return {};
 }
 
-// Until nothing new has come for a while: thumbnails and pictures arrive one by one.
+// Waits until nothing changes for a while: thumbnails and pictures arrive one by one.
 Status ScriptRunner::settle(double patience_s) {
     const auto start = Clock::now();
     auto quiet_since = start;
-    std::uint64_t news = app_.news();
+    std::uint64_t changes = app_.changes();
     for (;;) {
         frame_();
         std::this_thread::sleep_for(std::chrono::milliseconds(15));
         const auto now = Clock::now();
-        if (app_.news() != news || !app_.idle()) {
-            news = app_.news();
+        if (app_.changes() != changes || !app_.idle()) {
+            changes = app_.changes();
             quiet_since = now;
         }
         if (seconds_between(quiet_since, now) > 0.4 || seconds_between(start, now) > patience_s)
@@ -223,7 +223,7 @@ Status ScriptRunner::step(const Json& step) {
     } else if (step.contains("reset_times")) {
         app_.reset_times();
     } else if (step.contains("screenshot")) {
-        // A large picture comes in pieces.
+        // A large picture is uploaded in parts.
         do
             robot_.frames(2);
         while (app_.pictures().pending());

@@ -1,5 +1,5 @@
 #pragma once
-// Scripts: a list of steps that drive the editor as a hand would (docs/USER_GUIDE.md names them).
+// Scripts: lists of steps that drive the editor like a user (docs/USER_GUIDE.md).
 
 #include <functional>
 #include <string>
@@ -8,10 +8,9 @@
 
 namespace weft {
 
-/// `frame` draws one frame, `write` writes the picture of the last one. An empty path is a script
-/// that waits until the picture has come to rest. Errors: Unreadable (no such file, not a script,
-/// with the number of the step), RenderFailed when a step cannot be done (no such widget, nothing
-/// came in time).
+/// `frame` draws one frame; `write` writes an image of the last one. An empty path is a script that
+/// waits until the picture is final. Errors: Unreadable (no such file, or not a script, with the
+/// number of the step), RenderFailed when a step fails (no such widget, or a timeout).
 [[nodiscard]] Status run_script(const std::string& path, EditorApp& app,
                                 const std::function<void()>& frame,
                                 const std::function<Status(const std::string&)>& write);

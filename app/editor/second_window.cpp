@@ -11,7 +11,7 @@ SecondWindow* self_of(GLFWwindow* window) {
     return static_cast<SecondWindow*>(glfwGetWindowUserPointer(window));
 }
 
-// A screen that the main window is not on, or nothing.
+// A monitor other than the main window's; null if there is none.
 GLFWmonitor* other_screen(GLFWwindow* main) {
     int count = 0, x = 0, y = 0;
     GLFWmonitor** all = glfwGetMonitors(&count);
@@ -43,7 +43,7 @@ void SecondWindow::listen() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int mods) {
         SecondWindow& second = *self_of(window);
-        second.stirred_ = true;
+        second.event_ = true;
         const bool leave =
             key == GLFW_KEY_ESCAPE || (key == GLFW_KEY_F11 && (mods & GLFW_MOD_SHIFT));
         if (leave && action == GLFW_PRESS)
@@ -51,10 +51,10 @@ void SecondWindow::listen() {
         else if (second.on_key)
             second.on_key(key, code, action);
     });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self_of(w)->stirred_ = true; });
-    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self_of(w)->stirred_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self_of(w)->event_ = true; });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self_of(w)->event_ = true; });
     glfwSetFramebufferSizeCallback(window_,
-                                   [](GLFWwindow* w, int, int) { self_of(w)->stirred_ = true; });
+                                   [](GLFWwindow* w, int, int) { self_of(w)->event_ = true; });
 }
 
 void SecondWindow::toggle() {
@@ -66,7 +66,7 @@ void SecondWindow::toggle() {
     if (!window_) return;
     listen();
     glfwMakeContextCurrent(window_);
-    glfwSwapInterval(0);  // the main window keeps the time
+    glfwSwapInterval(0);  // only the main window waits for vertical sync
     glfwMakeContextCurrent(main_);
     fresh_ = true;
 }

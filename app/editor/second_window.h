@@ -1,5 +1,5 @@
 #pragma once
-// The picture alone in a window of its own.
+// A second window that shows the viewer's picture only.
 
 #include <functional>
 #include <utility>
@@ -10,7 +10,7 @@ namespace weft {
 
 class EditorApp;
 
-/// Shares the main window's OpenGL. One thread.
+/// Shares the main window's OpenGL objects. Belongs to one thread.
 class SecondWindow {
   public:
     explicit SecondWindow(GLFWwindow* main) : main_(main) {}
@@ -18,13 +18,13 @@ class SecondWindow {
     SecondWindow(const SecondWindow&) = delete;
     SecondWindow& operator=(const SecondWindow&) = delete;
 
-    /// Opens it, filling another screen where there is one, or closes it.
+    /// Opens the window, full screen on another monitor if there is one, or closes it.
     void toggle();
-    /// Shows what the viewer shows; the main window's context is current before and after.
+    /// Draws the viewer's picture. The main window's context is current before and after.
     void draw(EditorApp& app);
-    /// Whether something has happened to it since the last call, so that it wants to be drawn.
-    [[nodiscard]] bool stirred() { return std::exchange(stirred_, false); }
-    /// Keys that it has no use for itself: GLFW's key, scan code and action.
+    /// Returns true if it must be redrawn because of an event since the last call.
+    [[nodiscard]] bool take_event() { return std::exchange(event_, false); }
+    /// Receives its key presses: GLFW's key, scan code and action.
     std::function<void(int, int, int)> on_key;
 
   private:
@@ -33,7 +33,7 @@ class SecondWindow {
     GLFWwindow* main_;
     GLFWwindow* window_ = nullptr;
     bool fresh_ = true;
-    bool stirred_ = false;
+    bool event_ = false;
 };
 
 }  // namespace weft

@@ -1,5 +1,5 @@
 #pragma once
-// The files of shaders/, built in.
+// The files of shaders/, embedded in the program.
 
 namespace weft::shaders {
 

@@ -1,4 +1,4 @@
-// A window of the desktop.
+// The editor in a desktop window.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -19,7 +19,7 @@ struct WindowState {
     EditorApp* app = nullptr;
     InputQueue input;
     std::unique_ptr<PenSource> pen = open_pen();
-    bool event = true;  // something happened since the last frame
+    bool event = true;  // an event occurred since the last frame
     int windowed[4] = {80, 80, 1600, 900};
 };
 
@@ -45,7 +45,7 @@ void on_refresh(GLFWwindow* window) {
 
 // ---- input -----------------------------------------------------------------------------------
 
-// Shortcuts go by what is printed on a key, wherever the keyboard has it.
+// Shortcuts follow the printed character, whatever the keyboard layout.
 int printed_key(int key, int scancode) {
     const char* name = glfwGetKeyName(key, scancode);
     if (!name || name[0] == 0 || name[1] != 0) return key;
@@ -55,7 +55,7 @@ int printed_key(int key, int scancode) {
 }
 
 void on_key(GLFWwindow* window, int key, int scancode, int action, int) {
-    if (action == GLFW_REPEAT) return;  // ImGui repeats by itself
+    if (action == GLFW_REPEAT) return;  // ImGui generates its own key repeat
     WindowState& state = state_of(window);
     state.event = true;
     state.input.key(printed_key(key, scancode), action == GLFW_PRESS);
@@ -92,7 +92,7 @@ void on_enter(GLFWwindow* window, int entered) {
 
 void on_focus(GLFWwindow* window, int focused) {
     state_of(window).event = true;
-    if (!focused) state_of(window).input.let_go();
+    if (!focused) state_of(window).input.release_all();
 }
 
 void listen(GLFWwindow* window) {
@@ -140,7 +140,7 @@ void draw(GLFWwindow* window, EditorApp& app, InputQueue& input) {
     PenSource* pen = state_of(window).pen.get();
     app.shell().state().pen_pressure = pen ? pen->pressure() : std::nullopt;
     app.frame(glfwGetTime());
-    // Drawing and swapping wait for the graphics card, which nothing here can hurry.
+    // Not counted: drawing and swapping wait for the GPU.
     clock.end();
     app.watch();
     int width = 0, height = 0;
@@ -157,10 +157,10 @@ bool any_key_down() {
     return std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), [](bool d) { return d; });
 }
 
-// Draws when something has happened, plays at full rate, else sleeps.
+// Draws on events, at full rate during playback, and otherwise sleeps.
 void loop(GLFWwindow* window, EditorApp& app, WindowState& state, SecondWindow& second) {
     std::uint64_t seen = 0;
-    int settle = 3;  // ImGui needs a few frames to come to rest after an event
+    int settle = 3;  // ImGui needs a few frames to settle after an event
     while (!app.wants_to_leave()) {
         const bool down = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive();
         const bool busy = down || state.input.pending() || !app.idle();
@@ -168,9 +168,10 @@ void loop(GLFWwindow* window, EditorApp& app, WindowState& state, SecondWindow& 
             glfwPollEvents();
         else
             glfwWaitEventsTimeout(0.1);
-        const std::uint64_t news = app.news();
-        if (state.event || second.stirred() || busy || news != seen || any_key_down()) settle = 3;
-        seen = news;
+        const std::uint64_t changes = app.changes();
+        if (state.event || second.take_event() || busy || changes != seen || any_key_down())
+            settle = 3;
+        seen = changes;
         state.event = false;
         if (settle == 0) continue;
         --settle;
@@ -218,7 +219,7 @@ Expected<int> run_window(const EditorOptions& options) {
         listen(window);
         app.pictures().on_fullscreen = [window] { toggle_fullscreen(window); };
         SecondWindow second(window);
-        // What is pressed over there is meant for the shot as well.
+        // Keys pressed in the second window act on the main window.
         second.on_key = [window](int key, int code, int action) {
             on_key(window, key, code, action, 0);
         };

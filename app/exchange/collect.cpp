@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files that a path of the project stands for.
+// The files that a path of the project names.
 Expected<std::vector<fs::path>> files_of(const std::string& path) {
     std::vector<fs::path> files;
     std::error_code error;
@@ -55,7 +55,7 @@ class Collector {
           cancel_(std::move(cancel)),
           progress_(progress) {}
 
-    // Inputs of one folder stay together, so that equal names of two folders do not meet.
+    // Inputs of one folder stay together, so equal names from different folders do not collide.
     Expected<std::string> take(const std::string& path) {
         const auto before = taken_.find(path);
         if (before != taken_.end()) return before->second;

@@ -14,11 +14,11 @@ struct Collected {
     std::int64_t bytes = 0;
 };
 
-/// Copies everything that a project needs into `folder`: its plates, mattes, passes and textures
-/// (those of a library with their pixels and credits) below files/, and a project file of the name
-/// `name` whose paths are relative. Its outputs go below out/. `project` has its paths resolved.
-/// Nothing is overwritten: Usage when a file is there already. Errors: those of reading
-/// and writing; MissingFrames when an input is not there.
+/// Copies all inputs of a project into `folder`: plates, mattes, passes and textures (those of a
+/// library with pixels and credits) go below files/. Writes a project file `name` with relative
+/// paths and outputs below out/. `project` has resolved paths. Errors: Usage when a file already
+/// exists (nothing is overwritten); MissingFrames when an input is missing; those of reading and
+/// writing.
 [[nodiscard]] Expected<Collected> collect_project(const Project& project, const std::string& name,
                                                   const std::string& folder,
                                                   const std::string& library,

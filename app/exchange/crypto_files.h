@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// Names the files of a region's Cryptomatte objects where the project does not: the plate's.
-/// Errors: Usage when the plate is not a pattern or file that could have one.
+/// Sets the files of a region's Cryptomatte to the plate's if the project names none. Errors: Usage
+/// when the plate is not an image file or pattern.
 [[nodiscard]] Status name_crypto_files(Region& region, const std::string& plate);
 
 }  // namespace weft

@@ -28,7 +28,7 @@ void protect_folder(WriteFence& fence, const std::string& folder) {
     }
 }
 
-// What a path of the project may stand for: a folder of frames, a file, a numbered sequence.
+// A path of the project is a folder of frames, a file or a numbered sequence.
 void protect_path(WriteFence& fence, const std::string& path) {
     std::error_code ignored;
     if (names_library_texture(path)) return;
@@ -43,7 +43,7 @@ void protect_path(WriteFence& fence, const std::string& path) {
         fence.protect(pattern->path_for(frame));
 }
 
-// A frozen matte stays as it is; the other frames of its pattern may be rewritten.
+// Protects the frozen frames only; other frames of their pattern may be rewritten.
 void protect_frozen(WriteFence& fence, const MatteSource& matte) {
     const auto pattern = SequencePattern::parse(matte.frozen_files);
     if (!pattern) return;
@@ -74,8 +74,8 @@ Expected<std::shared_ptr<const WriteFence>> make_fence(const Project& project,
     inputs.output = {};
     for (Leaf<Region>& leaf : inputs.regions) {
         leaf = leaf.with([&](Region& region) {
-            // Without files of its own a Cryptomatte is the plate's. Where it cannot be, opening
-            // the shot says so.
+            // A Cryptomatte without files uses the plate's. If that is impossible, opening the shot
+            // reports it.
             static_cast<void>(name_crypto_files(region, project.plate.path));
             std::vector<MatteSource> mattes = *region.holdouts;
             mattes.push_back(*region.matte);
@@ -99,11 +99,11 @@ Expected<std::shared_ptr<const WriteFence>> make_fence(const Project& project,
 }
 
 Status check_apart(const std::vector<PlannedFile>& files) {
-    std::map<std::string, std::string> seen;  // what it is, by its real path
+    std::map<std::string, std::string> seen;  // description by real path
     for (const PlannedFile& file : files) {
         const auto [at, fresh] = seen.emplace(real_path(file.path), file.what);
         if (fresh) continue;
-        std::string second = file.what;  // in the middle of the sentence
+        std::string second = file.what;  // lower-case inside the sentence
         second[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(second[0])));
         return fail(ErrorCode::kUsage, at->second + " and " + second +
                                            " would both be written to " + file.path +

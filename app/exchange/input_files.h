@@ -1,5 +1,5 @@
 #pragma once
-// The files that a project is made from, and the fence that keeps a run from writing over them.
+// Protects the input files of a project from being overwritten by a run.
 
 #include <memory>
 #include <string>
@@ -11,26 +11,25 @@
 
 namespace weft {
 
-/// Where a command may write, and what it reads besides the project's own inputs.
+/// Restricts where a command may write, and lists what it reads besides the project's inputs.
 struct WriteLimits {
-    std::string root;                ///< Nothing is written outside of it; empty: anywhere.
-    std::vector<std::string> reads;  ///< Files, folders, patterns: the project file, a look, …
-    /// Further roots: what lies in one of them or in `root` may be written.
+    std::string root;  ///< Folder that all writes must stay in; empty: no restriction.
+    std::vector<std::string> reads;  ///< Files, folders and patterns: the project file, a look, …
+    /// Further allowed folders, in addition to `root`.
     std::vector<std::string> roots = {};
 };
 
-/// A fence around every input of `project`, which has absolute paths: plate, mattes and holdouts
-/// (painted and frozen ones and Cryptomattes with their manifests too), textures with their
-/// credits, planes, passes and tracks; and around `limits.reads`. Errors: Usage when the root is a
-/// file.
+/// Builds a fence around every input of `project` (absolute paths): plate, mattes and holdouts
+/// (also painted and frozen ones, Cryptomattes and their manifests), textures and their credits,
+/// planes, passes and tracks, and `limits.reads`. Errors: Usage when the root is a file.
 [[nodiscard]] Expected<std::shared_ptr<const WriteFence>> make_fence(const Project& project,
                                                                      const WriteLimits& limits);
 
-/// A file that a run is about to write, and what it is in words ("The movie", "Frame 12").
+/// A file that a run will write, with its description ("The movie", "Frame 12").
 struct PlannedFile {
     std::string what, path;
 };
-/// Errors: Usage when two of them are one file, naming both.
+/// Errors: Usage when two of them are the same file; the message names both.
 [[nodiscard]] Status check_apart(const std::vector<PlannedFile>& files);
 
 }  // namespace weft

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files of every texture of the library that the project names, by that name.
+// Copies every library texture of the project. Returns the file of each "db:ID".
 Expected<std::map<std::string, std::string>> keep_all(const Project& project,
                                                       const std::string& folder,
                                                       const std::string& library,

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "weft.look/1";
 
-// Below `folder` relative to it, else as it is.
+// Paths below `folder` become relative to it; others are unchanged.
 std::string relative_to(const std::string& path, const fs::path& folder, bool also_beside) {
     if (names_library_texture(path)) return path;
     std::error_code error;
@@ -30,7 +30,7 @@ std::string relative_to(const std::string& path, const fs::path& folder, bool al
     return below || (also_beside && !relative.empty()) ? relative.string() : whole.string();
 }
 
-// What makes the look of `from`, on the region `to`.
+// Copies the look of `from` to the region `to`.
 Region with_look_of(Region to, const Region& from) {
     to.texture = from.texture;
     const Placement shot = to.placement;

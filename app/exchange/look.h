@@ -1,6 +1,6 @@
 #pragma once
-// Looks: what a region's surface is given (textures, placement, synthesis, time, light, finish),
-// without the shot that it was made in.
+// Looks: the textures, placement, synthesis, light, temporal and finish settings of regions,
+// without their shot.
 
 #include <string>
 
@@ -9,16 +9,16 @@
 
 namespace weft {
 
-/// Writes the look of the project's regions, or of the one named `region`. `project` has its paths
-/// resolved; in the file they are relative to its folder. Errors: Usage for an unknown region;
+/// Writes the look of the project's regions, or of the region `region` only. `project` has resolved
+/// paths; the file stores them relative to its own folder. Errors: Usage for an unknown region;
 /// those of writing.
 [[nodiscard]] Status save_look(const std::string& path, const Project& project,
                                const std::string& region, const WriteRule& rule);
 
-/// The project with the look put on its regions: a look of one region on the region named `region`
-/// (or the only one), one of several on the regions of the same names. Mattes, motion, references
-/// and the shot's own passes stay. `folder`: the project file's, against which paths below it
-/// become relative. Errors: Unreadable (the file), Usage when no region fits.
+/// Applies a look to the project's regions: a look of one region to the region `region` (or the
+/// only one), a look of several to the regions of the same names. Mattes, motion, references and
+/// the shot's own passes are unchanged. `folder`: the project file's folder; paths below it become
+/// relative. Errors: Unreadable (the file), Usage when no region matches.
 [[nodiscard]] Expected<Project> apply_look(const std::string& path, const Project& project,
                                            const std::string& folder, const std::string& region);
 

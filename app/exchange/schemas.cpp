@@ -22,7 +22,7 @@ Json numbers(const ParameterInfo& info, std::size_t count) {
     return out;
 }
 
-// Keys over time, each with a value of this schema.
+// Keys over time whose values follow this schema.
 Json keys(Json value) {
     return {{"type", "array"},
             {"items",
@@ -84,7 +84,7 @@ Json schema_of(const ParameterInfo& info) {
     return out;
 }
 
-// A table's groups as objects; keys without a group go into `object` itself.
+// The groups of a table become objects; keys without a group are added to `object`.
 template <class Owner>
 void add_table(Json& object, std::span<const Parameter<Owner>> table) {
     for (const Parameter<Owner>& parameter : table) {

@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// Reads a planar track: Weft's own JSON ("weft.track/1", docs/FORMATS.md), or what
-/// parse_corner_track() reads. Errors: Unreadable with the path and what is wrong.
+/// Reads a planar track: Weft's JSON ("weft.track/1", docs/FORMATS.md) or a format of
+/// parse_corner_track(). Errors: Unreadable with the path and the reason.
 [[nodiscard]] Expected<CornerTrack> read_corner_track(const std::string& path,
                                                       const CornerTrackContext& context);
 

@@ -1,19 +1,21 @@
 #pragma once
-// A region's mattes by number: 0 its own, k the holdout k − 1, −1 − k the zone k (zone_layer()).
+// Mattes of a region by layer number: 0 is the matte, k is holdout k − 1, −1 − k is zone k
+// (zone_layer()).
 
 #include "app/project/edit.h"
 
 namespace weft {
 
-/// The matte of that number; an empty one where the region has none.
+/// Returns the matte of this layer; an empty one if the region has no such layer.
 [[nodiscard]] const MatteSource& layer_source(const Region& region, int layer);
-/// The numbers that can be painted on: those that the region has, and one more to each side, with
-/// which a zone or a holdout begins.
+/// The range of layers that can be painted: those of the region, and one more at each end, which
+/// adds a zone or a holdout.
 [[nodiscard]] int first_layer(const Region& region);
 [[nodiscard]] int last_layer(const Region& region);
-/// The edit that puts `source` in its place; one beyond the last holdout or zone is added.
+/// The edit that replaces this layer by `source`; a number beyond the last holdout or zone adds
+/// one.
 [[nodiscard]] Edit set_layer(const Region& region, int layer, MatteSource source);
-/// The edit that takes a painted keyframe away; a holdout or zone without one left goes altogether.
+/// The edit that removes a painted keyframe; a holdout or zone without keyframes is removed too.
 [[nodiscard]] Edit without_layer_key(const Region& region, int layer, int frame);
 /// "wall", "holdout 2 of wall" or "zone 1 of wall".
 [[nodiscard]] std::string layer_name(const Region& region, int layer);

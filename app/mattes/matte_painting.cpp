@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-// A copy of one is made faster than a thread is woken.
+// Copying it takes less time than waking a thread.
 bool is_small(Size size) {
     return std::int64_t{size.width} * size.height <= 1 << 18;
 }
@@ -22,7 +22,7 @@ MattePainting::Copy MattePainting::copy_of(const Key& key) {
     return out;
 }
 
-// Null while it is made.
+// Returns null while the copy is being made.
 std::shared_ptr<const MattePainting::Copy> MattePainting::copy(const Key& key) {
     if (is_small(key.size)) return std::make_shared<const Copy>(copy_of(key));
     return copier_.ask(key, [key](const CancelToken&) { return std::optional(copy_of(key)); });

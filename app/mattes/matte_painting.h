@@ -1,5 +1,5 @@
 #pragma once
-// The stroke under the pen, and the matte that it changes.
+// The current brush stroke and the matte that it changes.
 
 #include <memory>
 #include <optional>
@@ -12,48 +12,47 @@
 
 namespace weft {
 
-/// A region's matte (`layer` 0) or its holdout `layer` − 1, on a frame.
+/// A frame of a region's matte (`layer` 0) or of its holdout `layer` − 1.
 struct MattePlace {
     RegionId region = 0;
     int layer = 0, frame = 0;
     bool operator==(const MattePlace&) const = default;
 };
 
-/// A stroke changes a copy of the matte that it begins on. A whole matte is never copied in the
-/// calling thread, unless it is small: the copy is made in the background, ahead of the stroke.
-/// Where the pen is faster, its points wait for the copy and are painted then. One thread.
+/// A stroke changes a copy of its matte. The copy is made in the background before the stroke,
+/// except for small mattes; points that arrive earlier are queued. Belongs to one thread.
 class MattePainting {
   public:
-    /// The matte that a stroke would begin on; null: an empty one of `size`. Called in every frame
-    /// in which a stroke could begin.
+    /// Sets the matte for the next stroke; null: an empty one of `size`. Call it in every frame in
+    /// which a stroke could begin.
     void prepare(const MattePtr& before, Size size);
 
-    /// Ends the stroke before, whose result is lost.
+    /// Begins a stroke and discards an unfinished one.
     void begin(const MattePlace& place, const MattePtr& before, Size size, const Brush& brush);
-    /// The first call makes a dot. Without a stroke nothing happens.
+    /// Adds a point; the first one makes a dot. Does nothing without a stroke.
     void move_to(Vec2 at, float pressure);
-    /// Paints the points that waited, once the copy is there. To be called in every frame.
+    /// Paints queued points once the copy is ready. Call it in every frame.
     void update();
-    /// Forgets the stroke.
+    /// Discards the stroke.
     void cancel() { stroke_.reset(); }
 
     struct Finished {
         MattePlace place;
         MattePtr matte;
     };
-    /// The new matte; nothing where the stroke changed nothing. Waits for the copy where points
-    /// still wait for it.
+    /// Ends the stroke and returns the new matte; nothing if the stroke changed nothing. Waits for
+    /// the copy if points are queued.
     [[nodiscard]] std::optional<Finished> end();
 
     [[nodiscard]] bool active() const { return stroke_.has_value(); }
-    /// The matte as painted so far, where there is a stroke at this place.
+    /// The matte as painted so far; null if there is no stroke at this place.
     struct Shown {
-        ViewU8x1 pixels;            ///< Until the next call of a member that is not const.
-        std::uint64_t version = 0;  ///< Another number: other pixels.
+        ViewU8x1 pixels;            ///< Valid until the next non-const call.
+        std::uint64_t version = 0;  ///< Changes with the pixels.
         Recti changed;              ///< Since shown().
     };
     [[nodiscard]] std::optional<Shown> at(const MattePlace& place) const;
-    /// What at() gave is on the screen.
+    /// Marks the pixels of at() as shown.
     void shown();
 
   private:
@@ -64,7 +63,7 @@ class MattePainting {
     struct Key {
         MattePtr before;
         Size size;
-        int number = 0;  // of the copy: each is painted on once
+        int number = 0;  // number of the copy; each copy is painted on once
         bool operator==(const Key&) const = default;
     };
     struct PenPoint {

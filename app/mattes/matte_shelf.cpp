@@ -67,7 +67,7 @@ void MatteShelf::forget(const std::string& name) {
 }
 
 void MatteShelf::write(const std::string& path, MattePtr matte) {
-    std::vector<MattePtr> gone;  // freed after the lock is
+    std::vector<MattePtr> gone;  // destroyed after the lock is released
     {
         const std::lock_guard lock(mutex_);
         bytes_ += matte->size_bytes();
@@ -78,7 +78,7 @@ void MatteShelf::write(const std::string& path, MattePtr matte) {
         unwritten_[path] = matte;
         tasks_.push_front({path, {}, std::move(matte)});
         ++to_write_;
-        ++arrivals_;
+        ++changes_;
         gone = trim();
     }
     wake_.notify_one();
@@ -108,8 +108,8 @@ void MatteShelf::flush() {
     });
 }
 
-std::uint64_t MatteShelf::arrivals() const {
-    return arrivals_.load();
+std::uint64_t MatteShelf::changes() const {
+    return changes_.load();
 }
 
 std::vector<MattePtr> MatteShelf::trim() {
@@ -131,7 +131,7 @@ void MatteShelf::work() {
     for (;;) {
         wake_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
         if (tasks_.empty()) return;
-        // Painted mattes in the order in which they were painted, then the newest wish.
+        // Write painted mattes in their order first, then read the newest request.
         auto next = std::find_if(tasks_.rbegin(), tasks_.rend(),
                                  [](const Task& task) { return task.matte != nullptr; });
         if (next == tasks_.rend()) next = tasks_.rbegin();
@@ -150,7 +150,7 @@ void MatteShelf::work() {
         lock.lock();
         reading_.clear();
         --running_;
-        ++arrivals_;
+        ++changes_;
         if (task.matte) {
             --to_write_;
             if (written)

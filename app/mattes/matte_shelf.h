@@ -1,6 +1,5 @@
 #pragma once
-// Mattes in memory, by name: read by a background thread when they are asked for, written by it
-// when they are painted.
+// A cache of mattes by name. A background thread reads requested mattes and writes painted ones.
 
 #include <atomic>
 #include <condition_variable>
@@ -20,34 +19,34 @@ namespace weft {
 
 using MattePtr = std::shared_ptr<const Matte>;
 
-/// Never blocks its caller, save in flush(). Thread-safe.
+/// Does not block, except in flush(). Thread-safe.
 class MatteShelf {
   public:
     using Reader = std::function<Expected<Matte>()>;
 
     explicit MatteShelf(std::size_t budget_bytes = std::size_t{256} << 20);
-    ~MatteShelf();  ///< Writes what is left to write.
+    ~MatteShelf();  ///< Writes all pending mattes.
 
-    /// The matte of this name; null when it is not there, and then `read` is called in the
-    /// background, unless that has failed before. The newest request is served first.
+    /// Returns the matte of this name; null if it is not in memory. Then `read` is called in the
+    /// background, unless it failed before. The newest request is served first.
     [[nodiscard]] MattePtr get(const std::string& name, const Reader& read);
-    /// Why it could not be read; empty when it could, or has not been tried.
+    /// Why it could not be read; empty if it was read or not requested.
     [[nodiscard]] std::string error(const std::string& name) const;
     void forget(const std::string& name);
 
-    /// Keeps the matte under `path` and writes it there in the background, whole or not at all. It
-    /// stays in memory until it is written, and for good where that fails.
+    /// Stores the matte under `path` and writes it there atomically in the background. It stays in
+    /// memory until it is written, or permanently if writing fails.
     void write(const std::string& path, MattePtr matte);
-    /// What went wrong with writing since the last call; empty: nothing.
+    /// Returns the write error since the last call; empty: none.
     [[nodiscard]] std::string take_write_error();
-    /// Whether a painted matte is not on the disk yet.
+    /// Returns true while a painted matte is not on disk.
     [[nodiscard]] bool writing() const;
-    /// Those that are not on the disk, by path.
+    /// The mattes that are not on disk yet, by path.
     [[nodiscard]] std::map<std::string, MattePtr> unwritten() const;
-    /// Waits until everything is on the disk, or has failed.
+    /// Waits until all mattes are written or have failed.
     void flush();
-    /// Grows whenever a matte arrives.
-    [[nodiscard]] std::uint64_t arrivals() const;
+    /// Increases whenever a matte arrives.
+    [[nodiscard]] std::uint64_t changes() const;
 
   private:
     struct Task {
@@ -56,24 +55,24 @@ class MatteShelf {
         MattePtr matte;  // to write
     };
     void work();
-    /// What has to go, to be freed without the lock.
+    /// Removes mattes beyond the memory limit; the caller frees them without the lock.
     [[nodiscard]] std::vector<MattePtr> trim();
 
     const std::size_t budget_bytes_;
     mutable std::mutex mutex_;
     std::condition_variable wake_, done_;
-    std::deque<Task> tasks_;  // writing first, then reading from the newest
+    std::deque<Task> tasks_;  // writes first, then reads, newest first
     struct Kept {
         MattePtr matte;
         std::uint64_t used = 0;
     };
     std::map<std::string, Kept> kept_;
     std::map<std::string, std::string> errors_;
-    std::string reading_;  // the name in flight
+    std::string reading_;  // the name being read
     std::string write_error_;
     std::size_t bytes_ = 0;
     std::uint64_t clock_ = 0;
-    std::atomic<std::uint64_t> arrivals_ = 0;
+    std::atomic<std::uint64_t> changes_ = 0;
     int running_ = 0, to_write_ = 0;
     std::map<std::string, MattePtr> unwritten_;
     bool stop_ = false;

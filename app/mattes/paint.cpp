@@ -14,8 +14,8 @@ std::uint8_t to_code(float v) {
     return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 255.0f) + 0.5f);
 }
 
-// 1 in the core, falling smoothly to 0 at the radius; at least one pixel wide, so that a hard brush
-// has a clean edge.
+// Falls smoothly from 1 in the core to 0 at the radius, over at least one pixel, so that a hard
+// brush is anti-aliased.
 float profile(float distance, float radius, float hardness) {
     const float soft = std::max(1.0f, radius * (1.0f - hardness));
     const float t = std::clamp((radius + 0.5f - distance) / soft, 0.0f, 1.0f);
@@ -57,8 +57,8 @@ cv::Mat signed_distance(const Matte& matte) {
     return in_distance - out_distance;
 }
 
-// Columns of a row that can lie within `reach` of a line: a long slanting one touches little of
-// its box.
+// The columns of a row within `reach` of a line. A long slanting line touches little of its
+// bounding box.
 std::pair<int, int> columns_near(Vec2 from, Vec2 to, float y, float reach, Recti box) {
     float first = 0, last = 1;
     if (const float down = to.y - from.y; std::abs(down) > 1e-3f) {
@@ -156,7 +156,7 @@ Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolera
     cv::floodFill(colours, area, {seed.x, seed.y}, {}, nullptr, spread, spread,
                   4 | kFill | cv::FLOODFILL_FIXED_RANGE | cv::FLOODFILL_MASK_ONLY);
     cv::Mat inner = area(cv::Rect(1, 1, picture.width(), picture.height())).clone();
-    // Closes the pin holes that noise leaves, and softens the stairs of the edge.
+    // Closes pinholes from noise, and smooths the stair-stepped edge.
     cv::morphologyEx(inner, inner, cv::MORPH_CLOSE,
                      cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
     cv::GaussianBlur(inner, inner, {3, 3}, 0);
@@ -199,13 +199,14 @@ Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep
     cv::resize(mat_of(drop)(box), outside, small, 0, 0, cv::INTER_AREA);
     labels.setTo(cv::GC_FGD, inside > 127);
     labels.setTo(cv::GC_BGD, outside > 127);
-    // Without a mark of the outside the border of the crop stands for it.
+    // Without outside scribbles, the border of the crop counts as outside.
     if (cv::countNonZero(outside > 127) == 0) {
         cv::rectangle(labels, cv::Rect(0, 0, small.width, small.height), cv::Scalar(cv::GC_BGD), 2);
     }
     if (cv::countNonZero(inside > 127) == 0) return before;
     cv::Mat background, foreground;
-    cv::setRNGSeed(1);  // grabCut's k-means draws from it: the same scribbles give the same matte
+    // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
+    cv::setRNGSeed(1);
     cv::grabCut(crop, labels, {}, background, foreground, 4, cv::GC_INIT_WITH_MASK);
     cv::Mat found = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD), full;
     cv::resize(found, full, box.size(), 0, 0, cv::INTER_CUBIC);

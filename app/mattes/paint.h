@@ -1,5 +1,5 @@
 #pragma once
-// Painting on mattes: pure functions on pixels, used by the editor's tools.
+// Painting on mattes: pure functions for the editor's tools.
 
 #include <cstdint>
 #include <cstdlib>
@@ -14,21 +14,21 @@ namespace weft {
 
 struct Brush {
     float radius_px = 24;
-    float hardness = 0.8f;  ///< 1: a hard edge; 0: falls off from the centre.
-    float opacity = 1;      ///< Of the whole stroke, however often it crosses itself.
+    float hardness = 0.8f;  ///< 1: hard edge; 0: soft from the centre.
+    float opacity = 1;      ///< Opacity of the whole stroke, where it crosses itself too.
     bool subtract = false;
-    bool pressure_size = true, pressure_opacity = false;  ///< What a pen's pressure changes.
+    bool pressure_size = true, pressure_opacity = false;  ///< What pen pressure controls.
     bool operator==(const Brush&) const = default;
 };
 
-/// One stroke on a matte. The pixels under a stroke never change twice: crossing itself adds
-/// nothing, so opacity is that of the stroke.
+/// One stroke on a matte. Crossing itself adds nothing, so the opacity is that of the whole stroke.
 class Stroke {
   public:
-    /// `before` is never null. Neither copies nor touches it: a stroke begins at once on any size.
+    /// `before` must not be null. It is neither copied nor changed, so a stroke begins at once on
+    /// any size.
     Stroke(std::shared_ptr<const Matte> before, const Brush& brush);
-    /// Paints from the last point to `to` (the first call makes a dot); `pressure` in (0, 1] scales
-    /// the radius, the opacity or both, as the brush says. Returns what changed of `matte`.
+    /// Paints from the last point to `to`; the first call makes a dot. `pressure` in (0, 1] scales
+    /// the radius, the opacity or both, as the brush says. Returns the changed part of `matte`.
     Recti move_to(Vec2 to, float pressure, Matte& matte);
     [[nodiscard]] const Recti& touched() const { return touched_; }
 
@@ -37,7 +37,8 @@ class Stroke {
         void operator()(std::uint8_t* memory) const { std::free(memory); }
     };
     std::shared_ptr<const Matte> before_;
-    // Of every pixel of the matte: the system gives zeroes where the stroke goes, and there only.
+    // Coverage of each pixel. The system zero-fills pages on first access, so only pages under the
+    // stroke use memory.
     std::unique_ptr<std::uint8_t[], Release> coverage_;
     Brush brush_;
     std::optional<Vec2> last_;
@@ -45,19 +46,19 @@ class Stroke {
     Recti touched_;
 };
 
-/// Adds or removes the inside of a closed polygon (even-odd), its edge anti-aliased.
+/// Adds or removes the inside of a closed polygon (even-odd rule), anti-aliased.
 [[nodiscard]] Matte fill_polygon(const Matte& before, const std::vector<Vec2>& points,
                                  bool subtract);
-/// Adds or removes the connected area whose colour is within `tolerance` (0–255 a channel) of the
-/// seed's.
+/// Adds or removes the connected area whose colour is within `tolerance` (0–255 per channel) of the
+/// colour at `seed`.
 [[nodiscard]] Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolerance,
                                  bool subtract);
-/// Grows (px > 0) or shrinks (px < 0) by a distance.
+/// Grows (px > 0) or shrinks (px < 0) the matte.
 [[nodiscard]] Matte grow_matte(const Matte& before, float px);
-/// Softens the edge over about `px` to either side.
+/// Softens the edge over about `px` on each side.
 [[nodiscard]] Matte feather_matte(const Matte& before, float px);
-/// What the scribbles suggest: `keep` and `drop` mark surely inside and outside (above 127); found
-/// on a crop around them at up to 512 px. The rest of `before` stays.
+/// Segments the picture from scribbles. `keep` and `drop` mark certain inside and outside (above
+/// 127). Computed on a crop around them, at up to 512 px; the rest of `before` is unchanged.
 [[nodiscard]] Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
                                       const Matte& drop);
 

@@ -43,7 +43,8 @@ Matte matte_of_shape(const RotoShape& shape, Size size) {
     for (const RotoPoint& point : shape.points)
         widest = std::max(widest, point.feather_px);
     if (widest <= 0 || outline.size() < 3) return out;
-    // Outside, the nearest place of the curve tells the width: found by labelled distances.
+    // Outside the shape, the nearest curve point gives the feather width, found by a labelled
+    // distance transform.
     cv::Mat curve(size.height, size.width, CV_8UC1, cv::Scalar(255)), distance, labels;
     std::vector<std::pair<cv::Point, float>> places;
     const std::size_t count = shape.points.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Roto shapes as polygons and mattes, and the shapes in between.
+// Roto shapes as polygons and mattes, and interpolation between shapes.
 
 #include <vector>
 
@@ -8,13 +8,14 @@
 
 namespace weft {
 
-/// The curve as a polygon, `steps` a segment.
+/// Samples the curve as a polygon with `steps` points per segment.
 [[nodiscard]] std::vector<Vec2> outline_of(const RotoShape& shape, int steps = 16);
-/// Coverage: 255 inside, falling off over the feather, its width blended between the points.
+/// Rasterizes the shape: 255 inside, falling to 0 over the feather, whose width is interpolated
+/// between points.
 [[nodiscard]] Matte matte_of_shape(const RotoShape& shape, Size size);
-/// Point by point; `t` 0 gives `a`. Both must have the same number of points, else `a` is given.
+/// Interpolates point by point; `t` 0 gives `a`. Returns `a` if the numbers of points differ.
 [[nodiscard]] RotoShape between(const RotoShape& a, const RotoShape& b, float t);
-/// Gives points that were set as corners handles along their neighbours (Catmull and Rom).
+/// Gives corner points smooth handles (Catmull–Rom).
 [[nodiscard]] RotoShape smoothed(RotoShape shape);
 
 }  // namespace weft

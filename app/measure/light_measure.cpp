@@ -18,11 +18,11 @@
 namespace weft {
 namespace {
 
-constexpr float kGrey = 0.35f;     // reflectance under which light is shown
-constexpr int kRim_px = 2;         // of the matte: mixed pixels say nothing of light
-constexpr float kOutside = 0.05f;  // display code of what is not the region
+constexpr float kGrey = 0.35f;     // reflectance of the grey on which light is shown
+constexpr int kRim_px = 2;         // excluded edge of the matte: mixed pixels do not show the light
+constexpr float kOutside = 0.05f;  // display code outside the region
 
-// The project whose light is estimated: the passes, which would win, are taken out.
+// The project for estimating light: without its light passes, which would override the estimate.
 Project without_passes(const Project& project, const std::vector<int>& frames) {
     Project out = project;
     out.settings.frames = format_frame_list(frames);
@@ -46,7 +46,7 @@ ImageF1 full_size(const Shading& shading) {
     return out;
 }
 
-// A picture whose pixel inside of the matte is what `colour` makes of linear light there.
+// A picture with the colour that `colour` makes of linear light inside the matte.
 template <class Colour>
 ImageF3 picture_of(const Matte& matte, const Colour& colour) {
     ImageF3 out(matte.size());
@@ -78,7 +78,7 @@ ImageF3 reflectance_picture(const Matte& matte, const ImageF3& linear, const Ima
     });
 }
 
-// Three a row.
+// Places three pictures per row.
 ImageF3 sheet_of(const LightMeter::Pictures& pictures) {
     constexpr int kColumns = 3;
     const Size one = pictures.front().second.size();

@@ -1,6 +1,6 @@
 #pragma once
-// The light of a shot's region as Weft estimates it: against a true one where the artist has a
-// pass, and as pictures.
+// The light of a shot's region as Weft estimates it: compared with the true light where the artist
+// has a pass, and as pictures.
 
 #include <functional>
 #include <memory>
@@ -24,32 +24,31 @@ struct LightMeasures {
         int frame = 0;
         ShadingAgreement agreement;
     };
-    std::vector<Frame> frames;  ///< Those that have a true light.
+    std::vector<Frame> frames;  ///< The frames that have a true light.
     Spread correlation, error_levels, true_deviation_levels;
     ShadowEdges::Summary edges;
 };
 
-/// Φ of the first region of a shot.
+/// Measures Φ of the first region of a shot.
 class LightMeter {
   public:
-    /// Analyses what of `frames` is not in the cache yet. An albedo or lighting pass of the region
-    /// is not used for the estimate but is the truth to compare with; one picture without a frame
-    /// number is the truth of the reference frame alone. Errors: those of opening and analysing;
-    /// cancellation.
+    /// Analyses the frames of `frames` that are not cached. An albedo or lighting pass of the
+    /// region is not used for the estimate; it is the truth to compare with. A single picture
+    /// without a frame number is the truth of the reference frame only. Errors: those of opening
+    /// and analysing; cancellation.
     [[nodiscard]] static Expected<std::shared_ptr<LightMeter>> open(
         const Project& project, const std::vector<int>& frames, const AnalysisCacheOptions& cache,
         const CancelToken& cancel, std::vector<std::string>& warnings);
 
-    /// Whether there is a truth at all.
+    /// Returns true if there is a true light to compare with.
     [[nodiscard]] bool has_truth() const;
-    /// Compares one frame, if it has a truth. Errors: of reading.
+    /// Compares one frame if it has a true light. Errors: those of reading.
     [[nodiscard]] Status add(int frame);
     [[nodiscard]] LightMeasures summary() const;
 
-    /// Pictures in display codes, each with a name: Φ, the plate's shading and reflectance, the
-    /// result's (estimated from the result alone), and the true light where there is one. Outside
-    /// of the matte they are dark. `result` in display codes. Light is shown as a grey of 0.35
-    /// under it.
+    /// Named pictures in display codes: Φ, the plate's shading and reflectance, those of the result
+    /// (estimated from the result alone), and the true light if known. They are dark outside the
+    /// matte. `result` is in display codes. Light is shown on a grey of 0.35.
     using Pictures = std::vector<std::pair<std::string, ImageF3>>;
     [[nodiscard]] Expected<Pictures> pictures(int frame, const ImageF3& result) const;
 
@@ -68,8 +67,8 @@ class LightMeter {
     ShadowEdges edges_;
 };
 
-/// Writes each as FOLDER/NAME.FRAME.png, and all of them on one sheet, three a row, as
-/// FOLDER/sheet.FRAME.png. Makes the folder. Errors: of writing.
+/// Writes each picture as FOLDER/NAME.FRAME.png, and all of them on one sheet with three per row as
+/// FOLDER/sheet.FRAME.png. Creates the folder. Errors: those of writing.
 [[nodiscard]] Status write_light_pictures(const std::string& folder, int frame,
                                           const LightMeter::Pictures& pictures,
                                           const WriteRule& rule);

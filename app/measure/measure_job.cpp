@@ -17,7 +17,7 @@
 namespace weft {
 namespace {
 
-// Frame by frame through one SequenceMeasure a result.
+// Passes frames to one SequenceMeasure per result.
 class Measurer {
   public:
     Measurer(const MeasureJobOptions& options, const CancelToken& cancel)
@@ -28,7 +28,7 @@ class Measurer {
         WEFT_TRY(measure_options, make_options());
         std::vector<SequenceMeasure> measures;
         for (std::size_t k = 0; k < readers_.size(); ++k) {
-            // Only the first needs the plane: the others take its ideal frames.
+            // Only the first measure needs the plane; the others use its ideal frames.
             measures.emplace_back(measure_options);
             if (measure_options.ideal) measure_options.ideal->plane = ImageU8x3(1, 1);
         }
@@ -60,7 +60,7 @@ class Measurer {
             WEFT_TRY(reader, ResultReader::open(pattern, project));
             readers_.push_back(std::move(reader));
         }
-        // Where no frames were asked for, the result says which there are.
+        // Without a frame list, measure the frames that the result has.
         if (project.settings.frames.empty())
             project.settings.frames = format_frame_list(readers_.front().files().frames());
         WEFT_TRY(shot, open_shot(project, open));
@@ -122,7 +122,7 @@ class Measurer {
         return out;
     }
 
-    // Φ against the artist's pass, and its pictures.
+    // Compares Φ with the artist's pass, and writes its pictures.
     Status measure_light() {
         const LightParams& light = options_.project.regions.front()->light;
         if (light.albedo.empty() && light.lighting.empty() && options_.pictures.empty()) return {};

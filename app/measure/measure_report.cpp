@@ -36,7 +36,7 @@ Json per_channel(const std::array<double, 3>& v) {
     return Json::array({v[0], v[1], v[2]});
 }
 
-// The result's grain beside the plate's, as amplitudes.
+// Grain of the result and of the plate, as amplitudes.
 Json grain_json(const GrainSpectrum& grain, const GrainSpectrum& plate) {
     if (grain.blocks == 0 || plate.blocks == 0) return Json();
     Json ratios = Json::array();

@@ -1,5 +1,5 @@
 #pragma once
-// Measured figures as JSON (docs/CLI.md, `weft measure`).
+// Measurements as JSON (docs/CLI.md, `weft measure`).
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// One result: the keys of `weft measure --json` but the warnings.
+/// The measurements of one result: the keys of `weft measure --json` except the warnings.
 [[nodiscard]] nlohmann::ordered_json measure_json(const MeasuredResult& result);
 /// The keys `truth` and `light`.
 [[nodiscard]] nlohmann::ordered_json truth_json(const TruthMeasures& truth);

@@ -1,5 +1,5 @@
 #pragma once
-// A result against the scene rendered with the new material.
+// Compares a result with the scene rendered with the new material.
 
 #include <string>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// Compares `result` with the frames of `frames` that `truth` has, up to one overall gain. Errors:
-/// MissingFrames when it has none of them, Unreadable when a size differs; of reading;
+/// Compares `result` with the frames of `frames` that `truth` has, after one overall gain. Errors:
+/// MissingFrames when it has none of them; Unreadable when a size differs; those of reading;
 /// cancellation.
 [[nodiscard]] Expected<TruthMeasures> measure_truth(const Shot& shot, const ResultReader& result,
                                                     const ResultReader& truth,

@@ -59,9 +59,9 @@ bool PlatePlayer::try_read(int frame, Reading& reading) const {
     reading.error = failed == errors_.end() ? std::string() : failed->second;
     reading.frame = frame;
     reading.bytes = bytes_;
-    const std::uint64_t now = arrivals_.load() + 1;
-    if (reading.arrivals == now) return true;
-    reading.arrivals = now;
+    const std::uint64_t now = changes_.load() + 1;
+    if (reading.changes == now) return true;
+    reading.changes = now;
     const std::vector<int>& all = reader_->frames();
     reading.states.assign(all.size(), State::kEmpty);
     const auto mark = [&](const auto& frames, State state) {
@@ -75,7 +75,7 @@ bool PlatePlayer::try_read(int frame, Reading& reading) const {
 }
 
 bool PlatePlayer::next_frame(int& frame) {
-    // As many of the wanted frames as fit, the most urgent first.
+    // Wants as many frames as fit, most urgent first.
     std::size_t room = budget_bytes_;
     for (const int candidate : wanted_) {
         if (errors_.contains(candidate)) continue;
@@ -100,7 +100,7 @@ bool PlatePlayer::next_frame(int& frame) {
 std::vector<PicturePtr> PlatePlayer::make_room(std::size_t bytes) {
     std::vector<PicturePtr> gone;
     if (pictures_.empty() || bytes_ + bytes <= budget_bytes_) return gone;
-    // Unwanted frames go first, then the least urgent.
+    // Frees unwanted frames first, then the least urgent.
     std::map<int, std::size_t> urgency;
     for (std::size_t k = 0; k < wanted_.size(); ++k)
         urgency.emplace(wanted_[k], k);
@@ -128,7 +128,7 @@ void PlatePlayer::keep(int frame, Expected<PlateFrame> decoded) {
     std::vector<PicturePtr> gone;  // freed after the lock is: pictures are large
     const std::lock_guard lock(mutex_);
     std::erase(decoding_, frame);
-    ++arrivals_;
+    ++changes_;
     if (!picture) {
         errors_[frame] = decoded.error().text();
         return;

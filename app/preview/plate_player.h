@@ -1,6 +1,6 @@
 #pragma once
-// Decoded frames for viewing and playback: a bounded cache that background threads fill in the
-// order in which the frames will be wanted.
+// Decoded frames for viewing and playback: a bounded cache, filled by background threads in the
+// order of use.
 
 #include <atomic>
 #include <condition_variable>
@@ -17,41 +17,41 @@
 
 namespace weft {
 
-/// Thread-safe. The window's thread asks with try_want() and try_read(), which never wait: a worker
-/// of low priority may be interrupted while it holds the lock, for as long as a busy machine likes.
+/// Thread-safe. The window's thread uses try_want() and try_read(), which never block: a
+/// low-priority worker that holds the lock may be preempted for a long time on a busy machine.
 class PlatePlayer {
   public:
     enum class State : std::uint8_t { kEmpty, kCached, kFailed };
-    /// What there is, as of the last try_read() that succeeded.
+    /// The state of the cache at the last successful try_read().
     struct Reading {
         int frame = 0;
-        PicturePtr picture;         ///< Of `frame`; null when it is not decoded (yet).
+        PicturePtr picture;         ///< Picture of `frame`; null if not decoded (yet).
         std::string error;          ///< Why `frame` could not be read.
-        std::vector<State> states;  ///< By index into the reader's frames.
+        std::vector<State> states;  ///< State of each frame, by index into the reader's frames.
         std::size_t bytes = 0;
-        std::uint64_t arrivals = 0;  ///< Of `states`; 0: never read.
+        std::uint64_t changes = 0;  ///< Change counter of `states`; 0: never read.
     };
 
-    /// `srgb` and `linear` take the plate's space to the screen's; null: it is there already.
+    /// `srgb` and `linear` convert the plate's space to the display's; null: already there.
     PlatePlayer(std::shared_ptr<const FrameReader> reader,
                 std::shared_ptr<const ColorTransform> srgb,
                 std::shared_ptr<const ColorTransform> linear, std::size_t budget_bytes);
     ~PlatePlayer();
 
-    /// The frames wanted next, the most urgent first; replaces what was wanted before. Frames that
-    /// are not among them go first when memory is short.
-    /// False, and nothing happens, when a worker is at the cache just now.
+    /// Sets the frames wanted next, most urgent first; replaces the previous list. Frames that are
+    /// not listed are freed first. Returns false and does nothing while a worker holds the lock.
     bool try_want(const std::vector<int>& frames);
-    /// Likewise. `reading` may be that of another frame: only what differs is filled in.
+    /// Updates `reading`, also one of another frame: only differences are written. Returns false
+    /// and does nothing while a worker holds the lock.
     bool try_read(int frame, Reading& reading) const;
-    /// Grows whenever a frame arrives: what tells a waiting window to draw again.
-    [[nodiscard]] std::uint64_t arrivals() const { return arrivals_.load(); }
+    /// Increases with every decoded frame, so that a waiting window redraws.
+    [[nodiscard]] std::uint64_t changes() const { return changes_.load(); }
 
   private:
     void work();
     [[nodiscard]] bool next_frame(int& frame);
     void keep(int frame, Expected<PlateFrame> decoded);
-    /// What has to go, to be freed without the lock.
+    /// Removes pictures to make room; the caller frees them without the lock.
     [[nodiscard]] std::vector<PicturePtr> make_room(std::size_t bytes);
 
     std::shared_ptr<const FrameReader> reader_;
@@ -64,7 +64,7 @@ class PlatePlayer {
     std::map<int, std::string> errors_;
     std::vector<int> decoding_;
     std::size_t bytes_ = 0;
-    std::atomic<std::uint64_t> arrivals_ = 0;
+    std::atomic<std::uint64_t> changes_ = 0;
     bool stop_ = false;
     std::vector<std::thread> threads_;
 };

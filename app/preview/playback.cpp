@@ -67,7 +67,8 @@ void Playback::advance(double now_s, double fps, const std::vector<PlatePlayer::
         int next = index() + direction_;
         if (next > last || next < first) next = direction_ > 0 ? first : last;
         const auto at = static_cast<std::size_t>(next);
-        // The first time round it waits for what is not decoded yet; then it runs in real time.
+        // On the first loop, waits for frames that are not decoded yet; later loops run in real
+        // time.
         if (at >= decoded.size() || decoded[at] == PlatePlayer::State::kEmpty) {
             frame_at_s_ = now_s;
             break;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the playhead is, and how it moves.
+// The playhead and its movement.
 
 #include <optional>
 #include <utility>
@@ -9,45 +9,46 @@
 
 namespace weft {
 
-/// One thread. Frames are the plate's numbers, ascending; indices count them from 0.
+/// Belongs to one thread. Frames are the plate's frame numbers, ascending; indices count them from
+/// 0.
 class Playback {
   public:
-    /// The frames of a plate, at least one. The playhead stays where it is, or goes to the first.
+    /// Sets the frames of a plate, at least one. The playhead stays, or moves to the first frame.
     void open(std::vector<int> frames);
-    /// There is no plate. The playhead's number stays for the next one.
+    /// Closes the plate. The playhead's number is kept for the next one.
     void close();
-    /// Stops and forgets the marks.
+    /// Stops and clears the in and out points.
     void reset();
 
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] int frame() const { return frame_; }
-    /// 1 forwards, −1 backwards, 0 not playing.
+    /// 1: forwards; −1: backwards; 0: stopped.
     [[nodiscard]] int direction() const { return direction_; }
-    /// How many frames a second were shown lately; 0: not known.
+    /// Measured frame rate, frames/s; 0: not known.
     [[nodiscard]] double shown_fps() const { return shown_fps_; }
 
-    /// The index of a frame, or of the one after it where the plate has not got it.
+    /// The index of a frame, or of the next frame if the plate does not have it.
     [[nodiscard]] int index_of(int frame) const;
     [[nodiscard]] int index() const { return index_of(frame_); }
-    /// The first and the last index between the marks, inclusive.
+    /// The first and last index between in and out points, inclusive.
     [[nodiscard]] std::pair<int, int> range() const;
     [[nodiscard]] std::optional<int> mark_in() const { return mark_in_; }
     [[nodiscard]] std::optional<int> mark_out() const { return mark_out_; }
     [[nodiscard]] bool marked() const { return mark_in_ || mark_out_; }
-    /// In either order.
+    /// Sets in and out points, in either order.
     void mark(std::optional<int> in, std::optional<int> out);
 
-    /// To a frame of the plate. Whether the playhead moved.
+    /// Moves the playhead to a frame of the plate. Returns true if it moved.
     bool go_to(int frame);
-    /// By so many frames, within the plate. Likewise.
+    /// Moves the playhead by `count` frames within the plate. Returns true if it moved.
     bool step(int count);
     void play(int direction);
     void stop() { direction_ = 0; }
 
-    /// Moves the playhead on while playing. `decoded`: of each frame, by index; one that is not
-    /// decoded is waited for. `now_s`: a clock that never goes back.
+    /// Advances the playhead during playback. `decoded`: state of each frame by index; playback
+    /// waits for a frame that is not decoded. `now_s`: a monotonic clock.
     void advance(double now_s, double fps, const std::vector<PlatePlayer::State>& decoded);
-    /// The present frame and those that will be shown next.
+    /// The current frame and the next ones in the direction of playback.
     [[nodiscard]] std::vector<int> upcoming() const;
 
   private:

@@ -5,7 +5,7 @@
 namespace weft {
 namespace {
 
-// A moment without a new wish is time enough for full size.
+// Delay without a new request before rendering at full size.
 constexpr std::chrono::milliseconds kPause{350};
 
 }  // namespace
@@ -66,7 +66,7 @@ void Preview::pause() {
 void Preview::resume() {
     const auto shared = impl_->guarded.lock();
     shared->paused = false;
-    shared->analysis_news = shared->to_analyse != nullptr;
+    shared->analysis_pending = shared->to_analyse != nullptr;
     impl_->changed(*shared);
     impl_->signal(*shared);
 }
@@ -87,14 +87,14 @@ bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& re
         reading.health = found->second;
     if (!shared->opened || shared->opened->pixels != shared->wanted_pixels) return true;
     for (const auto& [number, pictures] : shared->frames)
-        reading.there.push_back(number);
+        reading.rendered.push_back(number);
     if (const auto found = shared->frames.find(frame); found != shared->frames.end())
         reading.frame = found->second;
     return true;
 }
 
-std::uint64_t Preview::news() const {
-    return impl_->news.load();
+std::uint64_t Preview::changes() const {
+    return impl_->changes.load();
 }
 
 Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
@@ -112,9 +112,9 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame)
                 "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
 }
 
-Expected<LatticeField> Preview::carried(RegionId region, int before, int now) const {
+Expected<LatticeField> Preview::track(RegionId region, int before, int now) const {
     if (const auto [opened, k] = impl_->find_opened(region); opened)
-        return carried_between(*opened, k, before, now);
+        return track_between(*opened, k, before, now);
     return fail(ErrorCode::kMissingFrames,
                 "Frame " + std::to_string(now) + " has not been analysed yet.");
 }

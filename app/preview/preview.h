@@ -1,7 +1,7 @@
 #pragma once
-// Results on the screen while the artist works: the shot's analysis in one background thread, the
-// frames rendered from it in another. The newest request wins; what is shown is what a render
-// writes (smaller at first, where the plate is large), or nothing.
+// Interactive results: one background thread analyses the shot, another renders frames from the
+// analysis. The newest request wins. The picture equals what a render writes, except that a large
+// plate is shown at reduced size first.
 
 #include <array>
 #include <map>
@@ -19,11 +19,11 @@
 
 namespace weft {
 
-/// The steps of the way to a frame, as the four-up view shows them.
+/// The stages of a frame, as the four-up view shows them.
 enum class Stage : std::uint8_t { kTexture, kLit, kFinal };
 inline constexpr int kStageCount = 3;
 
-/// What is drawn over the picture to judge the work by.
+/// Diagnostic overlays.
 enum class Overlay : std::uint8_t {
     kNone,
     kGrid,
@@ -31,140 +31,143 @@ enum class Overlay : std::uint8_t {
     kLight,
     kSeams,
     kMotion,
-    kTrust,  ///< How far the surface looks different from the reference frame, where it came from.
-    kPieces  ///< Which piece of the sample each pixel shows.
+    kConfidence,  ///< Appearance change of the surface since the reference frame.
+                  ///< from.
+    kSourceMap    ///< Which part of the sample each pixel shows.
 };
 
-/// A small result beside the picture: another frame, or this one with another setting.
-struct StripWish {
+/// Request for a card of the strip: a small result of another frame or with another setting.
+struct CardRequest {
     std::string label;
-    std::string note;  ///< More about it, for whoever draws it.
+    std::string note;  ///< Further text for the panel.
     Project project;   ///< As in PreviewRequest.
     int frame = 0;
-    RegionId around = 0;   ///< Only the part of the frame where this region is; 0: all of it.
-    std::string key;       ///< Of its pixels; see strip_key().
-    bool current = false;  ///< The setting that the region has.
+    RegionId around = 0;   ///< Crops to this region; 0: the whole frame.
+    std::string key;       ///< Identifies its pixels; see strip_key().
+    bool current = false;  ///< It shows the region's current setting.
 };
 
-/// Where a StripWish stands.
+/// The state of a CardRequest.
 struct StripCard {
     std::string label, note;
     int frame = 0;
-    PicturePtr picture;    ///< Null while it is being made.
-    std::string error;     ///< Why it cannot be.
-    bool current = false;  ///< As StripWish::current.
+    PicturePtr picture;    ///< Null until it is rendered.
+    std::string error;     ///< Error message; empty: none.
+    bool current = false;  ///< Copied from CardRequest::current.
 };
 
 struct PreviewRequest {
-    Project project;  ///< With absolute paths, and only the regions that can be shown.
+    Project project;  ///< With absolute paths, and only regions that can be shown.
     int frame = 0;
-    std::vector<int> range;          ///< Frames to be analysed; empty: only what `frame` needs.
-    std::vector<int> fill;           ///< Frames to be rendered when idle, in this order.
-    bool stages = false;             ///< Also the pictures before the final one.
-    std::optional<LayerKind> layer;  ///< Also this layer for compositing of `frame`.
+    std::vector<int> range;          ///< Frames to analyse; empty: only those that `frame` needs.
+    std::vector<int> fill;           ///< Frames to render when idle, in this order.
+    bool stages = false;             ///< Also render the earlier stages.
+    std::optional<LayerKind> layer;  ///< Also render this layer of `frame`.
     Overlay overlay = Overlay::kNone;
     RegionId overlay_region = 0;
-    std::vector<StripWish> cards;  ///< To be made when the frame is there.
-    PaintedMattes painted;         ///< Mattes of the project that may not be on the disk yet.
-    bool hurried = false;          ///< Something is moving: no time for full size.
+    std::vector<CardRequest> cards;  ///< Cards to render after the frame.
+    PaintedMattes painted;           ///< Painted mattes that may not be on disk yet.
+    bool interactive = false;        ///< During playback: do not refine to full size.
 };
 
 struct PreviewFrame {
-    std::array<PicturePtr, kStageCount> stages;  ///< By Stage; only the final one may be there.
-    /// The texture was grown for another scale; the right one is being made.
+    /// By Stage; null except for the final one unless requested.
+    std::array<PicturePtr, kStageCount> stages;
+    /// The texture was synthesized for another scale; the exact one is in progress.
     bool approximate = false;
-    int proxy = 1;  ///< By how much the pictures are smaller than the plate.
+    int proxy = 1;  ///< Reduction factor of the pictures relative to the plate.
     std::optional<LayerKind> layer_kind;
-    PicturePtr layer;  ///< As PreviewRequest::layer, on the screen's terms.
-    /// The final picture as it was rendered small, kept when it is refined: neighbours are compared
-    /// at one size.
+    PicturePtr layer;  ///< PreviewRequest::layer, converted for display.
+    /// The final picture at reduced size, kept after refining, so that neighbouring frames are
+    /// compared at one size.
     PicturePtr small;
-    std::shared_ptr<const SeamPoints> seams;  ///< Of the picture that is compared.
+    std::shared_ptr<const SeamPoints> seams;  ///< Seams in `small`.
     [[nodiscard]] const PicturePtr& comparable() const {
         return small ? small : stages[static_cast<std::size_t>(Stage::kFinal)];
     }
 };
 
-/// A value in 0–255 for each pixel of the overlay's region, with a matte of where it holds.
+/// An overlay: a value of 0–255 per pixel, with a matte of where it is valid.
 struct OverlayPicture {
     Overlay kind = Overlay::kNone;
     int frame = 0;
     std::uint64_t id = 0;
     Matte value, where;
-    Matte marked;  ///< Of kPieces: 255 where the texture is kept, 128 where it was made again.
-    float low = 0, high = 1;  ///< What 0 and 255 stand for.
+    Matte marked;             ///< For kSourceMap: 255 in locked patches, 128 in regenerated ones.
+    float low = 0, high = 1;  ///< The values that 0 and 255 stand for.
     std::string unit;
     struct Arrow {
         Vec2 at, to;
     };
-    std::vector<Arrow> arrows;                     ///< Motion since the reference frame, in pixels.
-    std::shared_ptr<const Provenance> provenance;  ///< Of kPieces.
+    std::vector<Arrow> arrows;                     ///< Motion since the reference frame, px.
+    std::shared_ptr<const Provenance> provenance;  ///< For kSourceMap.
 };
 
-/// How a frame of a region fares, as far as it is known (below 0: not).
+/// Quality measures of a region on a frame; below 0: not known.
 struct FrameHealth {
     // As in FrameMarks.
     float drift = -1, stretch = -1, seam = -1, seam_motion = -1;
-    float flicker = -1, flicker_plate = -1, flicker_carried = -1, chatter = -1;
+    float flicker = -1, flicker_plate = -1, flicker_floor = -1, chatter = -1;
 };
 
 struct PreviewView {
     enum class State : std::uint8_t { kIdle, kOpening, kAnalysing, kGrowing, kRendering, kFailed };
-    State state = State::kIdle;  ///< Of the wanted frame.
+    State state = State::kIdle;  ///< State of the requested frame.
     std::string error;
-    bool analysing = false;  ///< In the background, whatever the wanted frame waits for.
+    /// The background analysis is running, whatever the state of the requested frame.
+    bool analysing = false;
     int done = 0, total = 0;
-    double seconds_left = 0;  ///< 0: not known yet.
+    double seconds_left = 0;  ///< Estimated time of the analysis, s; 0: not known yet.
     std::vector<std::string> warnings;
-    std::map<RegionId, int> references;  ///< The frame that each region's texture is placed on.
-    std::uint64_t changes = 0;           ///< Grows with every news.
-    double frame_seconds = 0;            ///< What the last frame of full size took to render.
-    double first_seconds = 0;            ///< What the last picture of the wanted frame took.
+    std::map<RegionId, int> references;  ///< The reference frame of each region.
+    std::uint64_t changes = 0;           ///< Increases with every change.
+    double frame_seconds = 0;            ///< Render time of the last full-size frame, s.
+    double first_seconds = 0;            ///< Time until the last picture of the requested frame, s.
 };
 
-/// What the preview has to show, as of the last Preview::try_read() that succeeded.
+/// The preview's results at the last successful Preview::try_read().
 struct PreviewReading {
     PreviewView view;
     bool paused = false;
-    PreviewFrame frame;      ///< Of the newest request's content only.
-    std::vector<int> there;  ///< The frames that are rendered, likewise; ascending.
+    PreviewFrame frame;         ///< Matches the newest request's content only.
+    std::vector<int> rendered;  ///< Rendered frames of that content, ascending.
     std::shared_ptr<const OverlayPicture> overlay;
-    /// How sure the propagation was, by frame; empty for mattes that come from files.
+    /// Confidence of matte propagation, by frame; empty for mattes from files.
     std::map<int, float> confidence;
-    std::map<int, FrameHealth> health;       ///< Of the region, by frame.
-    std::map<std::string, StripCard> cards;  ///< Those that are made, by StripWish::key.
+    std::map<int, FrameHealth> health;       ///< Quality of the region, by frame.
+    std::map<std::string, StripCard> cards;  ///< Finished cards, by CardRequest::key.
 };
 
-/// Thread-safe. The window's thread asks with try_request() and try_read(), which never wait: a
-/// worker of low priority may be interrupted while it holds the lock, for as long as a busy machine
-/// likes.
+/// Thread-safe. The window's thread uses try_request() and try_read(), which never block: a
+/// low-priority worker that holds the lock may be preempted for a long time on a busy machine.
 class Preview {
   public:
-    /// `texture_library`: for textures "db:ID"; empty: the user's own.
+    /// `texture_library`: the library of textures "db:ID"; empty: the user's own.
     explicit Preview(AnalysisCacheOptions cache, std::string texture_library = {},
                      std::size_t budget_bytes = std::size_t{384} << 20);
     ~Preview();
 
-    /// False, and nothing happens, when a worker is at its books just now.
+    /// Returns false and does nothing while a worker holds the lock.
     bool try_request(const PreviewRequest& request);
-    /// Forgets the shot and stops all work.
+    /// Closes the shot and stops all work.
     void clear();
-    /// Stops the analysis until the next request that changes it, or resume().
+    /// Pauses the analysis until resume(), or until a request changes it.
     void pause();
     void resume();
 
-    /// Pictures of `frame`, confidence of `region`'s matte or of its holdout `layer` − 1. False,
-    /// and `reading` stays, likewise.
+    /// Reads pictures of `frame` and the confidence of `region`'s matte (`layer` 0) or of its
+    /// holdout `layer` − 1. Returns false and leaves `reading` unchanged while a worker holds the
+    /// lock.
     bool try_read(int frame, RegionId region, int layer, PreviewReading& reading) const;
-    /// Grows with everything that try_read() would tell.
-    [[nodiscard]] std::uint64_t news() const;
-    /// Reads a propagated matte (`layer` 0) or holdout; to be called in the background. Error: not
+    /// Increases with every change that try_read() would report.
+    [[nodiscard]] std::uint64_t changes() const;
+    /// Reads a propagated matte (`layer` 0) or holdout. Slow: call it in the background. Error: not
     /// propagated yet.
     [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int layer, int frame) const;
-    /// How the texture was carried, before_from_now, in plate pixels; to be called in the
-    /// background. Error: not analysed yet, or the region's mode carries nothing.
-    [[nodiscard]] Expected<LatticeField> carried(RegionId region, int before, int now) const;
-    /// Changes whenever propagated mattes may have changed.
+    /// The track of the texture, before_from_now, in plate pixels. Slow: call it in the background.
+    /// Error: not analysed yet, or the region's mode has no track.
+    [[nodiscard]] Expected<LatticeField> track(RegionId region, int before, int now) const;
+    /// Changes when propagated mattes may have changed.
     [[nodiscard]] std::uint64_t matte_version() const;
 
   private:
@@ -172,11 +175,11 @@ class Preview {
     std::unique_ptr<Impl> impl_;
 };
 
-/// What a frame's pixels depend on, as text: equal for projects that give the same pixels.
+/// A key of everything that a frame's pixels depend on: equal keys give equal pixels.
 [[nodiscard]] std::string pixel_key(const Project& project);
-/// The same for the analysis.
+/// A key of everything that the analysis depends on.
 [[nodiscard]] std::string analysis_key(const Project& project);
-/// The same for a card.
-[[nodiscard]] std::string strip_key(const StripWish& wish);
+/// A key of everything that a card's pixels depend on.
+[[nodiscard]] std::string strip_key(const CardRequest& request);
 
 }  // namespace weft

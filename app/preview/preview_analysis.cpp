@@ -1,4 +1,4 @@
-// The analysing thread of the preview.
+// The analysis thread of the preview.
 #include "app/base/background.h"
 #include "app/preview/preview_impl.h"
 #include "engine/pipeline/analyse.h"
@@ -51,17 +51,18 @@ void Preview::Impl::analyse_loop() {
         CancelToken token;
         {
             auto shared = guarded.lock();
-            wake.wait(shared.lock(),
-                      [&] { return shared->stop || (shared->analysis_news && !shared->paused); });
+            wake.wait(shared.lock(), [&] {
+                return shared->stop || (shared->analysis_pending && !shared->paused);
+            });
             if (shared->stop) return;
-            shared->analysis_news = false;
+            shared->analysis_pending = false;
             work = shared->to_analyse;
             first = shared->analyse_first;
             all = shared->analyse_frames;
             shared->analysis_cancel = token;
             shared->analysing_key = work->analysis;
         }
-        // What the artist looks at comes first, unless that is most of the work anyway.
+        // Analyse the visible frame first, unless that is most of the work anyway.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
         if (for_first > 0 && 2 * for_first < for_all) analyse(work, first, token);
         if (!token.cancelled()) analyse(work, all, token);

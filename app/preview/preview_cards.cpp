@@ -1,5 +1,4 @@
-// The small results beside the picture, made by the preview's rendering thread when the picture is
-// there.
+// The cards of the strip, rendered by the preview's rendering thread after the picture.
 #include <algorithm>
 
 #include "app/preview/preview_impl.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr int kLongest_px = 480;
 constexpr std::int64_t kCardPixels = 240'000;
 
-// The surroundings of a matte, about as wide as a card.
+// A crop around a matte, with the aspect ratio of a card.
 Recti around(const Recti& box, Size frame) {
     const int margin = std::max(box.width(), box.height()) / 6;
     Recti out{box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
@@ -25,7 +24,7 @@ Recti around(const Recti& box, Size frame) {
     out.x1 = out.x0 + width;
     out.y0 -= (height - out.height()) / 2;
     out.y1 = out.y0 + height;
-    // Moved inside rather than cut, so that all cards have one shape.
+    // Moved inside the frame rather than clipped, so that all cards have one shape.
     const auto inside = [](int& low, int& high, int limit) {
         if (low < 0) high -= low, low = 0;
         if (high > limit) low = std::max(0, low - (high - limit)), high = limit;
@@ -42,7 +41,7 @@ ImageF3 cut(const ImageF3& picture, const Recti& box) {
     return out;
 }
 
-// Whether what was found out for one project serves the other. Without light less is needed.
+// Returns true if the open analysis also serves this project. Without light, less is needed.
 bool served_by(const Project& wanted, const std::string& analysis) {
     if (analysis_key(wanted) == analysis) return true;
     Project lit = wanted;
@@ -54,27 +53,27 @@ bool served_by(const Project& wanted, const std::string& analysis) {
 
 }  // namespace
 
-Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const StripWish& wish) {
+Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const CardRequest& request) {
     const Shot& shot = *of.shot;
     const int factor = factor_of(shot, kCardPixels);
     const ProxyShot small(shot, *of.store, *proxies, factor);
     const std::vector<RegionScene> placed = proxy_scenes(scenes.scenes(), factor);
     WEFT_TRY(made, render_frame(small.source(), small.plan(), placed, small.store(), *backend,
-                                wish.frame));
+                                request.frame));
     ImageF3 pixels = std::move(made.pixels);
-    for (std::size_t k = 0; wish.around != 0 && k < shot.region_index.size(); ++k) {
-        if (shot.project.regions[shot.region_index[k]]->id != wish.around) continue;
-        WEFT_TRY(matte, small.source().matte(static_cast<int>(k), wish.frame));
+    for (std::size_t k = 0; request.around != 0 && k < shot.region_index.size(); ++k) {
+        if (shot.project.regions[shot.region_index[k]]->id != request.around) continue;
+        WEFT_TRY(matte, small.source().matte(static_cast<int>(k), request.frame));
         const Recti box = matte_bounds(matte);
         if (!box.empty()) pixels = cut(pixels, around(box, pixels.size()));
     }
     return make_picture(shrink(*picture_of(shot, pixels), kLongest_px));
 }
 
-// A surface that has no texture yet was not analysed with the others: its one frame is, here.
-Status Preview::Impl::analyse_card(OpenedShot& of, const StripWish& wish,
+// A region without a texture is not part of the shot's analysis: analyse this frame alone.
+Status Preview::Impl::analyse_card(OpenedShot& of, const CardRequest& request,
                                    const CancelToken& cancel) {
-    of.analysis = analysis_key(wish.project);
+    of.analysis = analysis_key(request.project);
     if (card_analysis != of.analysis) {
         std::vector<std::string> warnings;
         WEFT_TRY(store, open_analysis_cache(*of.shot, cache, warnings));
@@ -83,7 +82,7 @@ Status Preview::Impl::analyse_card(OpenedShot& of, const StripWish& wish,
     }
     of.store = card_store;
     ShotPlan plan = of.shot->plan;
-    plan.frames = {wish.frame};
+    plan.frames = {request.frame};
     return analyse_shot(*of.shot->source, plan, *of.store, cancel, {});
 }
 
@@ -94,34 +93,35 @@ bool Preview::Impl::step_card(const PreviewRequest& now) {
         if (!shared->wanted || shared->wanted->frame != now.frame) return true;
         shared->card_cancel = card;
     }
-    const auto put = [&](const StripWish& wish, PicturePtr picture, std::string error) {
+    const auto put = [&](const CardRequest& request, PicturePtr picture, std::string error) {
         const auto shared = guarded.lock();
-        shared->cards[wish.key] = {wish.label, wish.note, wish.frame, std::move(picture),
-                                   std::move(error)};
+        shared->cards[request.key] = {request.label, request.note, request.frame,
+                                      std::move(picture), std::move(error)};
         changed(*shared);
         return true;
     };
     {
         const auto shared = guarded.lock();
         std::erase_if(shared->cards, [&](const auto& made) {
-            return std::none_of(now.cards.begin(), now.cards.end(),
-                                [&](const StripWish& wish) { return wish.key == made.first; });
+            return std::none_of(
+                now.cards.begin(), now.cards.end(),
+                [&](const CardRequest& request) { return request.key == made.first; });
         });
     }
-    for (const StripWish& wish : now.cards) {
+    for (const CardRequest& request : now.cards) {
         {
             const auto shared = guarded.lock();
-            if (shared->cards.contains(wish.key)) continue;
+            if (shared->cards.contains(request.key)) continue;
         }
-        const bool served = served_by(wish.project, current->analysis);
-        if (served && !ready(wish.frame)) continue;  // its frame is still being analysed
-        auto shot = open(wish.project, now.painted);
-        if (!shot) return put(wish, nullptr, shot.error().text());
+        const bool served = served_by(request.project, current->analysis);
+        if (served && !ready(request.frame)) continue;  // wait for the analysis of its frame
+        auto shot = open(request.project, now.painted);
+        if (!shot) return put(request, nullptr, shot.error().text());
         OpenedShot of{*shot, current->store, current->pixels, current->analysis};
         if (!served) {
-            const Status analysed = analyse_card(of, wish, card);
+            const Status analysed = analyse_card(of, request, card);
             if (card.cancelled()) return true;
-            if (!analysed) return put(wish, nullptr, analysed.error().text());
+            if (!analysed) return put(request, nullptr, analysed.error().text());
         }
         (void)scenes.adopt(*of.shot, of.analysis);
         while (!scenes.exact()) {
@@ -134,13 +134,13 @@ bool Preview::Impl::step_card(const PreviewRequest& now) {
             }
             const Status grown = scenes.grow_one(*of.shot, *of.store, of.analysis, token);
             if (token.cancelled()) return true;
-            if (!grown) return put(wish, nullptr, grown.error().text());
+            if (!grown) return put(request, nullptr, grown.error().text());
             const auto shared = guarded.lock();
-            if (shared->wanted->frame != now.frame) return true;  // that comes first
+            if (shared->wanted->frame != now.frame) return true;  // the new frame comes first
         }
-        auto made = card_picture(of, wish);
-        if (!made) return put(wish, nullptr, made.error().text());
-        return put(wish, std::move(*made), {});
+        auto made = card_picture(of, request);
+        if (!made) return put(request, nullptr, made.error().text());
+        return put(request, std::move(*made), {});
     }
     return false;
 }

@@ -18,7 +18,7 @@
 namespace weft {
 namespace {
 
-// About as many as the pictures that are compared may have.
+// Approximate size of the compared pictures.
 constexpr std::int64_t kComparedPixels = 130'000;
 
 float plain(const std::optional<double>& value) {
@@ -69,7 +69,7 @@ Steadiness measure_steadiness(const FramePair& pair) {
                          pair.now.matte, MeasuringEstimator::kFarneback, kChatterReachPx);
     MeasureOptions options;
     options.measure_drift = false;
-    // Next to the edge the small pictures mix two surfaces.
+    // Pixels at the edge of small pictures mix two surfaces.
     options.erode_px = 1;
     SequenceMeasure measure(options);
     Steadiness out;
@@ -88,12 +88,13 @@ Steadiness measure_steadiness(const FramePair& pair) {
     if (!pair.before_from_now.empty()) {
         const Matte visible =
             visible_in_both(motion, pair.before.matte, pair.now.matte, options.erode_px);
-        const TemporalError carried =
+        const TemporalError floor =
             carried_tde(luma_8bit(pair.before.result), pair.before_from_now, motion, visible);
-        if (carried.pixels > 0) out.flicker_carried = static_cast<float>(carried.tde);
+        if (floor.pixels > 0) out.flicker_floor = static_cast<float>(floor.tde);
     }
     if (pair.before.seams && pair.now.seams) {
-        // Whether seams stay on the texture; whether that stays on the surface is drift.
+        // Measures whether seams stay on the texture; whether the texture stays on the surface is
+        // drift.
         FlowField inside = pair.before_from_now;
         if (!inside.empty()) inside.valid = eroded_inside(pair.now.matte, options.erode_px);
         const float moved =
@@ -122,8 +123,8 @@ FlowField dense_flow(const LatticeField& field) {
     return out;
 }
 
-Expected<LatticeField> carried_between(const OpenedShot& opened, std::size_t region, int before,
-                                       int now) {
+Expected<LatticeField> track_between(const OpenedShot& opened, std::size_t region, int before,
+                                     int now) {
     const auto ref_from = [&](int frame) -> Expected<LatticeField> {
         WEFT_TRY(bytes,
                  opened.store->get({static_cast<int>(region), frame, AnalysisKind::kCoords}));
@@ -134,10 +135,9 @@ Expected<LatticeField> carried_between(const OpenedShot& opened, std::size_t reg
     return compose(ref_from_now, inverse(ref_from_before));
 }
 
-// The next two neighbouring frames that are rendered and not compared yet. False when there are
-// none.
+// Compares the next pair of rendered neighbouring frames. Returns false if there is none.
 bool Preview::Impl::step_flicker(const PreviewRequest& now) {
-    if (now.hurried) return false;
+    if (now.interactive) return false;
     const Shot& shot = *current->shot;
     const std::vector<int>& all = shot.plate->frames();
     int before = 0, frame = 0;
@@ -186,8 +186,8 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
         };
         auto there = matte_of(before), here = matte_of(frame);
         if (!there || !here) continue;
-        const auto carried = carried_between(*current, k, before, frame);
-        pair.before_from_now = carried ? dense_flow(shrunk(*carried, factor)) : FlowField();
+        const auto track = track_between(*current, k, before, frame);
+        pair.before_from_now = track ? dense_flow(shrunk(*track, factor)) : FlowField();
         pair.before.matte = std::move(*there);
         pair.now.matte = std::move(*here);
         const Steadiness found = measure_steadiness(pair);
@@ -197,7 +197,7 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
             shared->healths[shot.project.regions[shot.region_index[k]]->id][frame];
         health.flicker = found.flicker;
         health.flicker_plate = found.flicker_plate;
-        health.flicker_carried = found.flicker_carried;
+        health.flicker_floor = found.flicker_floor;
         health.chatter = found.chatter;
         health.seam_motion = found.seam_motion;
         changed(*shared);

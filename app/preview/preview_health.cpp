@@ -13,8 +13,8 @@ namespace weft {
 namespace {
 
 constexpr float kLostPattern = 0.35f;
-constexpr int kStep_px = 4;              // Between the places looked at, in the small picture.
-constexpr std::size_t kMostFrames = 96;  // Of a shot; the strips show these.
+constexpr int kStep_px = 4;              // sampling step in the small picture
+constexpr std::size_t kMostFrames = 96;  // frames of a shot that are measured for the strips
 
 }  // namespace
 
@@ -109,7 +109,7 @@ float seam_prominence(const RenderedFrame& frame) {
         std::clamp(on / static_cast<double>(on_count) / beside - 1.0, 0.0, 1.0));
 }
 
-// Drift and stretch of the frames that were analysed, or of as many as a strip can show.
+// Measures drift and stretch of the analysed frames, or of as many as a strip can show.
 void Preview::Impl::collect_health(const OpenedShot& work, const CancelToken& token) {
     const Shot& shot = *work.shot;
     const std::vector<int>& all = shot.plate->frames();

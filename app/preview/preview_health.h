@@ -1,5 +1,6 @@
 #pragma once
-// How a frame fares: figures for the strips below the ruler, from what the preview has anyway.
+// Quality measures of a frame for the strips below the ruler, from data that the preview already
+// has.
 
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
@@ -7,23 +8,23 @@
 
 namespace weft {
 
-/// Luma over its surroundings, of a small picture: what light does not change much.
+/// Luma relative to its surroundings in a small picture, which is nearly independent of lighting.
 [[nodiscard]] ImageF1 small_pattern(const ImageF3& plate, const ColorTransform& display_from_plate,
                                     int factor);
 
-/// How far the surface looks different from what it was on the reference frame, 0 (not at all) to 1
-/// (it is something else): the mean over the matte of the difference of the patterns, of which
-/// kLostPattern is 1. Below 0 where the matte is empty. Pictures are smaller by `factor`.
+/// Appearance change of the surface since the reference frame, from 0 (none) to 1 (unrelated): the
+/// mean difference of the patterns over the matte, where kLostPattern is 1. Below 0 if the matte is
+/// empty. Pictures are smaller by `factor`.
 [[nodiscard]] float pattern_drift(const ImageF1& now, const ImageF1& reference,
                                   const LatticeField& ref_from_cur, const Matte& matte, int factor);
 
-/// How far the texture is drawn out or squeezed against the reference frame, whichever is more: the
-/// mean over the matte; 1 not at all, below 0 where the matte is empty.
+/// Stretch or compression of the texture relative to the reference frame, whichever is larger: the
+/// mean over the matte. 1: none; below 0: the matte is empty.
 [[nodiscard]] float mean_stretch(const LatticeField& ref_from_cur, const Matte& matte);
 
-/// How much the seams of the planes stand out in a rendered frame with layers: how much steeper the
-/// picture is there than elsewhere in the patch, 0 (not at all) to 1 (twice as steep). Below 0
-/// where no seam is seen.
+/// Visibility of plane seams in a rendered frame with layers: how much steeper the picture is at
+/// seams than elsewhere in the patch, from 0 (no more) to 1 (twice as steep). Below 0 if no seam is
+/// visible.
 [[nodiscard]] float seam_prominence(const RenderedFrame& frame);
 
 }  // namespace weft

@@ -53,9 +53,9 @@ std::string analysis_key(const Project& project) {
     return text_of(p);
 }
 
-std::string strip_key(const StripWish& wish) {
-    return std::to_string(wish.frame) + " " + std::to_string(wish.around) + " " +
-           pixel_key(wish.project);
+std::string strip_key(const CardRequest& request) {
+    return std::to_string(request.frame) + " " + std::to_string(request.around) + " " +
+           pixel_key(request.project);
 }
 
 }  // namespace weft

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/preview/preview_health.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/plate_views.h"
@@ -22,7 +22,7 @@ std::uint8_t code(float v) {
     return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-// How far a coordinate is from the nearest line of a grid, in pixels of the plate.
+// Coverage of the nearest grid line at a coordinate, one plate pixel wide.
 float line_cover(float uv, float step, float texels_per_px) {
     const float to_line = std::abs(uv / step - std::round(uv / step)) * step;
     return std::clamp(1.5f - to_line / std::max(texels_per_px, 1e-4f), 0.0f, 1.0f);
@@ -42,7 +42,7 @@ Jacobian jacobian(const ImageF2& uv, int x, int y) {
             uv.pixel(x1, y)[1] - uv.pixel(x0, y)[1], uv.pixel(x, y1)[1] - uv.pixel(x, y0)[1]};
 }
 
-// A grid of the sample's size over the surface.
+// Draws a grid of the sample's size over the surface.
 void draw_grid(const TextureCoords& coords, Size sample, OverlayPicture& out) {
     out.unit = "sample";
     const auto step_u = static_cast<float>(std::max(8, sample.width / 4));
@@ -60,7 +60,7 @@ void draw_grid(const TextureCoords& coords, Size sample, OverlayPicture& out) {
     });
 }
 
-// How much larger the texture is here than it was placed: linear magnification of a texel.
+// Draws the linear magnification of texels relative to the placement.
 void draw_stretch(const TextureCoords& coords, OverlayPicture& out) {
     out.low = 0;
     out.high = 3;
@@ -113,7 +113,7 @@ void for_texels(const TextureCoords& coords, const PlaneMap& plane, OverlayPictu
     });
 }
 
-// Where pieces of the sample meet in the plane, by how much they differ there.
+// Draws the seams of the plane by the difference of the patches.
 void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
     out.unit = "difference at the seam";
     out.high = 64;
@@ -123,8 +123,8 @@ void draw_seams(const TextureCoords& coords, const PlaneMap& plane, OverlayPictu
     });
 }
 
-// Pieces of the sample in greys of their own.
-void draw_pieces(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
+// Draws each patch of the sample in its own grey.
+void draw_source_map(const TextureCoords& coords, const PlaneMap& plane, OverlayPicture& out) {
     for_texels(coords, plane, out, [&](int u, int v) {
         const std::int32_t* from = plane.source.pixel(u, v);
         const auto piece =
@@ -133,7 +133,7 @@ void draw_pieces(const TextureCoords& coords, const PlaneMap& plane, OverlayPict
     });
 }
 
-// Where the artist has kept the texture, or had it made again.
+// Marks locked and regenerated patches.
 void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const PlaneMap& plane,
                   OverlayPicture& out) {
     const int width = plane.source.width(), height = plane.source.height();
@@ -155,10 +155,10 @@ void draw_amended(const TextureCoords& coords, const RegionPlan& plan, const Pla
     }
 }
 
-// How far the surface looks different from what it was on the reference frame: where motion has
-// lost it, or something else is seen.
-Status draw_trust(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
-                  OverlayPicture& out) {
+// Draws the appearance change since the reference frame, where motion was lost or something else is
+// visible.
+Status draw_confidence(const Shot& shot, const LatticeField& ref_from_cur, int reference, int frame,
+                       OverlayPicture& out) {
     out.unit = "difference from the reference";
     out.low = 0;
     out.high = 1;
@@ -199,7 +199,7 @@ void draw_motion(const LatticeField& ref_from_cur, OverlayPicture& out) {
     }
 }
 
-// As the scene has kept it, or once more.
+// The plane from the scene, or synthesized again.
 Expected<std::shared_ptr<const TexturePlane>> grown_plane(const Shot& shot, const RegionPlan& plan,
                                                           const RegionScene& scene,
                                                           const CancelToken& cancel) {
@@ -215,27 +215,27 @@ std::string id_of(const ShotTexture& texture) {
     return texture.library_id.empty() ? texture.id.substr(0, 12) : "db:" + texture.library_id;
 }
 
-// Which references a frame of a locked texture was followed from, and how they share it
-// (SurfacePass::blend; a held drawing's own position in time is left out).
-Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
-                        const RegionScene& scene, int region, Provenance& out) {
+// Finds the reference frames whose tracks a frame of a locked texture uses, with their weights
+// (SurfacePass::blend; the time offset of a held drawing is ignored).
+Status follow_tracks(const RegionPlan& plan, const AnalysisStore& store, const RegionScene& scene,
+                     int region, Provenance& out) {
     std::vector<int> references = plan.reference_frames;
     std::sort(references.begin(), references.end());
     const auto next = std::upper_bound(references.begin(), references.end(), out.frame);
-    out.history_frame = next == references.begin() ? references.front() : *(next - 1);
+    out.track_frame = next == references.begin() ? references.front() : *(next - 1);
     if (plan.temporal != TemporalMode::kLocked) return {};
     const bool between =
         next != references.begin() && next != references.end() && *(next - 1) != out.frame;
     if (between) {
         const float after = smooth_step(static_cast<float>(out.frame),
                                         static_cast<float>(*(next - 1)), static_cast<float>(*next));
-        out.two = TwoHistories{*(next - 1), *next, after, {}};
+        out.two = TwoTracks{*(next - 1), *next, after, {}};
     }
     for (const HistorySeam& seam : scene.seams) {
         if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kHistoryAfter}))
             continue;
-        if (!out.two) out.two = TwoHistories{out.history_frame, out.history_frame, 0, {}};
-        TwoHistories::Seam one;
+        if (!out.two) out.two = TwoTracks{out.track_frame, out.track_frame, 0, {}};
+        TwoTracks::Seam one;
         one.labels = {out.frame - 1,
                       out.frame + 1,
                       seam.cell_px,
@@ -253,7 +253,7 @@ Status follow_histories(const RegionPlan& plan, const AnalysisStore& store,
     return {};
 }
 
-// All but the plane.
+// Everything but the plane.
 Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
                                    const RegionScene& scene, int region, int frame) {
     const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
@@ -271,7 +271,7 @@ Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
     out.temporal = plan.temporal;
     out.fresh = plan.blend;
     out.reference_shading = scene.reference_shading;
-    WEFT_CHECK_OK(follow_histories(plan, store, scene, region, out));
+    WEFT_CHECK_OK(follow_tracks(plan, store, scene, region, out));
     if (store.has({region, frame, AnalysisKind::kShading})) {
         WEFT_TRY(light, store.get({region, frame, AnalysisKind::kShading}));
         WEFT_TRY(shading, decode_shading(light));
@@ -298,7 +298,7 @@ Expected<std::shared_ptr<const PlaneMap>> OverlayMaker::plane_map(const Shot& sh
     parallel_rows(map->energy.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < map->energy.width(); ++x) {
-                // Seams that cost next to nothing are to be seen as well.
+                // Draw seams of low cost too.
                 const PlaneEnergy here = texel_energy(atlas, position, {x, y}, true);
                 const double shown = here.length_px > 0 ? 48 + here.energy : 0;
                 map->energy.at(x, y) = static_cast<std::uint8_t>(std::min(255.0, shown));
@@ -350,7 +350,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     WEFT_TRY(mapping, mapping_on(plan, scene, frame));
     const TextureCoords coords = texture_coords(ref_from_cur, mapping, rect_of(size));
     std::shared_ptr<const PlaneMap> plane;
-    if (kind == Overlay::kSeams || kind == Overlay::kPieces) {
+    if (kind == Overlay::kSeams || kind == Overlay::kSourceMap) {
         WEFT_TRY(map, plane_map(shot, region, scene, cancel));
         plane = std::move(map);
     }
@@ -367,12 +367,12 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
         case Overlay::kMotion:
             draw_motion(ref_from_cur, out);
             break;
-        case Overlay::kTrust:
+        case Overlay::kConfidence:
             WEFT_CHECK_OK(
-                draw_trust(shot, ref_from_cur, plan.reference_frames.front(), frame, out));
+                draw_confidence(shot, ref_from_cur, plan.reference_frames.front(), frame, out));
             break;
-        case Overlay::kPieces: {
-            if (plane) draw_pieces(coords, *plane, out);
+        case Overlay::kSourceMap: {
+            if (plane) draw_source_map(coords, *plane, out);
             if (plane && !plan.amendments.empty()) draw_amended(coords, plan, *plane, out);
             WEFT_TRY(asked, provenance_of(shot, store, scene, region, frame));
             asked.plane = plane;

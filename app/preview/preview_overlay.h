@@ -1,5 +1,5 @@
 #pragma once
-// Internal to the preview: what is drawn over a frame to judge the work by.
+// Internal to the preview: diagnostic overlays.
 
 #include "app/preview/preview.h"
 #include "app/shot/shot.h"
@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// Belongs to one thread. Keeps the map of the last plane that it drew of.
+/// Belongs to one thread. Caches the map of the last plane.
 class OverlayMaker {
   public:
-    /// `region`: index among the planned ones. Errors: those of the store and of growing.
+    /// `region`: index among planned regions. Errors: those of the store and of synthesis.
     [[nodiscard]] Expected<OverlayPicture> make(Overlay kind, const Shot& shot,
                                                 const AnalysisStore& store,
                                                 const RegionScene& scene, int region, int frame,

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-// What is rendered at once; larger plates are shown smaller first.
+// Pixels of the first picture; larger plates are shown reduced first.
 constexpr std::int64_t kProxyPixels = 640'000;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -71,11 +71,11 @@ void Preview::Impl::render_loop() {
     for (;;) {
         {
             auto shared = guarded.lock();
-            const auto news_or_end = [&] { return shared->stop || shared->signals != seen; };
-            if (refine_due)
-                wake.wait_until(shared.lock(), shared->refine_at, news_or_end);
+            const auto signalled = [&] { return shared->stop || shared->signals != seen; };
+            if (refine_pending)
+                wake.wait_until(shared.lock(), shared->refine_at, signalled);
             else
-                wake.wait(shared.lock(), news_or_end);
+                wake.wait(shared.lock(), signalled);
             if (shared->stop) return;
             seen = shared->signals;
         }
@@ -86,11 +86,11 @@ void Preview::Impl::render_loop() {
     }
 }
 
-// One piece of work; false when there is none until something happens.
+// Does one piece of work; returns false if there is none.
 bool Preview::Impl::step() {
     PreviewRequest now;
     std::string pixels;
-    refine_due = false;
+    refine_pending = false;
     {
         const auto shared = guarded.lock();
         if (!shared->wanted || shared->wanted_pixels == shared->failed_pixels) return false;
@@ -103,11 +103,11 @@ bool Preview::Impl::step() {
         set_state(PreviewView::State::kAnalysing);
     else if (step_frame(now))
         return true;
-    // Pictures come first, then what is to be said of them.
+    // Pictures first, then measurements.
     return step_fill(now, pixels) || step_card(now) || step_flicker(now);
 }
 
-// What was analysed from mattes in memory is found again by their files from now on.
+// Files analysis results of in-memory mattes under the names of their files, once they are written.
 void Preview::Impl::note_written(const PreviewRequest& now) {
     if (!unwritten) return;
     const PaintedMattes& were = unwritten->shot->painted;
@@ -117,7 +117,7 @@ void Preview::Impl::note_written(const PreviewRequest& now) {
     unwritten.reset();
 }
 
-// The frame that is looked at: small at once, at full size when nothing else is wanted.
+// Renders the visible frame: reduced at once, full size when idle.
 bool Preview::Impl::step_frame(const PreviewRequest& now) {
     const int factor = factor_of(*current->shot, kProxyPixels);
     bool shown_small = false, whole = false, may_refine = false;
@@ -130,11 +130,11 @@ bool Preview::Impl::step_frame(const PreviewRequest& now) {
                           (!now.layer || there.layer_kind == now.layer);
             whole = shown_small && there.proxy == 1;
         }
-        may_refine = !now.hurried && Clock::now() >= shared->refine_at;
+        may_refine = !now.interactive && Clock::now() >= shared->refine_at;
     }
     if (!shown_small) return render(now, now.frame, factor);
     if (!whole && may_refine) return render(now, now.frame, 1);
-    refine_due = !whole && !now.hurried;
+    refine_pending = !whole && !now.interactive;
     set_state(PreviewView::State::kIdle);
     return draw_overlay(now);
 }
@@ -157,7 +157,7 @@ bool Preview::Impl::step_fill(const PreviewRequest& now, const std::string& pixe
     return false;
 }
 
-// One reader serves all versions of a shot, so that its frames are kept once.
+// One reader serves all versions of a shot, so decoded frames are cached once.
 Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project,
                                                           const PaintedMattes& painted) {
     OpenShotOptions options;
@@ -200,10 +200,10 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     if (auto t = make_color_transform((*shot)->spaces.out, {"srgb"})) srgb_from_out = *t;
     if (auto t = make_color_transform((*shot)->spaces.out, {"linear"})) linear_from_out = *t;
     const bool same_analysis = current && current->analysis == fresh->analysis;
-    // With the same analysis the store is that of the shot that was opened before.
+    // If the analysis is unchanged, the store is still that of the shot opened before.
     if (!same_analysis) unwritten = fresh->shot->painted.empty() ? nullptr : fresh;
     if (!same_analysis) ready_frames.clear();
-    // Freed after the lock is: pictures are large.
+    // Destroyed after the lock is released, because pictures are large.
     std::map<int, PreviewFrame> old_frames;
     OpenedPtr old_opened;
     const auto shared = guarded.lock();
@@ -214,7 +214,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     compared.clear();
     for (auto& [region, of_frames] : shared->healths)
         for (auto& [frame, health] : of_frames)
-            health.flicker = health.flicker_plate = health.flicker_carried = health.chatter =
+            health.flicker = health.flicker_plate = health.flicker_floor = health.chatter =
                 health.seam_motion = health.seam = -1;
     shared->shown.warnings = std::move(warnings);
     shared->shown.references = references_of(**shot);
@@ -230,7 +230,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
         shared->to_analyse = fresh;
         shared->analyse_first = {now.frame};
         shared->analyse_frames = range;
-        shared->analysis_news = true;
+        shared->analysis_pending = true;
         wake.notify_all();
     }
     return true;
@@ -280,7 +280,7 @@ Expected<PreviewFrame> Preview::Impl::pictures_of(int frame, bool stages, int fa
     return made;
 }
 
-// Grows what the scenes of a shot lack. False after a failure, which is shown.
+// Synthesizes the missing planes of a shot. Returns false after a failure, which is shown.
 bool Preview::Impl::grow(const OpenedShot& of) {
     CancelToken token;
     {
@@ -325,12 +325,12 @@ bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
 void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made, double seconds) {
     std::vector<PreviewFrame> gone;  // freed after the lock is: pictures are large
     const auto shared = guarded.lock();
-    // What a render would take: a small picture says little about it.
+    // Full-size pictures only: reduced ones say little about render time.
     if (made.proxy == 1 && !made.stages[0]) shared->shown.frame_seconds = seconds;
     if (frame == now.frame) shared->shown.first_seconds = seconds;
     if (const auto before = shared->frames.find(frame); before != shared->frames.end()) {
         shared->frame_bytes -= bytes_of(before->second);
-        // What neighbours are compared by stays of one size.
+        // Keep the small picture, so that neighbours are compared at one size.
         if (made.proxy == 1 && !before->second.approximate && before->second.comparable() &&
             (before->second.small || before->second.proxy > 1)) {
             made.small = before->second.comparable();
@@ -340,7 +340,7 @@ void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made
     shared->frame_bytes += bytes_of(made);
     gone.push_back(std::exchange(shared->frames[frame], std::move(made)));
     while (shared->frame_bytes > budget_bytes && shared->frames.size() > 1) {
-        // The one furthest from where the artist is.
+        // Free the frame furthest from the playhead.
         const auto first = shared->frames.begin(), last = std::prev(shared->frames.end());
         const auto far =
             std::abs(first->first - now.frame) > std::abs(last->first - now.frame) ? first : last;

@@ -39,13 +39,13 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.text(amendments_text(plan.amendments));
         hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
-        // The light that the scene is relative to comes from the analysis.
+        // The analysis determines the light to which the scene is relative.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
         hasher.value(plan.light.strength > 0);
         Keys key;
         key.texture = hasher.finish().hex();
         const Size size = plane_size(plan.placement, shot.source->size());
-        // Seams between histories depend on where the texture lies.
+        // Seams between tracks depend on the texture's position.
         Hasher placed;
         if (plan.reference_frames.size() > 1) {
             const PlanePlacement& p = plan.placement;
@@ -69,7 +69,7 @@ bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
     scenes_.clear();
     scenes_.resize(wanted.size());
     keys_.assign(wanted.size(), {});
-    // Exact matches first, then planes of another size.
+    // Exact matches first, then planes of other sizes.
     for (const bool by_texture : {false, true}) {
         for (std::size_t k = 0; k < wanted.size(); ++k) {
             if (!keys_[k].exact.empty()) continue;
@@ -111,10 +111,11 @@ Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,
     const std::vector<Keys> wanted = keys_of(shot, analysis);
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         if (keys_[k] == wanted[k]) continue;
-        // The layers want to know where the seams are.
+        // The seam layer needs the seams.
         ShotPlan plan = shot.plan;
         plan.layers = true;
-        // A very large one is grown again where somebody asks where its pieces are.
+        // Very large maps are not kept; the plane is synthesized again if the source map is
+        // requested.
         constexpr std::int64_t kMostTexels = 6'000'000;
         const Size size = plane_size(plan.regions[k].placement, shot.source->size());
         plan.keep_planes = std::int64_t{size.width} * size.height <= kMostTexels;

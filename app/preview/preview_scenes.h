@@ -1,5 +1,5 @@
 #pragma once
-// Internal to the preview: the regions made ready for rendering, kept from one request to the next.
+// Internal to the preview: prepared regions, kept between requests.
 
 #include <list>
 #include <string>
@@ -12,26 +12,26 @@
 
 namespace weft {
 
-/// Not thread-safe: belongs to the preview's rendering thread.
+/// Not thread-safe; belongs to the preview's rendering thread.
 class PreviewScenes {
   public:
-    /// Makes the scenes fit the shot without growing anything, so that a placement can be dragged:
-    /// planes grown for another scale are placed anew. False when some texture was never grown.
+    /// Adapts the scenes to the shot without synthesis, so that a placement can be dragged: planes
+    /// made for another scale are reused. Returns false if some texture was never synthesized.
     [[nodiscard]] bool adopt(const Shot& shot, const std::string& analysis);
-    /// The scenes are exactly those that a render would make.
+    /// Returns true if the scenes are exactly those of a render.
     [[nodiscard]] bool exact() const { return exact_; }
-    /// Makes one scene that is missing or not exact. Errors: those of growing, and cancellation.
+    /// Prepares one scene that is missing or inexact. Errors: those of synthesis, and cancellation.
     [[nodiscard]] Status grow_one(const Shot& shot, const AnalysisStore& store,
                                   const std::string& analysis, const CancelToken& cancel);
     [[nodiscard]] std::vector<RegionScene>& scenes() { return scenes_; }
 
   private:
-    // Scenes that are not needed just now are kept for a while: one goes back and forth between
-    // settings, and the cards of a strip take turns with the picture.
+    // Unused scenes are kept for a while, because artists switch between settings and cards
+    // alternate with the picture.
     static constexpr std::size_t kBankBytes = std::size_t{300} << 20;
     struct Keys {
-        std::string exact;    // all that the scene depends on
-        std::string texture;  // the same but for the size of its plane
+        std::string exact;    // key of everything that the scene depends on
+        std::string texture;  // the same without the plane's size
         bool operator==(const Keys&) const = default;
     };
     struct Kept {
@@ -43,7 +43,7 @@ class PreviewScenes {
 
     std::vector<RegionScene> scenes_;
     std::vector<Keys> keys_;
-    std::list<Kept> bank_;  // the latest used first
+    std::list<Kept> bank_;  // most recently used first
     bool exact_ = false;
 };
 

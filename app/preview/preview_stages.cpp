@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// Only what was touched, on the dark surround: a stage of the way, not a composite.
+// Shows touched pixels only, on a dark background, because a stage is not a composite.
 void isolate(ImageF3& pixels, const Matte& touched) {
     constexpr float kGround = 0.1f;
     for (int y = 0; y < pixels.height(); ++y) {
@@ -21,7 +21,7 @@ void isolate(ImageF3& pixels, const Matte& touched) {
     }
 }
 
-// A layer as one looks at it: colours as on the screen, data as grey or red and green.
+// Converts a layer for viewing: colours as displayed, data as grey or red and green.
 PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                          const ColorTransform& out_from_working, const MakePicture& picture) {
     const Size size = layers.alpha.size();
@@ -29,7 +29,7 @@ PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
         ImageF3 pixels = kind == LayerKind::kPatch  ? layers.patch
                          : kind == LayerKind::kEdge ? layers.edge
                                                     : layers.light;
-        // Light of 1 changes nothing: it is shown as a middle grey.
+        // A gain of 1 is neutral and shown as middle grey.
         constexpr float kMiddle = 0.18f;
         if (kind == LayerKind::kLight)
             for (std::size_t i = 0; i < pixels.size_bytes() / sizeof(float); ++i)
@@ -48,7 +48,7 @@ PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                 const float* st = layers.st.pixel(x, y);
                 out[0] = code(st[0]), out[1] = code(st[1]), out[2] = 0;
             } else if (kind == LayerKind::kId) {
-                // Ids are small numbers: each gets a colour of its own.
+                // Ids are small numbers; each gets its own colour.
                 const auto id = static_cast<std::uint32_t>(layers.id.at(x, y));
                 const std::uint32_t mixed = id * 2654435761u;
                 for (int c = 0; c < 3; ++c)
@@ -70,7 +70,7 @@ Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stag
                                      float& seam) {
     PreviewFrame out;
     ShotPlan plan = in.plan;
-    plan.layers = true;  // they also tell how the seams fare
+    plan.layers = true;  // also used to measure seam visibility
     WEFT_TRY(lit, render_frame(in.source, plan, in.scenes, in.store, in.backend, frame));
     out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
     seam = seam_prominence(lit);

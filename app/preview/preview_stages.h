@@ -1,5 +1,5 @@
 #pragma once
-// Internal to the preview: one frame, and the steps on the way to it, as pictures.
+// Internal to the preview: one frame and its earlier stages as pictures.
 
 #include <functional>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace weft {
 
-/// As render_frame() takes them.
+/// The inputs of render_frame().
 struct StageInputs {
     const ShotSource& source;
     const ShotPlan& plan;
@@ -23,11 +23,11 @@ struct StageInputs {
     const Backend& backend;
 };
 
-/// Pixels of the output space as they are shown.
+/// Converts pixels of the output space for display.
 using MakePicture = std::function<PicturePtr(const ImageF3&)>;
 
-/// The final picture, where `stages` those before it, and `layer` where it is named. `seam`: how
-/// much the seams stand out, 0–1. Errors: those of render_frame().
+/// Renders the final picture; with `stages` also the earlier ones, and `layer` if set. `seam`:
+/// visibility of seams, 0–1. Errors: those of render_frame().
 [[nodiscard]] Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stages,
                                                    std::optional<LayerKind> layer,
                                                    const MakePicture& picture, float& seam);

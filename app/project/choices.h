@@ -1,5 +1,5 @@
 #pragma once
-// Names of enumerators. Internal: others use choice_name() of parameters.h.
+// Names of enumerators. Internal; other code uses choice_name() of parameters.h.
 
 #include <array>
 #include <string_view>
@@ -39,11 +39,11 @@ struct Choices<MotionDirection> {
         {{MotionDirection::kForward, "forward"}, {MotionDirection::kBackward, "backward"}}};
 };
 template <>
-struct Choices<CarryDirection> {
-    static constexpr std::array<std::pair<CarryDirection, std::string_view>, 3> kNames{
-        {{CarryDirection::kBoth, "both"},
-         {CarryDirection::kForward, "forward"},
-         {CarryDirection::kBackward, "backward"}}};
+struct Choices<PropagationDirection> {
+    static constexpr std::array<std::pair<PropagationDirection, std::string_view>, 3> kNames{
+        {{PropagationDirection::kBoth, "both"},
+         {PropagationDirection::kForward, "forward"},
+         {PropagationDirection::kBackward, "backward"}}};
 };
 template <>
 struct Choices<ZoneKind> {
@@ -123,7 +123,7 @@ template <class E>
     return {};
 }
 
-/// `name` is one of the choices: normalise() has checked it.
+/// `name` is a valid choice, checked by normalise().
 template <class E>
 [[nodiscard]] constexpr E choice_from(std::string_view name) {
     for (const auto& [value, candidate] : Choices<E>::kNames)

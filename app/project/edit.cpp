@@ -29,7 +29,7 @@ Status check_frame(int frame) {
                                                frame, kMaxFrameNumber));
 }
 
-/// The project with one region replaced by what `change(Region&) -> Status` makes of it.
+/// The project with one region changed by `change(Region&) -> Status`.
 template <class Change>
 Expected<Project> with_region(const Project& project, const RegionRef& ref, Change&& change) {
     WEFT_TRY(index, index_of(project, ref));
@@ -44,7 +44,7 @@ Expected<Project> with_region(const Project& project, const RegionRef& ref, Chan
     return out;
 }
 
-/// Every parameter in its range: for values that did not come in one by one.
+/// Checks that all parameters are in range, for values that were not set one by one.
 template <class Owner>
 Status check_parameters(const Owner& owner, std::span<const Parameter<Owner>> table) {
     for (const Parameter<Owner>& parameter : table)
@@ -255,7 +255,7 @@ Expected<Project> apply_edits(const Project& project, const std::vector<Edit>& e
 std::vector<Edit> region_edits(const Region& before, const Region& after) {
     const RegionRef ref{before.id, {}};
     std::vector<Edit> edits;
-    // A matte is set whole, its parameters with it.
+    // A matte is set as a whole, with its parameters.
     if (before.matte != after.matte) edits.emplace_back(SetMatte{ref, *after.matte});
     if (before.holdouts != after.holdouts) edits.emplace_back(SetHoldouts{ref, *after.holdouts});
     if (before.zones != after.zones) edits.emplace_back(SetZones{ref, *after.zones});
@@ -271,7 +271,7 @@ std::vector<Edit> region_edits(const Region& before, const Region& after) {
         if (parameter.group != "matte" && value != parameter.read(before))
             edits.emplace_back(SetRegionParameter{ref, parameter.full_key(), value});
     }
-    // Last, since other samples drop them.
+    // Last, because changing the samples clears the amendments.
     if (before.amendments != after.amendments ||
         (before.texture != after.texture && !after.amendments->empty()))
         edits.emplace_back(SetAmendments{ref, *after.amendments});

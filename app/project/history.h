@@ -1,5 +1,5 @@
 #pragma once
-// Undo and redo: snapshots of the project that share what they have in common, bounded in bytes.
+// Undo and redo: snapshots of the project that share unchanged data, limited in bytes.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,28 +12,28 @@
 
 namespace weft {
 
-/// Not thread-safe: belongs to the session. Snapshots that it returns are values and may go
-/// anywhere.
+/// Not thread-safe; belongs to the session. Returned snapshots are values and may be used by any
+/// thread.
 class History {
   public:
     static constexpr std::size_t kDefaultMaxBytes = std::size_t{64} << 20;
 
-    /// Starts with `project` as the saved state. More than `max_bytes` of snapshots make the oldest
-    /// be forgotten; the current one always stays.
+    /// Starts with `project` as the saved state. Beyond `max_bytes` the oldest snapshots are
+    /// dropped, but never the current one.
     explicit History(Project project, std::size_t max_bytes = kDefaultMaxBytes);
 
     [[nodiscard]] const Project& current() const { return entries_[at_].project; }
 
-    /// A new state; what was undone before it is forgotten. Nothing happens when it equals the
-    /// current one. `label`: what was done ("Set placement.scale of wall").
+    /// Adds a new state and drops the redo states. Does nothing if it equals the current one.
+    /// `label` says what was done ("Set placement.scale of wall").
     void push(Project project, std::string label);
 
     [[nodiscard]] bool can_undo() const { return at_ > 0; }
     [[nodiscard]] bool can_redo() const { return at_ + 1 < entries_.size(); }
-    /// False when there is nothing to undo or redo.
+    /// Returns false if there is nothing to undo or redo.
     bool undo();
     bool redo();
-    /// What undo() would take back and redo() do again; empty when they would do nothing.
+    /// Labels of the next undo and redo; empty if there is none.
     [[nodiscard]] std::string undo_label() const {
         return can_undo() ? entries_[at_].label : std::string();
     }
@@ -41,20 +41,19 @@ class History {
         return can_redo() ? entries_[at_ + 1].label : std::string();
     }
 
-    /// Labels from the oldest state that is kept (its own label: how it came to be) to the last
-    /// redo.
+    /// Labels of all states, from the oldest one to the last redo.
     [[nodiscard]] std::vector<std::string> labels() const;
     [[nodiscard]] std::size_t position() const {
         return at_;
-    }  ///< Of the current state in labels().
-    /// Goes there. False when there is no such state.
+    }  ///< Position of the current state in labels().
+    /// Goes to that state. Returns false if there is no such state.
     bool go_to(std::size_t position);
 
-    /// The current state is what is on disk.
+    /// Marks the current state as saved.
     void mark_saved() { saved_ = entries_[at_].serial; }
-    /// Likewise of an earlier state, by its serial().
+    /// Marks an earlier state as saved, by its serial().
     void mark_saved(std::uint64_t serial) { saved_ = serial; }
-    /// A number of the current state that no other has.
+    /// Unique number of the current state.
     [[nodiscard]] std::uint64_t serial() const { return entries_[at_].serial; }
     [[nodiscard]] bool modified() const { return entries_[at_].serial != saved_; }
 
@@ -76,7 +75,7 @@ class History {
     std::size_t at_ = 0;
     std::size_t max_bytes_;
     std::size_t bytes_ = 0;
-    std::unordered_map<const void*, int> leaf_uses_;  // how many snapshots hold a leaf
+    std::unordered_map<const void*, int> leaf_uses_;  // number of snapshots that hold a leaf
     std::uint64_t next_serial_ = 0, saved_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The two building blocks of the document: a shared immutable value, and keys that this version
-// does not know but keeps.
+// Building blocks of the document: a shared immutable value, and the preserved keys of newer
+// versions.
 
 #include <map>
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace weft {
 
-/// An immutable value that copies share. Never empty; thread-safe to read and to copy. A change
-/// makes a new leaf and leaves every older copy of the document as it was.
+/// An immutable value shared by copies. Never empty; thread-safe to read and copy. A change makes a
+/// new leaf and leaves older copies of the document unchanged.
 template <class T>
 class Leaf {
   public:
     Leaf() : value_(shared_default()) {}
     Leaf(T value) : value_(std::make_shared<const T>(std::move(value))) {}
-    // No moves: a moved-from leaf would be empty.
+    // Not movable: a moved-from leaf would be empty.
     Leaf(const Leaf&) = default;
     Leaf& operator=(const Leaf&) = default;
     ~Leaf() = default;
@@ -24,7 +24,7 @@ class Leaf {
     const T& operator*() const { return *value_; }
     const T* operator->() const { return value_.get(); }
 
-    /// A copy of the value after `change(T&)`, as a new leaf.
+    /// Returns a new leaf with a copy of the value after `change(T&)`.
     template <class Change>
     [[nodiscard]] Leaf with(Change&& change) const {
         T copy = *value_;
@@ -32,7 +32,7 @@ class Leaf {
         return Leaf(std::move(copy));
     }
 
-    /// Equal for leaves that share one value; for counting memory once.
+    /// Equal for leaves that share a value; used to count memory once.
     [[nodiscard]] const void* identity() const { return value_.get(); }
     friend bool operator==(const Leaf& a, const Leaf& b) {
         return a.value_ == b.value_ || *a.value_ == *b.value_;
@@ -46,8 +46,8 @@ class Leaf {
     std::shared_ptr<const T> value_;
 };
 
-/// Keys of a JSON object that this version does not know, with their values as JSON text. They are
-/// written back on saving, so a project may pass through an older Weft without losing anything.
+/// Unknown keys of a JSON object, with their values as JSON text. They are written back on saving,
+/// so that a project loses nothing when an older Weft saves it.
 using Extras = std::map<std::string, std::string>;
 
 }  // namespace weft

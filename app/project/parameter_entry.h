@@ -1,7 +1,6 @@
 #pragma once
-// How a table entry is made from a struct member: it names the member by the path of member
-// pointers to it; kind, choices and default are read off the member. Internal: only the tables
-// include it.
+// Builds a table entry from a struct member, given by a path of member pointers. Kind, choices and
+// default follow from the member. Internal; only the tables include it.
 
 #include <concepts>
 #include <type_traits>
@@ -211,6 +210,6 @@ Parameter<Owner> entry(ParameterInfo info) {
 
 inline constexpr double kMaxFrame = kMaxFrameNumber;  // either sign
 inline constexpr double kMaxPlatePx = 1'000'000;
-inline constexpr double kMaxExactInteger = 9007199254740991;  // 2^53 − 1: any JSON reader keeps it
+inline constexpr double kMaxExactInteger = 9007199254740991;  // 2^53 − 1: exact in any JSON reader
 
 }  // namespace weft::parameter_entry

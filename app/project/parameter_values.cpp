@@ -100,7 +100,7 @@ std::string choices_text(const ParameterInfo& info) {
     return out;
 }
 
-/// False for NaN too.
+/// Returns false for NaN.
 bool in_range(const ParameterInfo& info, double v) {
     return v >= info.min && v <= info.max;
 }
@@ -129,7 +129,8 @@ Expected<ParameterValue> normalise_number(const ParameterInfo& info, const Param
     else
         return wrong(info, value, "a number from " + range_text(info));
     if (!in_range(info, number)) return wrong(info, value, range_text(info));
-    return ParameterValue(number == 0 ? 0.0 : number);  // no negative zero: files compare by bytes
+    // no negative zero, so equal values give equal bytes
+    return ParameterValue(number == 0 ? 0.0 : number);
 }
 
 Expected<ParameterValue> normalise_text(const ParameterInfo& info, ParameterValue value) {
@@ -168,7 +169,7 @@ Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterV
         if (number == 0) number = 0;
     }
     if (info.kind == ParameterKind::kFrames) {
-        // In the order given, which may mean something, and each once.
+        // Keeps the given order, which may matter, and removes duplicates.
         std::set<double> known;
         std::erase_if(*numbers, [&](double number) { return !known.insert(number).second; });
     }
@@ -209,7 +210,7 @@ std::optional<double> number_from(std::string_view text) {
     return number;
 }
 
-/// Numbers between commas and spaces; nothing when one of them is none.
+/// Numbers separated by commas and spaces; nothing if one of them is not a number.
 std::optional<std::vector<double>> numbers_from(std::string_view text) {
     std::vector<double> out;
     constexpr std::string_view kBetween = ", \t";
@@ -232,8 +233,8 @@ std::optional<bool> flag_from(std::string_view text) {
     return std::nullopt;
 }
 
-/// The text as the type of the parameter; the text itself if it cannot be converted, so that
-/// normalise() says what it should have been.
+/// Converts the text to the type of the parameter. If that fails, returns the text, and normalise()
+/// reports what is expected.
 Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text) {
     const ParameterValue as_text{std::string(text)};
     switch (info.kind) {
@@ -277,7 +278,7 @@ Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text)
     }
 }
 
-/// Small and enough: the names are short (Levenshtein 1966).
+/// Levenshtein distance (1966); the names are short.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j)
@@ -414,7 +415,7 @@ Expected<const Parameter<Owner>*> find_parameter(std::span<const Parameter<Owner
         if (key == key_or_flag || (!parameter.flag.empty() && parameter.flag == key_or_flag))
             return &parameter;
         for (const std::string_view name : {std::string_view(key), parameter.key, parameter.flag}) {
-            // Bounded, so that a hostile name costs nothing.
+            // The length is limited, so that a hostile name costs little.
             const std::size_t distance = edit_distance(name, key_or_flag.substr(0, 64));
             if (distance < best) best = distance, nearest = key;
         }

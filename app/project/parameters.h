@@ -1,7 +1,7 @@
 #pragma once
-// One table per parameter. JSON keys, command-line flags, validation, sliders and the documentation
-// all come from these tables, so a parameter is described in exactly one place; its default is the
-// initialiser of the struct member it stands for.
+// Parameter tables: the only description of each parameter. JSON keys, command-line flags,
+// validation, sliders and documentation are generated from them. A parameter's default is the
+// initialiser of its struct member.
 
 #include <cstdint>
 #include <span>
@@ -21,9 +21,9 @@ enum class ParameterKind {
     kNumber,   ///< double
     kChoice,   ///< std::string, one of `choices`
     kText,     ///< std::string
-    kPath,     ///< std::string, relative paths against the project's folder
+    kPath,     ///< std::string; relative paths refer to the project's folder
     kPoint,    ///< 2 numbers: x, y. On the command line "X,Y".
-    kPaths,    ///< std::vector<std::string>, as kPath. On the command line one a line.
+    kPaths,    ///< std::vector<std::string>, as kPath. On the command line, one per line.
     kCorners,  ///< 8 numbers: TL, TR, BR, BL, or unset. On the command line "x,y x,y x,y x,y".
     kFrames,   ///< Frame numbers. On the command line a frame list.
     kNames,    ///< std::vector<std::string>, each one of `choices`. On the command line with commas
@@ -32,32 +32,33 @@ enum class ParameterKind {
     kLamps     ///< std::vector<Lamp>. On the command line as parse_lamps() reads them.
 };
 
-/// std::monostate: not set (only where `optional`); std::vector<double>: points and frames.
+/// std::monostate: not set (only if `optional`); std::vector<double>: points and frames.
 using ParameterValue =
     std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
                  std::vector<std::string>, KeyedNumbers, std::vector<Lamp>>;
 
 struct ParameterInfo {
-    std::string_view group{};  ///< JSON object that holds it; empty: the region or project itself.
-    std::string_view key{};    ///< JSON key.
-    std::string_view flag{};   ///< "--scale"; empty: has none.
-    std::string_view old_flag{};  ///< The flag's name before: still read, but not shown.
+    /// JSON object that holds it; empty: directly in the region or project.
+    std::string_view group{};
+    std::string_view key{};       ///< JSON key.
+    std::string_view flag{};      ///< "--scale"; empty: no flag.
+    std::string_view old_flag{};  ///< Former name of the flag: accepted but hidden.
     std::string_view unit{};      ///< "px", "deg", …; empty: a bare number or text.
-    std::string_view help{};      ///< One line of sentence case without a full stop at its end.
-    double min = 0, max = 0;      ///< Inclusive; numbers, integers, every coordinate, every frame.
-    std::size_t components = 1;   ///< Of kKeys: how many numbers a key has.
+    std::string_view help{};      ///< One line in sentence case, without a final full stop.
+    double min = 0, max = 0;      ///< Inclusive range of numbers, integers, coordinates and frames.
+    std::size_t components = 1;   ///< For kKeys: numbers per key.
     bool optional = false;        ///< May be unset.
     bool repeatable = false;      ///< The flag may be given several times.
-    /// On the command line, a text that is none of `choices` is a path: it becomes this key of the
-    /// same group, and the choice becomes the last of `choices`. Empty: no such thing.
+    /// On the command line, text that is not a choice is taken as a path: it is stored under this
+    /// key of the same group, and the choice becomes the last of `choices`. Empty: not supported.
     std::string_view path_key{};
-    bool is_path = false;  ///< A text that names files.
+    bool is_path = false;  ///< A string that names files.
 
-    ParameterKind kind = ParameterKind::kText;  // these three follow from the member
+    ParameterKind kind = ParameterKind::kText;  // these three are derived from the member
     std::vector<std::string_view> choices{};
     ParameterValue default_value{};
 
-    /// "placement.scale": the name in edits and messages.
+    /// Name in edits and messages: "placement.scale".
     [[nodiscard]] std::string full_key() const;
 };
 
@@ -65,32 +66,33 @@ struct ParameterInfo {
 template <class Owner>
 struct Parameter : ParameterInfo {
     ParameterValue (*read)(const Owner&) = nullptr;
-    /// Only for values that normalise() returned.
+    /// Accepts only values returned by normalise().
     void (*write)(Owner&, const ParameterValue&) = nullptr;
 };
 
 // The tables, in the order of the file. Immutable.
 [[nodiscard]] std::span<const Parameter<Region>> region_parameters();
 [[nodiscard]] std::span<const Parameter<Project>> project_parameters();
-/// The same entries as the region's group "matte", for holdouts.
+/// The entries of the region's group "matte", for holdouts.
 [[nodiscard]] std::span<const Parameter<MatteSource>> matte_parameters();
 /// Kind and value of a zone; its matte has matte_parameters().
 [[nodiscard]] std::span<const Parameter<Zone>> zone_parameters();
 
-/// The value in the type that the parameter wants (an integer for a number, whole numbers for an
-/// integer, what a text says for names, keys and lamps). Errors: Usage when the type, the range or
-/// the choice is wrong; the message names the parameter, the value and what is allowed.
+/// Converts a value to the parameter's type (integer to number, whole number to integer, text to
+/// names, keys or lamps). Errors: Usage for a wrong type, range or choice; the message names the
+/// parameter, the value and what is allowed.
 [[nodiscard]] Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue value);
 
-/// From the command line's text. Errors as normalise().
+/// Parses command-line text. Errors as normalise().
 [[nodiscard]] Expected<ParameterValue> parse_parameter(const ParameterInfo& info,
                                                        std::string_view text);
-/// The text that parse_parameter() reads back; empty for an unset one.
+/// Formats a value for parse_parameter(); empty if unset.
 [[nodiscard]] std::string format_parameter(const ParameterInfo& info, const ParameterValue& value);
-/// "0.001 to 1000 px", "graphcut, dp or none": for help and messages; empty when anything goes.
+/// "0.001 to 1000 px", "graphcut, dp or none": for help and messages; empty if any value is
+/// allowed.
 [[nodiscard]] std::string allowed_values(const ParameterInfo& info);
 
-/// The entry by its full key ("placement.scale") or flag ("--scale"). Errors: Usage with the
+/// Finds an entry by its full key ("placement.scale") or flag ("--scale"). Errors: Usage with the
 /// nearest name.
 template <class Owner>
 [[nodiscard]] Expected<const Parameter<Owner>*> find_parameter(
@@ -105,14 +107,14 @@ template <class Owner>
     return {};
 }
 
-/// Sets one parameter from the command line's text: what every flag of the tables does. Errors as
+/// Sets one parameter from command-line text, as all flags of the tables do. Errors as
 /// parse_parameter().
 [[nodiscard]] Status set_parameter_text(Region& region, const Parameter<Region>& parameter,
                                         std::string_view text);
 [[nodiscard]] Status set_parameter_text(Project& project, const Parameter<Project>& parameter,
                                         std::string_view text);
 
-// The names of the choices, as in files and on the command line.
+// Names of the choices in files and on the command line.
 [[nodiscard]] std::string_view choice_name(Quality value);
 [[nodiscard]] std::string_view choice_name(OutputDepth value);
 [[nodiscard]] std::string_view choice_name(WrapMode value);

@@ -11,7 +11,7 @@ std::size_t heap_bytes(const std::string& text) {
     return text.capacity() > std::string().capacity() ? text.capacity() + 1 : 0;
 }
 
-constexpr std::size_t kMapNodeBytes = 48;  // a red-black node's links and malloc's own
+constexpr std::size_t kMapNodeBytes = 48;  // links of a red-black tree node and malloc's overhead
 
 std::size_t heap_bytes(const Extras& extra) {
     std::size_t bytes = 0;
@@ -27,7 +27,7 @@ std::size_t heap_bytes(const KeyedNumbers& keyed) {
     return bytes;
 }
 
-/// Sum over strings, extras and keys.
+/// Sum of the sizes of strings, extras and keys.
 template <class... Members>
 std::size_t heap_bytes_of(const Members&... members) {
     return (heap_bytes(members) + ... + 0);

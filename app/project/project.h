@@ -1,7 +1,7 @@
 #pragma once
-// The document: an immutable value. Editing, undo, jobs, the command line and the editor all use
-// this one. The only way to change it is an Edit (edit.h); every number and choice in it is
-// described once, in parameters.h; docs/FORMATS.md describes the file.
+// The document: an immutable value used for editing, undo, jobs, the command line and the editor.
+// Only an Edit (edit.h) changes it. parameters.h describes every number and choice once;
+// docs/FORMATS.md describes the file.
 
 #include <array>
 #include <cstddef>
@@ -39,31 +39,32 @@ struct PlatePoint {
     bool operator==(const PlatePoint&) const = default;
 };
 
-/// Stable name of a region inside its project, from 1; never given twice. It keys the region's
-/// random numbers and cached analysis, so it must survive renaming and reordering.
+/// Stable id of a region inside its project, from 1; never reused. It keys random numbers and
+/// cached analysis, so it must survive renaming and reordering.
 using RegionId = std::uint32_t;
 
-/// What stands for a frame that the plate has not.
+/// What replaces a frame that is missing in the plate.
 enum class MissingFrames {
     kError,
-    kHold,   ///< The frame before it.
+    kHold,   ///< The previous frame.
     kBlack,  ///< A black frame.
-    kSkip    ///< Nothing is rendered.
+    kSkip    ///< The frame is not rendered.
 };
 
-/// The sequence whose surfaces are replaced.
+/// The sequence whose surfaces get new textures.
 struct Plate {
     std::string path;        ///< Pattern ("frames/####.png"), folder or movie.
     std::string layer;       ///< EXR layer; empty: the file's R, G, B.
     int movie_start = 1001;  ///< Number of a movie's first frame.
-    std::string space;       ///< Colour space; empty: by the file type.
-    double fps = 0;          ///< 0: as the files say, else 24.
+    std::string space;       ///< Colour space; empty: auto, from the file type.
+    double fps = 0;          ///< 0: from the files, otherwise 24.
     MissingFrames missing = MissingFrames::kError;
     Extras extra;
     bool operator==(const Plate&) const = default;
 };
 
-/// Colour spaces of the shot; empty: by the file type (textures, output) or linear (working).
+/// Colour spaces of the shot; empty: auto from the file type (textures, output), or linear
+/// (working).
 struct ColorSettings {
     std::string working_space, texture_space, out_space;
     Extras extra;
@@ -76,7 +77,8 @@ struct RenderSettings {
     Quality quality = Quality::kFinal;
     std::int64_t seed = 1;
     std::string frames;  ///< "1-40", "1-100x2", "1,4,9-12"; empty: every frame of the plate.
-    /// Licences and families of them that no texture of this project may be under, by commas.
+    /// Licences and licence families that textures of this project must not have, separated by
+    /// commas.
     std::string excluded_licences;
     Extras extra;
     bool operator==(const RenderSettings&) const = default;
@@ -84,17 +86,18 @@ struct RenderSettings {
 
 enum class OutputDepth { kAuto, k8, k16, kHalf, kFloat };
 
-/// Where the result goes.
+/// Output files.
 struct Output {
     std::string path;  ///< Pattern of the numbered images.
     OutputDepth depth =
-        OutputDepth::kAuto;  ///< kAuto: the plate's, or the nearest the format holds.
+        OutputDepth::kAuto;  ///< kAuto: the plate's depth, or the nearest that the format supports.
     int jpeg_quality = 95;
     std::string exr_compression = "auto";
     std::string movie;              ///< Review movie (.mp4, .mkv); empty: none.
-    bool burn_in = false;           ///< The movie names frame, version and colour space.
-    std::vector<LayerKind> layers;  ///< For compositing, each once.
-    std::string layers_path;        ///< EXR files of their own for them; empty: into the output.
+    bool burn_in = false;           ///< Burns frame, version and colour space into the movie.
+    std::vector<LayerKind> layers;  ///< Layers for compositing, without duplicates.
+    /// Pattern of separate EXR files for the layers; empty: in the output.
+    std::string layers_path;
     Extras extra;
     bool operator==(const Output&) const = default;
 };
@@ -103,22 +106,22 @@ struct Output {
 struct MatteKeyframe {
     std::string path;
     std::optional<RotoShape> shape = {};  ///< The roto shape that the matte was drawn from.
-    bool shape_between = false;  ///< That shape was interpolated between those of other frames.
+    bool shape_between = false;  ///< The shape was interpolated between those of other frames.
     Extras extra = {};
     bool operator==(const MatteKeyframe&) const = default;
 };
 
-/// A matte over time: either a file for each frame, or painted keyframes to be propagated.
+/// A matte over time: a file for each frame, or painted keyframes that are propagated.
 struct MatteSource {
     std::string files;                       ///< Pattern; empty: keyframes.
     std::map<int, MatteKeyframe> keyframes;  ///< By frame number.
     MatteSelect select;
-    double steadiness = 0.5;   ///< 0–1: how much boil is taken out of propagated mattes.
-    std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated …
-    std::string frozen_files;  ///< … from files of this pattern.
-    /// Which way painted mattes are carried, and between which frames; unset ends are the shot's.
-    CarryDirection carry = CarryDirection::kBoth;
-    std::optional<int> carry_from, carry_to;
+    double steadiness = 0.5;   ///< 0–1: reduction of boil in propagated mattes.
+    std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated,
+    std::string frozen_files;  ///< from files of this pattern.
+    /// Direction and range in which painted mattes are propagated; unset ends: the shot's.
+    PropagationDirection propagate_direction = PropagationDirection::kBoth;
+    std::optional<int> propagate_from, propagate_to;
     Extras extra;
     [[nodiscard]] bool empty() const {
         return files.empty() && keyframes.empty() && select.crypto.empty();
@@ -137,48 +140,48 @@ struct Zone {
     bool operator==(const Zone&) const = default;
 };
 
-/// Whether a texture is named by its place in a texture library ("db:ID") and not by a file.
+/// Returns true if a texture is named by its library id ("db:ID") instead of a file.
 [[nodiscard]] inline bool names_library_texture(std::string_view path) {
     return path.starts_with("db:");
 }
 
-/// What is put on the surface: a sample to grow a plane from, or a given plane; files, or textures
-/// of a library.
+/// The texture of a surface: a sample to synthesize from, or a plane used as it is. Each is a file
+/// or a library texture.
 struct TextureSource {
     std::string sample;
     std::vector<std::string> also;      ///< Further samples of the same material.
-    std::string plane;                  ///< Used as it is, without synthesis.
-    WrapMode wrap = WrapMode::kRepeat;  ///< What lies beyond the border of `plane`.
-    std::string space;                  ///< Empty: the project's texture space.
+    std::string plane;                  ///< Image used without synthesis.
+    WrapMode wrap = WrapMode::kRepeat;  ///< Continuation beyond the border of `plane`.
+    std::string space;                  ///< Colour space; empty: the project's texture space.
     Extras extra;
     bool operator==(const TextureSource&) const = default;
 };
 
-/// Where the texture lies on the plate of the reference frame.
+/// Placement of the texture on the plate's reference frame.
 struct Placement {
     double scale = 1;       ///< Plate pixels per sample pixel at the placement's origin.
-    double rotate_deg = 0;  ///< Counter-clockwise as seen on screen.
+    double rotate_deg = 0;  ///< Counter-clockwise on screen.
     PlatePoint offset_px;
-    /// Where the texture's corners go (TL, TR, BR, BL): a perspective placement, inside which
-    /// scale, rotation and offset act.
+    /// Corner pin (TL, TR, BR, BL): a perspective placement; scale, rotation and offset apply
+    /// inside it.
     std::optional<std::array<PlatePoint, 4>> corners_px;
-    /// A given picture (a plane) is fitted into the corners; else `scale` holds there too.
+    /// Fits a plane's image into the corners; otherwise `scale` applies there too.
     bool fit = true;
-    /// Instead of the above, over time; an offset has two numbers, x and y.
+    /// Animated values that replace those above; an offset has two numbers, x and y.
     KeyedNumbers scale_keys, rotate_keys, offset_keys;
-    std::string uv;        ///< Pattern of a UV pass or ST-map: where the texture lies, exactly.
+    std::string uv;        ///< Pattern of a UV pass or ST-map with exact texture coordinates.
     std::string uv_layer;  ///< Empty: found.
     Extras extra;
     bool operator==(const Placement&) const = default;
 };
 
-/// Where the surface's motion comes from.
+/// The source of the surface's motion.
 struct MotionSource {
     std::string files;  ///< Pattern of true motion; empty: estimated from the plate.
     MotionDirection direction = MotionDirection::kForward;
     MotionConvention convention = MotionConvention::kFiles;
-    std::string layer;  ///< EXR layer of the motion pass; empty: found.
-    std::string track;  ///< File of a planar track that the surface follows instead.
+    std::string layer;  ///< EXR layer of the motion pass; empty: found automatically.
+    std::string track;  ///< File of a planar track, used instead of estimated motion.
     Extras extra;
     bool operator==(const MotionSource&) const = default;
 };
@@ -188,7 +191,7 @@ struct SynthesisParams {
     int overlap_px = 36;
     int feather_px = 0;
     SeamCost seam_cost = SeamCost::kGradient;
-    int refine = 2;  ///< Rounds; as kDefaultRefinePasses.
+    int refine = 2;  ///< Refinement rounds; default as kDefaultRefinePasses.
     bool rotations = false, mirror = false;
     bool align = true;
     Extras extra;
@@ -205,64 +208,66 @@ struct TemporalParams {
 
 struct LightParams {
     LightSource source = LightSource::kPlate;
-    std::string image;  ///< The illumination picture of kImage.
+    std::string image;  ///< Illumination image for kImage.
     LightForm form = LightForm::kGain;
     double strength = 1;         ///< λ
     KeyedNumbers strength_keys;  ///< λ over time; empty: `strength` throughout.
     std::vector<Lamp> lamps;     ///< Painted light, for kPainted.
-    double cast = 0;             ///< How far the light's colour is taken over.
-    double highlights = 0;       ///< How much of the old surface's gloss is kept.
-    std::string albedo;          ///< Pattern of the artist's unlit colour.
-    std::string lighting;        ///< Pattern of the artist's lighting pass.
-    std::string pass_layer;      ///< EXR layer of these two; empty: R, G, B.
-    bool exact = false;          ///< Their light as it is, not relative to the reference frame's.
+    double cast = 0;             ///< Light tint: how much of the light's colour the texture takes.
+    double highlights = 0;       ///< Keep highlights: how much of the old surface's gloss stays.
+    std::string albedo;          ///< Pattern of the albedo (unlit colour) pass.
+    std::string lighting;        ///< Pattern of the lighting pass.
+    std::string pass_layer;      ///< EXR layer of these two passes; empty: R, G, B.
+    bool exact = false;  ///< Uses their light unchanged, not relative to the reference frame's.
     Extras extra;
     bool operator==(const LightParams&) const = default;
 };
 
-/// On one frame, what the texture shows at `from` belongs at `to`; plate pixels. `from` == `to`
-/// holds a place.
+/// A correction on one frame: the texture at `from` belongs at `to`; plate pixels. Equal points pin
+/// the texture in place.
 struct CorrectionPin {
     PlatePoint from, to;
     bool operator==(const CorrectionPin&) const = default;
 };
 
-/// What makes the new texture look as if it had gone through the plate's camera.
+/// Camera effects that match the texture to the plate.
 struct FinishParams {
-    double grain = 1;                   ///< Of the plate's grain; 0: none.
-    double focus = 1;                   ///< Of the plate's blur; 0: none.
-    std::string depth;                  ///< Pattern of a depth pass, along which blur is followed.
-    std::optional<double> shutter_deg;  ///< Of 360 a frame; unset: as the plate's.
+    double grain = 1;   ///< Amount of the plate's grain; 0: none.
+    double focus = 1;   ///< Amount of the plate's defocus; 0: none.
+    std::string depth;  ///< Pattern of a depth pass that guides defocus.
+    /// Shutter angle, 360 is a full frame; unset: measured on the plate.
+    std::optional<double> shutter_deg;
     Extras extra;
     bool operator==(const FinishParams&) const = default;
 };
 
-/// The ink lines that stay on top of the new texture.
+/// Ink lines that stay on top of the new texture.
 struct LineParams {
     std::string files;     ///< Pattern of the ink's coverage; empty: no line pass.
-    bool invert = false;   ///< The pass is dark where there is ink.
-    bool extract = false;  ///< Without a pass: find the ink in the plate.
-    double width_px = 4;   ///< The widest stroke that is found.
+    bool invert = false;   ///< Ink is dark in the pass.
+    bool extract = false;  ///< Without a pass: detect the ink in the plate.
+    double width_px = 4;   ///< Widest stroke to detect.
     Extras extra;
     bool operator==(const LineParams&) const = default;
 };
 
-/// One surface to be replaced.
+/// A surface that gets a new texture.
 struct Region {
     RegionId id = 0;  ///< 0: not in a project yet.
     std::string name;
     bool enabled = true;
-    int color = 0;                            ///< Index into the editor's palette.
-    Leaf<MatteSource> matte;                  ///< The extent: the surface, hidden parts included.
-    Leaf<std::vector<MatteSource>> holdouts;  ///< What passes in front of it.
-    Leaf<std::vector<Zone>> zones;            ///< Where a setting has another value.
+    int color = 0;            ///< Index into the editor's palette.
+    Leaf<MatteSource> matte;  ///< The full matte: the surface with hidden parts included.
+    Leaf<std::vector<MatteSource>> holdouts;  ///< Mattes of what passes in front of the surface.
+    Leaf<std::vector<Zone>> zones;            ///< Parts in which a setting has another value.
     TextureSource texture;
     Placement placement;
-    std::vector<int> reference_frames;  ///< The first holds the placement; empty: the first frame.
-    std::map<int, std::vector<CorrectionPin>> corrections;  ///< By frame; each has a pin or more.
+    /// The first one holds the placement; empty: the default frame.
+    std::vector<int> reference_frames;
+    std::map<int, std::vector<CorrectionPin>> corrections;  ///< By frame; at least one pin each.
     MotionSource motion;
-    /// Places of the grown texture that are kept or made again. They belong to the texture: an edit
-    /// that changes its samples drops them.
+    /// Locked and regenerated patches of the synthesized texture. An edit that changes the samples
+    /// clears them.
     Leaf<std::vector<PlaneAmendment>> amendments;
     SynthesisParams synthesis;
     TemporalParams temporal;
@@ -273,7 +278,7 @@ struct Region {
     bool operator==(const Region&) const = default;
 };
 
-/// A shot. Copies are cheap: regions are shared.
+/// A shot. Copies are cheap, because regions are shared.
 struct Project {
     std::string name;
     Plate plate;
@@ -281,30 +286,29 @@ struct Project {
     RenderSettings settings;
     Output output;
     std::vector<Leaf<Region>> regions;  ///< Layers, later ones on top.
-    RegionId next_region_id = 1;        ///< Above every id that was ever given.
+    RegionId next_region_id = 1;        ///< Larger than every id ever used.
     Extras extra;
     bool operator==(const Project&) const = default;
 };
 
-/// Index of a region by its name or, failing that, by its id in digits. Errors: Usage when there is
-/// none (the message lists those there are) or the name stands for several.
+/// Finds a region by its name or, failing that, by its id in digits. Errors: Usage when there is
+/// none (the message lists the regions) or the name is ambiguous.
 [[nodiscard]] Expected<std::size_t> find_region(const Project& project,
                                                 std::string_view name_or_id);
 /// The region of this id, or null.
 [[nodiscard]] const Region* region_by_id(const Project& project, RegionId id);
 
-/// Adds what a --matte or --holdout of the command line says: "12=a.png" is a painted keyframe, any
-/// other text a pattern. Errors: Usage when both are given, or two of one kind contradict each
-/// other.
+/// Adds a --matte or --holdout value: "12=a.png" is a painted keyframe, any other text a pattern.
+/// Errors: Usage when both kinds are given, or two of one kind contradict each other.
 [[nodiscard]] Status add_matte_text(MatteSource& matte, std::string_view text);
 
-/// Calls `visit` with every path of the project (plate, mattes, textures, motion, light, output),
-/// in the file's order; what it returns becomes the path. Empty paths are skipped.
+/// Replaces every path of the project (plate, mattes, textures, motion, light, output) by the
+/// result of `visit`, in the file's order. Empty paths are skipped.
 [[nodiscard]] Project map_paths(const Project& project,
                                 const std::function<std::string(const std::string&)>& visit);
 
-/// Bytes of memory of a region and of what only it holds (its leaves excluded), and of a project
-/// without its regions: estimates for bounding the undo history.
+/// Estimated memory in bytes of a region without its leaves, and of a project without its regions,
+/// for limiting the undo history.
 [[nodiscard]] std::size_t own_bytes(const Region& region);
 [[nodiscard]] std::size_t own_bytes(const MatteSource& matte);
 [[nodiscard]] std::size_t own_bytes(const std::vector<Zone>& zones);

@@ -1,6 +1,6 @@
 #pragma once
-// Commands and actions find a region by its name, so edits let no two share one. Documents that
-// were written elsewhere may have such regions; they still open.
+// Commands and actions find a region by its name, so edits keep names unique. Documents from other
+// programs may have duplicate names; they still open.
 
 #include <string>
 
@@ -9,11 +9,11 @@
 
 namespace weft {
 
-/// Errors: Usage when another region than that of `id` has this name. Empty names are allowed.
+/// Errors: Usage when a region other than `id` has this name. Empty names are allowed.
 [[nodiscard]] Status check_name_is_free(const Project& project, RegionId id,
                                         const std::string& name);
 
-/// `wanted`, or "wanted 2", "wanted 3", …: the first that no region is called.
+/// Returns `wanted`, or the first free of "wanted 2", "wanted 3", ….
 [[nodiscard]] std::string free_region_name(const Project& project, const std::string& wanted);
 
 }  // namespace weft

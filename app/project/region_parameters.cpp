@@ -7,7 +7,7 @@ namespace {
 
 using namespace parameter_entry;
 
-/// Path: to the MatteSource inside Owner; empty when Owner is one.
+/// Path: member pointers to the MatteSource inside Owner; empty if Owner is one.
 template <class Owner, auto... Path>
 std::vector<Parameter<Owner>> matte_entries() {
     return {
@@ -60,13 +60,13 @@ std::vector<Parameter<Owner>> matte_entries() {
              .flag = "--matte-frozen-files",
              .help = "Pattern of the frozen frames' mattes, as 'weft matte' wrote them",
              .is_path = true}),
-        entry<Owner, Path..., &MatteSource::carry>(
+        entry<Owner, Path..., &MatteSource::propagate_direction>(
             {.group = "matte",
              .key = "carry",
              .flag = "--matte-propagate",
              .old_flag = "--matte-carry",
              .help = "Direction in which painted mattes are propagated"}),
-        entry<Owner, Path..., &MatteSource::carry_from>(
+        entry<Owner, Path..., &MatteSource::propagate_from>(
             {.group = "matte",
              .key = "carry_from",
              .flag = "--matte-from",
@@ -74,7 +74,7 @@ std::vector<Parameter<Owner>> matte_entries() {
              .min = -kMaxFrame,
              .max = kMaxFrame,
              .optional = true}),
-        entry<Owner, Path..., &MatteSource::carry_to>(
+        entry<Owner, Path..., &MatteSource::propagate_to>(
             {.group = "matte",
              .key = "carry_to",
              .flag = "--matte-to",

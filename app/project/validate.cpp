@@ -26,7 +26,7 @@ class Finder {
         add(Severity::kWarning, key, std::move(what), std::move(what_to_do));
     }
 
-    /// Values that were put into a struct without passing the table.
+    /// Checks values that were set in a struct directly, not through the table.
     template <class Owner>
     void check_ranges(const Owner& owner, std::span<const Parameter<Owner>> table) {
         for (const Parameter<Owner>& parameter : table)
@@ -55,10 +55,10 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
         if (painted.path.empty())
             find.error(key, fmt::format("The keyframe of frame {} has no path", frame),
                        "Set it or remove the keyframe");
-    if (matte.carry_from && matte.carry_to && *matte.carry_from > *matte.carry_to)
+    if (matte.propagate_from && matte.propagate_to && *matte.propagate_from > *matte.propagate_to)
         find.error(key,
-                   fmt::format("It is propagated from frame {} to frame {}", *matte.carry_from,
-                               *matte.carry_to),
+                   fmt::format("It is propagated from frame {} to frame {}", *matte.propagate_from,
+                               *matte.propagate_to),
                    "Exchange the two frames");
     if (matte.select.value && !matte.select.channel.empty())
         find.warning(
@@ -87,7 +87,7 @@ void check_texture(Finder& find, const Region& region) {
                 by({{setting::kSample}, {setting::kTemporalMode, "locked"}}));
 }
 
-/// Twice the signed area of the corner at b.
+/// Twice the signed area of the triangle at corner b.
 double turn(PlatePoint a, PlatePoint b, PlatePoint c) {
     return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }

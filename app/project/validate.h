@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a project as far as the document itself tells: no file is opened.
+// Checks of a project that need no file access.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace weft {
 
 enum class Severity {
-    kWarning,  ///< It can be rendered; perhaps not as it was meant.
+    kWarning,  ///< It can be rendered, but perhaps not as intended.
     kError     ///< It cannot be rendered.
 };
 
@@ -19,11 +19,11 @@ struct Issue {
     std::string where;       ///< "regions[0] 'wall': texture"; a place in the document.
     std::string what_to_do;  ///< "Set a sample (--texture) or a plane (--plane)"
 
-    /// All of it in one line.
+    /// The whole issue in one line.
     [[nodiscard]] std::string text() const;
 };
 
-/// In the order of the document; empty when all is well. Pure, thread-safe.
+/// Issues in the order of the document; empty if there are none. Pure, thread-safe.
 [[nodiscard]] std::vector<Issue> validate(const Project& project);
 
 [[nodiscard]] bool has_errors(const std::vector<Issue>& issues);

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Raised whenever the analysis itself computes something else.
+// Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 13;
 
 void add_file(Hasher& hasher, const std::string& path) {
@@ -59,9 +59,9 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& 
             add_file(hasher, key.path);
     }
     hasher.value(matte.steadiness)
-        .value(static_cast<int>(matte.carry))
-        .value(matte.carry_from.value_or(std::numeric_limits<int>::min()))
-        .value(matte.carry_to.value_or(std::numeric_limits<int>::max()));
+        .value(static_cast<int>(matte.propagate_direction))
+        .value(matte.propagate_from.value_or(std::numeric_limits<int>::min()))
+        .value(matte.propagate_to.value_or(std::numeric_limits<int>::max()));
     hasher.value(matte.select.value.value_or(-1))
         .text(matte.select.channel)
         .value(matte.select.invert)
@@ -69,7 +69,17 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& 
     return {};
 }
 
-// Folders for the regions below `root`, marked as used now.
+Status add_mattes(Hasher& hasher, const Region& region, const PaintedMattes& painted) {
+    WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
+    for (const MatteSource& holdout : *region.holdouts)
+        WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
+    // Of zones only what is propagated: their values are applied when a frame is rendered.
+    for (const Zone& zone : *region.zones)
+        if (zone.matte.files.empty()) WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
+    return {};
+}
+
+// Creates the folders of the regions below `root` and marks them as just used.
 Status make_folders(const fs::path& root, const std::vector<std::string>& keys,
                     std::vector<fs::path>& folders) {
     folders.clear();
@@ -89,7 +99,7 @@ Status make_folders(const fs::path& root, const std::vector<std::string>& keys,
     return {};
 }
 
-// All that a region's analysis depends on. `painted`: mattes that have no file yet.
+// A key of everything that a region's analysis depends on. `painted`: mattes without a file.
 Expected<std::string> region_key(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
     const RegionPlan& plan = shot.plan.regions[index];
@@ -101,12 +111,7 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index,
     add_plate_stamps(hasher, *shot.plate);
     hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name);
     hasher.value(static_cast<int>(shot.plan.quality));
-    WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
-    for (const MatteSource& holdout : *region.holdouts)
-        WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
-    // Of zones only what is propagated: their values are applied when a frame is rendered.
-    for (const Zone& zone : *region.zones)
-        if (zone.matte.files.empty()) WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
+    WEFT_CHECK_OK(add_mattes(hasher, region, painted));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward)
         .value(static_cast<int>(region.motion.convention))
@@ -190,7 +195,7 @@ class DiskStore final : public AnalysisCache {
           private_root_(std::move(private_root)),
           may_overflow_(!private_root_ && !required) {}
 
-    // Whole and undamaged: a damaged blob counts as missing and is computed again.
+    // Returns true for an intact blob; a damaged one is computed again.
     [[nodiscard]] bool has(const AnalysisKey& key) const override { return get(key).has_value(); }
 
     [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
@@ -208,7 +213,8 @@ class DiskStore final : public AnalysisCache {
 
     [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
         const std::shared_lock names(names_);
-        // What is there is newer than what the cache has: that could not be replaced.
+        // Prefer the overflow folder: its blob is newer than one in the cache that could not be
+        // replaced.
         if (const fs::path overflow = overflow_folder(); !overflow.empty()) {
             if (auto bytes = read_blob((overflow / overflow_name(key)).string()))
                 return std::move(*bytes);
@@ -224,7 +230,7 @@ class DiskStore final : public AnalysisCache {
             if (!all_written(shot, k)) continue;
             const auto key = region_key(shot, k, {});
             std::error_code error;
-            // What is there already was analysed from the same files.
+            // An existing blob was computed from the same files.
             const fs::path to = folders_[k].parent_path() / (key ? *key : std::string());
             if (!key || to == folders_[k] || fs::exists(to, error)) continue;
             fs::rename(folders_[k], to, error);
@@ -260,7 +266,7 @@ class DiskStore final : public AnalysisCache {
         const std::lock_guard lock(mutex_);
         return overflow_ ? fs::path(overflow_->path()) : fs::path();
     }
-    // From the first failure on, since a disk that was full once will be again.
+    // Used from the first failure on, because a full disk is likely to fill up again.
     [[nodiscard]] std::optional<fs::path> open_overflow() {
         const std::lock_guard lock(mutex_);
         if (!overflow_ && may_overflow_) {
@@ -289,12 +295,13 @@ class DiskStore final : public AnalysisCache {
                                                   " is missing or damaged. Render again.");
     }
 
-    mutable std::shared_mutex names_;  // of the folders; written while they are renamed
+    // protects the folder names; locked for writing while they are renamed
+    mutable std::shared_mutex names_;
     std::vector<fs::path> folders_;
-    std::optional<TemporaryFolder> private_root_;  // removed with the store
+    std::optional<TemporaryFolder> private_root_;  // deleted with the store
     bool may_overflow_ = false;
     mutable std::mutex mutex_;
-    std::optional<TemporaryFolder> overflow_;  // of a cache whose disk is full
+    std::optional<TemporaryFolder> overflow_;  // used when the cache's disk is full
 };
 
 fs::path default_folder() {
@@ -310,7 +317,7 @@ bool writable(const fs::path& folder) {
     return !error && access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-// Deletes the longest unused analyses until the rest fits the limit; those in use stay.
+// Deletes the least recently used analyses until the rest fits the limit, except those in use.
 void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint64_t limit_bytes) {
     struct Entry {
         fs::file_time_type used;
@@ -384,7 +391,7 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
     }
     if (keep) {
         prune(root, folders, options.limit_bytes);
-        // Motion is large, and planes are synthesized again in seconds.
+        // Motion gets a larger limit than planes, which are synthesized again in seconds.
         prune(root.parent_path() / "motion", {}, options.limit_bytes / 2);
         prune(root.parent_path() / "planes", {}, options.limit_bytes / 16);
     }

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-// Before the compressed bytes.
+// Precedes the compressed bytes.
 struct Header {
     char magic[8] = {'w', 'e', 'f', 't', 'b', 'l', 'b', '1'};
     std::uint64_t raw_bytes = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Files of the cache: a header with a checksum, then the bytes packed by zlib.
+// Cache files: a header with a checksum, then the bytes compressed by zlib.
 
 #include <optional>
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace weft {
 
-/// Whole or not at all, without a flush. Errors: those of the disk.
+/// Writes atomically, without a flush. Errors: those of the disk.
 [[nodiscard]] Status write_blob(const std::string& path, const Bytes& bytes);
-/// Nothing when there is none, or it is damaged or cut off.
+/// Returns nothing if the file is missing, damaged or truncated.
 [[nodiscard]] std::optional<Bytes> read_blob(const std::string& path);
 
 }  // namespace weft

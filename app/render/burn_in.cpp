@@ -18,7 +18,7 @@ void burn_in(ImageView<float, 3> display, const std::string& text) {
                   std::min(display.width(), size.width + 2 * margin), CV_8UC1, cv::Scalar(0));
     cv::putText(drawn, text, {margin, size.height + margin / 2}, kFont, scale, cv::Scalar(255),
                 thickness, cv::LINE_AA);
-    constexpr float kBand = 0.35f;  // of the picture that still shows behind the text
+    constexpr float kBand = 0.35f;  // opacity of the picture behind the text
     for (int y = 0; y < drawn.rows; ++y) {
         for (int x = 0; x < drawn.cols; ++x) {
             float* p = display.pixel(x, display.height() - drawn.rows + y);

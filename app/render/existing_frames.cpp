@@ -61,7 +61,7 @@ Expected<std::vector<int>> frames_to_keep(
     std::vector<int> present, kept;
     std::error_code ignored;
     for (const int frame : frames) {
-        // A dangling link is something that is there, too.
+        // A dangling link also counts as an existing file.
         if (fs::exists(fs::symlink_status(pattern.path_for(frame), ignored)))
             present.push_back(frame);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Frames of an earlier run, and which of them can be kept.
+// Finds frames of an earlier run that can be kept.
 
 #include <vector>
 
@@ -8,17 +8,17 @@
 
 namespace weft {
 
-/// Those of `frames` that are kept, ascending. `recipe`: the metadata that the new frames will
-/// carry. Errors: Usage when frames exist and are to be refused; when one that would be replaced is
-/// none of Weft's, other than with kOverwrite; and when they were rendered with the same settings
-/// on another backend, whose pixels may differ.
+/// Returns those of `frames` that are kept, ascending. `recipe`: the metadata of the new frames.
+/// Errors: Usage when frames exist and must not; when a frame to replace was not written by Weft
+/// (except with kOverwrite); when frames were rendered with the same settings on another backend,
+/// whose pixels may differ.
 [[nodiscard]] Expected<std::vector<int>> frames_to_keep(
     const SequencePattern& pattern, const std::vector<int>& frames, Size size,
     ExistingFrames existing, const std::vector<std::pair<std::string, std::string>>& recipe);
 
-/// Returns true if the picture carries the recipe that Weft writes into each of its frames.
+/// Returns true if the image holds the recipe metadata that Weft writes.
 [[nodiscard]] bool is_frame_of_weft(const std::string& path);
-/// "PATH was not rendered by Weft …": what a run that goes on says instead of replacing it.
+/// "PATH was not rendered by Weft …": the error of a resumed run that will not replace it.
 [[nodiscard]] Error not_of_weft(const std::string& path);
 
 }  // namespace weft

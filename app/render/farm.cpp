@@ -35,7 +35,7 @@ std::vector<std::string> in_chunks(const std::vector<int>& frames, int chunk) {
     return out;
 }
 
-// All frames that some region's analysis goes through.
+// All frames that the analysis of some region needs.
 std::vector<int> analysed_frames(const Shot& shot) {
     std::vector<int> out;
     if (shot.plan.regions.empty()) return out;
@@ -83,7 +83,7 @@ ExistingFrames existing_of(const std::string& name) {
                                : ExistingFrames::kResume;
 }
 
-// Two farms want the path of the job on a command line: there it must be plain.
+// Two farms put the job's path on a command line without quoting, so it must be plain.
 Status check_plain_folder(FarmEngine engine, const std::string& folder) {
     const bool named_in_scripts = engine == FarmEngine::kDeadline || engine == FarmEngine::kOpenCue;
     if (!named_in_scripts || folder.find_first_not_of("abcdefghijklmnopqrstuvwxyz"
@@ -98,7 +98,7 @@ Status check_plain_folder(FarmEngine engine, const std::string& folder) {
 
 using TextFiles = std::vector<std::pair<std::string, std::string>>;  // path, text
 
-// Queued tasks of an older job in the same folder would render the new one.
+// Queued tasks of an older job in the folder would render the new one.
 Status check_no_other_job(const std::string& job, const WriteRule& rule) {
     std::error_code ignored;
     if (rule.existing == Existing::kReplace || !fs::exists(fs::symlink_status(job, ignored)))
@@ -109,7 +109,7 @@ Status check_no_other_job(const std::string& job, const WriteRule& rule) {
                                        by({{setting::kResume}, {setting::kOverwrite}}) + ".");
 }
 
-// The 2023-09 schema allows a range of at most so many values.
+// The 2023-09 schema limits the number of values in a range.
 Status check_openjd(const FarmJob& job, int chunk) {
     constexpr std::size_t kMostTasks = 1024;
     for (const FarmStage& stage : job.stages) {
@@ -169,7 +169,7 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
         stages.push_back({{"name", stage.name}, {"frames", stage.frames}});
     WEFT_TRY(snapshot, project_to_json(frozen_project(options.project, shot)));
     const std::string hash = hash_of(snapshot);
-    // Named by its contents, so that no job replaces the snapshot of another.
+    // Named by its content, so that no job replaces the snapshot of another.
     const std::string snapshot_name = "project-" + hash + ".weft";
     const auto absolute = [&](const std::string& path) {
         return path.empty() ? path : fs::absolute(path, error).string();
@@ -190,10 +190,10 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
     for (auto& [name, text] : engine_files(options.engine, job))
         files.emplace_back((folder / name).string(), std::move(text));
     WEFT_CHECK_OK(check_no_other_job(job.file, options.rule));
-    // First, since job.json names it.
+    // Written first, because job.json refers to it.
     files.insert(files.begin(), {(folder / snapshot_name).string(), snapshot});
     std::vector<std::string> written;
-    // All of them or none: a job of two submits would be no job.
+    // Check all files before writing any, to avoid a mix of two jobs.
     for (const auto& [path, text] : files)
         WEFT_CHECK_OK(check_output(path, options.rule));
     for (const auto& [path, text] : files) {
@@ -206,7 +206,7 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
 namespace {
 
 Expected<Project> read_snapshot(const fs::path& folder, const Json& snapshot) {
-    // Beside the job, wherever that is on this machine.
+    // Relative to the job, wherever it is mounted on this machine.
     const std::string path =
         (folder / fs::path(snapshot.at("file").get<std::string>()).filename()).string();
     const auto text = read_file(path, "The job's project", kTextFileLimit_bytes);
@@ -222,7 +222,7 @@ Expected<Project> read_snapshot(const fs::path& folder, const Json& snapshot) {
     return project_from_json(*text);
 }
 
-// The stage and the frames of a task.
+// Selects the stage and the frames of a task.
 Status choose_task(const Json& stages, const std::string& stage, int index, FarmTask& task) {
     std::string names;
     for (const Json& entry : stages) {
@@ -234,7 +234,7 @@ Status choose_task(const Json& stages, const std::string& stage, int index, Farm
             return fail(ErrorCode::kUsage, "The stage " + stage + " has tasks 0 to " +
                                                std::to_string(frames.size() - 1) + ".");
         }
-        // One empty text stands for the whole shot.
+        // An empty list means the whole shot.
         const std::string& chosen = frames[static_cast<std::size_t>(index)];
         if (!chosen.empty()) task.project.settings.frames = chosen;
         WEFT_TRY(known, parse_job_stage(name));

@@ -1,5 +1,6 @@
 #pragma once
-// A shot cut into tasks for a render farm, so that together they give the bytes of one machine.
+// Splits a shot into tasks for a render farm. Together they give the same bytes as a render on one
+// machine.
 
 #include <string>
 #include <vector>
@@ -12,55 +13,58 @@ enum class FarmEngine { kOpenJd, kSlurm, kDeadline, kOpenCue, kFlamenco };
 
 struct FarmOptions {
     FarmEngine engine = FarmEngine::kSlurm;
-    std::string project_file;  ///< Names the job.
-    Project project;           ///< What is rendered, as open_shot() got it.
-    std::string folder;        ///< Where the job's files go.
-    std::string cache;         ///< Shared by all machines; empty: "cache" in `folder`.
-    int chunk = 10;            ///< Frames a task.
-    int threads = 0;           ///< Of a task; 0: one a processor.
+    std::string project_file;  ///< Project file; names the job.
+    Project project;           ///< The project to render, as passed to open_shot().
+    std::string folder;        ///< Folder of the job's files.
+    std::string cache;         ///< Cache folder shared by all machines; empty: "cache" in `folder`.
+    int chunk = 10;            ///< Frames per task.
+    int threads = 0;           ///< Threads per task; 0: one per processor.
     std::string library;
-    /// What tasks do with frames that are there; kRefuse: as kResume, since a task may run twice.
+    /// How tasks treat existing frames. kRefuse acts as kResume, since a task may run twice.
     ExistingFrames existing = ExistingFrames::kRefuse;
-    std::vector<std::string> roots;  ///< Tasks write nowhere else; none: beside the outputs.
-    WriteRule rule;                  ///< For the job's files.
+    /// Folders that tasks may write to; empty: those of the outputs.
+    std::vector<std::string> roots;
+    WriteRule rule;  ///< Write rule of the job's files.
 };
 
-/// One stage: its tasks may run side by side once the stage before is through.
+/// A stage: its tasks may run in parallel once the previous stage is complete.
 struct FarmStage {
     JobStage stage = JobStage::kAll;
-    std::string name;                 ///< "motion", "analyse", "planes", "frames", "encode"
-    std::vector<std::string> frames;  ///< A task's frame list; one empty text: the whole shot.
+    std::string name;  ///< "motion", "analyse", "planes", "frames", "encode"
+    /// Frame list of each task; one empty string: the whole shot.
+    std::vector<std::string> frames;
 };
 
-/// Motion of neighbours in parallel; coordinates in order; texture planes; frames in parallel; the
-/// movie where there is one. Stages without work are left out.
+/// Stages: motion between neighbours in parallel; analysis in order; texture planes; frames in
+/// parallel; the movie if requested. Stages without work are omitted.
 [[nodiscard]] std::vector<FarmStage> farm_stages(const Shot& shot, int chunk);
 
-/// The project with everything decided that opening a shot decides: absolute paths, the frames, the
+/// The project with the choices of open_shot() written into it: absolute paths, frames and
 /// reference frames. `project` is what `shot` was opened from.
 [[nodiscard]] Project frozen_project(const Project& project, const Shot& shot);
 
-/// Writes a snapshot of the project, job.json, which `weft task` reads, and what the engine wants
-/// beside it (docs/FARM.md). Returns the paths. Names of files stand in the first two only: no
-/// script holds one. Errors: Usage (the folder holds another job), those of writing.
+/// Writes a snapshot of the project, job.json (read by `weft task`), and the farm's own files
+/// (docs/FARM.md). Returns their paths. File names occur only in the first two, never in scripts.
+/// Errors: Usage (the folder holds another job); those of writing.
 [[nodiscard]] Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options,
                                                                 const Shot& shot);
 
-/// Returns true for a job.json that 'weft submit' wrote, of whatever version.
+/// Returns true for a job.json of 'weft submit', of any version.
 [[nodiscard]] bool is_farm_job(const std::string& path);
 
-/// What one task of a job file is to run.
+/// What a task of a job file runs.
 struct FarmTask {
     Project project;       ///< The snapshot, with the frames of this task.
-    std::string settings;  ///< What settings_hash() must give, as when the job was submitted.
+    std::string settings;  ///< Required settings_hash(): that of the submitted job.
     std::string cache, library;
-    std::vector<std::string> output_roots;  ///< Nothing is written elsewhere, but the cache.
+    /// Folders that the task may write to, besides the cache.
+    std::vector<std::string> output_roots;
     JobStage stage = JobStage::kAll;
     ExistingFrames existing = ExistingFrames::kResume;
     int threads = 0;
 };
-/// Errors: Unreadable (the job, its snapshot, or a snapshot that is not the one that was
-/// submitted), Usage (no such stage or task; the message says what there is).
+/// Reads a task. Errors: Unreadable (the job or its snapshot, or a snapshot that differs from the
+/// submitted one); Usage (no such stage or task; the message lists what exists).
 [[nodiscard]] Expected<FarmTask> read_farm_task(const std::string& job, const std::string& stage,
                                                 int index);
 

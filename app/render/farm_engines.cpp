@@ -12,7 +12,7 @@ std::string last_index(const FarmStage& stage) {
     return std::to_string(stage.frames.size() - 1);
 }
 
-// Names of jobs may hold little in most farms.
+// Most farms allow few characters in job names.
 std::string plain(const std::string& name) {
     std::string out;
     for (const char c : name) {
@@ -27,7 +27,7 @@ std::string dumped(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// Open Job Description, jobtemplate-2023-09: a step a stage, a task an index.
+// Open Job Description, jobtemplate-2023-09: one step per stage, one task per index.
 Files openjd(const FarmJob& job) {
     Json steps = Json::array();
     std::string before;
@@ -65,8 +65,8 @@ Files openjd(const FarmJob& job) {
                                       {"steps", steps}})}};
 }
 
-// A script for each stage and one that submits them in order. Their text is the same for every
-// shot: names stand in job.json, which lies in the folder that submit.sh changes to.
+// Slurm: a script for each stage and one that submits them in order. Their text does not depend on
+// the shot: names are in job.json, in the folder that submit.sh changes to.
 Files slurm(const FarmJob& job) {
     Files out;
     std::string submit =
@@ -89,8 +89,8 @@ Files slurm(const FarmJob& job) {
     return out;
 }
 
-// Thinkbox Deadline's CommandLine plug-in: an info and a plug-in file a stage, and a script that
-// fills in the ids of the jobs that a stage waits for.
+// Thinkbox Deadline's CommandLine plug-in: an info file and a plug-in file per stage, and a script
+// that adds the ids of jobs that a stage depends on.
 Files deadline(const FarmJob& job) {
     Files out;
     std::string submit =
@@ -132,7 +132,7 @@ std::string xml(const std::string& text) {
     return out;
 }
 
-// OpenCue's job specification (cjsl): a layer a stage, an index a frame.
+// OpenCue's job specification (cjsl): one layer per stage, one frame per index.
 Files opencue(const FarmJob& job) {
     std::string layers, depends, before;
     for (const FarmStage& stage : job.stages) {
@@ -158,7 +158,7 @@ Files opencue(const FarmJob& job) {
                  "    </layers>\n  </job>\n  <depends>\n" + depends + "  </depends>\n</spec>\n"}};
 }
 
-// Flamenco 3: a job type that reads the stages from the job's settings, and the job to be posted.
+// Flamenco 3: a job type that reads the stages from the job's settings, and the job to submit.
 Files flamenco(const FarmJob& job) {
     static constexpr const char* kType =
         R"(// Job type of Weft: copy it into the Manager's scripts folder.

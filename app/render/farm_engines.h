@@ -1,5 +1,5 @@
 #pragma once
-// Internal: a job in the words of each farm.
+// Internal: a job in the format of each farm.
 
 #include <string>
 #include <utility>
@@ -10,11 +10,11 @@
 namespace weft {
 
 struct FarmJob {
-    std::string name, file;  ///< Of the shot; the absolute path of job.json.
+    std::string name, file;  ///< Name of the shot; absolute path of job.json.
     std::vector<FarmStage> stages;
 };
 
-/// Names (relative to the job's folder) and texts.
+/// File names (relative to the job's folder) and contents.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> engine_files(FarmEngine engine,
                                                                             const FarmJob& job);
 

@@ -47,7 +47,7 @@ Status write_frame(const JobSetup& setup, int frame, const std::string& path,
     return write_exr(path, exr, setup.write);
 }
 
-// What stands for a frame that the plate has not, where it is to be black.
+// The replacement of a missing frame where it is to be black.
 bool is_black(const Shot& shot, int frame) {
     return shot.project.plate.missing == MissingFrames::kBlack &&
            shot.plate->shown_frame(frame) != frame;
@@ -57,7 +57,7 @@ Status make_frame(const FrameInputs& in, FrameResult& result) {
     const Shot& shot = *in.setup.shot;
     if (is_black(shot, result.frame))
         return write_image(result.path, ImageF3(shot.plate->size()), {}, in.setup.write);
-    // A held frame is the frame that stands for it, grain and all.
+    // A held frame equals the frame it repeats, grain included.
     const int shown = shot.plate->shown_frame(result.frame);
     WEFT_TRY(rendered,
              render_frame(*shot.source, in.plan, in.scenes, in.store, *in.setup.backend, shown));
@@ -78,7 +78,7 @@ std::string burnt_text(const Shot& shot, int frame) {
     return text + shot.spaces.out.name;
 }
 
-// The movie of a job, which gets its frames in order.
+// The movie of a job; it receives the frames in order.
 struct ReviewMovie {
     std::unique_ptr<MovieWriter> writer;
     std::shared_ptr<const ColorTransform> display_from_out;
@@ -96,7 +96,7 @@ struct ReviewMovie {
         return movie;
     }
 
-    // The frame as it is on the disk, so that the movie of a resumed run is the same.
+    // Reads the frame back from disk, so that the movie of a resumed run is the same.
     [[nodiscard]] Expected<ImageF3> display(const Shot& shot, const FrameResult& frame) const {
         WEFT_TRY(written, read_image(frame.path));
         display_from_out->apply(written.rgb);
@@ -137,7 +137,7 @@ Status render_frames(const FrameInputs& in, const std::string& movie_path,
         }
         return {};
     };
-    // A batch of frames at a time, so that the movie gets them in order and memory stays bounded.
+    // Renders in batches, so that the movie receives frames in order and memory stays bounded.
     const auto batch =
         std::min(static_cast<std::size_t>(2 * thread_count()), in.setup.frames_at_once);
     for (std::size_t first = 0; first < frames.size(); first += batch) {

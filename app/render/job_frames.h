@@ -1,5 +1,5 @@
 #pragma once
-// The stage of a render that makes frames: renders them, writes them, and feeds the movie.
+// The frame stage of a render: renders frames, writes them and feeds the movie.
 
 #include <cstdint>
 
@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// Whether a file of this name is an EXR, which can hold layers.
+/// Returns true for an EXR file name; EXR files can hold layers.
 [[nodiscard]] bool is_exr(const std::string& path);
 
-/// What the frames are rendered from; see render_frame().
+/// Inputs of the frame stage; see render_frame().
 struct FrameInputs {
     const JobSetup& setup;
     const ShotPlan& plan;
@@ -20,10 +20,9 @@ struct FrameInputs {
     const std::vector<RegionScene>& scenes;
 };
 
-/// Renders and writes `frames` but those that are skipped, and encodes all of them into `movie`
-/// where it is not empty. Fills in what is to be said of each frame. `done` counts those that are
-/// finished, also when the stage fails. Errors: those of rendering and of the disk, and
-/// cancellation; frames before one that fails stay.
+/// Renders and writes `frames` except skipped ones, and encodes all of them into `movie` unless it
+/// is empty. Fills in the results of each frame. `done` counts finished frames, also on failure.
+/// Errors: those of rendering and of the disk, and cancellation; frames finished earlier stay.
 [[nodiscard]] Status render_frames(const FrameInputs& in, const std::string& movie,
                                    const CancelToken& cancel, const ProgressFn& progress,
                                    std::vector<FrameResult>& frames, std::int64_t& done);

@@ -86,7 +86,7 @@ Status check_settings(const JobSpec& spec, const JobSetup& setup) {
                 "was submitted: frames of one job would differ. Submit again.");
 }
 
-// Layers go into the output where it is an EXR, else into files of their own.
+// Layers go into the output if it is EXR, otherwise into separate files.
 Status choose_layer_files(JobSetup& setup) {
     const Output& output = setup.shot->project.output;
     if (output.layers.empty()) return {};
@@ -100,7 +100,7 @@ Status choose_layer_files(JobSetup& setup) {
     WEFT_TRY(pattern, SequencePattern::parse(output.layers_path));
     WEFT_CHECK_OK(check_format(output.layers_path, {.depth = PixelDepth::kHalf}));
     const int first = setup.plan.frames.front();
-    // The same files as the frames: one file holds both.
+    // Same names as the frames: one file holds both.
     if (real_path(pattern.path_for(first)) == real_path(setup.pattern.path_for(first)) &&
         pattern.is_single() == setup.pattern.is_single())
         return {};
@@ -125,15 +125,15 @@ Status choose_format(const JobSpec& spec, JobSetup& setup) {
     return check_format(output.path, write);
 }
 
-// What becomes of frames that are there already.
+// How existing frames are treated.
 ExistingFrames existing_frames(const JobSpec& spec) {
     if (spec.stage == JobStage::kAll || spec.stage == JobStage::kFrames) return spec.existing;
     if (spec.stage != JobStage::kEncode) return ExistingFrames::kOverwrite;
-    // The movie is made of them.
+    // The movie is encoded from existing frames.
     return spec.existing == ExistingFrames::kSkip ? ExistingFrames::kSkip : ExistingFrames::kResume;
 }
 
-// Makes the folders, and decides about files that are there already.
+// Creates the folders and decides about existing files.
 Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folders) {
     const Size size = setup.shot->plate->size();
     OutputPlan outputs{setup.pattern, {}, setup.plan.frames, size, {}, {}, {}};
@@ -155,7 +155,7 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
         setup.result.frames.push_back({frame, setup.pattern.path_for(frame), 0, skip, 0, 0});
         if (!skip) to_render.push_back(frame);
     }
-    // Only what is still to be rendered has to be analysed.
+    // Analyse only frames that are still to be rendered.
     setup.plan.frames = std::move(to_render);
     return {};
 }

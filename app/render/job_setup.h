@@ -1,5 +1,5 @@
 #pragma once
-// A render before any work: everything that can be wrong with it is known by then.
+// Prepares a render. All errors of the project and its files are found here, before any work.
 
 #include <memory>
 #include <optional>
@@ -15,20 +15,20 @@ namespace weft {
 struct JobSetup {
     std::shared_ptr<const Backend> backend;
     std::shared_ptr<const Shot> shot;
-    ShotPlan plan;  ///< The shot's, with the frames that are still to be rendered.
+    ShotPlan plan;  ///< The shot's plan, with frames still to be rendered.
     SequencePattern pattern = SequencePattern::single("");
-    std::optional<SequencePattern> layer_pattern;  ///< Of EXR files of their own for the layers.
+    /// Pattern of separate EXR files for the layers.
+    std::optional<SequencePattern> layer_pattern;
     WriteOptions write;
     WriteRule movie_rule;
-    std::size_t frames_at_once = 1;  ///< That fit into memory.
-    /// As far as it is known: the frames with those to be skipped, spaces, textures, warnings.
+    std::size_t frames_at_once = 1;  ///< Frames rendered in parallel, limited by memory.
+    /// Results known so far: frames (with skipped ones), spaces, textures, warnings.
     JobResult result;
 };
 
-/// Opens the shot, checks everything that run_job() checks before it works, and prepares the
-/// output's folders. `leave_out`: frames that are only measured, and cannot be read. Sets the
-/// process's thread count. `shot` is set as soon as it is open, whatever goes wrong then. Errors:
-/// those of check_job().
+/// Opens the shot, does all checks of run_job() and prepares the output folders. `leave_out`:
+/// frames used only for measurement that cannot be read. Sets the process's thread count. `shot` is
+/// set once it is open, even if a later step fails. Errors: those of check_job().
 [[nodiscard]] Expected<JobSetup> set_up_job(const JobSpec& spec, const std::vector<int>& leave_out,
                                             std::shared_ptr<const Shot>& shot,
                                             OutputFolders folders = OutputFolders::kMake);

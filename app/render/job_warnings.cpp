@@ -28,7 +28,7 @@ void warn_above_one(const std::vector<FrameResult>& frames, std::vector<std::str
                     pixels_text(pixels), frames_text(where)));
 }
 
-// Each frame with its count, the first few of them.
+// Lists the first few frames with their counts.
 void warn_nonfinite(const std::vector<FrameResult>& frames, std::vector<std::string>& warnings) {
     constexpr int kListed = 8;
     std::int64_t pixels = 0, filled = 0;

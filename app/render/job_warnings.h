@@ -6,8 +6,8 @@
 
 namespace weft {
 
-/// What an artist should know of the frames though they were rendered: pixels brighter than the
-/// output can hold, NaN and infinity in the plate, frames that no matte reaches. One line each.
+/// Warnings about rendered frames, one line each: pixels brighter than the output can hold, NaN and
+/// infinity in the plate, frames with an empty matte.
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<FrameResult>& frames);
 
 }  // namespace weft

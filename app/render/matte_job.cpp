@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-// The folder is there, and every file may be written.
+// Checks that the folder exists and every file may be written.
 Status prepare_output(const Shot& shot, const SequencePattern& pattern, const WriteRule& rule) {
     const std::vector<int>& frames = shot.plan.frames;
     if (pattern.is_single() && frames.size() > 1) {

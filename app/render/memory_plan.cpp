@@ -13,17 +13,15 @@
 namespace weft {
 namespace {
 
-// Fitted to the peaks of 3840x2160 renders in `final`, a region over 41 % of the frame: 1.25 GB
-// with one frame at a time, 1.54 with two, 2.53 with four, when each thread had a heap of its own
-// (main.cpp). What the shot holds once (the program
-// with its libraries and texture planes; for each pixel the analysis of the frames in hand), and
-// what each frame rendered side by side adds (working plate, canvas, texture, old surface, output,
-// mattes).
+// Fitted to peaks of 3840x2160 renders at final quality with a region over 41 % of the frame: 1.25
+// GB with one frame at a time, 1.54 with two, 2.53 with four (measured with one heap per thread;
+// see main.cpp). A constant part (program, libraries, texture planes), a part per pixel of the shot
+// (analysis of the frames in hand), and a part per pixel of each frame rendered in parallel
+// (working plate, canvas, texture, old surface, output, mattes).
 constexpr std::int64_t kProgramBytes = 220ll << 20;
 constexpr std::int64_t kShotBytesPerPixel = 70;
 constexpr std::int64_t kFrameBytesPerPixel = 55;
-// What the layers of a frame add: the pictures themselves, their samples by channel, and the rows
-// that are packed for the file.
+// Additional memory of a frame's layers: images, samples by channel, and rows packed for the file.
 constexpr std::int64_t kLayersBytesPerPixel = 190;
 
 std::int64_t frame_bytes_per_pixel(bool layers) {

@@ -8,19 +8,20 @@
 
 namespace weft {
 
-/// One part in so many of the memory that a job may use is for decoded plates.
+/// 1/kCacheShare of a job's memory limit is for decoded plates.
 inline constexpr std::size_t kCacheShare = 8;
 
-/// How many frames of `size` may be rendered side by side within `memory_bytes` (0: no limit).
-/// `layers`: each is written with EXR layers. Errors: NoSpace when not even one fits, saying how
-/// much it takes.
+/// Number of frames of `size` that fit into `memory_bytes` in parallel (0: no limit). `layers`:
+/// each has EXR layers. Errors: NoSpace when not even one fits; the message gives the memory
+/// needed.
 [[nodiscard]] Expected<std::size_t> frames_at_once(Size size, std::int64_t memory_bytes,
                                                    bool layers);
 
-/// What a render without a limit takes, with so many frames side by side.
+/// Memory of a render without a limit, with this many frames in parallel.
 [[nodiscard]] std::int64_t render_memory_bytes(Size size, std::size_t side_by_side, bool layers);
 
-/// "3G", "800M", "1.5GiB", "2000000": bytes; K, M, G and T are powers of 1024. Errors: Usage.
+/// Parses "3G", "800M", "1.5GiB" or "2000000" as bytes; K, M, G and T are powers of 1024. Errors:
+/// Usage.
 [[nodiscard]] Expected<std::int64_t> parse_bytes(std::string_view text);
 
 }  // namespace weft

@@ -26,7 +26,7 @@ std::vector<PlannedFile> planned_files(const OutputPlan& plan) {
     return files;
 }
 
-// A regular file of JSON whose first key names this schema.
+// Returns true for a regular JSON file whose first key names this schema.
 bool is_of_schema(const std::string& path, const std::string& schema) {
     const auto file = InputFile::open(path);
     if (!file) return false;
@@ -38,7 +38,7 @@ bool is_of_schema(const std::string& path, const std::string& schema) {
            head.find_first_not_of(" \n\r\t", brace + 1) == key;
 }
 
-// A run that goes on replaces what the run before left, but no other file. `own`: it is Weft's.
+// A resumed run may replace files of the earlier run, but no others. `own`: the file is Weft's.
 WriteRule rule_beside(const WriteRule& frames, ExistingFrames existing, bool own, bool device) {
     WriteRule rule = frames;
     rule.device = device;
@@ -47,7 +47,7 @@ WriteRule rule_beside(const WriteRule& frames, ExistingFrames existing, bool own
     return rule;
 }
 
-// Checked one by one: the fence is asked, nothing is made yet.
+// Checks files against the fence one by one; nothing is created yet.
 Status check_fence(const SequencePattern& pattern, const std::vector<int>& frames,
                    const WriteRule& rule) {
     if (!rule.fence) return {};
@@ -68,7 +68,7 @@ Status prepare(const std::string& path, const WriteRule& rule, OutputFolders fol
     return check_output(path, rule);
 }
 
-// Files that exist are looked at one by one.
+// Checks existing files one by one.
 Status prepare_frames(const SequencePattern& pattern, int first, WriteRule rule,
                       OutputFolders folders) {
     rule.existing = Existing::kReplace;

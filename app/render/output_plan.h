@@ -1,6 +1,5 @@
 #pragma once
-// All that a job will write, checked against its inputs, what exists, and each other, before any
-// work is done.
+// Checks all outputs of a job against its inputs, existing files and each other before any work.
 
 #include <optional>
 #include <string>
@@ -13,28 +12,28 @@ namespace weft {
 
 struct OutputPlan {
     SequencePattern frames;
-    std::optional<SequencePattern> layers;  ///< Of files of their own.
+    std::optional<SequencePattern> layers;  ///< Pattern of separate layer files.
     std::vector<int> numbers;
-    Size size;                          ///< Of the pictures.
+    Size size;                          ///< Size of the images.
     std::string movie, report, recipe;  ///< Empty: none.
 };
 
-/// By which the files beside the frames are written.
+/// Write rules of the files other than frames.
 struct OutputRules {
     WriteRule movie, report, recipe;
 };
 
-/// What happens to the folders of outputs before any work is done.
+/// How output folders are treated before any work.
 enum class OutputFolders {
     kMake,
-    kLeave  ///< Nothing is made: another run will do the work.
+    kLeave  ///< Create nothing, because another run will.
 };
 
-/// Makes the folders of all outputs, and clears away what killed runs left there.
-/// `frames`: the rule of the frames. With --resume and --skip-existing only reports, recipes,
-/// movies and layers that Weft wrote may be replaced. What becomes of frames that exist is for
-/// frames_to_keep(). Errors: Usage (an input, a place outside of the root, two outputs in one file,
-/// a file that is there), Unreadable, NoSpace.
+/// Creates the folders of all outputs and deletes temporary files of killed runs. `frames`: the
+/// write rule of the frames. With --resume and --skip-existing, only reports, recipes, movies and
+/// layers written by Weft may be replaced; frames_to_keep() decides about frames. Errors: Usage (an
+/// output is an input, lies outside the root, equals another output, or exists), Unreadable,
+/// NoSpace.
 [[nodiscard]] Expected<OutputRules> check_outputs(const OutputPlan& plan, ExistingFrames existing,
                                                   const WriteRule& frames, OutputFolders folders);
 

@@ -24,8 +24,8 @@ PlanesAhead::PlanesAhead(const ShotPlan& plan, Size plate, const CancelToken& ca
                 made_[k].set_exception(std::current_exception());
             }
         };
-        // Many planes are made side by side, a thread each, which leaves no thread idle. All
-        // threads work on one plane after another where there are few.
+        // Many planes are synthesized in parallel, one thread each, which uses all threads. A few
+        // planes are synthesized one after another by all threads.
         if (made_.size() >= 2 * static_cast<std::size_t>(thread_count())) {
             parallel_for(made_.size(), make);
             return;

@@ -1,5 +1,5 @@
 #pragma once
-// The texture planes of a shot, grown while it is analysed.
+// Synthesizes the texture planes of a shot during its analysis.
 
 #include <atomic>
 #include <future>
@@ -11,20 +11,20 @@
 
 namespace weft {
 
-/// Owns a thread that makes the planes of all regions in their order, or several at once where
+/// Owns a thread that synthesizes the planes of all regions in order, or several in parallel if
 /// there are many. Not thread-safe.
 class PlanesAhead {
   public:
     /// `plan` and `backend` must outlive it.
     PlanesAhead(const ShotPlan& plan, Size plate, const CancelToken& cancel,
                 const Backend* backend);
-    /// Waits for the thread. What it has not begun yet is left alone.
+    /// Waits for the thread; planes that are not started are dropped.
     ~PlanesAhead();
     PlanesAhead(const PlanesAhead&) = delete;
     PlanesAhead& operator=(const PlanesAhead&) = delete;
 
-    /// The region's plane, waited for; nothing where it has none for the whole shot. Once only for
-    /// each region. Errors: those of make_plane().
+    /// Waits for the region's plane and returns it; nothing if the region has none for the whole
+    /// shot. Call it once per region. Errors: those of make_plane().
     [[nodiscard]] Expected<std::optional<RegionPlane>> take(std::size_t region);
 
   private:

@@ -27,8 +27,8 @@ std::string joined(const std::set<std::string>& texts) {
     return out;
 }
 
-// The project without settings that do not affect pixels.
-Project essence(const Project& project) {
+// The project reduced to settings that affect pixels.
+Project pixel_settings(const Project& project) {
     Project out = map_paths(project, [](const std::string& path) {
         return names_library_texture(path) ? path : fs::path(path).filename().string();
     });
@@ -44,9 +44,9 @@ Project essence(const Project& project) {
         region = region.with([](Region& r) {
             r.name.clear();
             r.color = 0;
-            // They count by the plan's, which has those that were chosen for the user, too.
+            // The plan has them, including those chosen automatically.
             r.reference_frames.clear();
-            // Textures count by their pixels.
+            // Textures are hashed by their pixels.
             r.texture.sample.clear();
             r.texture.also.clear();
             r.texture.plane.clear();
@@ -75,8 +75,8 @@ Json textures_of(const Shot& shot) {
 
 std::string settings_hash(const Shot& shot) {
     Hasher hasher;
-    // A name that is not UTF-8 cannot be written as JSON; the spaces and textures still count.
-    if (const auto text = project_to_json(essence(shot.project))) hasher.text(*text);
+    // A name that is not UTF-8 cannot be written as JSON; spaces and textures are still hashed.
+    if (const auto text = project_to_json(pixel_settings(shot.project))) hasher.text(*text);
     hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name).text(shot.spaces.out.name);
     for (const ColorSpace& space : shot.spaces.textures)
         hasher.text(space.name);
@@ -142,7 +142,7 @@ Expected<std::string> recipe_json(const Shot& shot, const JobResult& result) {
 
 namespace {
 
-// A line for each input and frame: 256 MB are enough for a million files.
+// One line per input and frame: 256 MB is enough for a million files.
 constexpr std::uint64_t kRecipeLimit_bytes = std::uint64_t{256} << 20;
 
 struct NamedFile {

@@ -8,19 +8,20 @@
 namespace weft {
 namespace {
 
-// Microseconds a pixel, whole frames, on two cores: the demo (three regions, two of them with true
-// motion) and davis_blackswan (one region, painted matte, estimated motion), in both qualities.
+// Microseconds per pixel of whole frames on two cores, measured on the demo (three regions, two
+// with true motion) and davis_blackswan (one region, painted matte, estimated motion) at both
+// qualities.
 struct Costs {
     double motion, matte, region, render;
 };
 constexpr Costs kDraft{0.10, 0.05, 0.18, 0.16}, kFinal{0.60, 0.60, 0.30, 0.30};
 constexpr double kStart_s = 1.5;
-// A region's planes and their growth; the larger pyramids of the better motion.
+// Memory of a region's planes and their synthesis; final quality needs larger motion pyramids.
 constexpr std::int64_t kRegionBytes = 90ll << 20, kFinalBytes = 130ll << 20;
-// More cores help less than in proportion: coordinates are worked out in order.
+// Speed-up is less than proportional to cores, because tracks are computed in order.
 constexpr double kScaling = 0.75, kMeasuredOn = 2;
 
-// Of all layers, on the disk.
+// Disk space of all layers.
 constexpr double kLayersBytesPerPixel = 8;
 
 double bytes_per_pixel(std::string_view extension) {

@@ -39,16 +39,16 @@ Status timed(double& seconds, F&& work) {
     return status;
 }
 
-// A set-up job and what its stages leave for those after them.
+// A prepared job and the results of its stages.
 struct JobRun {
     const JobSpec& spec;
     const CancelToken& cancel;
     const ProgressFn& progress;
     JobSetup setup;
-    ShotPlan plan;  // the set-up's, with the stages' cache
+    ShotPlan plan;  // the prepared plan, with the stage cache
     std::shared_ptr<AnalysisCache> store;
     std::vector<RegionScene> scenes;
-    std::vector<std::string> empty_references;  // a warning each
+    std::vector<std::string> empty_references;  // one warning each
 
     [[nodiscard]] const Shot& shot() const { return *setup.shot; }
     [[nodiscard]] bool nothing_to_render() const { return plan.frames.empty(); }
@@ -66,7 +66,7 @@ Status open_caches(JobRun& job) {
 
 // ---- motion ----------------------------------------------------------------------------------
 
-// All frames that some region's analysis goes through.
+// All frames that the analysis of some region needs.
 FrameSpan whole_span(const ShotPlan& plan) {
     FrameSpan out = analysed_span(plan, plan.regions.front());
     for (const RegionPlan& region : plan.regions) {
@@ -91,8 +91,8 @@ Status analysis_stage(const JobRun& job) {
 
 // ---- planes ----------------------------------------------------------------------------------
 
-// Beside the analysis, whose steps leave other processors idle. Not where memory is short: then
-// planes and analysis are not held at the same time.
+// Synthesizes planes during the analysis, whose steps leave processors idle. Not if memory is
+// limited, because both would be in memory at the same time.
 void grow_planes_ahead(const JobRun& job, std::optional<PlanesAhead>& planes) {
     const bool wanted = job.spec.stage == JobStage::kAll && !job.nothing_to_render();
     if (!wanted || thread_count() == 1 || job.spec.memory_bytes > 0) return;
@@ -110,12 +110,12 @@ void warn_of_samples(JobRun& job, std::size_t region) {
     }
 }
 
-// Where the reference frame shows nothing of the surface, there is no light to compare with and
-// nothing to follow from there.
+// If the surface is not visible on the reference frame, there is no light to compare with and
+// nothing to track.
 Status check_reference(JobRun& job, std::size_t region) {
     const Shot& shot = job.shot();
     ShotReference reference = shot.references[region];
-    if (reference.shows_nothing && reference.better) return {};  // open_shot() has said it
+    if (reference.shows_nothing && reference.better) return {};  // open_shot() has warned about it
     WEFT_TRY(extent, extent_matte(*shot.source, job.plan, *job.store, static_cast<int>(region),
                                   reference.frame));
     if (!matte_bounds(extent).empty()) return {};
@@ -170,7 +170,7 @@ Status frame_stage(JobRun& job, std::int64_t& done) {
                          job.progress, result.frames, done);
 }
 
-// ---- what is said at the end -----------------------------------------------------------------
+// ---- warnings at the end -----------------------------------------------------------------------
 
 void add_warnings(JobRun& job) {
     JobResult& result = job.setup.result;
@@ -217,9 +217,9 @@ Status run_stages(JobRun& job, Clock::time_point start, std::int64_t& frames_don
     return {};
 }
 
-// What is left of a run that failed.
+// State of a failed run.
 struct Attempt {
-    std::shared_ptr<const Shot> shot;  // null: it was not opened
+    std::shared_ptr<const Shot> shot;  // null if it was not opened
     std::int64_t frames_done = 0;
 };
 
@@ -254,14 +254,14 @@ Expected<BackendChoice> choose_backend(const std::string& name) {
     return registry.choose(name);
 }
 
-void keep_libraries_steady() {
-    // Debian's OpenCV blurs, derives and scales floats with FMA where the processor has AVX2, and
-    // without where it has not.
+void make_libraries_deterministic() {
+    // Debian's OpenCV uses FMA for blurs, derivatives and scaling of floats if the processor has
+    // AVX2, which changes the bits.
     cv::setUseOptimized(false);
 }
 
 void use_threads(int threads) {
-    keep_libraries_steady();
+    make_libraries_deterministic();
     set_thread_count(threads);
     cv::setNumThreads(thread_count());
 }
@@ -273,7 +273,7 @@ Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel,
     if (result || result.error().code != ErrorCode::kUnreadable || !first.shot ||
         first.frames_done > 0)
         return result;
-    // A frame that is only measured may be on its way still: without it then.
+    // Frames used only for measurement may still be incomplete: retry without them.
     const std::vector<int> unreadable = unreadable_evidence(*first.shot);
     if (unreadable.empty()) return result;
     Attempt second;

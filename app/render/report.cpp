@@ -142,7 +142,7 @@ std::string report_json(const JobSpec& spec, const JobResult& result) {
                 {"movie", result.movie},
                 {"warnings", result.warnings}};
     if (!result.changed_inputs.empty()) report["changed_inputs"] = result.changed_inputs;
-    // Paths may contain bytes that are not UTF-8; they are replaced.
+    // Paths may contain bytes that are not UTF-8; those are replaced.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Raised whenever the estimate computes something else.
+// Increase this when the result of the estimate changes.
 constexpr int kMotionVersion = 1;
 
 class DiskStages final : public StageStore {
@@ -54,7 +54,7 @@ class DiskStages final : public StageStore {
     static void keep(const fs::path& folder, const std::string& name, const Bytes& bytes) {
         std::error_code ignored;
         fs::create_directories(folder, ignored);
-        // A full disk costs time only.
+        // On a full disk the result is only computed again.
         static_cast<void>(write_blob((folder / name).string(), bytes));
     }
 

@@ -8,13 +8,13 @@
 
 namespace weft {
 
-/// Keeps planes and motion below `root` (planes/HASH, motion/HASH/FRAME-FRAME); the motion's hash
-/// is of the plate's files, its space and the quality.
+/// Caches planes and motion below `root` (planes/HASH, motion/HASH/FRAME-FRAME). The hash of motion
+/// covers the plate's files, its colour space and the quality.
 [[nodiscard]] std::shared_ptr<StageStore> open_stage_cache(const Shot& shot,
                                                            const std::string& root);
 
-/// Adds all frames of a plate with their stamps. A file that is not there has a stamp of its own:
-/// whoever needs it finds out.
+/// Adds all frames of a plate with their stamps. A missing file has a stamp of its own; the code
+/// that reads it reports the error.
 void add_plate_stamps(Hasher& hasher, const FrameReader& plate);
 
 }  // namespace weft

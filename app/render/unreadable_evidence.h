@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// The frames that no rendered frame is followed through, that are read only to measure light,
-/// grain or motion blur, and whose plate or matte cannot be read; ascending. Reads them all.
+/// The frames that are read only to measure light, grain or motion blur, are on no rendered frame's
+/// track, and whose plate or matte cannot be read; ascending. Reads all of them.
 [[nodiscard]] std::vector<int> unreadable_evidence(const Shot& shot);
 
 }  // namespace weft

@@ -12,7 +12,7 @@ namespace weft {
 namespace {
 
 struct Token {
-    std::size_t at = 0, digits = 0;  // of the digits behind the v
+    std::size_t at = 0, digits = 0;  // digits after the v
     int number = 0;
 };
 
@@ -20,7 +20,8 @@ bool is_word(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-// From `from` on; a v that is not part of a longer word, with two digits or more.
+// Finds the next version from `from` on: a v with at least two digits that is not part of a longer
+// word.
 std::optional<Token> next_token(const std::string& path, std::size_t from) {
     for (std::size_t i = from; i + 1 < path.size(); ++i) {
         if ((path[i] != 'v' && path[i] != 'V') || (i > 0 && is_word(path[i - 1]))) continue;

@@ -291,7 +291,7 @@ struct SubmitJob {
     bool overwrite = false, skip_existing = false;
     std::vector<LayerKind> layers = {};  ///< As Output's.
     std::string layers_path = {};
-    double foreseen_s = 0;  ///< As RenderRequest's.
+    double estimated_s = 0;  ///< As RenderRequest's.
     bool operator==(const SubmitJob&) const = default;
 };
 enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };

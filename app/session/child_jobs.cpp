@@ -46,7 +46,7 @@ PicturePtr thumbnail_of(const std::string& path) {
 
 constexpr std::size_t kTail_bytes = std::size_t{64} << 10;
 
-// The end of a file that another process may still be writing; empty when it cannot be read.
+// Reads the end of a file that another process may still write; empty if it cannot be read.
 std::string tail_of(const std::string& path, std::size_t most_bytes) {
     const auto file = InputFile::open(path);
     if (!file) return {};
@@ -116,7 +116,7 @@ Expected<int> ChildJobs::submit(const RenderRequest& request) {
     WEFT_CHECK_OK(save_project(job->snapshot, job->request.project, WriteRule::own()));
     job->skip_existing = request.skip_existing;
     job->view.label = request.label;
-    job->view.foreseen_s = request.foreseen_s;
+    job->view.estimated_s = request.estimated_s;
     job->view.output = request.project.output.path;
     job->view.movie = request.project.output.movie;
     job->view.total = static_cast<int>(request.frames.size());
@@ -148,7 +148,7 @@ void ChildJobs::start_next(const std::shared_ptr<Shared>& shared) {
 
 namespace {
 
-// Its progress goes to a file, not to a pipe, so that it can go on when the editor is closed.
+// Progress goes to a file, not to a pipe, so that the job continues when the editor is closed.
 pid_t spawn(const std::vector<std::string>& arguments, const std::string& progress,
             const std::string& log) {
     posix_spawn_file_actions_t actions;
@@ -157,7 +157,7 @@ pid_t spawn(const std::vector<std::string>& arguments, const std::string& progre
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, progress.c_str(), kNew, 0644);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), kNew, 0644);
-    // Its own group: an interrupt in the terminal that started the editor is not for it.
+    // Its own process group, so that an interrupt in the editor's terminal does not stop it.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -173,7 +173,7 @@ pid_t spawn(const std::vector<std::string>& arguments, const std::string& progre
     return pid;
 }
 
-// Calls `line` for every line that the child writes until it ends; returns its status.
+// Calls `line` for every line of the child's progress until it ends; returns its exit status.
 template <class F>
 int follow(pid_t pid, const std::string& path, F&& line) {
     std::optional<InputFile> file;
@@ -207,8 +207,8 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
     lower_thread_priority();
     std::vector<std::string> arguments{shared->program, "render", job->snapshot, "--progress",
                                        "json", "--backend", job->request.backend,
-                                       // The snapshot lies elsewhere than the project, whose
-                                       // outputs the session has looked at.
+                                       // The snapshot is outside the project's folder; the session
+                                       // has checked its outputs.
                                        "--trust"};
     if (job->skip_existing) {
         arguments.emplace_back("--skip-existing");
@@ -262,7 +262,7 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
             ++shared->changes;
         });
     }
-    // Files are read before the lock is taken: the window asks for the jobs in every frame.
+    // Files are read before taking the lock, because the window reads the jobs in every frame.
     const bool good = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     const JobView so_far = [&] {
         const std::lock_guard lock(shared->mutex);
@@ -316,7 +316,7 @@ void ChildJobs::pause(int id) {
         if (job->view.id != id || job->view.state != JobState::kRunning || job->pid <= 0) continue;
         ::kill(job->pid, SIGSTOP);
         job->view.state = JobState::kPaused;
-        job->view.foreseen_s = 0;
+        job->view.estimated_s = 0;
         ++shared_->changes;
     }
 }
@@ -341,7 +341,7 @@ void ChildJobs::retry(int id) {
             job->view.state = JobState::kWaiting;
             job->view.error.clear();
             job->view.done = 0;
-            job->view.foreseen_s = 0;
+            job->view.estimated_s = 0;
             job->view.stage.clear();
             ++shared_->changes;
         }

@@ -1,6 +1,6 @@
 #pragma once
-// Renders as child processes: `weft render` on a snapshot of the project, so that neither side can
-// take the other with it, and a render goes on when the editor is closed.
+// Render jobs as child processes: `weft render` on a snapshot of the project. A crash of either
+// side does not affect the other, and a render continues when the editor is closed.
 
 #include <cstdint>
 #include <map>
@@ -23,7 +23,7 @@ struct RenderRequest {
     std::string label;  ///< "Frames 1001-1048 to out/####.png"
     std::vector<int> frames;
     bool overwrite = false, skip_existing = false;
-    double foreseen_s = 0;  ///< How long it is thought to take; 0: nobody said.
+    double estimated_s = 0;  ///< Estimated time, s; 0: not known.
     std::string backend = "auto";
 };
 
@@ -31,37 +31,37 @@ struct JobView {
     int id = 0;
     JobState state = JobState::kWaiting;
     std::string label, output, stage, error;
-    int done = 0, total = 0;  ///< Frames rendered; of the analysis while `stage` says so.
+    int done = 0, total = 0;  ///< Finished frames; frames of the analysis while `stage` says so.
     int newest_frame = 0;     ///< 0: none yet.
     bool has_frame = false;
     double elapsed_s = 0, left_s = 0, frames_per_minute = 0;
-    double foreseen_s = 0;  ///< As it was submitted; 0 too when it was paused or tried again.
-    PicturePtr thumbnail;   ///< Of the newest frame.
+    double estimated_s = 0;  ///< As submitted; 0 after a pause or retry, when it no longer holds.
+    PicturePtr thumbnail;    ///< Thumbnail of the newest frame.
     std::string log_path, movie;
 };
 
-/// One job runs at a time, the others wait in order. Thread-safe; nothing blocks.
+/// Runs one job at a time; the others wait in order. Thread-safe; does not block.
 class ChildJobs {
   public:
-    /// `program`: the weft to run. `folder`: for snapshots and logs; made where it is missing.
+    /// `program`: the weft program. `folder`: for snapshots and logs; created if missing.
     ChildJobs(std::string program, std::string folder);
-    /// Leaves running jobs alone unless cancel_all() was called.
+    /// Does not stop running jobs; see cancel_all().
     ~ChildJobs();
 
-    /// Errors: the snapshot cannot be written.
+    /// Adds a job and returns its id. Errors: the snapshot cannot be written.
     [[nodiscard]] Expected<int> submit(const RenderRequest& request);
     void cancel(int id);
     void pause(int id);
     void resume(int id);
-    /// Again, keeping the frames that are there.
+    /// Runs a job again and keeps existing frames.
     void retry(int id);
-    /// Takes a finished one off the list.
+    /// Removes a finished job from the list.
     void remove(int id);
     void cancel_all();
 
     [[nodiscard]] std::vector<JobView> views() const;
     [[nodiscard]] bool busy() const;
-    /// Grows with every news.
+    /// Increases with every change.
     [[nodiscard]] std::uint64_t changes() const;
     /// The last lines of a job's log.
     [[nodiscard]] std::string log_tail(int id, std::size_t most_bytes = 8192) const;

@@ -25,7 +25,7 @@ void take(const Json& json, const char* key, T& into) {
     try {
         if (json.contains(key)) into = json.at(key).get<T>();
     } catch (const Json::exception&) {
-        // A value of another type: the default stays.
+        // Values of a wrong type keep the default.
     }
 }
 

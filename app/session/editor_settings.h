@@ -1,5 +1,5 @@
 #pragma once
-// What the editor remembers between sessions; no part of any project.
+// Settings that the editor keeps between sessions; not part of any project.
 
 #include <map>
 #include <string>
@@ -11,18 +11,18 @@ namespace weft {
 
 struct EditorSettings {
     bool dark = true;
-    bool grey_surround = false;  ///< 18% grey around the picture instead of near black.
-    double ui_scale = 0;         ///< 0: the monitor's.
-    std::map<std::string, std::string> keys;  ///< Command → "Ctrl+Shift+P"; only what differs.
-    std::map<std::string, double> sizes;      ///< Of panels, by name, in unscaled pixels.
+    bool grey_surround = false;  ///< 18 % grey viewer background instead of near black.
+    double ui_scale = 0;         ///< Interface scale; 0: the monitor's.
+    std::map<std::string, std::string> keys;  ///< Command → "Ctrl+Shift+P"; only changed ones.
+    std::map<std::string, double> sizes;      ///< Panel sizes by name, unscaled px.
     std::vector<std::string> recent;          ///< Project files, the newest first.
-    std::vector<std::string> favourites;      ///< Textures, by path.
+    std::vector<std::string> favourites;      ///< Favourite textures, by path.
     std::vector<std::string> recent_textures;
     std::map<std::string, std::vector<std::string>> collections;  ///< Name → textures, by path.
     std::vector<std::string> texture_folders;
     bool tour_seen = false;
-    double render_speed = 1;                  ///< Of this machine, as calibrated_speed() has it.
-    std::string screen_display, screen_view;  ///< As ChooseScreen::name; both empty: the usual.
+    double render_speed = 1;                  ///< Speed of this machine, from calibrated_speed().
+    std::string screen_display, screen_view;  ///< As ChooseScreen::name; both empty: the default.
     bool operator==(const EditorSettings&) const = default;
 };
 
@@ -31,9 +31,9 @@ struct EditorSettings {
 /// $XDG_STATE_HOME/weft, or ~/.local/state/weft: recovery files, job logs, unsaved mattes.
 [[nodiscard]] std::string editor_state_folder();
 
-/// The defaults when there is no such file or it cannot be read.
+/// Reads the settings; defaults if the file is missing or cannot be read.
 [[nodiscard]] EditorSettings load_editor_settings(const std::string& path);
-/// Whole or not at all. Errors: NoSpace, Unreadable.
+/// Writes the settings atomically. Errors: NoSpace, Unreadable.
 [[nodiscard]] Status save_editor_settings(const std::string& path, const EditorSettings& settings);
 
 }  // namespace weft

@@ -31,7 +31,7 @@ Expected<RenderRequest> render_request(const SubmitJob& action, Project project,
     output.layers_path = absolute_or_empty(action.layers_path);
     request.overwrite = action.overwrite;
     request.skip_existing = action.skip_existing;
-    request.foreseen_s = action.skip_existing ? 0 : action.foreseen_s;
+    request.estimated_s = action.skip_existing ? 0 : action.estimated_s;
     return request;
 }
 
@@ -57,7 +57,7 @@ void JobDesk::command(const CommandJob& action) {
     }
 }
 
-std::vector<JobDesk::Ended> JobDesk::look() {
+std::vector<JobDesk::Ended> JobDesk::poll() {
     jobs_ = children_.views();
     std::vector<Ended> ended;
     for (const JobView& job : jobs_) {

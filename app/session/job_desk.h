@@ -1,5 +1,5 @@
 #pragma once
-// The renders of a session: what is asked of them, and what is to be said when one ends.
+// The render jobs of a session: builds their requests and reports finished ones.
 
 #include <map>
 #include <string>
@@ -10,31 +10,31 @@
 
 namespace weft {
 
-/// What a SubmitJob asks for. `project` has absolute paths; `all`: the plate's frames. Errors:
-/// Usage for a frame list that cannot be read.
+/// Builds the request of a SubmitJob. `project` has absolute paths; `all`: the plate's frames.
+/// Errors: Usage for an invalid frame list.
 [[nodiscard]] Expected<RenderRequest> render_request(const SubmitJob& action, Project project,
                                                      const std::vector<int>& all);
 
-/// One thread, but for submit().
+/// Belongs to one thread, except for submit().
 class JobDesk {
   public:
-    /// As ChildJobs.
+    /// As ChildJobs().
     JobDesk(std::string program, std::string folder);
 
-    /// The new job's id. Thread-safe. Errors: as ChildJobs::submit().
+    /// Submits a job and returns its id. Thread-safe. Errors: as ChildJobs::submit().
     [[nodiscard]] Expected<int> submit(const RenderRequest& request);
     void command(const CommandJob& action);
 
-    /// A job that ended since the last look.
+    /// A job that ended since the last poll().
     struct Ended {
         bool failed = false;
         std::string label, error;
     };
-    /// Looks at the jobs; jobs() is as of then.
-    [[nodiscard]] std::vector<Ended> look();
+    /// Updates jobs() and returns the jobs that ended.
+    [[nodiscard]] std::vector<Ended> poll();
     [[nodiscard]] const std::vector<JobView>& jobs() const { return jobs_; }
     [[nodiscard]] std::string log_tail(int id) const { return children_.log_tail(id); }
-    /// Grows with everything that jobs report.
+    /// Increases with every change of a job.
     [[nodiscard]] std::uint64_t changes() const { return children_.changes(); }
 
   private:

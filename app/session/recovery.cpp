@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A key of the snapshot's own, as JSON text: the path it belongs to.
+// An extra key of snapshots, as JSON text: the path of the project.
 constexpr const char* kPathKey = "recovered_from";
 
 std::string json_text(const std::string& text) {
@@ -126,7 +126,7 @@ std::vector<RecoveredProject> find_recoverable(const std::string& folder) {
         int pid = 0;
         if (std::sscanf(name.c_str(), "recovery-%d.weft", &pid) != 1) continue;
         if (!name.ends_with(".weft") || pid == getpid()) continue;
-        if (kill(pid, 0) == 0) continue;  // its editor is still at work
+        if (kill(pid, 0) == 0) continue;  // its editor is still running
         auto project = load_project(it->path().string());
         if (!project) continue;
         RecoveredProject one{it->path().string(), {}, time_text(it->path().string()), *project};

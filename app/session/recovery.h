@@ -1,6 +1,6 @@
 #pragma once
-// What survives a crash: a snapshot of the document after every change, written in the background,
-// whole or not at all, and synced.
+// Crash recovery: after every change a snapshot of the document is written in the background,
+// atomically and synced.
 
 #include <condition_variable>
 #include <functional>
@@ -15,24 +15,24 @@
 
 namespace weft {
 
-/// A document that an editor left without saving.
+/// A document with unsaved changes of an editor that crashed.
 struct RecoveredProject {
     std::string file;          ///< The snapshot itself.
-    std::string project_path;  ///< Of the project it belongs to; empty: never saved.
+    std::string project_path;  ///< Path of the project; empty: never saved.
     std::string when;          ///< "21 November at 14:02"
     Project project;           ///< With absolute paths.
 };
 
 class RecoveryWriter {
   public:
-    /// `before_writing` is called in the background before each snapshot: what the snapshot refers
-    /// to must be on the disk first.
+    /// `before_writing` is called in the background before each snapshot, to write files that the
+    /// snapshot refers to.
     RecoveryWriter(std::string folder, std::function<void()> before_writing);
-    ~RecoveryWriter();  ///< Writes what is still to be written, and keeps it.
+    ~RecoveryWriter();  ///< Writes a pending snapshot and keeps it.
 
-    /// The newest snapshot replaces one that has not been written yet. `project`: absolute paths.
+    /// Schedules a snapshot; it replaces a pending one. `project` has absolute paths.
     void note(Project project, std::string project_path);
-    /// There is nothing to be recovered any more: saved, or closed on purpose.
+    /// Deletes the snapshot: the document was saved or closed on purpose.
     void clear();
     /// Waits until the last snapshot is on the disk.
     void flush();
@@ -51,7 +51,7 @@ class RecoveryWriter {
     std::thread thread_;
 };
 
-/// What editors that no longer run have left in this folder, the newest first.
+/// Finds the snapshots of editors that no longer run, newest first.
 [[nodiscard]] std::vector<RecoveredProject> find_recoverable(const std::string& folder);
 
 }  // namespace weft

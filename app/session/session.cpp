@@ -42,7 +42,7 @@ Session::~Session() {
 void Session::go_to(int frame) {
     if (!playback_.go_to(frame)) return;
     end_stroke();
-    request_due_ = true;
+    request_pending_ = true;
 }
 
 void Session::step_keyframe(int direction) {
@@ -79,16 +79,16 @@ Project Session::project_to_preview(bool& any) const {
 }
 
 void Session::request_preview() {
-    if (!request_due_ || painting_.active()) return;
+    if (!request_pending_ || painting_.active()) return;
     if (!reader_) {
-        request_due_ = false;
+        request_pending_ = false;
         return;
     }
     PreviewRequest request;
     bool any = false;
     request.project = project_to_preview(any);
     if (!any) {
-        request_due_ = false;
+        request_pending_ = false;
         preview_.clear();
         preview_reading_ = {};
         view_.result_wanted = false;
@@ -103,9 +103,9 @@ void Session::request_preview() {
     request.layer = shown_layer_;
     request.overlay = overlay_;
     request.overlay_region = selected_;
-    if (const auto cards = strip_.cards()) request.cards = cards->wishes;
-    request.hurried = playback_.direction() != 0;
-    // The marked range, or as much around the playhead as a look needs.
+    if (const auto cards = strip_.cards()) request.cards = cards->requests;
+    request.interactive = playback_.direction() != 0;
+    // The marked range, or else this many frames around the playhead.
     constexpr int kAround = 24;
     const auto [first, last] = playback_.range();
     const int at = playback_.index();
@@ -116,10 +116,10 @@ void Session::request_preview() {
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     for (int k = from; k < std::min(at, to); ++k)
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
-    if (!preview_.try_request(request)) return;  // the next frame asks again
-    request_due_ = false;
+    if (!preview_.try_request(request)) return;  // retried in the next frame
+    request_pending_ = false;
     preview_reading_.frame = {};
-    preview_reading_.there.clear();
+    preview_reading_.rendered.clear();
 }
 
 void Session::apply_texture(const std::string& path, RegionId region) {
@@ -140,7 +140,7 @@ void Session::apply_texture(const std::string& path, RegionId region) {
     if (recent.size() > kMost) recent.resize(kMost);
 }
 
-// A texture of the library becomes a file beside the project, so that the project needs no library.
+// Copies a library texture beside the project, so that the project does not need the library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
     fetching_.emplace();
     fetching_->region = region;
@@ -173,7 +173,7 @@ void Session::take_texture() {
 // ---- notices and time ------------------------------------------------------------------------
 
 void Session::notify(NoticeKind kind, std::string text) {
-    // The same again replaces the older one.
+    // A repeated notice replaces the earlier one.
     std::erase_if(notices_, [&](const Notice& n) { return n.text == text; });
     notices_.push_back({++last_notice_, kind, std::move(text), now_s_});
     constexpr std::size_t kMost = 5;
@@ -193,13 +193,13 @@ void Session::flush() {
 
 bool Session::busy() const {
     return playback_.direction() != 0 || painting_.active() || changing_ || fetching_ ||
-           opening_.valid() || !chores_.empty() || request_due_ || strip_.busy() ||
+           opening_.valid() || !file_tasks_.empty() || request_pending_ || strip_.busy() ||
            (measuring_ && view_.report.state == QualityReport::State::kMeasuring);
 }
 
-std::uint64_t Session::news() const {
-    return shelf_.arrivals() + preview_.news() + jobs_.changes() +
-           (player_ ? player_->arrivals() : 0);
+std::uint64_t Session::changes() const {
+    return shelf_.changes() + preview_.changes() + jobs_.changes() +
+           (player_ ? player_->changes() : 0);
 }
 
 void Session::update(double now_s) {
@@ -213,14 +213,14 @@ void Session::update(double now_s) {
     now_s_ = now_s;
     if (player_) {
         playback_.advance(now_s, view_.plate.fps > 0 ? view_.plate.fps : 24, plate_reading_.states);
-        (void)player_->try_want(playback_.upcoming());  // else the next frame asks again
+        (void)player_->try_want(playback_.upcoming());  // if it fails, retried in the next frame
     }
     part("mattes");
     painting_.update();
     take_changed_matte();
-    // What was rendered from mattes in memory may be kept under the names of their files now.
+    // Results from in-memory mattes may now be filed under the names of their files.
     const bool unwritten = shelf_.writing();
-    request_due_ |= mattes_unwritten_ && !unwritten;
+    request_pending_ |= mattes_unwritten_ && !unwritten;
     mattes_unwritten_ = unwritten;
     take_texture();
     part("preview");

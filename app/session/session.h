@@ -1,6 +1,6 @@
 #pragma once
-// One artist at work on one shot: the document with its history, the pictures, the mattes, the
-// preview and the jobs. Takes actions, publishes a view.
+// An editing session of one shot: the document with its history, pictures, mattes, preview and
+// jobs. Takes actions and publishes a view.
 
 #include <functional>
 #include <future>
@@ -27,54 +27,50 @@ namespace weft {
 struct Measuring;
 
 struct SessionOptions {
-    std::string program;          ///< The weft that renders jobs.
-    std::string assets;           ///< Folder with demo/demo.weft.
+    std::string program;          ///< The weft program that renders jobs.
+    std::string assets;           ///< Folder that has demo/demo.weft.
     std::string state_folder;     ///< See editor_state_folder().
-    std::string texture_library;  ///< For textures "db:ID"; empty: the user's own.
-    std::string trust_file;       ///< Of TrustList; empty: no project from a file is trusted.
+    std::string texture_library;  ///< Library of textures "db:ID"; empty: the user's own.
+    std::string trust_file;       ///< File of the TrustList; empty: no project file is trusted.
     AnalysisCacheOptions cache;
     std::size_t plate_budget_bytes = std::size_t{640} << 20;
     bool offer_recovery = true;
 };
 
-/// Belongs to one thread, which is never kept waiting: files are read and frames made in the
-/// background.
+/// Belongs to one thread and never blocks it: files are read and frames rendered in the background.
 class Session {
   public:
     explicit Session(SessionOptions options, EditorSettings* settings = nullptr);
     ~Session();
 
     void act(const Action& action);
-    /// The same for strokes within a frame: the mattes of view() are as they are then, the rest
-    /// follows with update().
+    /// The same for strokes within a frame: view().mattes is updated at once, the rest by update().
     void act_now(const std::vector<Action>& actions);
-    /// Takes in what the workers have done and moves time on. `now_s`: a clock that never goes
-    /// back.
+    /// Collects the workers' results and advances time. `now_s`: a monotonic clock.
     void update(double now_s);
-    /// As of the last update().
+    /// State at the last update().
     [[nodiscard]] const SessionView& view() const { return view_; }
-    /// Whether something goes on by itself, so that the window must go on drawing.
+    /// Returns true if something is in progress, so that the window must keep drawing.
     [[nodiscard]] bool busy() const;
-    /// Grows with everything that workers report: what wakes a sleeping window.
-    [[nodiscard]] std::uint64_t news() const;
+    /// Increases with every change that a worker reports; wakes a sleeping window.
+    [[nodiscard]] std::uint64_t changes() const;
     void dismiss(int notice);
     void notify(NoticeKind kind, std::string text);
-    /// Where update() and act() note what they spend their time on; null: nowhere.
+    /// Clock that records the time of update() and act(); null: none.
     void set_clock(FrameClock* clock) { clock_ = clock; }
-    /// Waits until everything painted is on the disk and what was begun with files is done: for
-    /// tests and before leaving.
+    /// Waits until painted mattes are on disk and file tasks are done. For tests and for closing.
     void flush();
     [[nodiscard]] std::string job_log(int id) const { return jobs_.log_tail(id); }
-    /// For files that the user names (exported mattes, a script's pictures): they replace others,
-    /// but no input of the document. Looks at each of them.
+    /// Write rule of files that the user names (exported mattes, a script's images): they may
+    /// replace files, but no input of the document. Checks the files of the document.
     [[nodiscard]] WriteRule export_rule() const;
-    /// The document as it was left must not be offered again.
+    /// Closes normally: the document is not offered for recovery.
     void close_cleanly();
-    /// The texture files that the project and the demo know.
+    /// The options of the constructor.
     [[nodiscard]] const SessionOptions& options() const { return options_; }
 
   private:
-    struct Actor;  // what each action does (session_actions.cpp)
+    struct Actor;  // carries out each action
 
     // ---- the document (session_document.cpp) ----
     [[nodiscard]] const Project& document() const { return tried_ ? *tried_ : history_.current(); }
@@ -96,8 +92,8 @@ class Session {
     void finish_chores(bool wait);
     void end_player();
 
-    // ---- projects from elsewhere (session_trust.cpp) ----
-    void look_at_trust(bool from_file);
+    // ---- untrusted projects (session_trust.cpp) ----
+    void update_trust(bool from_file);
     void offer_trust();
     void answer_trust(bool trust);
     [[nodiscard]] bool may_render_to(const Project& chosen);
@@ -116,7 +112,7 @@ class Session {
         return {selected_, layer_, playback_.frame()};
     }
     [[nodiscard]] bool may_paint();
-    /// Null: an empty one. Nothing: it is not there yet.
+    /// Null: an empty matte. Nothing: not loaded yet.
     [[nodiscard]] std::optional<MattePtr> matte_to_paint_on();
     void prepare_stroke();
     void begin_stroke(const BeginStroke& action);
@@ -128,33 +124,33 @@ class Session {
     void paint_instead();
     [[nodiscard]] std::string beside_project(const std::string& path) const;
 
-    // ---- found and drawn mattes (session_shapes.cpp) ----
+    // ---- segmented and drawn mattes (session_shapes.cpp) ----
     void scribble(const ScribbleSelect& action);
     void set_shape(const RotoShape& shape);
     void fill_between_shapes();
     void show_shape();
 
-    // ---- mattes to files (session_matte_files.cpp), size from a line (session_placing.cpp) ----
+    // ---- writing mattes (session_matte_files.cpp), scale by line (session_placing.cpp) ----
     void write_mattes(const std::string& pattern,
                       std::function<void(const std::vector<int>&)> then);
     void export_mattes(const std::string& pattern);
     void freeze_mattes(bool frozen);
     void scale_by_line(const ScaleByLine& action);
 
-    // ---- what the screen is shown through (session_color.cpp) ----
+    // ---- view transform (session_color.cpp) ----
     void look_for_screens();
     void choose_screen(const ScreenName& name, bool remember);
 
     // ---- the strip (session_strip.cpp) ----
     void show_strip();
-    [[nodiscard]] StripQuestion strip_question() const;
+    [[nodiscard]] StripQuery strip_query() const;
     void choose_from_strip(int card);
     void copy_keyframe(int from, int to);
     [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
 
     // ---- preview, jobs ----
     void request_preview();
-    /// The document with what can be shown enabled, at the preview's quality.
+    /// The document with only regions enabled that can be shown, at preview quality.
     [[nodiscard]] Project project_to_preview(bool& any) const;
     void apply_texture(const std::string& path, RegionId region);
     void apply_textures(const ApplyTextures& action);
@@ -180,14 +176,14 @@ class Session {
     SessionView view_;
 
     bool open_ = false;
-    bool untrusted_ = false;  // it came from a file in a folder that is not trusted
+    bool untrusted_ = false;  // the document came from an untrusted folder
     std::string path_;
     History history_;
     std::optional<Project> tried_;
     std::uint64_t document_version_ = 1, shown_version_ = 0, requested_version_ = 0;
     std::vector<RecoveredProject> recoverable_;
 
-    // Each may use the ones above it from its own thread, so this is the order in which they end.
+    // Destroyed in reverse order: a member's thread may use the members above it.
     Preview preview_;
     MatteShelf shelf_;
     RecoveryWriter recovery_;
@@ -206,17 +202,17 @@ class Session {
     std::shared_ptr<PlatePlayer> player_;
     PlatePlayer::Reading plate_reading_;
     PreviewReading preview_reading_;
-    /// Things whose end must be waited for, by threads that may.
-    std::vector<std::future<void>> endings_;
-    /// Work on files; what it returns is done on the session's own thread.
+    /// Destructions that may block, each in a thread of its own.
+    std::vector<std::future<void>> shutdowns_;
+    /// Background work on files; the function that it returns runs on the session's thread.
     using Finish = std::function<void()>;
-    std::vector<std::future<Finish>> chores_;
+    std::vector<std::future<Finish>> file_tasks_;
 
     Playback playback_;
     double now_s_ = 0;
 
     RegionId selected_ = 0, solo_ = 0;
-    int layer_ = 0;  // of the selected region, as SelectMatteLayer
+    int layer_ = 0;  // of the selected region, as in SelectMatteLayer
     std::set<RegionId> locked_;
     MattePainting painting_;
     bool mattes_unwritten_ = false;  // as of the last update
@@ -230,7 +226,7 @@ class Session {
         std::future<Matte> matte;
         MattePlace place;
         std::string label;
-        std::optional<RotoShape> shape;  // that it is drawn from
+        std::optional<RotoShape> shape;  // shape that the matte is drawn from
     };
     std::optional<Changing> changing_;
     int matte_serial_ = 0;
@@ -238,16 +234,16 @@ class Session {
         std::future<Expected<std::string>> path;
         RegionId region = 0;
     };
-    std::optional<Fetching> fetching_;  // a texture out of the library
+    std::optional<Fetching> fetching_;  // library texture being copied
 
     int read_frame_ = 0;
     Strip strip_;
     bool stages_ = false;
     std::optional<LayerKind> shown_layer_;
-    ScreenName wanted_screen_;  // being made, or shown
+    ScreenName wanted_screen_;  // shown or being prepared
     Overlay overlay_ = Overlay::kNone;
     Quality preview_quality_ = Quality::kDraft;
-    bool request_due_ = false;
+    bool request_pending_ = false;
     PicturePtr last_result_;
     int last_result_frame_ = 0;
 

@@ -1,4 +1,4 @@
-// What each action does.
+// Carries out each action.
 #include <algorithm>
 
 #include "app/mattes/matte_layer.h"
@@ -46,11 +46,11 @@ struct Session::Actor {
         if (s.selected_ != a.region) s.layer_ = 0;
         s.selected_ = a.region;
         ++s.document_version_;
-        s.request_due_ = true;
+        s.request_pending_ = true;
     }
     void operator()(const SoloRegion& a) const {
         s.solo_ = a.region;
-        s.request_due_ = true;
+        s.request_pending_ = true;
     }
     void operator()(const LockRegion& a) const {
         if (a.locked)
@@ -73,17 +73,17 @@ struct Session::Actor {
         s.playback_.stop();
         if (!s.playback_.step(a.count)) return;
         s.end_stroke();
-        s.request_due_ = true;
+        s.request_pending_ = true;
     }
     void operator()(const StepKeyframe& a) const { s.step_keyframe(a.direction); }
     void operator()(const Play& a) const {
         s.end_stroke();
         s.playback_.play(a.direction);
-        s.request_due_ = true;
+        s.request_pending_ = true;
     }
     void operator()(const MarkRange& a) const {
         s.playback_.mark(a.in, a.out);
-        s.request_due_ = true;
+        s.request_pending_ = true;
     }
 
     // ---- mattes ----
@@ -164,7 +164,7 @@ struct Session::Actor {
     template <class T>
     void show(T& shown, const T& wanted) const {
         shown = wanted;
-        s.request_due_ = true;
+        s.request_pending_ = true;
     }
 };
 

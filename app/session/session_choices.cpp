@@ -1,5 +1,4 @@
-// What an artist chooses from what there is: textures for all regions, a larger original, an object
-// of a Cryptomatte.
+// Choices of the user: textures for all regions, a larger original, an object of a Cryptomatte.
 #include <algorithm>
 #include <filesystem>
 
@@ -18,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of a list by commas, with one more or without it.
+// Adds a name to a comma-separated list, or removes it.
 std::string changed_names(const std::string& names, const std::string& name, bool subtract) {
     std::vector<std::string> list;
     for (std::size_t from = 0; from < names.size();) {
@@ -42,10 +41,10 @@ std::string Session::texture_folder() const {
         .string();
 }
 
-// Textures of the library become files beside the project first; then all change in one step.
+// Copies library textures beside the project first, then changes all regions in one step.
 void Session::apply_textures(const ApplyTextures& action) {
     if (action.textures.empty()) return;
-    chores_.push_back(
+    file_tasks_.push_back(
         in_background([this, wanted = action.textures, folder = texture_folder(),
                        dir = project_dir(path_), library = options_.texture_library,
                        excluded = licence_list(document().settings.excluded_licences)]() -> Finish {
@@ -87,9 +86,9 @@ void Session::use_larger_original(RegionId id) {
         return;
     }
     const std::string sample = resolve_path(project_dir(path_), region->texture.sample);
-    chores_.push_back(in_background([this, id, sample, folder = texture_folder(),
-                                     dir = project_dir(path_),
-                                     library = options_.texture_library]() -> Finish {
+    file_tasks_.push_back(in_background([this, id, sample, folder = texture_folder(),
+                                         dir = project_dir(path_),
+                                         library = options_.texture_library]() -> Finish {
         const auto larger = keep_larger_original(library, sample, folder);
         return [this, id, larger, dir] {
             const Region* now = region_by_id(document(), id);
@@ -98,7 +97,7 @@ void Session::use_larger_original(RegionId id) {
             TextureSource texture = now->texture;
             texture.sample = dir.empty() ? larger->path
                                          : fs::path(larger->path).lexically_relative(dir).string();
-            // As large on the plate as before: it has more pixels for the same piece of surface.
+            // Same size on the plate: the original has more pixels for the same piece of surface.
             auto changed = apply_edits(
                 history_.current(),
                 {SetTexture{{id, {}}, texture},
@@ -121,8 +120,8 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
     const bool own = !source.select.crypto.empty() && !source.files.empty();
     const std::string files =
         own ? resolve_path(project_dir(path_), source.files) : reader_->path_of(playback_.frame());
-    chores_.push_back(in_background([this, action, files, frame = playback_.frame(),
-                                     id = region->id, layer = layer_]() -> Finish {
+    file_tasks_.push_back(in_background([this, action, files, frame = playback_.frame(),
+                                         id = region->id, layer = layer_]() -> Finish {
         const auto pick = [&]() -> Expected<CryptoObject> {
             WEFT_TRY(pattern, SequencePattern::parse(files));
             return weft::pick_cryptomatte(pattern.path_for(frame), action.at.x, action.at.y);

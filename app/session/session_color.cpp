@@ -1,4 +1,4 @@
-// What the screen is shown through: the views of the OpenColorIO config in $OCIO.
+// View transforms: the views of the OpenColorIO config in $OCIO.
 #include <algorithm>
 
 #include "app/base/background.h"
@@ -6,9 +6,9 @@
 
 namespace weft {
 
-// A large config takes a good part of a second to read.
+// In the background: a large config takes a large part of a second to read.
 void Session::look_for_screens() {
-    chores_.push_back(in_background([this]() -> Finish {
+    file_tasks_.push_back(in_background([this]() -> Finish {
         auto screens = list_screens();
         auto spaces = list_color_spaces();
         return [this, screens = std::move(screens), spaces = std::move(spaces)] {
@@ -36,7 +36,7 @@ void Session::choose_screen(const ScreenName& name, bool remember) {
         view_.screen.reset();
         return;
     }
-    chores_.push_back(in_background([this, name]() -> Finish {
+    file_tasks_.push_back(in_background([this, name]() -> Finish {
         auto made = make_screen_view(name);
         return [this, name, made = std::move(made)] {
             if (!(wanted_screen_ == name)) return;

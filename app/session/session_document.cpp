@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A path below the project's folder is written relative to it, so that the folder can be moved.
+// Paths below the project's folder are stored relative to it, so that the folder can be moved.
 std::string relative_to(const std::string& dir, const std::string& path) {
     if (dir.empty() || !path.starts_with('/')) return path;
     const fs::path relative = fs::path(path).lexically_relative(dir);
@@ -28,7 +28,7 @@ std::string relative_to(const std::string& dir, const std::string& path) {
 Expected<Project> project_for_plate(const std::string& path) {
     Project project;
     project.plate.path = path;
-    // A name for a person: the folder's where the file's is only a number or its pattern.
+    // A display name: the folder's if the file name is only a number or a pattern.
     const fs::path named(path);
     const bool numbered =
         named.stem().string().find_first_not_of("0123456789#%d@") == std::string::npos;
@@ -38,7 +38,7 @@ Expected<Project> project_for_plate(const std::string& path) {
         WEFT_TRY(sequence, find_sequence(path));
         project.plate.path = sequence.text();
     } else if (!has_movie_extension(path) && fs::exists(path)) {
-        // One picture of a sequence stands for all of it.
+        // One image of a sequence selects the whole sequence.
         if (auto sequence = find_sequence(fs::path(path).parent_path().string());
             sequence && sequence->frame_of(path)) {
             project.plate.path = sequence->text();
@@ -47,8 +47,8 @@ Expected<Project> project_for_plate(const std::string& path) {
     return project;
 }
 
-// The document as it is written to another place: what lies below that folder by relative paths,
-// and what was painted or fetched before there was a project copied beside it.
+// The document for saving to another place: paths below its folder become relative, and files
+// painted or fetched before the first save are copied beside it.
 Status move_to(const std::string& path, const std::string& unsaved, const std::string& from_dir,
                Project& project, std::map<std::string, std::string>& moved) {
     const std::string dir = project_dir(path), stem = fs::path(path).stem().string();
@@ -60,7 +60,7 @@ Status move_to(const std::string& path, const std::string& unsaved, const std::s
                             fs::path(from).filename();
         Status copied = make_folder_of(to.string(), WriteRule::own());
         if (copied) copied = copy_file_atomically(from, to.string(), WriteRule::own());
-        // A texture's author and licence go with it; one of the artist's own has none.
+        // Copies the credits (author, licence) too; the user's own textures have none.
         std::error_code none;
         const std::string credit = texture_credit_path(from);
         if (copied && fs::exists(credit, none)) {
@@ -111,7 +111,7 @@ void Session::commit(Project project, std::string label) {
 
 void Session::document_changed() {
     ++document_version_;
-    request_due_ = true;
+    request_pending_ = true;
     if (document().plate != opened_plate_ || project_dir(path_) != opened_plate_dir_)
         open_plate_in_background();
     if (!region_by_id(document(), selected_))
@@ -132,8 +132,8 @@ void Session::start_document(Project project, std::string path) {
     open_ = true;
     selected_ = 0;
     opened_plate_ = Plate{};
-    opened_plate_dir_ = "\n";  // no folder has this name: the plate is opened in any case
-    look_at_trust(!path_.empty());
+    opened_plate_dir_ = "\n";  // not a folder name, so that the plate is always opened
+    update_trust(!path_.empty());
     document_changed();
 }
 
@@ -155,7 +155,7 @@ void Session::open_demo() {
         notify(NoticeKind::kError, project.error().text());
         return;
     }
-    // A copy of one's own: the demo itself is never written to.
+    // Opens a copy, so that the demo itself is never changed.
     recovery_.clear();
     start_document(resolve_paths(*project, project_dir(fs::absolute(path).string())), "");
 }
@@ -186,7 +186,7 @@ void Session::save(const std::string& path) {
     const std::string whole = fs::absolute(path).string();
     const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
     view_.saving = true;
-    chores_.push_back(
+    file_tasks_.push_back(
         in_background([this, whole, unsaved, from = path_, project = history_.current(),
                        serial = history_.serial()]() mutable -> Finish {
             shelf_.flush();
@@ -201,7 +201,7 @@ void Session::save(const std::string& path) {
                     notify(NoticeKind::kError, written.error().text());
                     return;
                 }
-                // Another project may have been opened meanwhile.
+                // Another project may have been opened in the meantime.
                 if (path_ != from) return;
                 if (whole != from) {
                     saved_as(project, whole, moved);
@@ -217,7 +217,7 @@ void Session::save(const std::string& path) {
         }));
 }
 
-// The document has a place now; what was changed while it was written stays changed.
+// The document has a path now; changes made while it was being written are still unsaved.
 void Session::saved_as(const Project& written, const std::string& path,
                        const std::map<std::string, std::string>& moved) {
     const std::string dir = project_dir(path);
@@ -234,13 +234,14 @@ void Session::saved_as(const Project& written, const std::string& path,
 }
 
 void Session::finish_chores(bool wait) {
-    for (std::size_t k = 0; k < chores_.size();) {
-        if (!wait && chores_[k].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    for (std::size_t k = 0; k < file_tasks_.size();) {
+        if (!wait &&
+            file_tasks_[k].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
             ++k;
             continue;
         }
-        const Finish finish = chores_[k].get();
-        chores_.erase(chores_.begin() + static_cast<std::ptrdiff_t>(k));
+        const Finish finish = file_tasks_[k].get();
+        file_tasks_.erase(file_tasks_.begin() + static_cast<std::ptrdiff_t>(k));
         finish();
     }
 }
@@ -267,7 +268,7 @@ void Session::recover(bool accept) {
         }
         start_document(std::move(saved), found.project_path);
         commit(project, "Recover unsaved work");
-        recovery_.flush();  // only then may the old snapshot go
+        recovery_.flush();  // before the old snapshot is deleted
     }
     fs::remove(found.file, error);
     recoverable_.erase(recoverable_.begin());
@@ -306,11 +307,11 @@ void Session::open_plate_in_background() {
     });
 }
 
-// A worker may be in the middle of a large frame: that is waited for elsewhere.
+// Waits in the background, because a worker may be decoding a large frame.
 void Session::end_player() {
     plate_reading_ = {};
     if (player_)
-        endings_.push_back(in_background(
+        shutdowns_.push_back(in_background(
             [player = std::exchange(player_, nullptr)]() mutable { player.reset(); }));
 }
 
@@ -319,7 +320,7 @@ void Session::take_plate() {
         return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     };
     std::erase_if(abandoned_, over);
-    std::erase_if(endings_, over);
+    std::erase_if(shutdowns_, over);
     if (!opening_.valid() || !over(opening_)) return;
     auto opened = opening_.get();
     if (!opened) {
@@ -332,7 +333,7 @@ void Session::take_plate() {
                                             options_.plate_budget_bytes);
     view_.plate.space = opened->space;
     playback_.open(reader_->frames());
-    request_due_ = true;
+    request_pending_ = true;
     ++document_version_;
 }
 

@@ -1,4 +1,4 @@
-// Renders, and measuring what they gave.
+// Submits renders and measures their results.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -22,15 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the measuring thread needs, free of the session.
+// Inputs of the measuring thread, independent of the session.
 struct MeasuringInputs {
     std::shared_ptr<const FrameReader> plate;
     std::string result_pattern;
     std::function<Expected<Matte>(int)> matte;
-    std::function<Expected<LatticeField>(int before, int now)> carried;
+    std::function<Expected<LatticeField>(int before, int now)> track;
 };
 
-// Mean absolute step of luma to the right and down, between pixels that both are inside.
+// Mean absolute luma difference to the right and lower neighbour, where both pixels are inside.
 double mean_step(ViewF3 picture, ViewU8x1 matte) {
     const auto luma = [&](int x, int y) {
         const float* p = picture.pixel(x, y);
@@ -52,7 +52,7 @@ double mean_step(ViewF3 picture, ViewU8x1 matte) {
     return count ? sum / static_cast<double>(count) : 0;
 }
 
-// In per cent of the first value that is not nothing.
+// In per cent of the first value that is not zero.
 float of_first(double value, double& first) {
     if (first <= 0) first = value;
     return first > 0 ? static_cast<float>(100 * value / first) : 0;
@@ -90,16 +90,16 @@ Status measure_all(const MeasuringInputs& in, Measuring& shared) {
         step.source = before.rgb;
         step.matte = matte;
         FlowField motion;
-        float carried = -1;
+        float floor = -1;
         if (!kept.matte.empty() && kept.matte.size() == matte.size()) {
             motion = measuring_motion(kept.plate, now.plate, kept.matte, matte,
                                       MeasuringEstimator::kFarneback, kChatterReachPx);
             step.motion = &motion;
-            if (const auto field = in.carried(kept.frame, frame)) {
+            if (const auto field = in.track(kept.frame, frame)) {
                 const TemporalError least =
                     carried_tde(kept.result, dense_flow(*field), motion,
                                 visible_in_both(motion, kept.matte, matte, options.erode_px));
-                if (least.pixels > 0) carried = static_cast<float>(least.tde);
+                if (least.pixels > 0) floor = static_cast<float>(least.tde);
             }
         }
         WEFT_TRY(found, measure.add(step));
@@ -113,7 +113,7 @@ Status measure_all(const MeasuringInputs& in, Measuring& shared) {
                                       static_cast<float>(found.source_tde.value_or(0)),
                                       static_cast<float>(found.mean_v.value_or(0)),
                                       static_cast<float>(found.source_mean_v.value_or(0)),
-                                      sharpness, plate_sharpness, carried});
+                                      sharpness, plate_sharpness, floor});
     }
     return {};
 }
@@ -137,8 +137,8 @@ void Session::submit(const SubmitJob& action) {
         return;
     }
     if (!may_render_to(request->project)) return;
-    chores_.push_back(in_background([this, request = std::move(*request)]() -> Finish {
-        // What was painted last must be on the disk before the renderer reads it.
+    file_tasks_.push_back(in_background([this, request = std::move(*request)]() -> Finish {
+        // Painted mattes must be on disk before the renderer reads them.
         shelf_.flush();
         const auto id = jobs_.submit(request);
         return [this, request, id] {
@@ -155,7 +155,7 @@ void Session::submit(const SubmitJob& action) {
 }
 
 void Session::watch_jobs() {
-    for (const JobDesk::Ended& job : jobs_.look()) {
+    for (const JobDesk::Ended& job : jobs_.poll()) {
         if (job.failed)
             notify(NoticeKind::kError, "Render failed. " + job.error);
         else
@@ -172,7 +172,7 @@ void Session::measure(const std::string& pattern) {
     }
     if (measuring_) {
         measuring_->cancelled = true;
-        endings_.push_back(
+        shutdowns_.push_back(
             in_background([old = std::exchange(measuring_, nullptr)]() mutable { old.reset(); }));
     }
     measuring_ = std::make_shared<Measuring>();
@@ -189,8 +189,8 @@ void Session::measure(const std::string& pattern) {
         WEFT_TRY(files, SequencePattern::parse(source.files));
         return read_matte(files.path_for(frame), source.select, size);
     };
-    in.carried = [this, id = region->id](int before, int now) {
-        return preview_.carried(id, before, now);
+    in.track = [this, id = region->id](int before, int now) {
+        return preview_.track(id, before, now);
     };
     measuring_->thread = std::thread([in, shared = measuring_.get()] {
         lower_thread_priority();

@@ -1,4 +1,4 @@
-// Mattes out to files: exported for others, or frozen.
+// Writes mattes to files: exported or frozen.
 #include <filesystem>
 
 #include "app/base/background.h"
@@ -19,7 +19,7 @@ namespace {
 WriteRule export_rule_of(const Project& absolute, const std::string& project_file) {
     WriteRule rule;
     rule.existing = Existing::kReplace;
-    // Without a root there is nothing that could fail.
+    // Cannot fail without a root.
     if (const auto fence = make_fence(absolute, {{}, {project_file}})) rule.fence = *fence;
     return rule;
 }
@@ -30,7 +30,7 @@ WriteRule Session::export_rule() const {
     return export_rule_of(resolved(), path_);
 }
 
-// Writes the region's matte of every frame of the played range; `then` is done with the frames.
+// Writes the region's matte of every frame of the range, then calls `then` with the frames.
 void Session::write_mattes(const std::string& pattern_text,
                            std::function<void(const std::vector<int>&)> then) {
     const Region* region = region_by_id(document(), selected_);
@@ -44,9 +44,9 @@ void Session::write_mattes(const std::string& pattern_text,
                                   reader_->frames().begin() + last + 1);
     const Project absolute = resolve_paths(document(), project_dir(path_));
     const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
-    chores_.push_back(in_background([this, pattern_text, frames, source, size = reader_->size(),
-                                     absolute, file = path_, id = region->id, layer = layer_,
-                                     then = std::move(then)]() -> Finish {
+    file_tasks_.push_back(in_background([this, pattern_text, frames, source, size = reader_->size(),
+                                         absolute, file = path_, id = region->id, layer = layer_,
+                                         then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
             WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
@@ -85,7 +85,7 @@ void Session::export_mattes(const std::string& pattern) {
     });
 }
 
-// Frozen frames are read from now on: whatever is changed elsewhere, they stay.
+// Frozen frames are read from files from now on, so other changes do not affect them.
 void Session::freeze_mattes(bool frozen) {
     const Region* region = region_by_id(document(), selected_);
     if (!region) return;

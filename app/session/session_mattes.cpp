@@ -22,15 +22,15 @@ std::string select_text(const MatteSelect& select) {
            (select.invert ? "/inverted" : "") + "/" + select.crypto;
 }
 
-// Stands for everything that a propagated matte depends on in the document.
+// A key of everything in the document that a propagated matte depends on.
 std::string keys_text(const MatteSource& matte) {
     Hasher hasher;
     for (const auto& [frame, key] : matte.keyframes)
         hasher.value(frame).text(key.path);
     hasher.value(matte.steadiness)
-        .value(static_cast<int>(matte.carry))
-        .value(matte.carry_from.value_or(-1))
-        .value(matte.carry_to.value_or(-1));
+        .value(static_cast<int>(matte.propagate_direction))
+        .value(matte.propagate_from.value_or(-1))
+        .value(matte.propagate_to.value_or(-1));
     return hasher.finish().hex();
 }
 
@@ -53,7 +53,7 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
     const Size size = reader_->size();
     std::string name;
     MatteShelf::Reader read;
-    // A Cryptomatte without files of its own is in the plate's.
+    // A Cryptomatte without files uses the plate's.
     const std::string files = !source.files.empty()           ? source.files
                               : !source.select.crypto.empty() ? document().plate.path
                                                               : std::string();
@@ -80,7 +80,7 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
         read = [this, id = region.id, layer, frame] {
             return preview_.propagated_matte(id, layer, frame);
         };
-        // It may have come since it was last asked for.
+        // It may exist now; retry.
         if (!shelf_.error(name).empty()) {
             const std::uint64_t now = preview_.matte_version();
             std::uint64_t& tried = missed_mattes_[name];
@@ -136,7 +136,7 @@ std::optional<MattePtr> Session::matte_to_paint_on() {
     return nullptr;
 }
 
-// So that a stroke may begin at once where the playhead stands.
+// Prepares a stroke at the playhead.
 void Session::prepare_stroke() {
     const Region* region = painted_region();
     const bool still = playback_.direction() == 0 && read_frame_ == playback_.frame();
@@ -177,7 +177,7 @@ std::string Session::new_matte_path(RegionId region, int frame) {
             ? fs::path(options_.state_folder) / "unsaved" / std::to_string(getpid())
             : fs::path(project_dir(path_)) / (fs::path(path_).stem().string() + "_mattes");
     for (;;) {
-        // A new name for every version: undo finds the older one where it was.
+        // Each version has a new name, so that undo finds the older file.
         const fs::path path = folder / (name + std::to_string(++matte_serial_) + ".png");
         std::error_code error;
         if (!fs::exists(path, error)) return path.string();
@@ -195,7 +195,7 @@ void Session::keep_matte(MattePtr matte, const MattePlace& place, const std::str
     const std::string path = new_matte_path(place.region, place.frame);
     shelf_.write(path, std::move(matte));
     mattes_unwritten_ = true;
-    // What an older keyframe here was made of does not describe the new one.
+    // The shape of an older keyframe does not describe the new matte.
     MatteSource source = layer_source(*target, place.layer);
     source.keyframes[place.frame] = {beside_project(path), shape};
     auto changed = apply_edit(history_.current(), set_layer(*target, place.layer, source));
@@ -258,7 +258,7 @@ void Session::copy_keyframe(int from, int to) {
         notify(NoticeKind::kWarning, "There is no painted keyframe before this frame.");
         return;
     }
-    // Files are never changed once written, so both may name the same one.
+    // Files never change once written, so both keyframes may use the same one.
     MatteSource source = layer_source(*region, layer_);
     source.keyframes[to] = {source.keyframes.at(from).path, {}};
     edit(set_layer(*region, layer_, source), true);

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to the session: a measurement under way.
+// Internal to the session: a measurement in progress.
 
 #include <atomic>
 #include <mutex>

@@ -1,4 +1,4 @@
-// The texture's size from what the artist knows of the surface.
+// Texture scale from the known size of bricks or tiles.
 #include <cmath>
 
 #include "app/base/background.h"
@@ -10,12 +10,12 @@
 namespace weft {
 namespace {
 
-// How far a brick of the sample is from the next along a direction, in its pixels.
+// Distance between repeats of the sample along a direction, px.
 Expected<double> pitch_of(const std::string& path, Vec2 along) {
     WEFT_TRY(picture, read_image(path));
     const PicturePtr codes = make_picture(picture.rgb, true, nullptr, nullptr);
     const Size axis = find_period(codes->srgb).axis_px();
-    // The axis that the line runs along more.
+    // Use the axis that is closer to the line's direction.
     const double pitch = std::abs(along.x) >= std::abs(along.y) ? axis.width : axis.height;
     if (pitch >= 2) return pitch;
     return fail(ErrorCode::kUsage,
@@ -33,8 +33,8 @@ void Session::scale_by_line(const ScaleByLine& action) {
     const Vec2 line = action.to - action.from;
     const double length = std::hypot(static_cast<double>(line.x), static_cast<double>(line.y));
     const std::string path = resolve_path(project_dir(path_), region->texture.sample);
-    chores_.push_back(in_background([this, path, line, length, count = action.count,
-                                     id = region->id]() -> Finish {
+    file_tasks_.push_back(in_background([this, path, line, length, count = action.count,
+                                         id = region->id]() -> Finish {
         const auto pitch = pitch_of(path, line);
         return [this, pitch, length, count, id] {
             if (!pitch) {

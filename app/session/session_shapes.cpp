@@ -1,4 +1,4 @@
-// Mattes that are found or drawn rather than painted: scribbles, and shapes of curves.
+// Mattes from scribbles and roto shapes.
 #include <filesystem>
 
 #include "app/base/background.h"
@@ -50,7 +50,7 @@ void Session::set_shape(const RotoShape& shape) {
         in_background([shape, size = reader_->size()] { return matte_of_shape(shape, size); });
 }
 
-// A matte for every frame between two shapes, each made from the shape in between.
+// Makes a matte for every frame between two shapes from the interpolated shape.
 void Session::fill_between_shapes() {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !reader_ || !may_paint()) return;
@@ -84,8 +84,8 @@ void Session::fill_between_shapes() {
                "Draw the shape on two frames first; the frames between them are filled.");
         return;
     }
-    chores_.push_back(in_background([this, list = std::move(list), size = reader_->size(),
-                                     id = region->id, layer = layer_]() -> Finish {
+    file_tasks_.push_back(in_background([this, list = std::move(list), size = reader_->size(),
+                                         id = region->id, layer = layer_]() -> Finish {
         Status written;
         for (const Made& one : list) {
             std::error_code error;
@@ -121,7 +121,7 @@ void Session::show_shape() {
         if (!key.shape_between) view_.shape_frames.push_back(frame);
         if (frame == playback_.frame()) view_.shape = key.shape;
     }
-    // A shape of the frame before is where one begins on this one.
+    // A new frame starts with the shape of the last frame before it.
     if (view_.shape || source.keyframes.contains(playback_.frame())) return;
     for (const int frame : view_.shape_frames)
         if (frame < playback_.frame()) view_.shape = source.keyframes.at(frame).shape;

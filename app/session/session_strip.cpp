@@ -1,11 +1,11 @@
-// The strip of small results on the document.
+// The strip of small results.
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 
 namespace weft {
 
-StripQuestion Session::strip_question() const {
-    StripQuestion out;
+StripQuery Session::strip_query() const {
+    StripQuery out;
     out.document = document_version_;
     out.kind = strip_.kind();
     out.over_time = strip_.over_time();
@@ -21,7 +21,7 @@ StripQuestion Session::strip_question() const {
     return out;
 }
 
-// The cards are asked for together with the picture; here what has come is put in their order.
+// Requests the cards together with the picture, and sorts finished ones into their order.
 void Session::show_strip() {
     StripView& shown = view_.strip;
     shown.kind = strip_.kind();
@@ -32,24 +32,24 @@ void Session::show_strip() {
     const bool possible =
         reader_ && view_.result_wanted && (region || strip_.kind() == StripKind::kKeyframes);
     if (strip_.kind() == StripKind::kNone || !possible) {
-        request_due_ |= strip_.clear();
+        request_pending_ |= strip_.clear();
         return;
     }
     if (!tried_ && !painting_.active() && playback_.direction() == 0) {
-        if (const StripQuestion question = strip_question(); !strip_.asked(question)) {
+        if (const StripQuery question = strip_query(); !strip_.asked(question)) {
             bool any = false;
             strip_.ask(question,
                        {project_to_preview(any),
                         region && region->enabled && !region->matte->empty(), project_dir(path_)});
         }
     }
-    request_due_ |= strip_.update();
+    request_pending_ |= strip_.update();
     const auto cards = strip_.cards();
     if (!cards) return;
     shown.columns = cards->columns;
-    for (const StripWish& wish : cards->wishes) {
-        StripCard card{wish.label, wish.note, wish.frame, nullptr, {}, wish.current};
-        if (const auto made = preview_reading_.cards.find(wish.key);
+    for (const CardRequest& request : cards->requests) {
+        StripCard card{request.label, request.note, request.frame, nullptr, {}, request.current};
+        if (const auto made = preview_reading_.cards.find(request.key);
             made != preview_reading_.cards.end()) {
             card.picture = made->second.picture;
             card.error = made->second.error;

@@ -1,4 +1,4 @@
-// A project from elsewhere writes nothing outside of its folder until that is trusted.
+// An untrusted project must not write outside its folder.
 #include <filesystem>
 
 #include "app/base/trust.h"
@@ -7,8 +7,8 @@
 
 namespace weft {
 
-// A document that began here is its user's own.
-void Session::look_at_trust(bool from_file) {
+// A document created here is trusted.
+void Session::update_trust(bool from_file) {
     const TrustList list(options_.trust_file);
     untrusted_ = from_file && !list.trusts(path_);
     view_.trust.reset();
@@ -32,7 +32,7 @@ void Session::answer_trust(bool trust) {
     notify(NoticeKind::kGood, "Trusted " + project_dir(path_) + ".");
 }
 
-// What the user chose in the editor is not the project's doing.
+// Outputs that the user chose in the editor are allowed.
 bool Session::may_render_to(const Project& chosen) {
     if (!untrusted_) return true;
     const Project own = resolved();
@@ -48,7 +48,7 @@ bool Session::may_render_to(const Project& chosen) {
     return false;
 }
 
-// The folder of a project that was made here, where it writes elsewhere, too.
+// Trusts the folder of a project that was created here and writes outside its folder.
 void Session::trust_saved() {
     if (untrusted_ || options_.trust_file.empty() || outputs_outside(resolved(), path_).empty())
         return;

@@ -1,4 +1,4 @@
-// Publishing what the panels see.
+// Updates the view that the panels show.
 #include <algorithm>
 #include <filesystem>
 
@@ -88,7 +88,7 @@ void Session::show_plate() {
     plate.fps = document().plate.fps > 0 ? document().plate.fps
                 : reader_->fps() > 0     ? reader_->fps()
                                          : 24;
-    // While a frame is decoded the last one stays: a black flash says nothing.
+    // Keep the previous picture while a frame is decoded, to avoid a black flash.
     if (!player_->try_read(playback_.frame(), plate_reading_) &&
         plate_reading_.frame != playback_.frame()) {
         plate_reading_.picture.reset();
@@ -112,7 +112,7 @@ void Session::show_mattes() {
     for (const Leaf<Region>& region : document().regions)
         view_.mattes.push_back(matte_of(*region, 0, playback_.frame()));
     const Region* region = painted_region();
-    // An undo may have taken the layer away.
+    // The layer may have been removed by undo.
     if (!region || layer_ < first_layer(*region) || layer_ > last_layer(*region)) layer_ = 0;
     view_.matte_layer = layer_;
     if (region) {
@@ -149,7 +149,7 @@ void Session::show_result() {
         last_result_ = final;
         last_result_frame_ = playback_.frame();
     }
-    // An older look at this very frame stays until the new one is there, marked as such.
+    // An older result of this frame stays until the new one is ready, and is marked as outdated.
     view_.result_picture =
         view_.result_wanted && last_result_frame_ == playback_.frame() ? last_result_ : nullptr;
     view_.overlay_picture = preview_reading_.overlay;
@@ -170,7 +170,7 @@ void Session::show_marks() {
     const auto chosen = view_.preview.references.find(selected_);
     const std::map<int, float>& confidence = preview_reading_.confidence;
     const std::map<int, FrameHealth>& health = preview_reading_.health;
-    for (const int frame : preview_reading_.there)
+    for (const int frame : preview_reading_.rendered)
         if (const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
             at != frames.end())
             view_.marks[static_cast<std::size_t>(at - frames.begin())].result = true;
@@ -196,12 +196,12 @@ void Session::show_marks() {
             mark.seam_motion = found->second.seam_motion;
             mark.flicker = found->second.flicker;
             mark.flicker_plate = found->second.flicker_plate;
-            mark.flicker_carried = found->second.flicker_carried;
+            mark.flicker_floor = found->second.flicker_floor;
             mark.chatter = found->second.chatter;
         }
     }
     if (view_.report.state == QualityReport::State::kDone) {
-        // The first row has no frame before it to differ from.
+        // The first row has no previous frame.
         for (std::size_t r = 1; r < view_.report.rows.size(); ++r) {
             const QualityReport::Row& row = view_.report.rows[r];
             const auto at = std::lower_bound(frames.begin(), frames.end(), row.frame);
@@ -209,7 +209,7 @@ void Session::show_marks() {
             FrameMarks& mark = view_.marks[static_cast<std::size_t>(at - frames.begin())];
             mark.flicker = row.flicker;
             mark.flicker_plate = row.flicker_plate;
-            mark.flicker_carried = row.flicker_carried;
+            mark.flicker_floor = row.flicker_floor;
         }
     }
     if (!region) return;

@@ -1,5 +1,5 @@
 #pragma once
-// What the panels see of a session: plain values and shared immutable ones, made new by
+// What a session shows to the panels: plain values and shared immutable ones, updated by
 // Session::update().
 
 #include <map>
@@ -23,12 +23,12 @@ namespace weft {
 
 enum class NoticeKind : std::uint8_t { kGood, kInfo, kWarning, kError };
 
-/// A message to the artist. Errors stay until they are dismissed.
+/// A message to the user. Errors stay until dismissed.
 struct Notice {
     int id = 0;
     NoticeKind kind = NoticeKind::kInfo;
     std::string text;
-    double at_s = 0;  ///< On the session's clock.
+    double at_s = 0;  ///< Time on the session's clock, s.
 };
 
 struct PlateView {
@@ -37,29 +37,28 @@ struct PlateView {
     std::string path, error, space, depth;
     Size size;
     double fps = 24;
-    double pixel_aspect = 1;  ///< Width of a pixel over its height, as the files say.
+    double pixel_aspect = 1;  ///< Pixel aspect ratio from the files.
     std::vector<int> frames;
     std::size_t cached_bytes = 0, budget_bytes = 0;
 };
 
-/// What a frame has, for the timeline.
+/// Data of a frame for the timeline.
 struct FrameMarks {
     bool plate = false, result = false, failed = false;
     bool matte_key = false, reference = false;  ///< Of the selected region.
-    float confidence = -1;                      ///< Of its matte; below 0: not known.
+    float confidence = -1;                      ///< Confidence of its matte; below 0: not known.
     // Below 0: not known.
-    float drift = -1;    ///< How far the surface looks different from the reference, 0–1.
-    float stretch = -1;  ///< How far the texture is drawn out or squeezed: 1 not at all.
-    float seam = -1;     ///< How much the seams stand out, 0–1.
-    /// How far seams moved on the texture since the frame before, in plate pixels.
+    float drift = -1;    ///< Appearance change since the reference frame, 0–1.
+    float stretch = -1;  ///< Stretch or compression of the texture; 1: none.
+    float seam = -1;     ///< Visibility of seams, 0–1.
+    /// Movement of seams on the texture since the previous frame, plate px.
     float seam_motion = -1;
-    /// Mean change of a surface point since the frame before, in 8-bit steps, and the plate's own:
-    /// of the measured render, else of the preview.
+    /// Mean change of a surface point since the previous frame, 8-bit steps, for the result and for
+    /// the plate: from the measured render, otherwise from the preview.
     float flicker = -1, flicker_plate = -1;
-    /// What the flicker would be if the texture were carried without any change: the most of it is
-    /// how well the measuring motion knows the surface.
-    float flicker_carried = -1;
-    float chatter = -1;  ///< How far the matte's edge moved otherwise than the picture, in pixels.
+    /// Flicker of a texture that moves unchanged: mostly the error of the measuring motion.
+    float flicker_floor = -1;
+    float chatter = -1;  ///< Edge motion of the matte relative to the picture, px.
 };
 
 /// A region's matte on the current frame.
@@ -68,22 +67,22 @@ struct RegionMatteView {
     int layer = 0;  ///< As SelectMatteLayer::layer.
     enum class Kind : std::uint8_t { kNone, kLoading, kPainted, kPropagated, kFile, kFailed };
     Kind kind = Kind::kNone;
-    ViewU8x1 pixels;            ///< Valid until the next update().
-    MattePtr keep;              ///< Owns `pixels`, but for a matte that is being painted.
-    std::uint64_t version = 0;  ///< Another number: other pixels.
-    Recti changed;              ///< Since the version before; only while painting.
+    ViewU8x1 pixels;            ///< Pixels; valid until the next update().
+    MattePtr keep;              ///< Owns `pixels`, except while the matte is being painted.
+    std::uint64_t version = 0;  ///< Changes with the pixels.
+    Recti changed;              ///< Changed part since the previous version; only while painting.
     std::string error;
 };
 
 struct RecoveryOffer {
-    std::string project_path;  ///< Empty: of a shot that was never saved.
+    std::string project_path;  ///< Empty: the shot was never saved.
     std::string when;          ///< "today at 14:02"
 };
 
-/// A project from a folder that is not trusted would write outside of it.
+/// An untrusted project that would write outside its folder.
 struct TrustOffer {
-    std::string folder;  ///< The project's.
-    std::string output;  ///< The first path outside.
+    std::string folder;  ///< The project's folder.
+    std::string output;  ///< The first output outside it.
 };
 
 /// Quality over time, from measuring a finished render.
@@ -94,12 +93,12 @@ struct QualityReport {
     int done = 0, total = 0;
     struct Row {
         int frame = 0;
-        std::string file;  ///< The picture that was measured.
-        /// Mean change of a surface point to the next frame, and mean brightness, in codes.
+        std::string file;  ///< The measured image.
+        /// Mean change of a surface point to the next frame, and mean brightness, in 8-bit codes.
         float flicker = 0, flicker_plate = 0, brightness = 0, brightness_plate = 0;
-        /// Mean step between neighbouring pixels of the region, in per cent of its first frame's.
+        /// Mean step between neighbouring pixels of the region, % of the first frame's.
         float sharpness = 0, sharpness_plate = 0;
-        float flicker_carried = -1;  ///< As in FrameMarks.
+        float flicker_floor = -1;  ///< As in FrameMarks.
     };
     std::vector<Row> rows;
 };
@@ -108,13 +107,13 @@ struct StripView {
     StripKind kind = StripKind::kNone;
     std::vector<StripCard> cards;
     bool over_time = false;  ///< As ShowStrip::over_time.
-    int columns = 0;         ///< Of a contact sheet, whose rows are settings; 0: no sheet.
+    int columns = 0;         ///< Columns of a contact sheet, whose rows are settings; 0: no sheet.
 };
 
 struct SessionView {
     double now_s = 0;
-    bool open = false;  ///< There is a document.
-    Project project;    ///< As it stands, with what is being tried.
+    bool open = false;  ///< A document is open.
+    Project project;    ///< The document, including an edit being dragged.
     std::string path, title;
     bool modified = false, saving = false;
     PlateView plate;
@@ -125,22 +124,24 @@ struct SessionView {
     std::optional<int> mark_in, mark_out;
     std::vector<FrameMarks> marks;  ///< By index into plate.frames.
 
-    std::vector<CorrectionHint> to_correct;  ///< Of the selected region, ascending frames.
+    /// Suggested corrections of the selected region, ascending frames.
+    std::vector<CorrectionHint> to_correct;
 
     RegionId selected = 0, solo = 0;
     std::vector<RegionId> locked;
-    std::vector<RegionMatteView> mattes;    ///< Of all regions, bottom up.
+    std::vector<RegionMatteView> mattes;    ///< Mattes of all regions, bottom up.
     std::vector<RegionMatteView> holdouts;  ///< Of the selected region.
     std::vector<RegionMatteView> zones;     ///< Likewise.
     int matte_layer = 0;                    ///< As SelectMatteLayer::layer.
     bool painting = false, matte_busy = false;
-    std::optional<RotoShape> shape;  ///< Of the selected region here, or the last one before.
-    std::vector<int> shape_frames;   ///< Frames on which it was drawn.
+    /// Shape of the selected region on this frame, or the last one before.
+    std::optional<RotoShape> shape;
+    std::vector<int> shape_frames;  ///< Frames with a drawn shape.
     StripView strip;
 
     PicturePtr plate_picture, result_picture;
-    bool result_current = false;  ///< result_picture is of this frame and these settings.
-    bool result_wanted = false;   ///< There is something to render.
+    bool result_current = false;  ///< result_picture is of this frame with these settings.
+    bool result_wanted = false;   ///< A region can be rendered.
     PreviewFrame stages;
     std::string frame_error, frame_file;
     PreviewView preview;
@@ -151,16 +152,16 @@ struct SessionView {
     std::shared_ptr<const OverlayPicture> overlay_picture;
     bool stages_shown = false;
 
-    std::vector<ScreenName> screens;           ///< Of the OpenColorIO config; its default first.
-    std::vector<std::string> color_spaces;     ///< … and its spaces.
+    std::vector<ScreenName> screens;        ///< Views of the OpenColorIO config, its default first.
+    std::vector<std::string> color_spaces;  ///< Colour spaces of the config.
     ScreenName screen_name{"", kScreenSrgb};   ///< As ChooseScreen::name.
-    std::shared_ptr<const ScreenView> screen;  ///< Null: a built-in one.
+    std::shared_ptr<const ScreenView> screen;  ///< Null: a built-in view.
 
     std::vector<std::string> history;
     std::size_t history_position = 0;
     std::string undo_label, redo_label;
     std::vector<Issue> issues;
-    std::map<RegionId, std::string> unready;  ///< Why a region cannot be shown yet.
+    std::map<RegionId, std::string> unready;  ///< Reasons why regions cannot be shown yet.
 
     std::vector<JobView> jobs;
     std::vector<Notice> notices;
@@ -171,7 +172,7 @@ struct SessionView {
     std::string backend = "CPU";
 
     [[nodiscard]] const Region* selected_region() const { return region_by_id(project, selected); }
-    /// What is being painted: a matte, a holdout or a zone's; empty for one that is to be begun.
+    /// The layer being painted: a matte, holdout or zone; empty for one that does not exist yet.
     [[nodiscard]] MatteSource painted_source() const {
         const Region* region = selected_region();
         return region ? layer_source(*region, matte_layer) : MatteSource{};

@@ -50,17 +50,17 @@ std::vector<Variant> variants_of(StripKind kind, const Region& region) {
     return out;
 }
 
-// Collects the cards one by one.
+// Collects the cards.
 struct CardMaker {
-    const StripQuestion& question;
+    const StripQuery& question;
     const StripSubject& subject;
     StripCards& out;
 
-    void add(StripWish wish, std::optional<Action> choice) const {
-        out.wishes.push_back(std::move(wish));
+    void add(CardRequest request, std::optional<Action> choice) const {
+        out.requests.push_back(std::move(request));
         out.choices.push_back(std::move(choice));
     }
-    // False: the edit cannot be made.
+    // Returns false if the edit fails.
     [[nodiscard]] bool add_edited(const Project& from, const Edit& edit, std::string label,
                                   Action choice) const {
         auto changed = apply_edit(from, edit);
@@ -85,7 +85,7 @@ struct CardMaker {
                 names_library_texture(path) ? path : resolve_path(subject.folder, path);
             texture.plane.clear();
             const RegionRef ref{region.id, {}};
-            // A region without a texture is not shown yet; here it is.
+            // The region may have no texture and be disabled; enable it.
             const Expected<Project> shown =
                 subject.shown ? apply_edit(base, SetRegionParameter{ref, "enabled", true})
                               : Expected<Project>(base);
@@ -93,8 +93,8 @@ struct CardMaker {
                 !add_edited(*shown, SetTexture{ref, texture},
                             std::filesystem::path(path).stem().string(), ApplyTexture{path, 0}))
                 continue;
-            out.wishes.back().note = path;
-            if (suggested) out.wishes.back().around = region.id;
+            out.requests.back().note = path;
+            if (suggested) out.requests.back().around = region.id;
         }
     }
 
@@ -107,11 +107,11 @@ struct CardMaker {
         for (const Variant& variant : variants_of(question.kind, region)) {
             const SetRegionParameter edit{{region.id, {}}, variant.key, variant.value};
             if (!add_edited(base, edit, variant.label, DoEdit{edit})) continue;
-            out.wishes.back().current = pixel_key(out.wishes.back().project) == shown_now;
-            out.wishes.back().frame = on.front();
+            out.requests.back().current = pixel_key(out.requests.back().project) == shown_now;
+            out.requests.back().frame = on.front();
             for (std::size_t k = 1; k < on.size(); ++k) {
-                add(out.wishes.back(), out.choices.back());
-                out.wishes.back().frame = on[k];
+                add(out.requests.back(), out.choices.back());
+                out.requests.back().frame = on[k];
             }
         }
     }
@@ -119,7 +119,7 @@ struct CardMaker {
 
 }  // namespace
 
-StripCards make_strip_cards(const StripQuestion& question, const StripSubject& subject) {
+StripCards make_strip_cards(const StripQuery& question, const StripSubject& subject) {
     StripCards out;
     out.question = question;
     const CardMaker make{question, subject, out};
@@ -131,8 +131,8 @@ StripCards make_strip_cards(const StripQuestion& question, const StripSubject& s
         else
             make.settings(*region);
     }
-    for (StripWish& wish : out.wishes)
-        wish.key = strip_key(wish);
+    for (CardRequest& request : out.requests)
+        request.key = strip_key(request);
     return out;
 }
 
@@ -166,7 +166,7 @@ void Strip::show(StripKind kind, std::vector<std::string> textures, bool over_ti
     over_time_ = over_time;
 }
 
-void Strip::ask(const StripQuestion& question, StripSubject subject) {
+void Strip::ask(const StripQuery& question, StripSubject subject) {
     asked_ = question;
     (void)worker_.ask(question, [question, subject = std::move(subject)](const CancelToken&) {
         return std::optional(make_strip_cards(question, subject));
@@ -175,7 +175,7 @@ void Strip::ask(const StripQuestion& question, StripSubject subject) {
 
 bool Strip::update() {
     auto newest = worker_.newest();
-    // What was asked before clear() is of no use any more.
+    // Ignore results of requests before clear().
     if (!asked_ || !newest || newest == cards_) return false;
     cards_ = std::move(newest);
     return true;

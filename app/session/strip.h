@@ -1,5 +1,5 @@
 #pragma once
-// The strip of small results: what its cards show, and what choosing one does.
+// The strip of small results: builds its cards and the actions of choosing them.
 
 #include <memory>
 #include <optional>
@@ -12,76 +12,75 @@
 
 namespace weft {
 
-/// What the cards of a strip depend on.
-struct StripQuestion {
-    std::uint64_t document = 0;  ///< Its version: stands for the project.
+/// Everything that the cards of a strip depend on.
+struct StripQuery {
+    std::uint64_t document = 0;  ///< Version of the document; identifies the project.
     StripKind kind = StripKind::kNone;
     bool over_time = false;
     std::vector<std::string> textures;
     RegionId region = 0;
-    int frame = 0;            ///< The present one; 0 for kinds that show others.
-    std::vector<int> frames;  ///< That are shown instead.
-    bool operator==(const StripQuestion&) const = default;
+    int frame = 0;            ///< The current frame; 0 for kinds that show other frames.
+    std::vector<int> frames;  ///< Frames shown instead.
+    bool operator==(const StripQuery&) const = default;
 
-    /// Settings against frames.
+    /// Returns true for a sheet of settings by frames.
     [[nodiscard]] bool is_sheet() const { return over_time && compares_settings(kind); }
 };
 
 struct StripCards {
-    StripQuestion question;
-    std::vector<StripWish> wishes;
-    /// What choosing a card does, one each; nothing for the setting as it is.
+    StripQuery question;
+    std::vector<CardRequest> requests;
+    /// The action of choosing each card; nothing for the current setting.
     std::vector<std::optional<Action>> choices;
     int columns = 0;  ///< As StripView::columns.
 };
 
-/// What a question is about.
+/// The project and region of a query.
 struct StripSubject {
     Project project;     ///< As in PreviewRequest.
-    bool shown = false;  ///< The artist shows the region, also where the project above cannot yet.
-    std::string folder;  ///< Of the document: where textures with relative paths lie.
+    bool shown = false;  ///< The region is shown, even if `project` cannot render it yet.
+    std::string folder;  ///< Folder of the document, for textures with relative paths.
 };
 
-/// Takes some milliseconds a card.
-[[nodiscard]] StripCards make_strip_cards(const StripQuestion& question,
-                                          const StripSubject& subject);
+/// Builds the cards; takes some milliseconds per card.
+[[nodiscard]] StripCards make_strip_cards(const StripQuery& question, const StripSubject& subject);
 
-/// Four frames that tell how a shot goes: 1, 10, 20 and 40 as far as there are any, or evenly over
-/// `first` … `last` (indices, inclusive) where `marked`.
+/// Four representative frames: 1, 10, 20 and 40 where they exist, or evenly over `first` … `last`
+/// (indices, inclusive) if `marked`.
 [[nodiscard]] std::vector<int> strip_frames(const std::vector<int>& frames, int first, int last,
                                             bool marked);
-/// As many as tell two settings apart, evenly over the range.
+/// The frames of a contact sheet, evenly over the range.
 [[nodiscard]] std::vector<int> sheet_frames(const std::vector<int>& frames, int first, int last);
 
-/// Works the cards out in the background; the newest question wins. One thread.
+/// Builds the cards in the background; the newest query wins. Belongs to one thread.
 class Strip {
   public:
-    /// Chooses what is shown.
+    /// Sets what is shown.
     void show(StripKind kind, std::vector<std::string> textures, bool over_time);
     [[nodiscard]] StripKind kind() const { return kind_; }
     [[nodiscard]] bool over_time() const { return over_time_; }
     [[nodiscard]] const std::vector<std::string>& textures() const { return textures_; }
 
-    /// Whether this very question was asked last.
-    [[nodiscard]] bool asked(const StripQuestion& question) const { return asked_ == question; }
-    /// Asks for the cards; asking the same again does nothing.
-    void ask(const StripQuestion& question, StripSubject subject);
-    /// Takes in what has been worked out. Whether the cards are others than before.
+    /// Returns true if this was the last query.
+    [[nodiscard]] bool asked(const StripQuery& question) const { return asked_ == question; }
+    /// Requests the cards; repeating a request does nothing.
+    void ask(const StripQuery& question, StripSubject subject);
+    /// Collects finished cards. Returns true if they changed.
     bool update();
-    /// Nothing can be shown. Whether there were cards.
+    /// Clears the cards. Returns true if there were any.
     bool clear();
-    /// The cards for the kind that is shown; null while they are worked out.
+    /// The cards of the current kind; null until they are ready.
     [[nodiscard]] std::shared_ptr<const StripCards> cards() const;
-    /// Whether cards are being worked out.
+    /// Returns true while cards are being built.
     [[nodiscard]] bool busy() const { return worker_.busy(); }
 
   private:
     StripKind kind_ = StripKind::kNone;
     bool over_time_ = false;
     std::vector<std::string> textures_;
-    std::optional<StripQuestion> asked_;
+    std::optional<StripQuery> asked_;
     std::shared_ptr<const StripCards> cards_;
-    LatestWorker<StripQuestion, StripCards> worker_;
+    LatestWorker<StripQuery, StripCards> worker_;
 };
 
 }  // namespace weft

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// How bad a hint is, 0 – 1, to choose between two of one frame.
+// Severity of a hint, 0–1, to choose between two hints on one frame.
 float badness(CorrectionHint::Kind kind, const FrameMarks& mark) {
     switch (kind) {
         case CorrectionHint::Kind::kMatte:
@@ -17,7 +17,7 @@ float badness(CorrectionHint::Kind kind, const FrameMarks& mark) {
         case CorrectionHint::Kind::kDrift:
             return std::clamp(mark.drift, 0.0f, 1.0f);
         case CorrectionHint::Kind::kStretch:
-            // Three times is where the engine itself lets go (stretch_limit.h).
+            // The engine gives up at a stretch of 3 (stretch_limit.h).
             return std::clamp((mark.stretch - 1.0f) / 2.0f, 0.0f, 1.0f);
     }
     return 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The frames on which a correction would help most, and of what.
+// Suggested keyframes: the frames where a correction helps most.
 
 #include <vector>
 
@@ -9,19 +9,19 @@ struct FrameMarks;
 
 struct CorrectionHint {
     enum class Kind : unsigned char {
-        kMatte,   ///< The matte is unsure: paint it there.
-        kDrift,   ///< The surface looks different from the reference: pin the texture.
+        kMatte,   ///< Low matte confidence: paint a keyframe.
+        kDrift,   ///< The surface has changed since the reference: pin the texture.
         kStretch  ///< The texture is drawn out or squeezed: another reference frame.
     };
     int frame = 0;
     Kind kind = Kind::kMatte;
-    float value = 0;  ///< Confidence, drift or stretch there, as in FrameMarks.
+    float value = 0;  ///< Confidence, drift or stretch, as in FrameMarks.
     bool operator==(const CorrectionHint&) const = default;
 };
 
-/// Up to three frames of each kind (suggest_keyframes() of engine/mask), ascending; a frame is
-/// named once, for what is worst. `frames` ascend and have their marks. `painted`: frames with a
-/// painted matte; `anchored`: reference frames and corrections. Pure.
+/// Up to three frames of each kind (suggest_keyframes() of engine/mask), ascending. A frame is
+/// listed once, for its worst problem. `frames` ascend and correspond to `marks`. `painted`: frames
+/// with a painted matte; `anchored`: reference frames and corrections. Pure.
 [[nodiscard]] std::vector<CorrectionHint> where_to_correct(const std::vector<int>& frames,
                                                            const std::vector<FrameMarks>& marks,
                                                            const std::vector<int>& painted,

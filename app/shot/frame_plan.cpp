@@ -26,15 +26,15 @@ std::vector<int> frames_between(int first, int last) {
     return out;
 }
 
-// "4-9,12"; long lists are cut.
+// "4-9,12"; long lists are shortened.
 std::string frames_list(const std::vector<int>& frames) {
     const std::string list = format_frame_list(frames);
     constexpr std::size_t kLongest = 80;
     return list.size() <= kLongest ? list : list.substr(0, list.rfind(',', kLongest)) + ",…";
 }
 
-// What to do where the surface cannot be followed from the reference to all frames. `usable`:
-// the frames for which everything is there.
+// Advice if the surface cannot be tracked from the reference to all frames. `usable`: the frames
+// with all files.
 std::string around_gap(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
                        const FrameReader& plate, const std::vector<int>& usable) {
     const FrameSpan run = run_with(usable, shot.frames.front());
@@ -56,7 +56,7 @@ std::string around_gap(const Region& region, const RegionPlan& plan, const ShotP
            by({{setting::kFrames}}) + ".";
 }
 
-// What must be there from the reference frame to the frames to render.
+// Checks the files needed from the reference frame to the frames to render.
 struct Followed {
     const Region& region;
     const RegionPlan& plan;
@@ -74,7 +74,7 @@ struct Followed {
                         around_gap(region, plan, shot, plate, plate.frames()));
     }
 
-    // Where the plate holds a frame in place of a missing one, so does whatever belongs to it.
+    // Where the plate repeats a frame in place of a missing one, its other files are repeated too.
     [[nodiscard]] Status check(const std::string& text, const char* what) const {
         WEFT_TRY(pattern, SequencePattern::parse(text));
         if (pattern.is_single()) return {};
@@ -96,7 +96,7 @@ struct Followed {
     }
 };
 
-// Where the plate holds a frame in place of a missing one, so does whatever belongs to it.
+// Where the plate repeats a frame in place of a missing one, its other files are repeated too.
 Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
                      const FrameReader& plate) {
     WEFT_TRY(pattern, SequencePattern::parse(text));
@@ -114,14 +114,13 @@ Status check_pattern(const std::string& text, const char* what, const std::vecto
                     by({{setting::kFrames}}) + ".");
 }
 
-// The frames whose motion file is read: all of the span but the one that the motion would leave it
-// at.
+// The frames whose motion file is read: all of the span except the one where motion would leave it.
 std::vector<int> motion_frames(const RegionPlan& plan, const FrameSpan& span) {
     return plan.motion_forward ? frames_between(span.first, span.last - 1)
                                : frames_between(span.first + 1, span.last);
 }
 
-// Those of `frames` for which the pattern has a file; all of them for a still or no pattern.
+// The frames of `frames` for which the pattern has a file; all for a still or no pattern.
 Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> frames) {
     if (text.empty()) return frames;
     WEFT_TRY(pattern, SequencePattern::parse(text));
@@ -133,8 +132,8 @@ Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> 
     return both;
 }
 
-// The run of frames around `reference`, at most `reach` to each side, for which all files are
-// there. A link that leads nowhere is none: nobody asked for that frame.
+// The run of frames around `reference`, at most `reach` on each side, for which all files exist. A
+// dangling link counts as missing.
 Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
                                int reach, const std::vector<int>& leave_out) {
     std::vector<int> frames = plate.frames();
@@ -269,7 +268,7 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     const FrameSpan span = analysed_span(shot, plan);
     const Followed followed{region, plan, shot, plate, span};
     WEFT_CHECK_OK(followed.check_plate());
-    // Not before: the plate's frames bound how many these are.
+    // Only now, when the number of frames is limited by the plate.
     const std::vector<int> all = frames_between(span.first, span.last);
     if (!plan.propagated()) WEFT_CHECK_OK(followed.check(region.matte->files, "The matte"));
     for (const MatteSource& holdout : *region.holdouts) {

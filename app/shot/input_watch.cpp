@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-// What a file is without reading it.
+// Identifies a file's state without reading it.
 struct Stamp {
     std::int64_t bytes = 0, modified_ns = 0, changed_ns = 0;
     std::uint64_t device = 0, inode = 0;
@@ -38,10 +38,10 @@ std::optional<Stamp> stamp_of(const std::string& path) {
 }
 
 struct Watched {
-    Stamp stamp;  // when the run first relied on it
+    Stamp stamp;  // state when the run first relied on it
     bool read = false;
     bool changed_before_read = false;
-    std::optional<Hash128> hash;  // when it was first read
+    std::optional<Hash128> hash;  // hash at the first read
 };
 
 bool is_changed(const std::string& path, const Watched& watched) {
@@ -79,13 +79,13 @@ void InputWatch::before_read(const std::string& path) {
         if (!stamp) return;
         const bool relied_on = known != state_->files.end();
         Watched& file = state_->files[path];
-        // The bytes that were relied on are gone, and cannot be compared.
+        // The original content is gone, so it cannot be compared.
         file.changed_before_read = relied_on && !stamp->same_but_for_rights(file.stamp);
         file.stamp = *stamp;
         file.read = true;
         if (stamp->bytes > kLargestHashed) return;
     }
-    // Other threads need not wait: the stamp stands from before anybody reads.
+    // Without the lock: the stamp was taken before anyone reads.
     const auto hash = hash_of_contents(path);
     const std::lock_guard lock(state_->mutex);
     if (hash) state_->files[path].hash = *hash;

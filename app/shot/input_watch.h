@@ -1,6 +1,5 @@
 #pragma once
-// Notices an input that is replaced while a run goes on: frames before and after would be made
-// from different files.
+// Detects inputs that are replaced during a run, which would mix frames from different files.
 
 #include <cstdint>
 #include <memory>
@@ -11,9 +10,9 @@
 
 namespace weft {
 
-/// Remembers what each file was when the run first relied on it. Thread-safe. Costs a stat and a
-/// pass over the bytes a file; a file above kLargestHashed is told apart by size, time and inode
-/// alone.
+/// Records the state of each file when the run first relies on it. Thread-safe. Costs one stat and
+/// one pass over the bytes per file; files above kLargestHashed are compared by size, time and
+/// inode only.
 class InputWatch {
   public:
     InputWatch();
@@ -21,13 +20,13 @@ class InputWatch {
 
     static constexpr std::int64_t kLargestHashed = 256ll << 20;
 
-    /// The file's size and time have been relied on (a cache was chosen by them); it may be read
-    /// later. What is not there or no regular file is not watched.
+    /// Records the file's size and time, used for a cache key; it may be read later. Missing and
+    /// non-regular files are ignored.
     void relied_on(const std::string& path);
-    /// To be called before each read. Only the first one of a path costs more than a look-up.
+    /// Call this before each read. Only the first call for a path is slow.
     void before_read(const std::string& path);
-    /// Files that were read and are not what they were, or are gone, ascending. A file that was
-    /// touched, copied over or given other rights is the same while its bytes are.
+    /// Files that were read and have changed or disappeared since, ascending. Touched or copied
+    /// files with the same bytes, or with other permissions, count as unchanged.
     [[nodiscard]] std::vector<std::string> changed() const;
 
   private:
@@ -35,7 +34,8 @@ class InputWatch {
     std::unique_ptr<State> state_;
 };
 
-/// The error for what changed(), none for an empty list: Unreadable, naming the first file.
+/// The error for the files of changed(): Unreadable, naming the first one; success for an empty
+/// list.
 [[nodiscard]] Status check_unchanged(const std::vector<std::string>& changed);
 
 }  // namespace weft

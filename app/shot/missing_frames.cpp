@@ -40,7 +40,7 @@ std::shared_ptr<const FrameReader> with_missing_frames(std::shared_ptr<const Fra
                                                        const std::vector<int>& wanted) {
     const std::vector<int>& present = plate->frames();
     if (policy == MissingFrames::kError || present.empty()) return plate;
-    // A still movie or picture, or frame numbers far apart, are no gaps to be filled.
+    // Do not fill gaps of stills, or between distant frame numbers.
     constexpr int kMost = 1 << 20;
     if (present.back() - present.front() >= kMost) return plate;
     std::vector<int> all = wanted;

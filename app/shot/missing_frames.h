@@ -7,9 +7,9 @@
 
 namespace weft {
 
-/// The plate with something in place of the frames that it has not: between its first and its last,
-/// and those of `wanted` beyond. read() gives the frame before (the first one where there is none),
-/// shown_frame() says which. With kError the plate as it is.
+/// Wraps the plate so that missing frames are replaced between its first and last frame, and for
+/// the frames of `wanted` beyond. read() returns the previous frame (the first one if there is
+/// none); shown_frame() says which. With kError, returns the plate unchanged.
 [[nodiscard]] std::shared_ptr<const FrameReader> with_missing_frames(
     std::shared_ptr<const FrameReader> plate, MissingFrames policy, const std::vector<int>& wanted);
 

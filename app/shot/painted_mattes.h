@@ -1,5 +1,5 @@
 #pragma once
-// Mattes that were painted a moment ago and may not be on the disk yet.
+// Painted mattes that may not be on disk yet.
 
 #include <map>
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace weft {
 
-/// By the absolute path that they are written to. What is there is never changed.
+/// By the absolute path of their file. The mattes never change.
 using PaintedMattes = std::map<std::string, std::shared_ptr<const Matte>>;
 
-/// read_matte(), from memory where the matte is there: the same bytes as from its file.
+/// As read_matte(), but from memory if the matte is in `painted`; the result is the same.
 [[nodiscard]] Expected<Matte> read_matte(const std::string& path, const MatteSelect& select,
                                          Size expected, const PaintedMattes& painted);
 

@@ -80,7 +80,7 @@ class ProjectSource final : public ShotSource {
         const std::string& files = at(region).finish.depth;
         if (files.empty()) return ImageF1();
         WEFT_TRY(picture, read_pass(files, frame));
-        // A float file holds distances, a coded one what an artist made visible.
+        // A float file holds distances; an integer file holds a depth map made for viewing.
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
         ImageF1 out(picture.rgb.size());
         for (int y = 0; y < out.height(); ++y) {
@@ -119,7 +119,7 @@ class ProjectSource final : public ShotSource {
     [[nodiscard]] const Region& at(int region) const {
         return *regions_[static_cast<std::size_t>(region)];
     }
-    // A picture of the plate's size, one a frame or the same for all.
+    // Reads a pass of the plate's size: one image per frame, or one for all.
     [[nodiscard]] Expected<PlateFrame> read_pass(const std::string& files, int frame,
                                                  const std::string& layer = {}) const {
         WEFT_TRY(pattern, SequencePattern::parse(files));
@@ -142,12 +142,12 @@ class ProjectSource final : public ShotSource {
         if (painted_.contains(path)) return read_matte(path, source.select, size(), painted_);
         return read_matte(watched(path), source.select, size());
     }
-    // `path`, which is about to be read.
+    // Returns `path` after telling `inputs_` that it will be read.
     [[nodiscard]] std::string watched(std::string path) const {
         if (inputs_) inputs_->before_read(path);
         return path;
     }
-    // Where the plate holds a frame in place of a missing one, a file that is missing too is held.
+    // Where the plate repeats a frame in place of a missing one, a missing file is repeated too.
     [[nodiscard]] std::string path_on(const SequencePattern& pattern, int frame) const {
         const int shown = plate_->shown_frame(frame);
         std::error_code ignored;

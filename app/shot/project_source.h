@@ -11,9 +11,9 @@
 
 namespace weft {
 
-/// The pictures of a project from its files. `regions`: the planned ones, in the plan's order.
-/// `cuts` sees every plate that is read, `inputs` is told of every file before it is.
-/// Painted keyframes that `painted` has are taken from there.
+/// Reads the images of a project. `regions`: planned regions in the plan's order. `cuts` receives
+/// every plate frame that is read; `inputs` is told of every file before it is read. Painted
+/// keyframes in `painted` are not read from files.
 [[nodiscard]] std::shared_ptr<const ShotSource> make_project_source(
     std::shared_ptr<const CachedReader> plate, std::vector<Leaf<Region>> regions,
     std::shared_ptr<CutWatch> cuts = nullptr, std::shared_ptr<InputWatch> inputs = nullptr,

@@ -15,14 +15,14 @@
 namespace weft {
 namespace {
 
-// How many frames are looked at: the first step judges the first frame, the second finds a better
-// one, the others a surface that shows only briefly.
+// Numbers of frames examined: first to judge the first frame, then to find a better one, then to
+// find a surface that is visible only briefly.
 constexpr std::array<std::size_t, 4> kLooks{9, 33, 129, 257};
-// Mattes in memory at a time: a matte of 4K takes up to 130 MB while it is decoded.
+// Mattes read at the same time: a 4K matte takes up to 130 MB while it is decoded.
 constexpr std::size_t kAtOnce = 2;
 constexpr std::size_t kMostKept = 100'000;
 
-// The file of a source on a frame; nothing where it is painted on other frames only.
+// The file of a source on a frame; nothing if it is painted on other frames only.
 std::optional<std::string> file_on(const MatteSource& source, int frame) {
     if (source.files.empty()) {
         const auto key = source.keyframes.find(frame);
@@ -45,8 +45,8 @@ struct Layer {
     MatteSelect select;
 };
 
-// The region's matte on a frame and its holdouts. Painted holdouts do not count: frames on which
-// they are not painted would seem to show more.
+// The region's matte on a frame and its holdouts. Painted holdouts are ignored, because frames
+// without a keyframe would seem to show more.
 std::vector<Layer> layers_on(const Region& region, int frame) {
     std::vector<Layer> layers;
     const auto add = [&](const MatteSource& source) {
@@ -59,7 +59,7 @@ std::vector<Layer> layers_on(const Region& region, int frame) {
     return layers;
 }
 
-// Nothing when a file cannot be read.
+// Returns nothing if a file cannot be read.
 std::optional<double> score_of(const std::vector<Layer>& layers, Size size,
                                const PaintedMattes& painted) {
     if (layers.empty()) return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<double> score_on(const Region& region, const FrameReader& plate, i
     return score;
 }
 
-// The frames that a reference may lie on.
+// The possible reference frames.
 Expected<std::vector<int>> candidates(const Region& region, const FrameReader& plate) {
     std::vector<int> frames;
     if (!region.matte->keyframes.empty()) {
@@ -117,7 +117,7 @@ Expected<std::vector<int>> candidates(const Region& region, const FrameReader& p
                     frames_text(plate.frames()) + ". Check the pattern and its numbers.");
 }
 
-// One matte for all frames, and nothing in front of it that changes.
+// Returns true for one matte for all frames and no animated holdouts.
 bool same_everywhere(const Region& region) {
     const auto single = [](const MatteSource& source) {
         const auto pattern = SequencePattern::parse(source.files);
@@ -129,20 +129,20 @@ bool same_everywhere(const Region& region) {
 
 }  // namespace
 
-std::optional<double> VisibilityMemory::find(const Hash128& files) const {
+std::optional<double> VisibilityCache::find(const Hash128& files) const {
     const std::lock_guard lock(mutex_);
     const auto found = scores_.find(files);
     if (found == scores_.end()) return std::nullopt;
     return found->second;
 }
 
-void VisibilityMemory::keep(const Hash128& files, double score) {
+void VisibilityCache::keep(const Hash128& files, double score) {
     const std::lock_guard lock(mutex_);
     if (scores_.size() >= kMostKept) scores_.clear();
     scores_[files] = score;
 }
 
-std::size_t VisibilityMemory::size() const {
+std::size_t VisibilityCache::size() const {
     const std::lock_guard lock(mutex_);
     return scores_.size();
 }
@@ -155,7 +155,7 @@ Expected<ReferenceChoice> choose_reference(const Region& region, const FrameRead
     if (frames.empty()) return ReferenceChoice{first, first, false};
     if (frames.size() == 1 || same_everywhere(region))
         return ReferenceChoice{frames.front(), frames.front(), true};
-    std::map<std::size_t, double> seen;  // by index, in the order of the frames
+    std::map<std::size_t, double> seen;  // score by index, in frame order
     for (const std::size_t count_looked : kLooks) {
         std::vector<std::size_t> fresh;
         const std::size_t count = std::min(count_looked, frames.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Which frame a region's texture is placed on when nobody has said.
+// Chooses the default reference frame of a region.
 
 #include <limits>
 #include <map>
@@ -13,8 +13,8 @@
 
 namespace weft {
 
-/// Scores of mattes that were looked at before, by file and time stamp. Thread-safe.
-class VisibilityMemory {
+/// Caches visibility scores of mattes by file and time stamp. Thread-safe.
+class VisibilityCache {
   public:
     [[nodiscard]] std::optional<double> find(const Hash128& files) const;
     void keep(const Hash128& files, double score);
@@ -25,38 +25,37 @@ class VisibilityMemory {
     std::map<Hash128, double> scores_;
 };
 
-/// Where mattes are looked at, beside their files. Both may be null.
+/// Helpers for reading mattes. Both may be null.
 struct MatteLooks {
-    MatteLooks(VisibilityMemory* known = nullptr,  // NOLINT(google-explicit-constructor)
+    MatteLooks(VisibilityCache* known = nullptr,  // NOLINT(google-explicit-constructor)
                const PaintedMattes* unwritten = nullptr)
         : memory(known), painted(unwritten) {}
-    VisibilityMemory* memory;
+    VisibilityCache* memory;
     const PaintedMattes* painted;
 };
 
 struct ReferenceChoice {
     int frame = 0;
-    int first = 0;      ///< The first frame that has a matte.
-    bool shown = true;  ///< False: no frame that was looked at shows the surface.
+    int first = 0;      ///< First frame with a matte.
+    bool shown = true;  ///< False: the surface is visible on no examined frame.
 };
 
-/// Frames to choose from, both included.
+/// Range of frames to choose from, inclusive.
 struct ReferenceRange {
     int first = std::numeric_limits<int>::min(), last = std::numeric_limits<int>::max();
 };
 
-/// The first frame, or the first painted one, unless the surface shows much better later
-/// (first_well_shown()): judged by mattes and holdouts on nine frames of the range, on up to 33 if
-/// the first is no good, and on up to 257 while all are empty. It depends on the files alone, not
-/// on the frames to render, so every part of a shot on every machine has the same reference.
-/// Errors: those of the patterns; MissingFrames when no frame of the plate
-/// has a matte.
+/// Returns the first frame, or the first painted one, unless the surface is much more visible later
+/// (first_well_shown()). Examines mattes and holdouts on nine frames of the range, on up to 33 if
+/// the first is unsuitable, and on up to 257 while all are empty. The choice depends only on the
+/// files, not on the frames to render, so all parts of a shot use the same reference on every
+/// machine. Errors: those of the patterns; MissingFrames when no frame of the plate has a matte.
 [[nodiscard]] Expected<ReferenceChoice> choose_reference(const Region& region,
                                                          const FrameReader& plate,
                                                          const MatteLooks& looks,
                                                          ReferenceRange range = {});
 
-/// Returns true if the matte of files on this frame, less its holdouts, is empty. False for painted
+/// Returns true if the matte minus its holdouts is empty on this frame. Returns false for painted
 /// mattes and for files that cannot be read.
 [[nodiscard]] bool shows_nothing(const Region& region, const FrameReader& plate, int frame,
                                  const MatteLooks& looks);

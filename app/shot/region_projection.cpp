@@ -7,15 +7,15 @@
 namespace weft {
 namespace {
 
-// Of light on a display-referred plate: where a body turns away from the sun, a hundredth of its
-// light is left.
+// Lower limit of the gain on a display-referred plate: about 1/100 of the light remains on a
+// surface that faces away from the sun.
 constexpr float kLeastGain = 1.0f / 64;
 
 MatteReach reach_of(const MatteSource& matte) {
     MatteReach reach;
-    reach.direction = matte.carry;
-    if (matte.carry_from) reach.first = *matte.carry_from;
-    if (matte.carry_to) reach.last = *matte.carry_to;
+    reach.direction = matte.propagate_direction;
+    if (matte.propagate_from) reach.first = *matte.propagate_from;
+    if (matte.propagate_to) reach.last = *matte.propagate_to;
     return reach;
 }
 
@@ -56,7 +56,7 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
         plan.matte_keys.push_back(frame);
     plan.matte_steadiness = static_cast<float>(matte.steadiness);
     plan.matte_reach = reach_of(matte);
-    // Painted ones in their order among the painted, which names them in the analysis.
+    // Painted holdouts are numbered in order; the number is their key in the analysis.
     for (const MatteSource& holdout : holdouts) {
         if (!holdout.files.empty()) {
             plan.has_holdout = true;

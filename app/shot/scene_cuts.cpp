@@ -8,9 +8,9 @@
 namespace weft {
 namespace {
 
-constexpr float kLeastPlace = 0.10f;  // mean difference of the cells, of white
-constexpr float kLeastShare = 0.30f;  // of the histogram that moves
-constexpr float kOverOthers = 3.0f;   // times the median step
+constexpr float kLeastPlace = 0.10f;  // mean difference of the cells, relative to white
+constexpr float kLeastShare = 0.30f;  // share of the histogram that changes
+constexpr float kOverOthers = 3.0f;   // multiple of the median change
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void CutWatch::look_at(int frame, ViewF3 plate, bool display_encoded) {
         for (int x = step / 2; x < plate.width(); x += step) {
             const float* p = plate.pixel(x, y);
             float luma = luma_709(p);
-            luma = luma > 0 ? std::min(luma, 1.0f) : 0.0f;  // NaN too
+            luma = luma > 0 ? std::min(luma, 1.0f) : 0.0f;  // NaN becomes 0
             if (!display_encoded) luma = std::sqrt(luma);
             const auto cell = static_cast<std::size_t>(y * kRows / plate.height() * kColumns +
                                                        x * kColumns / plate.width());

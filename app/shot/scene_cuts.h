@@ -1,5 +1,5 @@
 #pragma once
-// Notices where a plate changes to another scene.
+// Detects scene cuts in a plate.
 
 #include <array>
 #include <map>
@@ -10,19 +10,19 @@
 
 namespace weft {
 
-/// Looks at frames as they are read, in any order, and compares neighbours. Thread-safe.
+/// Examines frames as they are read, in any order, and compares neighbours. Thread-safe.
 class CutWatch {
   public:
     void look_at(int frame, ViewF3 plate, bool display_encoded);
-    /// The first frames of new scenes, ascending: their picture differs from the frame before far
-    /// more than pictures of one scene do, in where light and dark are and in how much there is of
-    /// each. A flash or a fast pan differs in one of the two only.
+    /// The first frames of new scenes, ascending. At a cut, both the spatial distribution and the
+    /// histogram of luma change far more than within a scene; a flash or a fast pan changes only
+    /// one of them.
     [[nodiscard]] std::vector<int> cuts() const;
 
   private:
     static constexpr int kColumns = 16, kRows = 9, kBins = 32;
     struct Look {
-        std::array<float, kColumns * kRows> means{};  // of luma, display-encoded
+        std::array<float, kColumns * kRows> means{};  // mean luma of each cell, display-encoded
         std::array<float, kBins> shares{};            // histogram of luma
     };
     mutable std::mutex mutex_;

@@ -28,7 +28,7 @@ bool float_depth(PixelDepth depth) {
     return depth == PixelDepth::kHalf || depth == PixelDepth::kFloat;
 }
 
-// Opens a project step by step; each step leaves something in `shot_`.
+// Opens a project step by step; each step fills in a part of `shot_`.
 class ShotOpener {
   public:
     ShotOpener(const Project& project, const OpenShotOptions& options) : options_(options) {
@@ -46,7 +46,7 @@ class ShotOpener {
     }
 
   private:
-    // What the run chooses its caches by, and may read much later.
+    // Records the files that cache keys depend on; they may be read much later.
     Status watch_inputs() const {
         if (!shot_.inputs) return {};
         WEFT_TRY(files, input_files(shot_));
@@ -55,7 +55,7 @@ class ShotOpener {
         return {};
     }
 
-    // `path`, which is about to be read.
+    // Returns `path` after recording that it will be read.
     [[nodiscard]] const std::string& watched(const std::string& path) const {
         if (shot_.inputs) shot_.inputs->before_read(path);
         return path;
@@ -107,10 +107,10 @@ class ShotOpener {
         if (p.plate.space.empty() && !says.note.empty())
             warn_of_color("The plate " + p.plate.path, says, setting::kPlateSpace);
         WEFT_TRY(working, space(p.color.working_space, kLinear));
-        // Output of the plate's own kind keeps the plate's space, so that the plate passes through
-        // untouched; another kind has its usual one.
+        // An output of the plate's kind keeps the plate's space, so that the plate passes through
+        // unchanged; other kinds use their default.
         const bool float_out = float_depth(output_depth(p.output, shot_.plate->depth()));
-        // Only DPX says of itself that it is log, so that others would show it as it is.
+        // Only DPX declares itself as log; in other formats log would be displayed as it is.
         const bool log_out = p.output.path.ends_with(".dpx") || p.output.path.ends_with(".DPX");
         const bool same_kind =
             float_out == !shot_.plate->display_encoded() && (plate.name != kCineon || log_out);
@@ -139,7 +139,7 @@ class ShotOpener {
         return {};
     }
 
-    // Frozen frames are keyframes that are read from their files, except where one is painted.
+    // Frozen frames become keyframes with files, except where one is painted.
     static Status add_frozen_mattes(Region& region) {
         if (region.matte->frozen.empty()) return {};
         if (region.matte->frozen_files.empty() || !region.matte->files.empty()) {
@@ -182,7 +182,7 @@ class ShotOpener {
         WEFT_CHECK_OK(project_mattes(*region.matte, *region.holdouts, plan));
         WEFT_CHECK_OK(project_zones(*region.zones, plan));
         WEFT_CHECK_OK(add_reference(region, plan));
-        // Where the artist has put the texture back in place, it is anchored too.
+        // Corrected frames also anchor the texture.
         project_corrections(region.corrections, plan);
         WEFT_CHECK_OK(project_motion(region.motion, plan));
         WEFT_CHECK_OK(add_track(region.motion, plan));
@@ -237,7 +237,7 @@ class ShotOpener {
         return {};
     }
 
-    // A reference frame that was given may show nothing of the surface.
+    // A reference frame set by the user may not show the region.
     void look_at_reference(const Region& region) {
         ShotReference& reference = shot_.references.back();
         if (reference.by_default || !shows_nothing(region, *shot_.plate, reference.frame, looks()))
@@ -253,7 +253,7 @@ class ShotOpener {
         PlateFrame picture;
         TextureCredit credit;
     };
-    // A picture file, or "db:ID" for a sample of a texture library.
+    // Reads an image file, or a sample "db:ID" of a texture library.
     [[nodiscard]] Expected<ReadTexture> read_texture(const std::string& path) const {
         ReadTexture out;
         if (!names_library_texture(path)) {
@@ -281,7 +281,7 @@ class ShotOpener {
         WEFT_TRY(read, read_texture(path));
         auto& [picture, credit] = read;
         if (!is_plane) {
-            // Now, not after minutes of analysis.
+            // Checked now instead of after minutes of analysis.
             if (const Status fits = check_sample(picture.rgb.size(), overlap_px); !fits)
                 return fail_in(fits.error(), path);
         }
@@ -331,7 +331,7 @@ class ShotOpener {
         for (const std::string& further : region.texture.also) {
             if (is_plane) break;
             WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));
-            // One space for all: the first one's.
+            // All samples use the space of the first one.
             WEFT_TRY(to_first, make_color_transform(sample.space, texture_space));
             to_first->apply(sample.pixels);
             texture->also.push_back(std::move(sample.pixels));

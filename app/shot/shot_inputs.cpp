@@ -11,7 +11,7 @@ Expected<std::vector<std::string>> input_files(const Shot& shot) {
     namespace fs = std::filesystem;
     std::set<std::string> files;
     std::error_code ignored;
-    // A dangling link may stand for a frame that nobody asked for.
+    // A dangling link may be a frame that is not needed.
     const auto add = [&](const std::string& path) {
         if (fs::is_regular_file(path, ignored)) files.insert(path);
     };

@@ -1,4 +1,4 @@
-// What a shot's output and its textures must keep to.
+// Rules for a shot's output and textures.
 #include "app/shot/shot.h"
 #include "engine/core/setting.h"
 #include "engine/media/frame_writer.h"

@@ -12,10 +12,10 @@ namespace weft {
 namespace {
 
 constexpr int kSample_px = 96;
-constexpr float kWorthIt = 1.2f;  // Less is hardly seen.
+constexpr float kWorthIt = 1.2f;  // a smaller gain is hardly visible
 constexpr int kLargest_px = 1024;
 
-// Where in its original a sample lies.
+// The rectangle of a sample in its original.
 Expected<Recti> crop_of(const std::string& library_path, const std::string& id) {
     WEFT_TRY(database, Database::open(library_path, false, true));
     WEFT_TRY(query,
@@ -59,7 +59,7 @@ Expected<LargerOriginal> keep_larger_original(const std::string& library_path,
         return fail(ErrorCode::kUsage,
                     "This texture has no larger original, or its image is gone. Take a "
                     "larger picture of the surface.");
-    // More of the surface than the sample shows gives more to grow from.
+    // A larger area than the sample's gives the synthesis more material.
     const auto widen = [](int& low, int& high, int limit) {
         const int wanted = std::min(limit, std::max(high - low, kLargest_px));
         low = std::clamp((low + high - wanted) / 2, 0, limit - wanted);

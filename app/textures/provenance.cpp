@@ -11,7 +11,7 @@ int wrapped(float v, int n) {
     return k < 0 ? k + n : k;
 }
 
-// The patch at (u, v) and the nearest other one, on a plane that repeats.
+// The patch at (u, v) and the nearest other patch on a plane that repeats.
 std::optional<std::pair<int, int>> nearest_neighbours(const Image<std::int32_t, 1>& patch, int u,
                                                       int v) {
     const std::int32_t here = patch.at(u, v);
@@ -52,18 +52,18 @@ Provenance::Answer Provenance::at(Vec2 p) const {
     out.texel = texel_at(p);
     out.sample = texture;
     out.sample_id = texture_id;
-    const bool carried = temporal == TemporalMode::kLocked ||
-                         (temporal == TemporalMode::kPaper && frame != history_frame);
-    if (!carried) {
+    const bool tracked = temporal == TemporalMode::kLocked ||
+                         (temporal == TemporalMode::kPaper && frame != track_frame);
+    if (!tracked) {
         out.made_anew = 1;
     } else if (temporal == TemporalMode::kPaper) {
         out.made_anew = fresh;
-        out.histories = {{frame + (frame < history_frame ? 1 : -1), 1 - fresh}};
+        out.histories = {{frame + (frame < track_frame ? 1 : -1), 1 - fresh}};
     } else if (const auto after = share_after(p)) {
         if (*after < 1) out.histories.push_back({two->before, 1 - *after});
         if (*after > 0) out.histories.push_back({two->after, *after});
     } else {
-        out.histories = {{history_frame, 1}};
+        out.histories = {{track_frame, 1}};
     }
     if (plane && std::isfinite(out.texel.x) && std::isfinite(out.texel.y)) {
         const int u = wrapped(out.texel.x, plane->source.width());

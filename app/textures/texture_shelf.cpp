@@ -66,11 +66,11 @@ std::string shown_name(std::string name) {
 TextureShelf::TextureShelf(std::size_t budget_bytes)
     : budget_bytes_(budget_bytes),
       queue_([this] { serve_queue(); }),
-      scanner_([this] { ++arrivals_; }),
-      searcher_([this] { ++arrivals_; }),
-      similar_([this] { ++arrivals_; }),
-      ranking_([this] { ++arrivals_; }),
-      together_([this] { ++arrivals_; }) {}
+      scanner_([this] { ++changes_; }),
+      searcher_([this] { ++changes_; }),
+      similar_([this] { ++changes_; }),
+      ranking_([this] { ++changes_; }),
+      together_([this] { ++changes_; }) {}
 
 TextureShelf::~TextureShelf() {
     {
@@ -84,7 +84,7 @@ TextureShelf::~TextureShelf() {
     if (importer_.joinable()) importer_.join();
 }
 
-void TextureShelf::look_in(std::vector<std::string> folders) {
+void TextureShelf::scan(std::vector<std::string> folders) {
     (void)scanner_.ask(folders,
                        [this, folders](const CancelToken& cancel) -> std::optional<std::size_t> {
                            std::vector<TextureCard> cards = cards_in(folders, cancel);
@@ -96,7 +96,7 @@ void TextureShelf::look_in(std::vector<std::string> folders) {
                        });
 }
 
-// With `listing_` held.
+// Requires the lock `listing_`.
 void TextureShelf::publish_cards() {
     std::vector<TextureCard> cards = folder_cards_;
     cards.insert(cards.end(), library_cards_.begin(), library_cards_.end());
@@ -107,8 +107,8 @@ std::shared_ptr<const std::vector<TextureCard>> TextureShelf::cards() const {
     return cards_.get();
 }
 
-std::uint64_t TextureShelf::arrivals() const {
-    return arrivals_.load();
+std::uint64_t TextureShelf::changes() const {
+    return changes_.load();
 }
 
 PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
@@ -121,12 +121,12 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
     }
     if (making_ && making_->same(request)) return nullptr;
     const auto at =
-        std::find_if(thumbnails_due_.begin(), thumbnails_due_.end(),
+        std::find_if(pending_thumbnails_.begin(), pending_thumbnails_.end(),
                      [&](const ThumbnailRequest& other) { return other.same(request); });
-    if (at != thumbnails_due_.end()) thumbnails_due_.erase(at);
-    thumbnails_due_.push_back(std::move(request));
+    if (at != pending_thumbnails_.end()) pending_thumbnails_.erase(at);
+    pending_thumbnails_.push_back(std::move(request));
     constexpr std::size_t kMostWaiting = 200;
-    if (thumbnails_due_.size() > kMostWaiting) thumbnails_due_.pop_front();
+    if (pending_thumbnails_.size() > kMostWaiting) pending_thumbnails_.pop_front();
     wake_.notify_all();
     return nullptr;
 }
@@ -135,13 +135,13 @@ TextureCard TextureShelf::details(const TextureCard& card) {
     if (!card.path.starts_with("db:") || !library()) return card;
     const std::lock_guard lock(mutex_);
     if (const auto found = details_.find(card.path); found != details_.end()) return found->second;
-    const bool asked =
-        looking_up_ == card.path || unknown_.contains(card.path) ||
-        std::find(details_due_.begin(), details_due_.end(), card.path) != details_due_.end();
+    const bool asked = looking_up_ == card.path || unknown_.contains(card.path) ||
+                       std::find(pending_details_.begin(), pending_details_.end(), card.path) !=
+                           pending_details_.end();
     if (asked) return card;
-    details_due_.push_back(card.path);
+    pending_details_.push_back(card.path);
     constexpr std::size_t kMostWaiting = 64;
-    if (details_due_.size() > kMostWaiting) details_due_.pop_front();
+    if (pending_details_.size() > kMostWaiting) pending_details_.pop_front();
     wake_.notify_all();
     return card;
 }
@@ -157,12 +157,13 @@ void TextureShelf::serve_queue() {
     lower_thread_priority();
     std::unique_lock lock(mutex_);
     for (;;) {
-        wake_.wait(lock,
-                   [&] { return stop_ || !details_due_.empty() || !thumbnails_due_.empty(); });
+        wake_.wait(lock, [&] {
+            return stop_ || !pending_details_.empty() || !pending_thumbnails_.empty();
+        });
         if (stop_) return;
-        if (!details_due_.empty()) {
-            looking_up_ = details_due_.back();  // what is looked at now
-            details_due_.pop_back();
+        if (!pending_details_.empty()) {
+            looking_up_ = pending_details_.back();  // newest request first
+            pending_details_.pop_back();
             lock.unlock();
             look_up(looking_up_);
             lock.lock();
@@ -177,16 +178,15 @@ void TextureShelf::serve_queue() {
     }
 }
 
-// What is on the screen now, from the first to the last: everything seen is asked for in each
-// frame.
+// Requests of the current frame in order: everything visible is requested in each frame.
 TextureShelf::ThumbnailRequest TextureShelf::next_thumbnail() {
     constexpr std::chrono::milliseconds kOneFrame(50);
-    const auto seen = thumbnails_due_.back().asked - kOneFrame;
+    const auto seen = pending_thumbnails_.back().asked - kOneFrame;
     const auto at =
-        std::find_if(thumbnails_due_.begin(), thumbnails_due_.end(),
+        std::find_if(pending_thumbnails_.begin(), pending_thumbnails_.end(),
                      [&](const ThumbnailRequest& request) { return request.asked >= seen; });
     ThumbnailRequest request = std::move(*at);
-    thumbnails_due_.erase(at);
+    pending_thumbnails_.erase(at);
     return request;
 }
 
@@ -197,7 +197,7 @@ void TextureShelf::make_thumbnail(const ThumbnailRequest& request) {
         if (TextureLibrary* const from = library()) {
             const std::string id = request.path.substr(3);
             auto pixels = from->thumbnail(id);
-            // Not for a card on a dense screen: the original of a drawn texture is drawn again.
+            // Only for large previews: the original of a procedural texture must be drawn again.
             if (pixels && request.longest_px > 4 * kSample) {
                 if (auto larger = from->original(id)) pixels = std::move(larger);
             }
@@ -209,16 +209,16 @@ void TextureShelf::make_thumbnail(const ThumbnailRequest& request) {
             nullptr, nullptr);
         picture = make_picture(shrink(*whole, request.longest_px));
     }
-    std::vector<PicturePtr> gone;  // freed after the lock is
+    std::vector<PicturePtr> gone;  // destroyed after the lock is released
     const std::lock_guard lock(mutex_);
     if (picture) bytes_ += picture->size_bytes();
     kept_[name_of(request.path, request.longest_px)] = {picture, request.longest_px, ++clock_};
-    ++arrivals_;
+    ++changes_;
     gone = trim();
 }
 
-// Those that were not looked at for longest go, and more than need be: looking for them takes a
-// while when there are thousands.
+// Frees the least recently used pictures, more than necessary, because sorting thousands takes
+// time.
 std::vector<PicturePtr> TextureShelf::trim() {
     std::vector<PicturePtr> gone;
     if (bytes_ <= budget_bytes_) return gone;

@@ -1,6 +1,5 @@
 #pragma once
-// The textures that the drawer shows: their cards at once, their thumbnails as they are asked for,
-// the visible ones first.
+// The textures of the drawer: cards at once, thumbnails on request, visible ones first.
 
 #include <atomic>
 #include <chrono>
@@ -25,52 +24,53 @@ namespace weft {
 class TextureLibrary;
 
 struct TextureCard {
-    std::string path;  ///< What is applied to a region.
+    std::string path;  ///< Path that is applied to a region.
     std::string name, material;
     std::vector<std::string> tags;
     std::string author, licence, source;
-    Size size;  ///< 0 while unknown.
-    /// Pixels of the picture that a library's sample was cut from, for one of the sample: above 1
-    /// the larger picture shows more. 1 where there is none.
+    Size size;  ///< Size; 0: not known yet.
+    /// Pixels of the original image per pixel of the library sample: above 1 the original has more
+    /// detail. 1: no original.
     float original_scale = 1;
 };
 
-/// "db:ID" of a texture that came from a library and was kept as a file (db_ID.png), else empty.
+/// Returns "db:ID" for a library texture that was copied to a file (db_ID.png), otherwise an empty
+/// string.
 [[nodiscard]] std::string library_name_of(const std::string& path);
 
-/// A file's or a library's name as it is shown: "Wall bricks 005".
+/// Display name of a file or library texture: "Wall bricks 005".
 [[nodiscard]] std::string shown_name(std::string name);
 
-/// A texture that suits a region, and why.
+/// A texture suggested for a region, with the reason.
 struct TextureSuggestion {
     std::string path;
     std::string reason;  ///< "Same colour, finer grain"
-    float score = 0;     ///< 0–1, higher suits better.
+    float score = 0;     ///< Score, 0–1; higher is better.
 };
 
-/// A region that wants a texture that goes with those of the others.
+/// A region of a set: its texture must match those of the other regions.
 struct TogetherRegion {
     std::uint32_t region = 0;
     std::string name;
     std::shared_ptr<const Matte> matte;
-    std::string keep;  ///< "db:ID" to be kept; empty: to be changed.
+    std::string keep;  ///< "db:ID" of a texture to keep; empty: suggest one.
 };
 
-/// One texture for each region, chosen to go with each other.
+/// A set: one texture for each region, chosen to match.
 struct TogetherSuggestion {
-    std::vector<std::string> paths;    ///< In the order asked; empty for a region that has none.
-    std::vector<std::string> reasons;  ///< Likewise.
+    std::vector<std::string> paths;    ///< In the order of the request; empty if there is none.
+    std::vector<std::string> reasons;  ///< Reasons, in the same order.
     std::string why;
     float score = 0;
 };
 
-/// What the drawer asks of the library; all conditions hold together.
-struct TextureQuestion {
+/// A search in the library; all conditions must hold.
+struct TextureQuery {
     std::string words;    ///< "rough grey stone"
     std::string origin;   ///< "package" (photographs), "procedural", "file", or any.
-    std::string licence;  ///< As the source writes it, or any.
+    std::string licence;  ///< Licence as written by the source; empty: any.
     [[nodiscard]] bool empty() const { return words.empty() && origin.empty() && licence.empty(); }
-    bool operator==(const TextureQuestion&) const = default;
+    bool operator==(const TextureQuery&) const = default;
 };
 
 struct TextureCount {
@@ -79,84 +79,86 @@ struct TextureCount {
 };
 
 struct TextureAnswer {
-    std::vector<std::string> paths;               ///< The best first.
-    std::vector<TextureCount> origins, licences;  ///< Over all of them, most frequent first.
+    std::vector<std::string> paths;               ///< Results, best first.
+    std::vector<TextureCount> origins, licences;  ///< Counts over all results, most frequent first.
 };
 
-/// A region that wants a texture.
-struct SurfaceToSuit {
-    std::string region;  ///< Its name, which may say what it is.
+/// A region for which textures are suggested.
+struct SurfaceQuery {
+    std::string region;  ///< Name of the region, a hint at its material.
     PicturePtr plate;
-    std::shared_ptr<const Matte> matte;  ///< Of the plate's size.
+    std::shared_ptr<const Matte> matte;  ///< Matte at the plate's size.
     std::string excluded_licences;
 };
 
-/// An artist's own pictures on their way into the library.
+/// An import of the user's own images into the library.
 struct TextureImport {
     std::string folder, author;
-    std::string licence;          ///< Empty: not known.
-    bool keep_originals = false;  ///< As ImportOptions has it.
+    std::string licence;          ///< Licence; empty: not known.
+    bool keep_originals = false;  ///< As in ImportOptions.
 };
 
-/// How the last one goes, or went.
+/// State of the current or last import.
 struct TextureImportState {
     bool running = false, failed = false;
-    int done = 0, total = 0;  ///< Pictures.
-    std::string outcome;      ///< "Brought in 40 samples of 3 pictures.", or what went wrong.
+    int done = 0, total = 0;  ///< Numbers of images.
+    std::string outcome;      ///< "Imported 40 samples from 3 images.", or the error.
 };
 
-/// Thread-safe; nothing blocks. What is asked for in every frame (a ranking, a search, what is
-/// similar, what goes together) has a worker each that answers the newest question; thumbnails and
-/// details wait in a queue, since many of them are wanted at once.
+/// Thread-safe; does not block. Each kind of repeated request (suggestions, search, similar
+/// textures, sets) has a worker that answers the newest one. Thumbnails and details are queued,
+/// because many are needed at once.
 class TextureShelf {
   public:
     explicit TextureShelf(std::size_t budget_bytes = std::size_t{192} << 20);
     ~TextureShelf();
 
-    /// Looks through these folders in the background; a sub-folder's name is the material.
-    void look_in(std::vector<std::string> folders);
-    /// Opens a texture library in the background, too, and fills an empty one with the starter
-    /// textures. Its textures are named "db:ID". Once.
+    /// Lists these folders in the background; a subfolder's name is the material.
+    void scan(std::vector<std::string> folders);
+    /// Opens a texture library in the background and fills an empty one with the starter textures.
+    /// Its textures are named "db:ID". Call it once.
     void open_library(const std::string& path);
-    /// Cuts samples out of a folder's pictures and adds them to the library, in the background; one
-    /// import after the other. Interrupted by the end of the program, it goes on when asked again.
-    void bring_in(const TextureImport& import);
+    /// Imports samples from a folder's images into the library in the background, one import after
+    /// another. An import interrupted by closing the program continues when it is requested again.
+    void import_folder(const TextureImport& import);
     [[nodiscard]] TextureImportState importing() const;
-    /// What is being done to the library ("Making the starter textures, 300 of 1700"), or nothing.
+    /// Current work on the library ("Making the starter textures, 300 of 1700"); empty: none.
     [[nodiscard]] std::string activity() const;
-    /// Everything known about a card; author, licence and tags of a library's texture come later.
+    /// Everything known about a card; author, licence and tags of a library texture arrive later.
     [[nodiscard]] TextureCard details(const TextureCard& card);
-    /// How a texture is called: a library's, also where it was kept as a file, by its name there.
+    /// Display name of a texture; for a library texture, also one copied to a file, its name in the
+    /// library.
     [[nodiscard]] std::string name_of_texture(const std::string& path);
-    /// The answer to a question; null while it is worked out, or without a library.
-    [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuestion& question);
-    /// The whole library's counts; null without one.
+    /// Result of a search; null while in progress, or without a library.
+    [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuery& question);
+    /// Counts over the whole library; null without one.
     [[nodiscard]] std::shared_ptr<const TextureAnswer> everything() const;
-    /// Looks for textures like this part of a picture, in the background. `key` stands for it.
+    /// Finds textures similar to this part of a picture in the background. `key` identifies it.
     void find_similar(const std::string& key, PicturePtr picture, Recti part);
-    /// The same for a picture file.
+    /// The same for an image file.
     void find_similar(const std::string& key, const std::string& picture_path);
-    /// What was found, the nearest first; null while it is worked out.
+    /// Similar textures, nearest first; null while in progress.
     [[nodiscard]] std::shared_ptr<const std::vector<std::string>> similar(
         const std::string& key) const;
     [[nodiscard]] std::shared_ptr<const std::vector<TextureCard>> cards() const;
-    /// Null while it is being made: asked for again every frame by what is visible. What is seen
-    /// now comes first, in the order of the questions.
+    /// Returns a thumbnail; null until it is ready. Visible items request theirs in every frame;
+    /// the current ones are served first, in request order.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
-    /// Ranks the library's textures for a surface; `key` stands for all that it depends on.
-    void suggest_for(const std::string& key, SurfaceToSuit surface);
-    /// The same for all regions together; `key` stands for all that it depends on.
+    /// Ranks the library's textures for a region; `key` identifies everything that the result
+    /// depends on.
+    void suggest_for(const std::string& key, SurfaceQuery surface);
+    /// Finds sets for all regions; `key` identifies everything that the result depends on.
     void suggest_together(const std::string& key, PicturePtr plate,
                           std::vector<TogetherRegion> regions,
                           const std::string& excluded_licences);
-    /// What was found, the best first; null while it is worked out.
+    /// Suggested sets, best first; null while in progress.
     [[nodiscard]] std::shared_ptr<const std::vector<TogetherSuggestion>> together(
         const std::string& key) const;
     [[nodiscard]] std::vector<TextureSuggestion> suggestions(const std::string& key) const;
-    /// Whether they were worked out, or there is no library to choose from.
+    /// Returns true if the suggestions are ready, or there is no library.
     [[nodiscard]] bool suggested(const std::string& key) const;
-    /// Grows whenever something arrives.
-    [[nodiscard]] std::uint64_t arrivals() const;
+    /// Increases whenever a result arrives.
+    [[nodiscard]] std::uint64_t changes() const;
 
   private:
     struct ThumbnailRequest {
@@ -183,30 +185,29 @@ class TextureShelf {
     void publish_cards();
 
     const std::size_t budget_bytes_;
-    std::atomic<std::uint64_t> arrivals_ = 0;
+    std::atomic<std::uint64_t> changes_ = 0;
     CancelToken cancel_;
 
-    // Set once, before `open_`.
+    // Set once, before `open_` becomes true.
     std::shared_ptr<TextureLibrary> library_;
     std::string library_path_;
     std::atomic<bool> open_ = false;
-    std::atomic<std::uint64_t> library_version_ = 0;  // grows when its textures change
+    std::atomic<std::uint64_t> library_version_ = 0;  // increases when its textures change
 
-    // What there is, for the window.
+    // Published cards, for the window.
     Published<std::vector<TextureCard>> cards_{std::vector<TextureCard>{}};
     Published<TextureAnswer> everything_;
     Published<std::string> activity_{std::string()};
     Published<TextureImportState> importing_{TextureImportState{}};
-    // Both lists of cards, from which workers make the one above.
+    // The two lists of cards that workers merge into `cards_`.
     std::mutex listing_;
     std::vector<TextureCard> folder_cards_, library_cards_;
 
-    mutable std::mutex mutex_;  // of all below, up to the threads
+    mutable std::mutex mutex_;  // protects all members below, up to the threads
     std::condition_variable wake_;
     bool stop_ = false;
-    /// In the order in which they were asked for last: those of a frame of the window stand
-    /// together.
-    std::deque<ThumbnailRequest> thumbnails_due_;
+    /// In order of the last request; requests of one window frame are adjacent.
+    std::deque<ThumbnailRequest> pending_thumbnails_;
     std::optional<ThumbnailRequest> making_;  // in flight
     struct Kept {
         PicturePtr picture;  ///< Null: it cannot be read.
@@ -217,17 +218,17 @@ class TextureShelf {
     std::size_t bytes_ = 0;
     std::uint64_t clock_ = 0;
     std::map<std::string, TextureCard> details_;
-    std::set<std::string> unknown_;  // not in the library as it is now
-    std::deque<std::string> details_due_;
+    std::set<std::string> unknown_;  // not in the current library
+    std::deque<std::string> pending_details_;
     std::string looking_up_;  // in flight
-    std::deque<TextureImport> imports_due_;
+    std::deque<TextureImport> pending_imports_;
 
     std::thread queue_, filler_;
-    std::thread importer_;  // begun by the first import
+    std::thread importer_;  // started by the first import
 
-    // They use all above, and end first.
+    // They use the members above and are destroyed first.
     LatestWorker<std::vector<std::string>, std::size_t> scanner_;
-    LatestWorker<std::pair<TextureQuestion, std::uint64_t>, TextureAnswer> searcher_;
+    LatestWorker<std::pair<TextureQuery, std::uint64_t>, TextureAnswer> searcher_;
     LatestWorker<std::string, std::vector<std::string>> similar_;
     LatestWorker<std::string, std::vector<TextureSuggestion>> ranking_;
     LatestWorker<std::string, std::vector<TogetherSuggestion>> together_;

@@ -1,4 +1,4 @@
-// The part of the shelf that asks the texture library.
+// The part of TextureShelf that accesses the texture library.
 #include "app/base/background.h"
 #include "app/textures/larger_original.h"
 #include "app/textures/texture_shelf.h"
@@ -23,20 +23,19 @@ std::string counted(int n, const char* one, const char* more) {
 }
 
 std::string outcome_of(const ImportReport& report) {
-    std::string out = "Brought in " + counted(report.samples, "sample", "samples") + " of " +
-                      counted(report.pictures, "picture", "pictures") + ".";
+    std::string out = "Imported " + counted(report.samples, "sample", "samples") + " from " +
+                      counted(report.pictures, "image", "images") + ".";
     if (report.skipped > 0)
-        out += " " + counted(report.skipped, "picture was", "pictures were") +
-               " in already, or are no colour maps.";
+        out += " " + counted(report.skipped, "image was", "images were") +
+               " skipped: already imported, or not a colour map.";
     if (!report.refused.empty())
-        out += " " +
-               counted(static_cast<int>(report.refused.size()), "picture was", "pictures were") +
+        out += " " + counted(static_cast<int>(report.refused.size()), "image was", "images were") +
                " left out; the first: " + report.refused.front().first + " (" +
                report.refused.front().second + ").";
     return out;
 }
 
-TextureAnswer answer_to(TextureLibrary& library, const TextureQuestion& question) {
+TextureAnswer answer_to(TextureLibrary& library, const TextureQuery& question) {
     SearchQuery query;
     query.text = question.words;
     for (const TextureOrigin origin :
@@ -69,7 +68,7 @@ std::string reason_of(const Suggestion& suggestion) {
     return suggestion.reasons.empty() ? std::string() : shown_name(suggestion.reasons[0]);
 }
 
-std::vector<TextureSuggestion> ranked_for(TextureLibrary& library, const SurfaceToSuit& surface) {
+std::vector<TextureSuggestion> ranked_for(TextureLibrary& library, const SurfaceQuery& surface) {
     const ImageU8x3 plate = shrink(*surface.plate, 1 << 20);
     RecommendRequest request;
     request.excluded_licences = licence_list(surface.excluded_licences);
@@ -130,7 +129,7 @@ void TextureShelf::fill_library(const std::string& path) {
     lower_thread_priority();
     const auto say = [&](std::string text) {
         activity_.put(std::move(text));
-        ++arrivals_;
+        ++changes_;
     };
     auto opened = TextureLibrary::open(path);
     if (!opened) return say(opened.error().text());
@@ -174,16 +173,16 @@ void TextureShelf::list_library() {
     library_cards_ = std::move(cards);
     publish_cards();
     ++library_version_;
-    ++arrivals_;
+    ++changes_;
 }
 
-void TextureShelf::bring_in(const TextureImport& import) {
+void TextureShelf::import_folder(const TextureImport& import) {
     TextureImportState state;
     state.running = library() != nullptr;
     state.failed = !state.running;
     if (state.running) {
         const std::lock_guard lock(mutex_);
-        imports_due_.push_back(import);
+        pending_imports_.push_back(import);
         if (!importer_.joinable()) importer_ = std::thread([this] { serve_imports(); });
     } else {
         state.outcome =
@@ -191,7 +190,7 @@ void TextureShelf::bring_in(const TextureImport& import) {
             "folder again then.";
     }
     importing_.put(std::move(state));
-    ++arrivals_;
+    ++changes_;
     wake_.notify_all();
 }
 
@@ -203,10 +202,10 @@ void TextureShelf::serve_imports() {
     lower_thread_priority();
     std::unique_lock lock(mutex_);
     for (;;) {
-        wake_.wait(lock, [&] { return stop_ || !imports_due_.empty(); });
+        wake_.wait(lock, [&] { return stop_ || !pending_imports_.empty(); });
         if (stop_) return;
-        const TextureImport asked = std::move(imports_due_.front());
-        imports_due_.pop_front();
+        const TextureImport asked = std::move(pending_imports_.front());
+        pending_imports_.pop_front();
         lock.unlock();
         ImportOptions options;
         options.author = asked.author;
@@ -219,19 +218,19 @@ void TextureShelf::serve_imports() {
                                                 state.done = static_cast<int>(event.done);
                                                 state.total = static_cast<int>(event.total);
                                                 importing_.put(state);
-                                                ++arrivals_;
+                                                ++changes_;
                                             });
         list_library();
         lock.lock();
-        state.running = !imports_due_.empty();
+        state.running = !pending_imports_.empty();
         state.failed = !report;
         state.outcome = report ? outcome_of(*report) : report.error().text();
         importing_.put(std::move(state));
-        ++arrivals_;
+        ++changes_;
     }
 }
 
-// In the queue's thread.
+// Runs in the queue's thread.
 void TextureShelf::look_up(const std::string& path) {
     const auto info = library_->info(path.substr(3));
     if (!info) {
@@ -251,7 +250,7 @@ void TextureShelf::look_up(const std::string& path) {
     if (const auto scale = original_scale(library_path_, info->id)) card.original_scale = *scale;
     const std::lock_guard lock(mutex_);
     details_[path] = std::move(card);
-    ++arrivals_;
+    ++changes_;
 }
 
 // ---- asking it -------------------------------------------------------------------------------
@@ -260,7 +259,7 @@ std::shared_ptr<const TextureAnswer> TextureShelf::everything() const {
     return everything_.get();
 }
 
-std::shared_ptr<const TextureAnswer> TextureShelf::search(const TextureQuestion& question) {
+std::shared_ptr<const TextureAnswer> TextureShelf::search(const TextureQuery& question) {
     if (!library() || question.empty()) return nullptr;
     return searcher_.ask({question, library_version_.load()}, [this, question](const CancelToken&) {
         return std::optional(answer_to(*library_, question));
@@ -287,7 +286,7 @@ std::shared_ptr<const Paths> TextureShelf::similar(const std::string& key) const
     return similar_.try_read(key);
 }
 
-void TextureShelf::suggest_for(const std::string& key, SurfaceToSuit surface) {
+void TextureShelf::suggest_for(const std::string& key, SurfaceQuery surface) {
     if (!library() || !surface.plate || !surface.matte) return;
     (void)ranking_.ask(key, [this, surface = std::move(surface)](const CancelToken&) {
         return std::optional(ranked_for(*library_, surface));

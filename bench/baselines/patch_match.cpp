@@ -32,8 +32,8 @@ ImageU8x3 halved(const ImageU8x3& image) {
     return out;
 }
 
-// One level: the picture, and for the patch that begins at each of its pixels (but the last ones of
-// a row or column) the place in the sample where its nearest neighbour begins.
+// One level: the picture, and for the patch that begins at each of its pixels (except the last ones
+// of a row or column) the start of its nearest neighbour in the sample.
 class Level {
   public:
     Level(const ImageU8x3& sample, Size size, const PatchMatchOptions& options, int level)
@@ -59,7 +59,8 @@ class Level {
         score_all();
     }
 
-    // Places twice as fine as the coarser level's, and the picture that they make.
+    // Starts from the coarser level's places, at twice the resolution, and the picture that they
+    // make.
     void start_from(const Level& coarse) {
         for (int y = 0; y < patches_.height; ++y) {
             for (int x = 0; x < patches_.width; ++x) {
@@ -85,7 +86,7 @@ class Level {
         }
     }
 
-    // Each pixel as the mean of the patches that cover it, weighted exp(−d / 2σ²), σ² the three
+    // Each pixel as the mean of the patches that cover it, weighted exp(−d / 2σ²); σ² is the three
     // quarter quantile of d (Wexler et al. 2007).
     void vote() {
         const float scale = vote_scale();
@@ -170,8 +171,8 @@ class Level {
         field_.at(x, y) = from;
     }
 
-    // Scanline order, or the reverse of it in every other round; the random search shrinks by half
-    // (Barnes et al. 2009, eq. 1).
+    // In scanline order, reversed in every other round; the random search shrinks by half (Barnes
+    // et al. 2009, eq. 1).
     void search(bool reverse) {
         const int step = reverse ? -1 : 1;
         for (int k = 0; k < patches_.height; ++k) {
@@ -252,7 +253,7 @@ ImageU8x3 patch_match_texture(ViewU8x3 sample, const PatchMatchOptions& options)
         samples.push_back(halved(samples.back()));
     }
     const int levels = static_cast<int>(samples.size());
-    // Whole at every level, and at least a patch wide at the coarsest.
+    // An integer size at every level, and at least a patch wide at the coarsest.
     const auto size_at = [&](int level) {
         const int unit = 1 << (levels - 1);
         const auto side = [&](int wanted) {

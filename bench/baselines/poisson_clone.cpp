@@ -7,8 +7,8 @@
 namespace weft {
 namespace {
 
-// seamlessClone wants its border inside the picture: a frame of repeated pixels gives it one where
-// the region is cut off by the picture's edge.
+// seamlessClone needs its border inside the picture. A frame of repeated pixels provides one where
+// the picture's edge cuts the region.
 constexpr int kBorder = 4;
 
 cv::Mat with_border(ViewU8x3 image) {

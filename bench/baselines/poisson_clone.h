@@ -4,8 +4,8 @@
 namespace weft {
 
 /// Poisson blending (Pérez et al. 2003; OpenCV's seamlessClone, NORMAL_CLONE): the texture's
-/// gradients inside the matte (coverage of a half and more), continued to the plate at its border.
-/// All of one size, display codes. The plate itself where nothing is inside. Deterministic.
+/// gradients inside the matte (coverage of at least a half), joined to the plate at its border. All
+/// H×W, display codes. Returns the plate if the matte is empty. Deterministic.
 [[nodiscard]] ImageU8x3 poisson_clone(ViewU8x3 plate, ViewU8x3 texture, ViewU8x1 matte);
 
 }  // namespace weft

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr int kFolds = 5;
 constexpr int kAskedOfOnePicture = 2;
-constexpr int kEnough = 10;  // photographs of a material, for the average
+constexpr int kEnough = 10;  // photographs of a material that enters the average
 
 struct Stored {
     std::int64_t key = 0, picture = 0;
@@ -42,7 +42,7 @@ std::string file_of(const std::string& package, const std::string& source) {
     return package + ":" + source;
 }
 
-// The words of a file's name without numbers and single letters.
+// The words of a file's name, without numbers and single letters.
 std::vector<std::string> stem_of(const std::string& source) {
     std::vector<std::string> out;
     for (const std::string& word : split_words(words_of_name(fs::path(source).filename().string())))
@@ -75,8 +75,8 @@ Expected<std::vector<Stored>> stored_samples(Database& database) {
     }
 }
 
-// manifest.csv: file → package and path in it. The package is the last word of its column that
-// holds a hyphen ("Debian ufoai-textures 2.5-2").
+// manifest.csv: maps a file to its package and the path in it. The package is the last word of its
+// column with a hyphen ("Debian ufoai-textures 2.5-2").
 std::map<std::string, std::pair<std::string, std::string>> manifest_of(const fs::path& folder) {
     std::map<std::string, std::pair<std::string, std::string>> out;
     std::istringstream in(
@@ -130,7 +130,7 @@ Expected<std::vector<Asked>> asked_photographs(const EvaluationOptions& options)
     return out;
 }
 
-// The pictures of the library that show what one of the asked ones shows: those were cut out of the
+// The library's pictures that nearly equal one of the query photographs, which were cut from the
 // middle, at most 512 px a side.
 Expected<std::set<std::int64_t>> nearly_the_same(Database& database,
                                                  const std::vector<Asked>& asked) {
@@ -160,7 +160,7 @@ Expected<std::set<std::int64_t>> nearly_the_same(Database& database,
     }
 }
 
-// What must not be there when these are asked.
+// The samples that must be left out for a set of queries.
 class Excluded {
   public:
     Excluded(const std::vector<Asked>& asked, LeaveOut leave_out, std::set<std::int64_t> pictures)
@@ -281,7 +281,7 @@ Expected<EvaluationReport> ask_photographs(Database& database, const std::vector
     return out;
 }
 
-// Which fold a sample is asked in: all of one name are asked together.
+// The fold in which a sample is a query; all samples of one name share a fold.
 int fold_of(const Stored& s) {
     Hasher hasher;
     hasher.text(series_of(s.package, s.source));

@@ -1,5 +1,5 @@
 #pragma once
-// How well a library recognises materials of photographs that it has not seen.
+// How well a library recognises the materials of photographs that are not in it.
 
 #include <map>
 #include <string>
@@ -11,25 +11,26 @@
 
 namespace weft {
 
-/// What is left out of the library before a photograph is asked for.
+/// The samples that are left out of the library for each query.
 enum class LeaveOut {
-    kPhotographs,  ///< The photographs themselves and pictures that are nearly the same.
-    kSeries,       ///< And those whose names differ from theirs by numbers and single letters only,
-                   ///< where such a name has two words or more ("wall brick").
-    kStem          ///< And such names of one word ("carpet").
+    kPhotographs,  ///< The query photographs themselves and nearly equal pictures.
+    /// And pictures whose names differ only by numbers and single letters, for names of two words
+    /// or more ("wall brick").
+    kSeries,
+    kStem  ///< And pictures with such names of one word ("carpet").
 };
 
 struct EvaluationOptions {
-    /// Folder of folders of photographs, whose names speak of materials; with a manifest.csv (file,
-    /// category, package, path in the package, …) where that is known. Empty: the library's own
-    /// samples from packages, in five parts by name, each asked of the other four.
+    /// Folder of folders of photographs, named after materials; with a manifest.csv (file,
+    /// category, package, path in the package, …) if known. Empty: the library's own samples from
+    /// packages, in five parts by name, each queried against the other four.
     std::string folder;
     LeaveOut leave_out = LeaveOut::kSeries;
-    std::map<std::string, std::string> renamed;  ///< Folder → material, where its name is none.
+    std::map<std::string, std::string> renamed;  ///< Folder → material, for other names.
 };
 
-/// One material, or the macro-average over those of ten photographs and more. `merged`: sand with
-/// dirt, stone with cobblestone and tiles, rust with metal.
+/// The scores of one material, or their average over materials of at least ten photographs.
+/// `merged`: sand with dirt, stone with cobblestone and tiles, rust with metal.
 struct RetrievalScore {
     std::string material;
     int asked = 0;
@@ -42,9 +43,9 @@ struct EvaluationReport {
     RetrievalScore average;
 };
 
-/// Learns the descriptor on what is not left out, and asks as TextureLibrary::similar() answers: is
-/// the right material first, is it among the first five? The file is only read. Errors: Unreadable;
-/// Usage where nothing can be asked.
+/// Trains the descriptor on the remaining samples and queries it as TextureLibrary::similar() does:
+/// is the right material first, is it among the first five? Only reads the file. Errors:
+/// Unreadable; Usage if there are no queries.
 [[nodiscard]] Expected<EvaluationReport> evaluate_library(const std::string& library_path,
                                                           const EvaluationOptions& options,
                                                           const CancelToken& cancel = {},

@@ -60,7 +60,7 @@ class Study {
 
     Status prepare() {
         if (options_.folder.empty())
-            return fail(ErrorCode::kUsage, "No folder to write to is set. Give one with -o.");
+            return fail(ErrorCode::kUsage, "No output folder is set. Give one with -o.");
         WEFT_CHECK_OK(check_study(options_));
         WEFT_TRY(fence, make_fence(result_.project, options_.limits));
         rule_.fence = fence;
@@ -73,7 +73,7 @@ class Study {
                                              options_.texture_library, rule_));
         result_.project = std::move(kept);
         if (result_.project.regions.size() != 1)
-            return fail(ErrorCode::kUsage, "A study is of one region.");
+            return fail(ErrorCode::kUsage, "A study needs exactly one region.");
         WEFT_TRY(shot, open_shot(result_.project));
         WEFT_CHECK_OK(check_texture_licences(*shot));
         result_.frames = shot->plan.frames;
@@ -82,7 +82,7 @@ class Study {
         if (result_.frames.size() < 2 || result_.frames.back() - result_.frames.front() + 1 !=
                                              static_cast<int>(result_.frames.size())) {
             return fail(ErrorCode::kUsage,
-                        "A study needs two frames or more that follow each other (--frames 1-24).");
+                        "A study needs at least two consecutive frames (--frames 1-24).");
         }
         result_.project.settings.frames = format_frame_list(result_.frames);
         if (result_.project.regions.front()->matte->files.empty()) WEFT_CHECK_OK(make_mattes());
@@ -103,7 +103,7 @@ class Study {
         return {};
     }
 
-    // The ideal texture is placed where the first frame has it.
+    // The ideal texture is placed by the first frame.
     void set_reference() {
         if (!result_.project.regions.front()->reference_frames.empty()) return;
         result_.project.regions.front() = result_.project.regions.front().with(
@@ -130,7 +130,7 @@ class Study {
         spec.threads = options_.threads;
         spec.existing = options_.overwrite ? ExistingFrames::kOverwrite : ExistingFrames::kRefuse;
         spec.limits = options_.limits;
-        // Every method pays for its own analysis, or the times would depend on their order.
+        // Every method computes its own analysis; otherwise the times would depend on the order.
         spec.cache.keep = false;
         return spec;
     }
@@ -168,7 +168,7 @@ class Study {
         job.project.regions.front() = job.project.regions.front().with([&](Region& r) {
             r.texture.sample.clear();
             r.texture.also.clear();
-            // Synthesized from a sample, it is not fitted into corners.
+            // A texture synthesized from a sample is not fitted into corners.
             if (result_.project.regions.front()->texture.plane.empty()) r.placement.fit = false;
             r.texture.plane = plane_path_;
             r.texture.space.clear();

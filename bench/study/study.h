@@ -1,6 +1,6 @@
 #pragma once
-// One clip through every method, measured alike: the evidence that the texture stays where it is
-// (`weft study`).
+// Renders one clip by every method and measures all alike, as evidence that the texture stays in
+// place (`weft study`).
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ struct StudyOptions {
     std::string folder;                         ///< Where report, pictures and frames go.
     std::vector<std::string> methods;           ///< Of study_method_names(); empty: all.
     std::vector<double> alphas{0.2, 0.5, 1.0};  ///< The paper mode's blends.
-    /// Render with the true motion too, instead of with the estimate that a shot without it has.
+    /// Renders with the true motion too, instead of the estimate.
     bool render_with_motion = false;
     int threads = 0;
     std::string texture_library;  ///< For a texture "db:ID"; empty: the user's own.
@@ -27,13 +27,13 @@ struct StudyOptions {
     WriteLimits limits;
 };
 
-/// What a method is in the comparison.
+/// The role of a method in the comparison.
 enum class StudyRole {
     kBaseline,  ///< Baselines: anew, PatchMatch, Poisson, still.
     kPaper,     ///< The paper's eq. 4–6 at one α.
     kLocked,
-    kLight,    ///< With light by another form, or with all that the plate's camera does.
-    kAblation  ///< With light: the full method, and without one of its parts.
+    kLight,    ///< With light in another form, or with all effects of the plate's camera.
+    kAblation  ///< With light: the full method, and the method without one of its parts.
 };
 
 /// One method's frames, times and figures.
@@ -56,8 +56,7 @@ struct StudyPicture {
     Size size;
 };
 
-/// A method's worst step: what the frame before shows, moved along; what the frame shows; and how
-/// much they differ, four times over.
+/// A method's worst step: the frame before, warped; the frame; and four times their difference.
 struct WorstStep {
     std::string title;
     int frame = 0;
@@ -71,8 +70,8 @@ struct StripRow {
     std::vector<StudyPicture> pictures;
 };
 
-/// How much closer to the floor surface-locked is. Each is mean TDE − mean floor over the floor's
-/// pixels, 8-bit units; nothing where there is no floor or the method was left out.
+/// How much closer to the floor the surface-locked mode is. Each is mean TDE − mean floor over the
+/// floor's pixels, 8-bit units; empty without a floor or if the method was not run.
 struct StudyVerdict {
     std::optional<double> floor, locked, baseline, paper;
     std::string baseline_id, paper_id;
@@ -87,7 +86,7 @@ struct StudyResult {
     std::vector<int> frames;
     Size size;
     std::string backend;
-    bool estimated_ideal = false;  ///< Floor and sharpness rest on the estimate that measures.
+    bool estimated_ideal = false;  ///< Floor and sharpness use the measuring estimate of motion.
     std::vector<StudyRun> runs;
     std::vector<StripRow> strip;
     std::vector<int> strip_frames;
@@ -106,13 +105,13 @@ struct StudyResult {
 
 /// Renders every method into `folder`/frames/ID, measures all, and writes report.html (one
 /// self-contained file), report.json and report.csv. Errors: Usage for a project without exactly
-/// one region, frames that do not follow each other, an unknown method or a report that exists;
-/// those of rendering and measuring; cancellation.
+/// one region, frames that are not consecutive, an unknown method or an existing report; those of
+/// rendering and measuring; cancellation.
 [[nodiscard]] Expected<StudyResult> run_study(const StudyOptions& options,
                                               const CancelToken& cancel,
                                               const ProgressFn& progress);
 
-/// Mean TDE − mean floor over the floor's pixels; nothing without a floor.
+/// Mean TDE − mean floor over the floor's pixels; empty without a floor.
 [[nodiscard]] std::optional<double> above_floor(const SequenceMeasures& measures);
 [[nodiscard]] StudyVerdict study_verdict(const std::vector<StudyRun>& runs);
 

@@ -1,4 +1,4 @@
-// The methods to compare with that the renderer itself does not have.
+// Baselines that the renderer itself does not have.
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +125,7 @@ class BaselineRenderer {
                 std::min(area.size.height, static_cast<int>(high.y) + kRim + 1)};
     }
 
-    // The tile goes with the region's box, so that it does not stand still where the region moves.
+    // The tile moves with the region's box.
     Expected<ImageF3> blended(int frame) {
         WEFT_TRY(plate, shot_->source->plate(frame));
         WEFT_TRY(matte, visible_matte(*shot_, frame));

@@ -72,8 +72,8 @@ class Planner {
                 region.light.source = LightSource::kNone;
                 region.lines = LineParams{};
             }
-            // Grain is fresh in every frame, as the plate's is: it is not flicker of the method.
-            // Blur would lower every method's TDE.
+            // Grain is new in every frame, as in the plate, and is not flicker of the method. Blur
+            // would lower every method's TDE.
             region.finish.grain = region.finish.focus = 0;
             region.finish.shutter_deg = 0;
             change(region);
@@ -93,8 +93,8 @@ class Planner {
             .run.alpha = alpha;
     }
 
-    // What light is compared with: transfers of statistics, and the paper's own eq. 8. Last the
-    // result as it is delivered, with the plate's grain and blur.
+    // Baselines for light: transfers of statistics, and the paper's own eq. 8. The last is the
+    // result as delivered, with the plate's grain and blur.
     void add_light() {
         const auto with_form = [&](const char* id, const char* title, LightForm form) {
             add(id, title, StudyRole::kLight, [form](Region& r) { r.light.form = form; });

@@ -3,7 +3,7 @@
 
 namespace weft {
 
-/// A run that is still to be rendered, with the project that makes it.
+/// A run before rendering, with its project.
 struct StudyMethod {
     enum class Kind { kJob, kPatchMatch, kPoisson };
     Kind kind = Kind::kJob;
@@ -11,7 +11,7 @@ struct StudyMethod {
     Project project;
 };
 
-/// Whether the methods and blends of a study exist, before anything is written. Errors: Usage.
+/// Checks the methods and blends of a study before anything is written. Errors: Usage.
 [[nodiscard]] Status check_study(const StudyOptions& options);
 
 /// The runs of a study, in the report's order. `project`: as prepared (mattes for every frame, one

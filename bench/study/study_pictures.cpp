@@ -65,7 +65,7 @@ StudyPicture encoded(const cv::Mat& picture, std::string caption, int quality) {
     return out;
 }
 
-// The window of the size where the error's sum is largest; the first in scanline order of equals.
+// The window of this size with the largest sum of the error; on a tie the first in scanline order.
 Recti worst_window(const ImageF1& error) {
     const Size size{std::min(kWindow.width, error.width()),
                     std::min(kWindow.height, error.height())};
@@ -158,7 +158,7 @@ class Illustrator {
         return {};
     }
 
-    // Φ and what it leaves, of the plate and of the lit result.
+    // Φ and the remaining reflectance, of the plate and of the lit result.
     Status add_light() {
         const StudyRun* full = study_.find("full");
         if (full == nullptr) return {};
@@ -195,7 +195,8 @@ class Illustrator {
         return {};
     }
 
-    // The step's motion as it was measured with: given, or estimated again from the same plates.
+    // The motion of the step that was used for measuring: given, or estimated again from the
+    // plates.
     Expected<FlowField> motion(int earlier, int later) {
         const auto known = motion_.find(later);
         if (known != motion_.end()) return known->second;

@@ -9,8 +9,8 @@
 namespace weft {
 namespace {
 
-// Long double arithmetic runs on the x87 unit, which is one and the same on every x86-64 processor
-// (as in srgb_curve.cpp).
+// Long double arithmetic runs on the x87 unit, which is the same on every x86-64 processor (as in
+// srgb_curve.cpp).
 constexpr long double kCodes = 1023.0L, kBlack = 95.0L, kWhite = 685.0L;
 constexpr long double kDensityStep = 0.002L, kGamma = 0.6L;
 constexpr long double kPerCode = kDensityStep / kGamma;  // powers of ten
@@ -83,7 +83,7 @@ class DecodeTable {
     std::array<Segment, kSegments> segments_{};
 };
 
-// The logarithm's argument runs over octaves: 64 segments to each, found by the leading bits.
+// The logarithm's argument is divided into octaves of 64 segments, found by the leading bits.
 class EncodeTable {
   public:
     EncodeTable() {

@@ -19,7 +19,7 @@ bool is_built_in(const std::string& name) {
     return name == "srgb" || name == "linear" || name == "cineon";
 }
 
-// A curve on single values, in place; null: none.
+// A curve for single values, in place; null: none.
 using Curve = void (*)(std::span<float>);
 
 Curve decoding(const std::string& built_in) {
@@ -32,7 +32,7 @@ Curve encoding(const std::string& built_in) {
     return built_in == "srgb" ? encode_srgb : encode_cineon;
 }
 
-// Between two spaces with the same primaries: to linear light, and out of it again.
+// Converts between two spaces with the same primaries, through linear light.
 class CurveTransform final : public ColorTransform {
   public:
     CurveTransform(Curve decode, Curve encode) : decode_(decode), encode_(encode) {}

@@ -18,16 +18,16 @@ struct ColorSpace {
     bool operator==(const ColorSpace&) const = default;
 };
 
-/// Reads a colour-space name. Errors: Usage when it is neither built in nor known to $OCIO; the
-/// message lists some names that are. Unreadable when the config of $OCIO cannot be loaded.
-/// "srgb", "linear" and "cineon", written so, are always the built-in ones; "sRGB" is the config's,
-/// if it has such a name, else the built-in one too.
+/// Checks a colour-space name. Errors: Usage if it is neither built in nor known to $OCIO (the
+/// message lists some known names); Unreadable if the config of $OCIO cannot be loaded. "srgb",
+/// "linear" and "cineon", in lower case, are always the built-in spaces. "sRGB" is the config's
+/// space if it has one, else the built-in one.
 [[nodiscard]] Expected<ColorSpace> parse_color_space(const std::string& name);
 
-/// A fixed conversion of RGB pixels. Immutable; apply() may be called from several threads.
-/// Between the built-in spaces apply() is exact to about 2e-7 relative, so all 8-bit and 16-bit
-/// codes survive there and back. Values are neither clipped to [0, 1] nor is NaN or infinity
-/// changed into a number: the sRGB curve continues above 1 and, mirrored, below 0.
+/// A fixed conversion of RGB pixels. Immutable; thread-safe. Between the built-in spaces apply() is
+/// exact to about 2e-7 relative, so all 8-bit and 16-bit codes survive a round trip. Values are not
+/// clipped to [0, 1], and NaN and infinity are kept: the sRGB curve continues above 1 and,
+/// mirrored, below 0.
 class ColorTransform {
   public:
     virtual ~ColorTransform() = default;

@@ -21,8 +21,8 @@ namespace ocio = OCIO_NAMESPACE;
 
 constexpr int kBandRows = 16;
 
-// Names under which configs in use carry scene-linear Rec.709/sRGB: ACES 2.x and 1.x studio and CG
-// configs and their aliases, ACES 1.0-1.2, Blender's filmic, and the OpenColorIO samples.
+// Names of scene-linear Rec.709/sRGB in common configs: ACES 2.x and 1.x studio and CG configs and
+// their aliases, ACES 1.0-1.2, Blender's filmic, and the OpenColorIO samples.
 constexpr std::array kLinearNames{"Linear Rec.709 (sRGB)",
                                   "lin_rec709_srgb",
                                   "lin_srgb",
@@ -45,7 +45,7 @@ constexpr std::array kEncodedNames{"sRGB - Texture",
                                    "Input - Generic - sRGB - Texture",
                                    "sRGB"};
 
-// OpenColorIO's tables turn NaN and infinity into numbers; these components keep their values.
+// OpenColorIO's tables turn NaN and infinity into numbers; here these components keep their values.
 struct Nonfinite {
     float* where;
     float value;
@@ -129,7 +129,7 @@ ScreenShader::Table cube_table(const ocio::ConstGpuShaderDescRcPtr& shader, unsi
     out.sampler = sampler;
     out.dimensions = 3;
     out.width = out.height = out.depth = static_cast<int>(edge);
-    // The source interpolates tetrahedrally by itself then, from exact texels.
+    // The shader source interpolates tetrahedrally by itself, from exact texels.
     out.nearest =
         interpolation == ocio::INTERP_NEAREST || interpolation == ocio::INTERP_TETRAHEDRAL;
     const float* values = nullptr;
@@ -138,7 +138,7 @@ ScreenShader::Table cube_table(const ocio::ConstGpuShaderDescRcPtr& shader, unsi
     return out;
 }
 
-// `encoded`: what comes in is to be encoded by the sRGB curve first.
+// `encoded`: the input must first be encoded by the sRGB curve.
 ScreenShader shader_of(const ocio::ConstProcessorRcPtr& processor, bool encoded) {
     ocio::GpuShaderDescRcPtr shader = ocio::GpuShaderDesc::CreateShaderDesc();
     shader->setLanguage(ocio::GPU_LANGUAGE_GLSL_1_3);
@@ -180,7 +180,7 @@ class Config final : public OcioConfig {
         for (const char* name : kLinearNames) {
             if (knows(name)) return Meeting{name, false};
         }
-        // By long custom a config whose scene_linear is called just "linear" means these primaries.
+        // By convention, "linear" as a config's scene_linear means these primaries.
         if (const auto scene = config_->getColorSpace(ocio::ROLE_SCENE_LINEAR)) {
             if (same_ignoring_case(scene->getName(), "linear"))
                 return Meeting{scene->getName(), false};
@@ -195,7 +195,7 @@ class Config final : public OcioConfig {
         const std::string& from, const std::string& to) const override {
         try {
             const auto processor = config_->getProcessor(from.c_str(), to.c_str());
-            // The faster settings replace pow() by approximations too coarse for 16-bit codes.
+            // Faster settings replace pow() by approximations that are too coarse for 16-bit codes.
             const auto cpu = processor->getOptimizedCPUProcessor(
                 ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_LOSSLESS);
             return std::make_shared<OcioTransform>(cpu, cpu->isNoOp());
@@ -262,7 +262,7 @@ Expected<std::shared_ptr<const OcioConfig>> load_ocio_config() {
     const char* const variable = std::getenv("OCIO");
     if (!variable || !*variable) return std::shared_ptr<const OcioConfig>();
     const std::lock_guard lock(mutex);
-    // Large configs take a good part of a second to load; a process uses one.
+    // A large config takes a good part of a second to load, and a process uses only one.
     if (loaded && loaded_path == variable) return loaded;
     // "ocio://default" names a config that OpenColorIO has built in.
     if (!std::string_view(variable).starts_with("ocio://")) {

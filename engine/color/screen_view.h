@@ -1,5 +1,5 @@
 #pragma once
-// View transforms of OpenColorIO for the screen: what takes linear light to a display's codes.
+// OpenColorIO's view transforms for the screen, from linear light to a display's codes.
 
 #include <memory>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace weft {
 
-/// A view of one of the displays that the config of $OCIO knows.
+/// A view of one of the displays in the config of $OCIO.
 struct ScreenName {
     std::string display, view;
     bool operator==(const ScreenName&) const = default;
@@ -20,7 +20,7 @@ struct ScreenName {
 struct ScreenShader {
     /// GLSL 1.3 or newer with a function `vec4 weft_screen(vec4 linear)`.
     std::string source;
-    /// What the source samples: values in the order of rows, the first axis fastest.
+    /// A lookup table of the source: values row by row, the first axis fastest.
     struct Table {
         std::string sampler;  ///< Name of its uniform.
         int dimensions = 1;   ///< Of the sampler, 1 to 3.
@@ -32,21 +32,21 @@ struct ScreenShader {
     std::vector<Table> tables;
 };
 
-/// From scene-linear Rec. 709 to the display. Immutable; may be used from several threads. Nothing
-/// is clipped before the view's own transform does so.
+/// Converts scene-linear Rec. 709 to the display. Immutable; thread-safe. Nothing is clipped before
+/// the view's own transform.
 struct ScreenView {
     ScreenName name;
     std::shared_ptr<const ColorTransform> pixels;  ///< On the CPU.
     ScreenShader shader;
 };
 
-/// What the config of $OCIO offers, its default first, then display by display in its order; empty
+/// The views of the config of $OCIO: its default first, then display by display in its order; empty
 /// without $OCIO. Errors: Unreadable.
 [[nodiscard]] Expected<std::vector<ScreenName>> list_screens();
 /// All colour spaces of the config, in its order; empty without $OCIO. Errors: Unreadable.
 [[nodiscard]] Expected<std::vector<std::string>> list_color_spaces();
-/// Errors: Usage when the config has no such view, or no space in which Rec. 709 meets it (see
-/// make_color_transform).
+/// Errors: Usage if the config has no such view, or no space for Rec. 709 (see
+/// make_color_transform()).
 [[nodiscard]] Expected<std::shared_ptr<const ScreenView>> make_screen_view(const ScreenName& name);
 
 }  // namespace weft

@@ -14,7 +14,7 @@ constexpr float kEncodedToe = 0.04045f;  // below, the encoded curve is a straig
 constexpr float kLinearToe = 0.0031308f;
 constexpr float kSlope = 12.92f;
 
-// Long double arithmetic and powl() run on the x87 unit, which is one and the same on every x86-64
+// Long double arithmetic and powl() run on the x87 unit, which is the same on every x86-64
 // processor; pow() has variants with and without FMA that may differ in the last bit.
 long double decode_exactly(long double v) {
     return std::pow((v + 0.055L) / 1.055L, 2.4L);
@@ -30,7 +30,7 @@ struct Segment {
     float start, value, slope, curvature;
 };
 
-// Segments for x in [2^kFirst, 2^kLast), found by the leading bits of x itself.
+// Segments for x in [2^kFirst, 2^kLast), found by the leading bits of x.
 template <int kFirst, int kLast>
 class Curve {
   public:

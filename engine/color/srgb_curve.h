@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the piecewise sRGB curve (IEC 61966-2-1, 5.2), fast and the same on every machine.
+// Internal: the piecewise sRGB curve (IEC 61966-2-1, 5.2), fast and bit-identical on every machine.
 
 #include <span>
 

@@ -9,9 +9,9 @@
 namespace weft {
 namespace {
 
-constexpr float kRimWeight = 0.05f;  // next to soft pixels even a whole one may be slightly mixed
+constexpr float kRimWeight = 0.05f;  // next to soft pixels, even a whole one may be slightly mixed
 constexpr float kLevelFactor = 1.0f / 32.0f;
-constexpr float kEnough = 64.0f;  // times what all coarser levels could still add
+constexpr float kEnough = 64.0f;  // times the most that coarser levels could still add
 
 void add(ColourSums& to, const ColourSums& from, float share) {
     for (std::size_t k = 0; k < 8; ++k)
@@ -26,7 +26,7 @@ void add_pixel(ColourSums& s, const float* p, float w) {
     }
 }
 
-// Whether all eight neighbours have the same matte value as (x, y), the border's beyond included.
+// True if all eight neighbours have the matte value of (x, y), also beyond the border.
 bool surrounded(ViewU8x1 matte, int x, int y) {
     const int x0 = std::max(0, x - 1), x1 = std::min(matte.width() - 1, x + 1);
     const std::uint8_t own = matte.row(y)[x];

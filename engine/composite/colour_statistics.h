@@ -1,6 +1,6 @@
 #pragma once
-// What colours the surface and its surroundings have near a pixel, from pixels that are wholly one
-// or the other.
+// Colours of the surface and of its surroundings near a pixel, from pixels that belong wholly to
+// one or the other.
 
 #include <array>
 #include <vector>
@@ -28,15 +28,14 @@ struct NearColours {
     ColourSums surroundings;  ///< Where it is 0.
 };
 
-/// Pyramid of sums over blocks of 2, 4, 8 … pixels. Building runs in parallel; asking is const and
-/// safe from several threads.
+/// Pyramid of sums over blocks of 2, 4, 8 … pixels. The constructor runs in parallel; const access
+/// is thread-safe.
 class ColourPyramid {
   public:
-    /// `box` bounds what is looked at, in plate pixels.
+    /// `box` bounds the pixels that are used, in plate pixels.
     ColourPyramid(ViewF3 plate, ViewU8x1 matte, const Recti& box);
 
-    /// Sums around the centre of pixel (x, y), a quarter of the weight at twice the distance and
-    /// less.
+    /// Sums around the centre of pixel (x, y). The weight falls to a quarter at twice the distance.
     [[nodiscard]] NearColours near(int x, int y) const;
 
   private:

@@ -5,26 +5,26 @@
 
 namespace weft {
 
-/// B: the old surface's colour, equal to the plate where `matte` is 255 and continued from there
-/// into soft pixels (matte between 1 and 254); 0 elsewhere. Same space as `plate` (linear light).
-/// NaN and infinity are left out and filled. H×W×3. In soft pixels it is what makes
-/// O = F + M (T − B) the most likely picture: it takes the pixel's own share of the old pattern and
-/// whatever a matte that is too wide or too narrow leaves, and so may lie outside the surface's
-/// colours, or below 0, where matte and plate do not agree. Where the matte is 255 nowhere near, B
-/// = F (the plain mix). Works within 96 px around the soft pixels.
+/// B: the old surface's colour, H×W×3, in the space of `plate` (linear light). Equal to the plate
+/// where `matte` is 255, continued from there into soft pixels (1 to 254), 0 elsewhere. NaN and
+/// infinity are ignored and filled. In soft pixels B makes O = F + M (T − B) the most likely
+/// picture: it removes the pixel's own share of the old pattern, and what a matte that is too wide
+/// or too narrow leaves. It may therefore lie outside the surface's colours, or below 0, where
+/// matte and plate disagree. If no pixel near by has matte 255, B = F (the plain mix). Uses pixels
+/// within 96 px of the soft ones.
 [[nodiscard]] ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte);
 
-/// Writes O into `out` where matte > 0; where it is 0 `out` is not touched. Where matte is 255 it
-/// is exactly T. All of one size; linear light. `plate` may hold NaN or infinity: there O = T,
-/// channel by channel. Nothing is clipped above; below 0 only where the plate itself was not
-/// negative.
+/// Writes O into `out` where matte > 0 and leaves the other pixels. Where matte is 255, O is
+/// exactly T. All H×W, linear light. Where `plate` is NaN or infinite, O = T, channel by channel.
+/// Values above 1 are kept; negative ones become 0 unless the plate itself is negative there.
 void composite_over(ImageView<float, 3> out, ViewF3 plate, ViewF3 surface, ViewU8x1 matte,
                     ViewF3 texture);
 
-/// Soft shoulder for display-referred output: identity up to `knee`, then approaches 1. Returns how
-/// many pixels of the matte exceeded 1 before. Linear light. All three channels are scaled by what
-/// the highest needs, so the hue stays; +infinity becomes 1, NaN beside a value above the knee 0.
-/// Where the matte is soft the plate's share keeps its value; where it is 0 nothing is touched.
+/// Soft shoulder for display-referred output: identity up to `knee`, then approaches 1. Returns the
+/// number of pixels of the matte that exceeded 1 before. Linear light. All three channels are
+/// scaled by the factor of the highest, so the hue stays; +infinity becomes 1, and NaN beside a
+/// value above the knee becomes 0. On soft pixels the plate's share keeps its value; pixels with
+/// matte 0 are unchanged.
 [[nodiscard]] long roll_off(ImageView<float, 3> rgb, ViewU8x1 matte, float knee = 0.9f);
 
 }  // namespace weft

@@ -11,20 +11,20 @@
 namespace weft {
 namespace {
 
-constexpr float kLeastGradient = 0.03f;  // of the display range per px: below, it may be grain
+constexpr float kLeastGradient = 0.03f;  // of the display range per px; below this it may be grain
 constexpr float kStrongShare = 0.7f;     // quantile of gradients from which edges are strong
 constexpr float kMiddle = 0.5f;          // quantile of the edges' blur
-constexpr float kEdgeEnds = 0.15f;       // of its slope
+constexpr float kEdgeEnds = 0.15f;       // of its slope, where an edge ends
 constexpr int kFarthest = 12;            // steps
 constexpr std::size_t kFewestEdges = 60;
 constexpr std::size_t kFewestOfPlace = 12;
-constexpr float kNoBlur = 0.3f;  // less makes no step wider
-// As sharp as pixels allow, be the edge along the grid or diagonal to it.
+constexpr float kNoBlur = 0.3f;  // px; a smaller blur widens no step
+// The sharpest edge that pixels allow, along the grid or diagonal to it.
 constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;
 constexpr float kAlike = 1.1f;
 constexpr float kMostAgain = 1.5f;  // times the first trial
 
-// Lightness as an eye weighs it, nearly: the square root.
+// Approximate perceived lightness: the square root.
 ImageF1 lightness(ViewF3 linear) {
     ImageF1 out(linear.size());
     parallel_rows(linear.height(), 16, [&](int y0, int y1) {
@@ -69,8 +69,8 @@ ImageF1 gradient_lengths(const ImageF1& sharp, ViewU8x1 matte) {
     return length;
 }
 
-// The deviation of the Gaussian that makes an ideal step as wide as `width`, its height over the
-// slope of a central difference, both in steps of the pixel grid: 2 / erf(1 / (√2 σ)).
+// The deviation of the Gaussian that makes an ideal step as wide as `width`. A step's width is its
+// height over its central difference, both on the pixel grid: 2 / erf(1 / (√2 σ)).
 float blur_of_width(float width) {
     constexpr int kHalvings = 16;
     constexpr float kRootTwo = 1.41421356f;
@@ -82,8 +82,8 @@ float blur_of_width(float width) {
     return 0.5f * (low + high);
 }
 
-// How wide the edge through a pixel is: from there to either side as far as it goes on rising by
-// more than kEdgeEnds of its slope, within the matte. u, v: the step across it. 0: no edge.
+// The width of the edge through a pixel: it extends to both sides while it rises by more than
+// kEdgeEnds of its slope, within the matte. (u, v): the direction across it. 0: no edge.
 float edge_width(const ImageF1& sharp, const ImageF1& length, int x, int y, int u, int v) {
     const auto at = [&](int k) { return sharp.row(y + k * v)[x + k * u]; };
     const auto known = [&](int k) {
@@ -107,7 +107,7 @@ std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, floa
         for (int x = 4; x < w - 4; ++x) {
             const float here = length.row(y)[x];
             if (here < least) continue;
-            // Only where the gradient is greatest across the edge: the edge's middle.
+            // Only where the gradient is greatest across the edge, which is the edge's middle.
             const Gradient g = gradient(sharp, x, y);
             const int u = std::abs(g.x) > 0.4f * std::abs(g.y) ? (g.x > 0 ? 1 : -1) : 0;
             const int v = std::abs(g.y) > 0.4f * std::abs(g.x) ? (g.y > 0 ? 1 : -1) : 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The plate's focus: how blurred its sharpest edges are, and the same blur on a texture that is
-// sharper (method: "Composite").
+// The plate's focus: how blurred its sharpest edges are, and the same blur for a sharper texture
+// (method: "Composite").
 
 #include <vector>
 
@@ -11,18 +11,18 @@ namespace weft {
 /// One place on an edge of a picture.
 struct EdgeBlur {
     int x = 0, y = 0;
-    float strength = 0;  ///< Gradient, of the display range a pixel.
-    float blur_px = 0;   ///< Deviation of the Gaussian that would blur an ideal step to it.
+    float strength = 0;  ///< Gradient, of the display range per pixel.
+    float blur_px = 0;   ///< Deviation of the Gaussian that blurs an ideal step this much.
 };
 
-/// The edges inside the matte whose gradient is at least `least_gradient`, at their middles, by
-/// their width, the step over its steepest slope; row by row. Linear light; values above 1 count as
-/// 1.
+/// The edges inside the matte whose gradient is at least `least_gradient`, at their middles, row by
+/// row. The blur follows from the width, which is the step over its steepest slope. Linear light;
+/// values above 1 count as 1.
 [[nodiscard]] std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte,
                                                float least_gradient = 0.03f);
 
-/// Of a place's edges the two thirds that are strongest, and of their blurs the median: how sharp
-/// detail is there. 0 for fewer than a dozen edges.
+/// How sharp detail is at a place: the median blur (pixels) of the strongest two thirds of its
+/// edges. 0 for fewer than 12 edges.
 [[nodiscard]] float sharper_blur_px(std::vector<EdgeBlur> edges);
 
 /// Deviation in pixels of the Gaussian that would blur ideal steps to the picture's strong edges
@@ -32,10 +32,10 @@ struct EdgeBlur {
 /// The blur that takes edges of `from_px` to `to_px`; 0 if they are sharper by at most a tenth.
 [[nodiscard]] float blur_between(float from_px, float to_px);
 
-/// The blur, in pixels, after which the texture's strong edges, of `own_px` now (edge_blur_px()),
-/// are those of `plate_px`, found by trying blur_between() and correcting by what it gave: a lens
-/// blurs light, and of two edges under one blur the one of more contrast looks the sharper. 0 where
-/// they are no sharper.
+/// The blur (deviation, pixels) that brings the texture's strong edges from `own_px`
+/// (edge_blur_px()) to `plate_px`. Found by trying blur_between() and correcting by the result: a
+/// lens blurs light, and under one blur the edge with more contrast looks sharper. 0 if the texture
+/// is not sharper than the plate.
 [[nodiscard]] float blur_to_match(ViewF3 texture, ViewU8x1 matte, float own_px, float plate_px);
 
 }  // namespace weft

@@ -17,12 +17,13 @@ constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;  // as edge_blur_px()
 
 // Of the fit along depth.
 constexpr std::size_t kBins = 12, kFewestInBin = 40;
-constexpr float kStep = 0.05f;  // of the range of nearness, within 2 px: an edge between two things
+// Of the range of nearness, within 2 px: an edge between two objects.
+constexpr float kStep = 0.05f;
 // Of the fit over the picture.
 constexpr int kTile_px = 64;
 constexpr std::size_t kFewestTiles = 6, kFewestInTile = 24;
 constexpr float kLeastSlope_px = 0.5f;   // from one end of the region to the other
-constexpr float kSlopeOfResidue = 3.0f;  // times what the plane leaves
+constexpr float kSlopeOfResidue = 3.0f;  // times the residual of the plane
 
 struct Sample {
     double u, v, variance, weight;
@@ -46,7 +47,7 @@ std::array<double, N> least_squares(const std::vector<Sample>& samples, const Te
     return solve(m);
 }
 
-// Relative errors count: a tenth of a pixel is much of a sharp edge and nothing of a soft one.
+// Relative errors count: a tenth of a pixel matters on a sharp edge and not on a soft one.
 double weight_of(double blur) {
     return 1.0 / (0.05 + blur * blur * blur * blur);
 }

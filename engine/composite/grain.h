@@ -1,7 +1,7 @@
 #pragma once
-// The plate's grain: measured between neighbouring frames of the whole plate, put back fresh in
-// every frame (method: "Composite"). Everything on display-encoded values, where 1 is 255 levels;
-// values above 1 are scene-linear highlights.
+// The plate's grain: measured between neighbouring frames of the whole plate, and added anew in
+// every frame (method: "Composite"). All values are display-encoded, where 1 is 255 levels; values
+// above 1 are scene-linear highlights.
 
 #include <array>
 #include <cstddef>
@@ -18,28 +18,29 @@ struct GrainModel {
     static constexpr int kSide = 2 * kRadius + 1;
     /// Deviation by channel and luma; all 0: the plate has no grain.
     std::array<std::array<float, kBins>, 3> deviation{};
-    /// Per channel: white noise of deviation 1 under it has deviation 1 and the grain's spectrum.
+    /// Per channel: turns white noise of deviation 1 into noise of deviation 1 with the grain's
+    /// spectrum.
     std::array<std::array<float, kSide * kSide>, 3> kernel{};
-    /// Lower triangle (Cholesky): how the channels' white noise under the kernels hangs together.
+    /// Lower triangle (Cholesky): the correlation of the channels' white noise.
     std::array<float, 6> mix{1, 0, 1, 0, 0, 1};
     [[nodiscard]] bool present() const;
 };
 
-/// Measures grain from pairs of frames. It is the camera's, so it is looked for on the whole plate:
-/// what differs between two frames in blocks that are laid on top of each other (register_block).
-/// What differs so at one luma is grain and what else is fresh there (aliasing, light that moves),
-/// so the least of it counts. Not thread-safe.
+/// Measures grain from pairs of frames. Grain comes from the camera, so it is measured on the whole
+/// plate: as the difference of two frames in registered blocks (register_block()). Aliasing and
+/// moving light also differ between frames, so the lowest differences at each luma count. Not
+/// thread-safe.
 class GrainMeter {
   public:
     /// `quantum`: the step of the plate's codes (1/255 for 8 bit, 0 for float), whose rounding is
-    /// no grain.
+    /// not grain.
     explicit GrainMeter(float quantum) : quantum_(quantum) {}
 
-    /// All of one size; `visible` 255: counts. `prev_from_cur`: displacements, in pixels, near
-    /// which blocks are looked for (and near 0).
+    /// All H×W. `visible` 255: the pixel counts. `prev_from_cur`: displacements (pixels) near which
+    /// blocks are searched, in addition to 0.
     void add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1 previous_visible,
              ViewF2 prev_from_cur);
-    /// A model that is not present() where there is no grain, or too little to be seen.
+    /// The model; it is not present() if there is no grain or too little to be visible.
     [[nodiscard]] GrainModel model() const;
 
   private:
@@ -58,15 +59,15 @@ class GrainMeter {
         double count = 0;
     };
     struct Sums;
-    [[nodiscard]] Sums sums_of(const std::vector<float>& trust) const;
+    [[nodiscard]] Sums sums_of(const std::vector<float>& confidence) const;
 
     float quantum_;
     std::vector<Cell> cells_;
     std::vector<Block> blocks_;
 };
 
-/// Adds grain, fresh for every `key` (random numbers of the seed, region and frame), to what the
-/// matte covers. `origin`: the picture's place on the plate; a pixel's grain does not depend on the
+/// Adds grain where the matte covers, different for every `key` (random numbers of the seed, region
+/// and frame). `origin`: the picture's place on the plate. A pixel's grain does not depend on the
 /// part that is rendered.
 void add_grain(ImageView<float, 3> display, ViewU8x1 matte, Vec2i origin, const GrainModel& model,
                float strength, std::uint64_t key);

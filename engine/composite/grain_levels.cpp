@@ -12,12 +12,12 @@ namespace {
 constexpr std::size_t kBins = GrainModel::kBins;
 constexpr std::size_t kTerms = kBins + 1;  // variances and the share of detail
 constexpr int kRounds = 24;
-constexpr double kFirst = 0.15;  // share of the places below where the fit begins
-// Spreads from the fit at which a place counts half: above, what is more than chance is not grain;
-// below, places that were denoised or compressed flat are ignored too.
+constexpr double kFirst = 0.15;  // quantile of the places where the fit begins
+// Spreads from the fit at which a place counts half. Above, more than chance is not grain; below,
+// places that were denoised or compressed flat are ignored too.
 constexpr double kAbove = 0.6, kBelow = 4;
-constexpr double kLeastOfUsual = 0.02;  // of the first guess: a prediction is not below
-// The line over luma is stiff: how much its bends and slopes weigh beside all places.
+constexpr double kLeastOfUsual = 0.02;  // of the first guess: the least prediction
+// The line over luma is stiff: weights of its bends and slopes against all places.
 constexpr double kBend = 0.3, kSlope = 0.0005;
 
 using Row = std::array<double, kTerms>;
@@ -81,7 +81,7 @@ Row fitted(const std::vector<GrainPlace>& places, const std::vector<double>& wei
 
 GrainLevels grain_levels(const std::vector<GrainPlace>& places) {
     GrainLevels out;
-    out.trust.assign(places.size(), 0.0f);
+    out.confidence.assign(places.size(), 0.0f);
     if (places.empty()) return out;
     std::vector<float> sorted;
     for (const GrainPlace& p : places)
@@ -98,9 +98,9 @@ GrainLevels grain_levels(const std::vector<GrainPlace>& places) {
             const double spread = places[i].spread * expected[i];
             const double away = (places[i].variance - expected[i]) / spread;
             const double limit = away > 0 ? kAbove : kBelow;
-            const double trust = 1 / (1 + away * away / (limit * limit));
-            out.trust[i] = static_cast<float>(trust);
-            weights[i] = trust / (spread * spread);
+            const double confidence = 1 / (1 + away * away / (limit * limit));
+            out.confidence[i] = static_cast<float>(confidence);
+            weights[i] = confidence / (spread * spread);
         }
         fit = fitted(places, weights, true);
         if (fit[kBins] < 0) fit = fitted(places, weights, false), fit[kBins] = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Grain's variance by luma from places that also show other things.
+// Grain's variance by luma, from places that also show other differences.
 
 #include <array>
 #include <vector>
@@ -18,13 +18,13 @@ struct GrainPlace {
 
 struct GrainLevels {
     std::array<double, GrainModel::kBins> variance{};  ///< At the middle of each step of luma, ≥ 0.
-    double of_detail = 0;                              ///< Variance for each unit of detail, ≥ 0.
-    std::vector<float> trust;  ///< Of each place, 0 to 1: how much it says of grain alone.
+    double of_detail = 0;                              ///< Variance per unit of detail, ≥ 0.
+    std::vector<float> confidence;  ///< By place, 0 to 1: how far it shows grain alone.
 };
 
-/// The lower edge of the places' variance as a line between the steps of luma plus a share of
-/// their detail: grain is everywhere, aliasing, errors of the motion and light that moves only add
-/// to it. No places: all 0.
+/// The lower edge of the places' variance: a line between the steps of luma, plus a share of their
+/// detail. Grain is everywhere; aliasing, motion errors and moving light only add to it. Without
+/// places all is 0.
 [[nodiscard]] GrainLevels grain_levels(const std::vector<GrainPlace>& places);
 
 }  // namespace weft

@@ -15,22 +15,23 @@ namespace {
 
 constexpr int kReach = GrainModel::kRadius, kBins = GrainModel::kBins;
 constexpr int kSide = RegisteredBlock::kSide;
-constexpr int kInner = kSide - 2 * kReach;  // whose neighbours within the reach are in the block
-constexpr double kMostBlocks = 600;         // of a frame: more say nothing new
-constexpr float kFewestInCell = 60;         // pixels
-constexpr double kFewest = 400;             // pixels in all
-// How many pixels of grain, whose neighbours are correlated, say as much as one that is alone.
+// Pixels whose neighbours within the reach are in the block.
+constexpr int kInner = kSide - 2 * kReach;
+constexpr double kMostBlocks = 600;  // of a frame; more add nothing new
+constexpr float kFewestInCell = 60;  // pixels
+constexpr double kFewest = 400;      // pixels in all
+// This many pixels of grain, whose neighbours are correlated, count as one independent pixel.
 constexpr double kPixelsOfOne = 2.5;
-constexpr double kLeastDeviation = 0.35 / 255;  // less is not seen
+constexpr double kLeastDeviation = 0.35 / 255;  // less is not visible
 constexpr double kMostDeviation = 0.1;          // more is not grain
-constexpr double kMostOfUsual = 2.5;            // deviation of one luma beside that of all
-// Squares of 10 px whose means hold more than this share of a block's variance: light that moves,
-// not grain. White noise leaves a hundredth, grain of a correlation of 1.2 px an eighth.
+constexpr double kMostOfUsual = 2.5;            // deviation at one luma over that at all
+// If the means of 10 px squares hold more than this share of a block's variance, light moves there.
+// White noise gives 1 %, grain with a correlation of 1.2 px an eighth.
 constexpr int kSquare = 10;
 constexpr double kMostWide = 0.3;
-// Smooth terms that registering a block takes out: brightness, its two slopes, gain.
+// Smooth terms that registration removes: brightness, its two slopes, gain.
 constexpr double kTaken = 4;
-// Two codes from black and white nothing is cut off.
+// Farther than two codes from black and white, nothing is clipped.
 constexpr float kClippedCodes = 2;
 
 double rounding_variance(float quantum) {
@@ -56,7 +57,7 @@ bool moving_light(const RegisteredBlock& block) {
     return wide > kMostWide * all;
 }
 
-// 5×5 mean, so that hardly any grain is in it.
+// 5×5 mean, which holds hardly any grain.
 float smooth_luma(const ImageF3& mean, int x, int y) {
     float sum = 0;
     for (int v = y - 2; v <= y + 2; ++v) {
@@ -92,7 +93,7 @@ std::array<float, 6> cholesky(double gr, double br, double bg) {
 
 }  // namespace
 
-// Over all blocks, as far as they show grain alone.
+// Sums over all blocks, weighted by how far they show grain alone.
 struct GrainMeter::Sums {
     std::array<Lags, 3> products{};
     std::array<double, 3> together{};
@@ -101,7 +102,7 @@ struct GrainMeter::Sums {
 
 namespace {
 
-// A block's lumas, each with what differs there.
+// The lumas of a block, each with its differences.
 template <class Cell>
 std::vector<Cell> cells_of(const RegisteredBlock& block, float clipped) {
     std::array<Cell, kBins> cells{};
@@ -202,14 +203,15 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
     }
 }
 
-GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& trust) const {
+GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& confidence) const {
     std::vector<double> of_block(blocks_.size(), 0.0);
     for (std::size_t i = 0; i < cells_.size(); ++i)
-        of_block[cells_[i].block] += static_cast<double>(trust[i]) * trust[i] * cells_[i].count;
+        of_block[cells_[i].block] +=
+            static_cast<double>(confidence[i]) * confidence[i] * cells_[i].count;
     Sums sums;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const Block& block = blocks_[b];
-        // A block counts by what it says of the spectrum, not by how strong its grain is.
+        // A block counts by its information about the spectrum, not by the strength of its grain.
         const double energy = block.products[0][kLags / 2] + block.products[1][kLags / 2] +
                               block.products[2][kLags / 2];
         if (!(energy > 0)) continue;
@@ -225,7 +227,7 @@ GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& trust) const {
             sums.lookup[k] += of_block[b] * lookup[k];
     }
     for (Lags& products : sums.products) {
-        // Registering takes the widest part of the grain with it, alike at all lags.
+        // Registration removes the widest part of the grain, equally at all lags.
         const double whole = std::accumulate(products.begin(), products.end(), 0.0);
         for (double& p : products)
             p += kTaken / (kSide * kSide) * whole;
@@ -240,12 +242,12 @@ GrainModel GrainMeter::model() const {
         pixels += cell.count;
     if (pixels < kFewest) return model;
 
-    // First as if the lookup had taken nothing of the grain, to know which places show it and its
-    // spectrum; then with what it takes of such grain.
+    // The first round assumes that the lookup removes no grain, to find the places that show grain
+    // and its spectrum. The second allows for what the lookup removes of such grain.
     std::array<GrainSpectrum, 3> spectra;
     std::array<GrainLevels, 3> levels;
     for (int pass = 0; pass < 2; ++pass) {
-        std::vector<float> trust(cells_.size(), 1.0f);
+        std::vector<float> confidence(cells_.size(), 1.0f);
         for (std::size_t c = 0; c < 3; ++c) {
             std::vector<GrainPlace> places;
             for (const Cell& cell : cells_) {
@@ -259,15 +261,15 @@ GrainModel GrainMeter::model() const {
                      cell.detail[c], static_cast<float>(std::sqrt(2 * kPixelsOfOne / cell.count))});
             }
             levels[c] = grain_levels(places);
-            for (std::size_t i = 0; i < trust.size(); ++i)
-                trust[i] = std::min(trust[i], levels[c].trust[i]);
+            for (std::size_t i = 0; i < confidence.size(); ++i)
+                confidence[i] = std::min(confidence[i], levels[c].confidence[i]);
         }
-        const Sums sums = sums_of(trust);
+        const Sums sums = sums_of(confidence);
         for (std::size_t c = 0; c < 3; ++c)
             spectra[c] = grain_spectrum(sums.products[c], sums.lookup);
         const auto correlation = [&](std::size_t k, std::size_t a, std::size_t b) {
             const double both = sums.products[a][kLags / 2] * sums.products[b][kLags / 2];
-            // Kernels that differ have less in common than the noise under them.
+            // Different kernels lower the correlation of the noise that they filter.
             double alike = 0;
             for (std::size_t i = 0; i < kLags; ++i)
                 alike += static_cast<double>(spectra[a].kernel[i]) * spectra[b].kernel[i];

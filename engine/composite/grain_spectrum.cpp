@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kReach = GrainModel::kRadius, kSide = GrainModel::kSide;
 constexpr int kSize = 16;           // frequencies along x and y
-constexpr double kMostLost = 0.15;  // of a frequency's power: more is not brought back
+constexpr double kMostLost = 0.15;  // of a frequency's power; a larger loss is not restored
 
 using Plane = std::array<std::array<double, kSize>, kSize>;
 
@@ -27,7 +27,7 @@ double& at(Plane& plane, int u, int v) {
     return plane[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
 }
 
-// Power by frequency. The taper keeps the cut at the reach from ringing.
+// Power by frequency. The taper avoids ringing from the cut at the reach.
 Plane power_of(const GrainLags& lags, bool tapered) {
     Plane power{};
     const double centre = std::max(lags[lag(0, 0)], 1e-30);

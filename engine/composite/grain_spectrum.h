@@ -9,13 +9,13 @@ namespace weft {
 using GrainLags = std::array<double, GrainModel::kSide * GrainModel::kSide>;
 
 struct GrainSpectrum {
-    /// White noise of deviation 1 under it has deviation 1 and the grain's spectrum.
+    /// Turns white noise of deviation 1 into noise of deviation 1 with the grain's spectrum.
     std::array<float, GrainModel::kSide * GrainModel::kSide> kernel{};
     GrainLags correlation{};  ///< Of the grain; 1 in the middle.
 };
 
-/// `seen`: autocorrelation of what was measured; `lookup`: that of white noise after the lookup
-/// between pixels through which it was measured, whose loss of fine grain is undone.
+/// `seen`: the measured autocorrelation. `lookup`: that of white noise after the sub-pixel lookup
+/// of the measurement, whose loss of fine grain is undone.
 [[nodiscard]] GrainSpectrum grain_spectrum(const GrainLags& seen, const GrainLags& lookup);
 
 }  // namespace weft

@@ -72,7 +72,7 @@ class Cores {
         }
     }
 
-    // Of the cell's own cores and its eight neighbours', else of all; weight 0: there are none.
+    // Sums of the cores in the cell and its eight neighbours, else of all; weight 0: no cores.
     [[nodiscard]] ColourSum near(int x, int y) const {
         ColourSum sum;
         const int u = x / kReach, v = y / kReach;
@@ -113,7 +113,8 @@ Matte extract_ink(ViewU8x3 display, ViewU8x1 matte, const InkOptions& options) {
         for (int x = 0; x < out.width(); ++x) {
             const auto full = static_cast<float>(strongest.at<std::uint8_t>(y, x));
             if (inside.at<std::uint8_t>(y, x) == 0 || full < least) continue;
-            // Shading and compression make faint valleys everywhere: the first eighth is none.
+            // Shading and compression make faint valleys everywhere, so the first eighth does not
+            // count.
             const float share = static_cast<float>(hat.at<std::uint8_t>(y, x)) / full;
             const float coverage = std::clamp((share - 0.125f) / 0.775f, 0.0f, 1.0f);
             out.at(x, y) = static_cast<std::uint8_t>(255.0f * coverage + 0.5f);

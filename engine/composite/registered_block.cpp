@@ -61,7 +61,7 @@ bool wholly_visible(ViewU8x1 visible, const Recti& box) {
     return true;
 }
 
-// Variance of the difference of two windows; beyond the frame nothing.
+// Variance of the difference of two windows; empty beyond the frame.
 std::optional<float> unlikeness(const ImageF1& a, Vec2i at, const ImageF1& b, Vec2i to, int side) {
     if (to.x < 0 || to.y < 0 || to.x + side > b.width() || to.y + side > b.height() ||
         at.x + side > a.width() || at.y + side > a.height())
@@ -78,7 +78,7 @@ std::optional<float> unlikeness(const ImageF1& a, Vec2i at, const ImageF1& b, Ve
     return squares - sum * sum / static_cast<float>(side * side);
 }
 
-// The best whole displacement within `reach` of `middles`; the first of equals.
+// The best integer displacement within `reach` of `middles`; the first on a tie.
 Vec2i best_place(const ImageF1& a, Vec2i at, const ImageF1& b, int side, int reach,
                  const std::array<Vec2i, 2>& middles) {
     Vec2i best = middles[0];
@@ -95,7 +95,7 @@ Vec2i best_place(const ImageF1& a, Vec2i at, const ImageF1& b, int side, int rea
     return best;
 }
 
-// A frame's block, moved by less than a pixel and `whole` ones.
+// A frame's block, moved by `whole` pixels and a fraction.
 bool cut(ViewF3 picture, ViewU8x1 visible, Vec2i corner, std::array<float, 2> move, ImageF3& out) {
     const int ix = static_cast<int>(std::floor(move[0])),
               iy = static_cast<int>(std::floor(move[1]));
@@ -125,7 +125,7 @@ bool cut(ViewF3 picture, ViewU8x1 visible, Vec2i corner, std::array<float, 2> mo
     return true;
 }
 
-// What a small motion and a change of light make of a difference at a place of a plane.
+// How a small motion and a change of light change a plane's value at (x, y).
 Terms terms_at(const ImageF1& plane, float middle, int x, int y) {
     const float gx = 0.5f * (plane.row(y)[x + 1] - plane.row(y)[x - 1]);
     const float gy = 0.5f * (plane.row(y + 1)[x] - plane.row(y - 1)[x]);
@@ -151,7 +151,8 @@ Terms fitted(const ImageF1& plane, float middle, const ImageF1& difference) {
         for (std::size_t j = 0; j < i; ++j)
             m[i][j] = m[j][i];
     }
-    // The ridge, a thousandth of a level a pixel, keeps flat blocks' matrix positive definite.
+    // The ridge, a thousandth of a level per pixel, keeps the matrix of flat blocks positive
+    // definite.
     constexpr double kRidge = 1.5e-11 * kSide * kSide;
     for (std::size_t i = 0; i < kTerms; ++i)
         m[i][i] = m[i][i] * (1 + 1e-6) + kRidge;
@@ -208,7 +209,7 @@ void split(const Cuts& cuts, int channel, ImageF1& mean, ImageF1& difference) {
     }
 }
 
-// A pixel less the mean of its 3×3 (binomial).
+// A pixel less its binomial 3×3 mean.
 float detail_at(const ImageF3& p, int x, int y, int c) {
     const auto at = [&](int u, int v) { return p.pixel(x + u, y + v)[c]; };
     const float near = at(-1, 0) + at(1, 0) + at(0, -1) + at(0, 1);

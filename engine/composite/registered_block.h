@@ -1,6 +1,6 @@
 #pragma once
-// A block of two neighbouring frames, laid on top of each other as well as a smooth motion and a
-// smooth change of light can: what is left is what is fresh in every frame.
+// A block of two neighbouring frames, registered by a smooth motion and a smooth change of light.
+// What remains is new in every frame.
 
 #include <array>
 #include <optional>
@@ -21,19 +21,19 @@ struct BlockPair {
 
 struct RegisteredBlock {
     static constexpr int kSide = 30;
-    static constexpr int kBorder = 1;  ///< That a block needs around it.
+    static constexpr int kBorder = 1;  ///< Pixels that a block needs around it.
     ImageF3 residual;  ///< kSide²: current − previous, less motion and change of light.
     ImageF3 mean;      ///< Of both.
-    ImageF3 detail;    ///< What both frames' detail (3×3) has in common: its product, by channel.
+    ImageF3 detail;    ///< Product of both frames' detail (3×3), by channel.
     /// Autocorrelation at lags 0 to 3 that white noise of deviation 1 in one frame has after the
     /// lookup, along x and y.
     std::array<std::array<float, 4>, 2> lookup{};
 };
 
-/// `corner`: upper left of the block; `start`: where it is to be looked for, as a displacement in
-/// pixels (besides where it is). Both frames are moved by half of what is not a whole pixel, so
-/// that the lookup blurs them alike and still detail cancels. Nothing where the block is not wholly
-/// visible in both.
+/// `corner`: top left of the block. `start`: displacement (pixels) near which it is searched, in
+/// addition to 0. Each frame is moved by half of the fractional displacement, so that the lookup
+/// blurs both alike and static detail cancels. Empty if the block is not wholly visible in both
+/// frames.
 [[nodiscard]] std::optional<RegisteredBlock> register_block(const BlockPair& pair, Vec2i corner,
                                                             std::array<float, 2> start);
 

@@ -10,14 +10,16 @@
 namespace weft {
 namespace {
 
-constexpr int kReach_px = 96;  // how far from soft pixels whole ones are looked for
+constexpr int kReach_px = 96;  // how far from soft pixels whole ones are used
 constexpr float kNoiseOfLevel =
     0.02f;                          // of the plate's own level: grain, compression, matte errors
 constexpr float kMinNoise = 1e-4f;  // linear light
-constexpr float kMaxDeviations = 2.0f;  // of either side's colours that are still taken for it
-constexpr float kMatteError = 0.2f;     // deviation of a matte value, greatest where it is one half
+// Of either side's colours: beyond, a colour is not counted as theirs.
+constexpr float kMaxDeviations = 2.0f;
+// Standard deviation of a matte value, greatest at one half.
+constexpr float kMatteError = 0.2f;
 constexpr float kSureWeight =
-    1e-4f;  // of surroundings, as found 30 px away; fewer are not believed
+    1e-4f;  // of surroundings, as found 30 px away; below this they are not reliable
 
 bool finite(const float* p) {
     return std::isfinite(p[0] + p[1] + p[2]);
@@ -48,12 +50,12 @@ Recti copy_surface(ViewF3 plate, ViewU8x1 matte, ImageF3& surface) {
     return box;
 }
 
-// What to take for B so that O = F + M (T − B) is the most likely picture. The pixel's colour is
-// explained as F = (M + δ) B + (1 − M − δ) G with B and G normal around the colours on either side
+// The B that makes O = F + M (T − B) the most likely picture. The pixel's colour is explained as F
+// = (M + δ) B + (1 − M − δ) G, with B and G normally distributed around the colours on either side
 // (maximum a posteriori, Chuang et al. 2001, eq. 9, with variances in place of covariances) and δ
-// the error of the matte. A plain surface keeps its smooth B; a patterned one takes the pixel's own
-// brick, so that it does not show through the edge; and what a matte that is too wide or too narrow
-// leaves is counted as B too, so that it makes no fringe.
+// the error of the matte. A plain surface keeps its smooth B. A patterned one takes the pixel's own
+// pattern, so that the pattern does not show through the edge. What a matte that is too wide or too
+// narrow leaves counts as B too, so that it makes no fringe.
 float likely_surface(const NearColours& around, float f, float m, int c) {
     const float b = around.surface.mean(c);
     const float near_surroundings = std::min(1.0f, around.surroundings.weight() / kSureWeight);
@@ -72,7 +74,7 @@ float likely_surface(const NearColours& around, float f, float m, int c) {
     const float most = (rest > 0) == (b > g) ? 1.0f - m : m;
     const float of_matte = std::clamp(rest * error * error / explained, -most * std::abs(b - g),
                                       most * std::abs(b - g));
-    // The remainder is the surroundings' own detail, the less of it the surer the surface is there.
+    // The remainder is the surroundings' own detail; it is smaller where the surface is certain.
     const float remainder = rest - m * of_surface - of_matte;
     const float detail = (1.0f - m) / m * kMaxDeviations * std::sqrt(var_g);
     const float excess = remainder - std::clamp(remainder, -detail, detail);
@@ -98,7 +100,7 @@ ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte) {
                 const NearColours around = pyramid.near(x, y);
                 float* b = surface.pixel(x, y);
                 if (!(around.surface.weight() > 0)) {
-                    // Nothing is known of the surface: B = F makes the plain mix.
+                    // Nothing is known of the surface: B = F gives the plain mix.
                     if (usable) std::copy(p, p + 3, b);
                     continue;
                 }

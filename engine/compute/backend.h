@@ -1,6 +1,6 @@
 #pragma once
-// Where the heavy operations run. The scalar CPU code is the truth; every other backend gives the
-// same integers and pixels within 1/255.
+// Where the heavy operations run. The scalar CPU code is the reference; every other backend gives
+// the same integers and pixels within 1/255.
 
 #include <memory>
 #include <string>
@@ -18,18 +18,18 @@ class Backend {
     virtual ~Backend() = default;
     [[nodiscard]] virtual std::string name() const = 0;         ///< As in --backend.
     [[nodiscard]] virtual std::string description() const = 0;  ///< Device, for the report.
-    /// What happened that a report should tell, such as that the CPU took over; each thing once.
+    /// Events for the report, such as a fallback to the CPU; each one once.
     [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 
     /// `out`: H×W×3, in the pyramid's space; pixels with matte 0 are left as they are.
     virtual void sample_plane(const SampleRequest& request, ImageView<float, 3> out) const = 0;
 
-    /// A search that keeps the plane on the backend's device. Null where there is none that is
-    /// faster than the CPU's own (engine/synthesis), or where it does not fit; remarks() says why.
+    /// A search that keeps the plane on the backend's device. Null if there is none faster than the
+    /// CPU's own (engine/synthesis), or it does not fit; remarks() gives the reason.
     [[nodiscard]] virtual std::unique_ptr<PlaneSearch> open_plane_search(
         const PlaneSearchSetup& setup) const;
-    /// A frame on the backend's device, in linear light. Null where the frame is to be composited
-    /// on the CPU (engine/lighting, engine/composite); remarks() says why.
+    /// A frame on the backend's device, in linear light. Null if the frame must be composited on
+    /// the CPU (engine/lighting, engine/composite); remarks() gives the reason.
     [[nodiscard]] virtual std::unique_ptr<FrameCanvas> open_frame(ViewF3 frame) const;
 };
 

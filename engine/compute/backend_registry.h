@@ -12,12 +12,12 @@ namespace weft {
 /// A backend that may or may not be usable on this machine.
 struct BackendEntry {
     std::string name;
-    int score = 0;  ///< `auto` takes the highest that can be made.
-    /// Creates it, or says in an Error (NoBackend) why it is not available.
+    int score = 0;  ///< `auto` takes the available backend with the highest score.
+    /// Creates it. Error: NoBackend, with the reason why it is not available.
     std::function<Expected<std::shared_ptr<const Backend>>()> make;
 };
 
-/// What a choice led to: the backend, and one line for each better one that was passed over.
+/// The chosen backend, and one line for each better one that was skipped.
 struct BackendChoice {
     std::shared_ptr<const Backend> backend;
     std::vector<std::string> passed_over;
@@ -29,9 +29,9 @@ class BackendRegistry {
   public:
     BackendRegistry();  ///< Holds "cpu".
     void add(BackendEntry entry);
-    /// "auto" or a name. Errors: Usage for a name that no build knows (the message lists the known
-    /// ones), NoBackend when the named one is not available (the message says why, and what there
-    /// is).
+    /// "auto" or a name. Errors: Usage for an unknown name (the message lists the known ones),
+    /// NoBackend if the named one is not available (the message gives the reason and the
+    /// alternatives).
     [[nodiscard]] Expected<BackendChoice> choose(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> names() const;
 

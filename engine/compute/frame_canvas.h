@@ -1,5 +1,5 @@
 #pragma once
-// A frame that is composited on a device: it goes there once and comes back once.
+// Compositing a frame on a device; the frame is transferred once each way.
 
 #include <cstdint>
 #include <optional>
@@ -40,18 +40,18 @@ struct LayerRequest {
     std::optional<GainRequest> gain;
 };
 
-/// Layers go over the frame in the order in which they are added. Not thread-safe. After an error
-/// it may be used no more: render the frame on the CPU.
+/// Layers are composited over the frame in the order in which they are added. Not thread-safe.
+/// Unusable after an error: render the frame on the CPU.
 class FrameCanvas {
   public:
     virtual ~FrameCanvas() = default;
     virtual Status add(const LayerRequest& layer) = 0;
-    /// What `rect` shows now. Costs a crossing of the bus; needed where a layer lies over another
-    /// one and B has to be found from both.
+    /// The present pixels of `rect`. Costs a transfer; needed where a layer lies over another one
+    /// and B depends on both.
     virtual Status read(const Recti& rect, ImageView<float, 3> out) = 0;
     /// With a knee: rolls off above it, inside the union of the mattes, and returns how many pixels
-    /// exceeded 1. Writes the pixels of the mattes to `out`, as large as the frame; others are left
-    /// as they are.
+    /// exceeded 1. Writes the pixels of the mattes to `out`, which has the frame's size; other
+    /// pixels stay.
     virtual Expected<std::int64_t> finish(std::optional<float> knee, ImageView<float, 3> out) = 0;
 };
 

@@ -15,7 +15,7 @@ float usable(float v) {
     return v > 0 && std::isfinite(v) ? v : 0.0f;
 }
 
-// One output texel's share of the input along an axis: from `first`, `weights` of them.
+// The input texels of one output texel along an axis: from `first`, with their `weights`.
 struct AreaTap {
     int first = 0;
     std::vector<float> weights;

@@ -29,8 +29,8 @@ class PlanePyramid {
         return levels_ ? std::span<const Level>(*levels_) : std::span<const Level>();
     }
     [[nodiscard]] bool empty() const { return !levels_; }
-    /// Names the texels: pyramids with one identity hold the same ones, and within a process no
-    /// other texels ever get it. 0 is the empty pyramid.
+    /// Identifies the texels: within a process, pyramids with the same identity hold the same
+    /// texels. 0 is the empty pyramid.
     [[nodiscard]] std::uint64_t identity() const { return empty() ? 0 : identity_; }
 
   private:
@@ -40,7 +40,7 @@ class PlanePyramid {
     std::uint64_t identity_ = 0;
 };
 
-/// The index that `i` stands for on an axis of n texels; any i.
+/// The texel index in [0, n) for any index `i`.
 [[nodiscard]] int wrapped_index(int i, int n, WrapMode wrap);
 
 }  // namespace weft

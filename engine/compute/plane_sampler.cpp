@@ -22,7 +22,7 @@ F4 spread(float v) {
     return F4{v, v, v, v};
 }
 
-// Cells along one axis of the pixel, from the footprint's length in texels.
+// Cells per texel along one axis of the pixel, from the footprint's length in texels.
 struct Density {
     int fewest, most;
     [[nodiscard]] int cells(float texels) const {
@@ -34,7 +34,7 @@ Density density(SampleQuality quality) {
     return quality == SampleQuality::kFinal ? Density{3, 8} : Density{2, 4};
 }
 
-// One level and the factors that take plane texels to its own.
+// One level and the factors from plane texels to its own.
 struct LevelView {
     const PlanePyramid::Level* texels;
     float scale_x, scale_y;
@@ -78,7 +78,7 @@ F4 lookup(const PlanePyramid::Level& level, float u, float v) {
     return sum;
 }
 
-// The same where all sixteen texels are known to lie inside: no wrapping.
+// The same if all sixteen texels lie inside: no wrapping.
 F4 lookup_inside(const PlanePyramid::Level& level, float u, float v) {
     const float gx = u - 0.5f, gy = v - 0.5f;
     const int x = static_cast<int>(gx), y = static_cast<int>(gy);
@@ -92,7 +92,7 @@ F4 lookup_inside(const PlanePyramid::Level& level, float u, float v) {
     return sum;
 }
 
-// The coordinate folded to within one period of the plane, so that it keeps its precision.
+// The coordinate reduced to one period of the plane, to keep its precision.
 float folded(float u, int n, WrapMode wrap) {
     if (wrap == WrapMode::kClamp) return std::clamp(u, -1.0f, static_cast<float>(n) + 1);
     const auto period = static_cast<float>(wrap == WrapMode::kMirror ? 2 * n : n);
@@ -119,7 +119,7 @@ class Sampler {
             if (matte.at(x, y) == 0) continue;
             const F4 colour = pixel(x, y);
             float* o = out_.pixel(x, y);
-            // The cubic may undershoot beside a highlight.
+            // The cubic may undershoot next to a highlight.
             for (int c = 0; c < 3; ++c)
                 o[c] = std::max(0.0f, colour[c]);
         }
@@ -141,12 +141,12 @@ class Sampler {
         const float lx = std::sqrt(jx.x * jx.x + jx.y * jx.y);
         const float ly = std::sqrt(jy.x * jy.x + jy.y * jy.y);
         const float* centre = uv.pixel(x, y);
-        // Where the coordinates are not known, or so far away that they mean nothing.
+        // False where the coordinates are unknown or too large to be meaningful.
         const bool known = std::abs(centre[0]) < 1e9f && std::abs(centre[1]) < 1e9f;
         if (!(known && lx < 1e6f && ly < 1e6f)) return F4{};
         const int nx = density_.cells(lx), ny = density_.cells(ly);
-        // A level's texel spans 2^level texels of the plane; a cell shall not span more than about
-        // one of them.
+        // A level's texel spans 2^level texels of the plane; a cell should not span more than about
+        // one.
         const float cell = std::max(lx / static_cast<float>(nx), ly / static_cast<float>(ny));
         std::size_t level = 0;
         for (float span = 1.0f; cell > span && level + 1 < levels_.size(); span *= 2)

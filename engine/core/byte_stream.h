@@ -34,8 +34,8 @@ class ByteWriter {
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Of bytes that may be cut off or damaged, and must outlive it. After the first thing that is not
-/// there, nothing more is read.
+/// Reads bytes that may be truncated or damaged, and that must outlive it. After the first failed
+/// read nothing more is read.
 class ByteReader {
   public:
     explicit ByteReader(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
@@ -60,10 +60,10 @@ class ByteReader {
         image = Image<T, C>(width, height);
         return raw(image.data(), image.size_bytes());
     }
-    /// Everything was read, and nothing is left over.
+    /// True if everything was read and no bytes are left.
     [[nodiscard]] bool complete() const { return ok_ && position_ == bytes_.size(); }
     [[nodiscard]] bool ok() const { return ok_; }
-    /// Whether as much is still to come: to be asked before room is made for it.
+    /// Whether this many elements are left. Call it before memory is allocated for them.
     [[nodiscard]] bool holds(double count, std::size_t element_bytes) const {
         return count * static_cast<double>(element_bytes) <=
                static_cast<double>(bytes_.size() - position_);

@@ -1,5 +1,5 @@
 #pragma once
-// Programs that this one starts.
+// Child processes.
 
 #include <sys/types.h>
 
@@ -11,21 +11,22 @@
 namespace weft {
 
 struct ProcessOptions {
-    std::string folder;  ///< Where it runs; empty: in this one's.
-    // Files; those that are written are made anew. Empty: what this process has.
+    std::string folder;  ///< Working directory; empty: this process's.
+    // Files for the streams; output files are created or truncated. Empty: inherited.
     std::string input, output, errors;
-    int output_to = -1;      ///< A descriptor for output and errors, instead of files.
-    bool own_group = false;  ///< An interrupt in this process's terminal is not for it.
+    int output_to = -1;  ///< A file descriptor for output and errors, instead of files.
+    /// In a process group of its own: Ctrl+C in the terminal does not reach it.
+    bool own_group = false;
 };
 
-/// Starts `arguments[0]`, which is looked for on PATH when it has no slash, without a shell in
-/// between. Errors: Unreadable when there is no such program or folder, NoSpace when there can be
-/// no further process. Thread-safe.
+/// Starts `arguments[0]` without a shell; a name without a slash is searched on PATH. Errors:
+/// Unreadable if there is no such program or folder, NoSpace if no further process can be created.
+/// Thread-safe.
 [[nodiscard]] Expected<pid_t> start_process(const std::vector<std::string>& arguments,
                                             const ProcessOptions& options);
 
-/// Waits until the process that was started has ended. Its exit code; 128 + the signal when it was
-/// killed, as shells have it; 127 when there is no such child.
+/// Waits until a process from start_process() has ended. Returns its exit code; 128 + the signal if
+/// it was killed, as in shells; 127 if there is no such child.
 [[nodiscard]] int wait_for_process(pid_t child);
 
 }  // namespace weft

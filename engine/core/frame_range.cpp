@@ -56,7 +56,8 @@ Expected<std::vector<int>> parse_frame_list(std::string_view text) {
         const auto count = (static_cast<long long>(span.last) - span.first) / span.step + 1;
         named += count;
         if (named > kMaxFrames) {
-            return fail(ErrorCode::kUsage, "The frames '" + whole + "' are more than a million.");
+            return fail(ErrorCode::kUsage,
+                        "'" + whole + "' has more than a million frames. Shorten the list.");
         }
         for (long long f = span.first; f <= span.last; f += span.step) {
             frames.insert(static_cast<int>(f));

@@ -30,8 +30,7 @@ tl::unexpected<Error> system_fault(const std::string& name, int number) {
         return refused(name, "no such file", "Check the path.");
     if (number == EACCES || number == EPERM)
         return refused(name, "permission is denied", "Check its permissions.");
-    if (number == ELOOP)
-        return refused(name, "its symbolic links lead round in a circle", "Check the path.");
+    if (number == ELOOP) return refused(name, "its symbolic links form a loop", "Check the path.");
     return refused(name, std::generic_category().message(number), "Check the path and the disk.");
 }
 
@@ -46,7 +45,7 @@ const char* other_kind(mode_t mode) {
 tl::unexpected<Error> too_large(const std::string& name, std::uint64_t limit_bytes) {
     return refused(
         name,
-        "it is larger than " + std::to_string(limit_bytes >> 20) + " MB, which no such file is",
+        "it is larger than " + std::to_string(limit_bytes >> 20) + " MB, the limit for such files",
         "Check the path.");
 }
 
@@ -66,7 +65,7 @@ Expected<std::string> read_all(const std::string& name, std::uint64_t limit_byte
             text.append(block.data(), count);
         }
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, name + " does not fit into memory. Free some of it.");
+        return fail(ErrorCode::kNoSpace, name + " does not fit into memory. Close other programs.");
     }
 }
 

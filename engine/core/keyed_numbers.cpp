@@ -85,7 +85,8 @@ Expected<Key> parse_key(std::string_view text, bool only, std::size_t count) {
     const std::size_t colon = text.find(':');
     int frame = 0;
     if (colon == std::string_view::npos && !only)
-        return fail(ErrorCode::kUsage, "Each of several keys needs its frame: FRAME: numbers");
+        return fail(ErrorCode::kUsage,
+                    "With several keys, each needs its frame, as in FRAME: numbers");
     if (colon != std::string_view::npos) {
         const std::string_view number = trimmed(text.substr(0, colon));
         const auto [stop, error] =

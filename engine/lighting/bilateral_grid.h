@@ -10,9 +10,9 @@ struct BilateralScale {
     float range = 0.1f;  ///< Standard deviation in the guide's unit.
 };
 
-/// Mean of `values` (already multiplied by `weight`) over the neighbourhood in space and in
-/// `guide`, at every pixel and at its own guide value. All of one size. Where the neighbourhood
-/// holds next to nothing the result is the guide itself.
+/// Weighted mean of the values over each pixel's neighbourhood in space and in `guide`, taken at
+/// the pixel's own guide value. `weighted_values` is values × weight. All H×W. Where the
+/// neighbourhood has almost no weight, the result is the guide itself.
 [[nodiscard]] ImageF1 joint_bilateral(const ImageF1& weighted_values, const ImageF1& weight,
                                       const ImageF1& guide, const BilateralScale& scale);
 

@@ -15,13 +15,14 @@ namespace {
 constexpr int kFewestFrames = 3;
 constexpr float kSplatKnown = 0.2f;              // of a pixel's weight
 constexpr int kLongestPeriod = 64;               // small pixels
-constexpr float kPeriods = 1.0f;                 // pieces up to so many periods are paint
-constexpr int kLevelRounds = 3, kLevelStep = 3;  // one number a frame needs few places
+constexpr float kPeriods = 1.0f;                 // features up to this many periods wide are paint
+constexpr int kLevelRounds = 3, kLevelStep = 3;  // rounds, and pixels between samples
 
 // Quantiles, as a share of the values below.
 using Share = std::array<std::ptrdiff_t, 2>;
 constexpr Share kMiddle{1, 2}, kUpperQuarter{3, 4};
-// Out of moving shadows for a fifth of the frames is enough to be known as it is outside of them.
+// A place that is lit in a fifth of the frames gets its lit value; the rest may be in moving
+// shadow.
 constexpr Share kLit{4, 5};
 
 float quantile(std::vector<float>& values, Share share) {
@@ -31,7 +32,7 @@ float quantile(std::vector<float>& values, Share share) {
     return *at;
 }
 
-// The box of positions that a sample's pixels have on the reference frame.
+// Bounding box of the places where a sample's pixels lie on the reference frame.
 Recti mapped_box(const SurfaceSample& s, const ImageF2& ref_from_cur) {
     float x0 = 1e9f, y0 = 1e9f, x1 = -1e9f, y1 = -1e9f;
     for (int y = 0; y < s.box.height(); ++y) {
@@ -45,7 +46,7 @@ Recti mapped_box(const SurfaceSample& s, const ImageF2& ref_from_cur) {
             y0 = std::min(y0, v), y1 = std::max(y1, v);
         }
     }
-    // Beyond once the frame's size in each direction nothing comes back into the picture soon.
+    // Pixels more than a frame's size away are ignored: they are unlikely to return to the picture.
     const Size small = reduced_size(s.full, s.downscale);
     const Recti limit{-small.width, -small.height, 2 * small.width, 2 * small.height};
     if (x0 > x1) return {};
@@ -114,8 +115,8 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     parts_.push_back(std::move(part));
 }
 
-// What `value` says of each place in the frames that show it, by its quantile; 0, and unknown,
-// where fewer than kFewestFrames do.
+// The quantile of `value` over the frames that show each place. 0, and unknown, where fewer than
+// kFewestFrames do.
 template <typename Value>
 ImageF1 ReflectanceGatherer::over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
                                        ImageF1& known, const Value& value, int step) const {
@@ -140,8 +141,8 @@ ImageF1 ReflectanceGatherer::over_time(const Recti& box, std::array<std::ptrdiff
     return out;
 }
 
-// The light that the whole frame has or lacks, told at places that other frames show too. The
-// upper quarter: shadows may lie on most of it.
+// The light level of each whole frame, measured at places that other frames also show. Uses the
+// upper quarter, because shadows may cover most of a frame.
 void ReflectanceGatherer::find_levels(const Recti& box) {
     ImageF1 known;
     std::vector<float> differences;
@@ -170,13 +171,13 @@ ClipReflectance ReflectanceGatherer::finish() {
     for (const Part& part : parts_)
         out.box = out.box.united(part.box);
     find_levels(out.box);
-    // The surface as if no shadow moved over it: what is left of light in it stays at its place,
-    // and is told from the pattern as in one frame.
+    // The surface without moving shadows. The light that remains does not move with time; it is
+    // separated from the pattern as in a single frame.
     SurfaceSample still;
     still.box = out.box;
     still.downscale = downscale_;
     still.full = Size{out.box.width() * downscale_, out.box.height() * downscale_};
-    still.luma = over_time(out.box, kLit, out.trust, [](const Part& part, int u, int v) {
+    still.luma = over_time(out.box, kLit, out.confidence, [](const Part& part, int u, int v) {
         return part.luma.row(v)[u] - part.level;
     });
     still.paint = over_time(out.box, kMiddle, still.weight,
@@ -187,14 +188,14 @@ ClipReflectance ReflectanceGatherer::finish() {
         return {};
     }
     ImageF1 light = log_shading(still, options_);
-    out.value = difference_of(still.luma, light, out.trust);
-    const int period = pattern_period_px(out.value, out.trust, kLongestPeriod);
+    out.value = difference_of(still.luma, light, out.confidence);
+    const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
     if (period > 0) {
-        // On the surface itself larger pieces of the pattern can be told from light than in a
-        // frame: up to the pattern's period.
-        light =
-            light_beyond_period(light, out.trust, out.value, static_cast<float>(period) * kPeriods);
-        out.value = difference_of(still.luma, light, out.trust);
+        // Here larger features of the pattern can be separated from light than in a single frame:
+        // up to the pattern's period.
+        light = light_beyond_period(light, out.confidence, out.value,
+                                    static_cast<float>(period) * kPeriods);
+        out.value = difference_of(still.luma, light, out.confidence);
     }
     return out;
 }

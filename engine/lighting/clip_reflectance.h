@@ -1,7 +1,7 @@
 #pragma once
-// The old surface's reflectance from several frames: it is constant at one place of the surface
-// over time, light is not (Weiss 2001; here the upper quantile of the lightness itself, which
-// leaves moving shadows out however fine they are).
+// The old surface's reflectance from several frames: at one place of the surface it is constant
+// over time, and light is not (Weiss 2001; here the upper quantile of the lightness, which also
+// removes fine moving shadows).
 
 #include <array>
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace weft {
 
-/// ln of the reflectance on the small picture of the reference frame, which may lie partly outside
-/// of it. 0 where trust is 0.
+/// ln reflectance on the downscaled picture of the reference frame. `box` may extend beyond that
+/// picture. 0 where confidence is 0.
 struct ClipReflectance {
     Recti box;
     ImageF1 value;
-    ImageF1 trust;  ///< 0 to 1: in how many of the frames the place was seen.
+    ImageF1 confidence;  ///< Confidence, 0 to 1: the share of the frames that show the place.
 };
 
 /// Gathers a surface's frames. Not thread-safe.
@@ -26,11 +26,11 @@ class ReflectanceGatherer {
   public:
     explicit ReflectanceGatherer(const ShadingOptions& options) : options_(options) {}
 
-    /// `ref_from_cur`: for every pixel of `sample.box` where it was on the small picture of the
-    /// reference frame, as a displacement in small pixels. Empty samples add nothing. All samples
-    /// have one downscale.
+    /// `ref_from_cur`: for every pixel of `sample.box`, the displacement to its place on the
+    /// downscaled reference frame, in small pixels. Empty samples are ignored. All samples have the
+    /// same downscale.
     void add(const SurfaceSample& sample, const ImageF2& ref_from_cur);
-    /// What at least three frames agree on. Empty when fewer were added.
+    /// The reflectance of places that at least three frames show. Empty if fewer were added.
     [[nodiscard]] ClipReflectance finish();
 
   private:
@@ -50,9 +50,9 @@ class ReflectanceGatherer {
     std::vector<Part> parts_;
 };
 
-/// The shading of a frame with the surface's reflectance known from other frames. Where the frame
-/// does not show that reflectance (motion was lost, the surface has changed) the estimate from the
-/// frame alone stands. `ref_from_cur` as above.
+/// The shading of a frame, given the surface's reflectance from other frames. Where the frame does
+/// not show that reflectance (lost motion, a changed surface), the estimate from the frame alone is
+/// used. `ref_from_cur` as above.
 [[nodiscard]] Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflectance,
                                    const ImageF2& ref_from_cur, const ShadingOptions& options);
 

@@ -1,4 +1,4 @@
-// The light of a frame, the surface's reflectance known from the clip.
+// The shading of a frame, given the surface's reflectance from the whole clip.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,15 +12,17 @@
 namespace weft {
 namespace {
 
-constexpr int kDetailRadius = 3;  // small pixels: what is finer is compared
-constexpr int kWindow = 12;       // in which the frame is compared with the reflectance
-constexpr float kDoubts = 0.35f, kTrusts = 0.7f;  // share of the reflectance's detail that shows
-constexpr float kMinEnergy = 1e-5f;               // ln² of detail: less is noise
-constexpr float kOutlier = 3.0f;  // deviations of the detail: what stands out more is light
+constexpr int kDetailRadius = 3;  // small pixels: the radius of detail
+// Small pixels: the radius in which frame and reflectance are compared.
+constexpr int kWindow = 12;
+constexpr float kNoneShown = 0.35f,
+                kAllShown = 0.7f;    // share of the reflectance's detail that shows
+constexpr float kMinEnergy = 1e-5f;  // ln² of detail; below this it is noise
+constexpr float kOutlier = 3.0f;     // deviations of the detail: larger residuals are light
 constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
 constexpr float kShown = 0.5f;
-constexpr std::int64_t kFewDoubts = 100;  // of so many places one may be in doubt
+constexpr std::int64_t kDoubtfulOneIn = 100;  // one in this many places may be in doubt
 
 ImageF1 box_mean(const ImageF1& plane, const ImageF1& weight, const ImageF1& total, int radius) {
     ImageF1 mean = weighted(plane, weight);
@@ -38,17 +40,17 @@ ImageF1 detail_of(const ImageF1& plane, const ImageF1& weight, const ImageF1& to
 }
 
 // Bilinear lookup of a canvas; false where any corner is unknown.
-bool lookup(const ClipReflectance& r, float u, float v, float& value, float& trust) {
+bool lookup(const ClipReflectance& r, float u, float v, float& value, float& confidence) {
     u -= static_cast<float>(r.box.x0), v -= static_cast<float>(r.box.y0);
     if (!(u >= 0 && v >= 0 && u < static_cast<float>(r.box.width() - 1) &&
           v < static_cast<float>(r.box.height() - 1)))
         return false;
     const int x = static_cast<int>(u), y = static_cast<int>(v);
     const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-    const float* t0 = r.trust.pixel(x, y);
-    const float* t1 = r.trust.pixel(x, y + 1);
-    trust = std::min(std::min(t0[0], t0[1]), std::min(t1[0], t1[1]));
-    if (!(trust > 0)) return false;
+    const float* t0 = r.confidence.pixel(x, y);
+    const float* t1 = r.confidence.pixel(x, y + 1);
+    confidence = std::min(std::min(t0[0], t0[1]), std::min(t1[0], t1[1]));
+    if (!(confidence > 0)) return false;
     const float* a = r.value.pixel(x, y);
     const float* b = r.value.pixel(x, y + 1);
     const float top = a[0] + fx * (a[1] - a[0]), low = b[0] + fx * (b[1] - b[0]);
@@ -68,21 +70,21 @@ Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2&
             for (int x = 0; x < s.box.width(); ++x) {
                 if (s.weight.row(y)[x] == 0) continue;
                 const float* d = ref_from_cur.pixel(x, y);
-                float value = 0, trust = 0;
+                float value = 0, confidence = 0;
                 if (!lookup(r, static_cast<float>(x + s.box.x0) + d[0],
-                            static_cast<float>(y + s.box.y0) + d[1], value, trust))
+                            static_cast<float>(y + s.box.y0) + d[1], value, confidence))
                     continue;
                 seen.value.row(y)[x] = value;
-                seen.known.row(y)[x] = s.weight.row(y)[x] * trust;
+                seen.known.row(y)[x] = s.weight.row(y)[x] * confidence;
             }
         }
     });
     return seen;
 }
 
-// How much of the reflectance's detail the frame shows at its place, 0 to 1, in windows: the slope
-// of one on the other. Shadows and their edges are in the frame alone and have no part in it,
-// and count no more than detail of the reflectance would.
+// How much of the reflectance's detail the frame shows at its place, 0 to 1, by window: the slope
+// of one on the other. Shadows and their edges exist in the frame only, so they are limited to the
+// size of the reflectance's detail.
 ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
     ImageF1 total = seen.known;
     box_blur(total, kDetailRadius);
@@ -104,14 +106,14 @@ ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
     for (std::size_t i = 0; i < share.size_bytes() / sizeof(float); ++i) {
         if (!(seen.known.data()[i] > 0)) continue;
         const float least = kMinEnergy * weight.data()[i];
-        share.data()[i] =
-            smooth_step((shown.data()[i] + least) / (whole.data()[i] + least), kDoubts, kTrusts);
+        share.data()[i] = smooth_step((shown.data()[i] + least) / (whole.data()[i] + least),
+                                      kNoneShown, kAllShown);
     }
     return share;
 }
 
-// Takes the noise, and what a small error of the motion leaves of the pattern, out of light whose
-// edges are its own.
+// Removes noise, and what small errors of the motion leave of the pattern. The light's own edges
+// stay.
 ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
     ImageF1 guide = weighted(luma, weight), total = weight;
     gaussian_blur(guide, kFineSigma);
@@ -126,8 +128,8 @@ ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
     return guide;
 }
 
-// Whether hardly any place has to be estimated from the frame alone, which costs more than all the
-// rest.
+// True if almost no place needs the estimate from the frame alone, which costs more than everything
+// else.
 bool shows_all(const ImageF1& weight, const ImageF1& share) {
     std::int64_t all = 0, doubtful = 0;
     for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i) {
@@ -135,10 +137,10 @@ bool shows_all(const ImageF1& weight, const ImageF1& share) {
         ++all;
         doubtful += share.data()[i] < kShown ? 1 : 0;
     }
-    return doubtful * kFewDoubts <= all;
+    return doubtful * kDoubtfulOneIn <= all;
 }
 
-// Without the places that are in doubt: light is continued over them from around.
+// The sample without doubtful places; light is interpolated over them.
 SurfaceSample known_part(const SurfaceSample& sample, const ImageF1& share) {
     SurfaceSample out;
     out.box = sample.box, out.downscale = sample.downscale, out.full = sample.full;

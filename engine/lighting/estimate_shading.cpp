@@ -16,35 +16,40 @@
 namespace weft {
 namespace {
 
-constexpr float kKnownWeight = 1e-3f;  // of a window: less is not an estimate
+constexpr float kKnownWeight = 1e-3f;  // of a window: below this there is no estimate
 constexpr int kChromaWindow = 2;       // times pattern_px
 
 // Scales, measured on clips whose true shading is known.
 constexpr float kPatternSigma = 0.5f;  // of pattern_px: stripes of that period fall to 1%
-constexpr float kRollingSigma = 2.5f;  // times the blur's; edges are safe there, so it may be wide
-constexpr float kRangeOfResidue = 2.5f;  // deviations of what the blur leaves of the pattern
+// Times the blur's; it may be wide because rolling guidance keeps edges.
+constexpr float kRollingSigma = 2.5f;
+// Times the deviation of what the blur leaves of the pattern.
+constexpr float kRangeOfResidue = 2.5f;
 constexpr float kMinRange = 0.06f, kMaxRange = 0.3f;  // ln units
 constexpr int kRollings = 3;
-constexpr float kStepRange = 0.4f;  // steps below are smooth shading that rolling has terraced
+// Smaller steps are smooth shading that rolling guidance has terraced.
+constexpr float kStepRange = 0.4f;
 constexpr float kStepSigma = 0.6f;  // times the blur's
 
-constexpr float kRemains = 3.0f;            // deviations
-constexpr float kRemainsOfPattern = 0.12f;  // the most that is left of a pattern's deviation
+constexpr float kRemains = 3.0f;  // deviations
+// Of a pattern's deviation: the most that can be left of it.
+constexpr float kRemainsOfPattern = 0.12f;
 
-// Of the deviation from a quadratic, what a quartic explains: below the first the surface is taken
-// for flat, from the second on for bent. Measured: 0.05 on a wall, 0.17 on a ball.
+// The share of the deviation from a quadratic that a quartic explains: below kFlatForm the surface
+// is treated as flat, above kBentForm as curved. Measured: 0.05 on a wall, 0.17 on a ball.
 constexpr float kFlatForm = 0.06f, kBentForm = 0.12f;
 
-constexpr float kLeastRoot = 0.14f;  // of the middling light's: a fiftieth of it
+constexpr float kLeastRoot = 0.14f;  // of the median's root: 2 % of the median light
 
-constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // where a clip is the evidence
+constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // for light from a clip
 
-// A surface whose lightness varies by less than the first (a deviation, ln units) has no pattern,
-// and what varies is its own shading: wrinkles, facets. From the second on all of it is pattern.
+// A surface whose lightness has a standard deviation below kPlain (ln units) has no pattern: what
+// varies is its own shading, such as wrinkles and facets. Above kPatterned all variation is
+// pattern.
 constexpr float kPlain = 0.08f, kPatterned = 0.16f;
 constexpr float kPlainSigma = 0.25f;  // times the blur's of a patterned surface
 
-// The blurred luma and where it is an estimate.
+// The blurred luma, and where enough pixels support it.
 struct Guide {
     ImageF1 value;
     Matte known;
@@ -68,8 +73,8 @@ Guide blurred(const ImageF1& weighted_luma, const ImageF1& weight, float sigma) 
     return g;
 }
 
-// Median absolute difference of two planes as a deviation. Being a median, it is not raised by the
-// edges of shadows, which are few.
+// Median absolute difference of two planes, scaled to a standard deviation. A median is not raised
+// by the edges of shadows, which cover few pixels.
 float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weight) {
     std::vector<float> differences;
     for (int y = 0; y < a.height(); y += 2) {
@@ -80,7 +85,7 @@ float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weigh
     return kDeviationOfMedian * median_of(differences, 0.0f);
 }
 
-// Of the places where the plane is known.
+// Median over the places where the plane is known.
 float median_inside(const ImageF1& plane, const ImageF1& weight) {
     std::vector<float> values;
     for (int y = 0; y < plane.height(); y += 2) {
@@ -95,9 +100,9 @@ float pattern_presence(float deviation) {
     return smooth_step(deviation, kPlain, kPatterned);
 }
 
-// What a blur leaves of a pattern is wide and faint, and looks like light. Differences from the
-// surface's smooth light (a quadratic) that are no larger than such remains are taken for them; the
-// non-negative garrote (Gao 1998) takes the faint ones out and leaves shadows as they are.
+// After a blur, the remains of a pattern are wide and faint and look like light. Deviations from
+// the surface's smooth light (a quadratic) that are no larger than such remains are removed by the
+// non-negative garrote (Gao 1998), which keeps shadows.
 void remove_remains(ImageF1& light, const ImageF1& weight, float pattern, float most) {
     const ImageF1 smooth = QuadraticFit(light, weight).surface();
     ImageF1 rest(light.size());
@@ -120,8 +125,8 @@ void remove_remains(ImageF1& light, const ImageF1& weight, float pattern, float 
     });
 }
 
-// Rolling guidance (Zhang et al. 2014, eq. 5): the blur takes the pattern away, filtering the
-// unblurred luma under the guidance of the result brings back the edges of what is wider.
+// Rolling guidance (Zhang et al. 2014, eq. 5): the blur removes the pattern; filtering the
+// unblurred luma with that result as the guide restores the edges of wider structures.
 ImageF1 without_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
     float sigma = kPatternSigma * pattern_px;
     const ImageF1 weighted_luma = weighted(luma, weight);
@@ -144,9 +149,9 @@ ImageF1 without_pattern(const ImageF1& luma, const ImageF1& weight, float patter
     return light;
 }
 
-// The root of the light as a polynomial of the place, as ln light again. Where a body turns away
-// from the light, light falls to next to nothing within a few pixels: ln light then has a kink that
-// no polynomial has, the light itself and its root have none.
+// A polynomial fit of the light's square root, returned as ln light. Where a body turns away from
+// the light, light falls almost to 0 within a few pixels. ln light has a kink there that no
+// polynomial follows; the light and its root have none.
 ImageF1 fitted_form(const ImageF1& root, const ImageF1& weight, int degree) {
     ImageF1 form = PolynomialFit(root, weight, degree).surface();
     for (std::size_t i = 0; i < form.size_bytes() / sizeof(float); ++i)
@@ -154,9 +159,9 @@ ImageF1 fitted_form(const ImageF1& root, const ImageF1& weight, int degree) {
     return form;
 }
 
-// The part of a surface's light that is its own form: what is smooth over all of it is no piece of
-// a pattern. A plane needs no more than a quadratic, and more would take a wide pattern for form; a
-// ball, whose light falls off towards its outline, takes a quartic.
+// The part of the light that comes from the surface's form: what is smooth over the whole surface
+// cannot be pattern. A quadratic is enough for a plane, and a higher degree would absorb a wide
+// pattern. A ball, whose light falls off towards its outline, needs a quartic.
 ImageF1 form_of(const ImageF1& still, const ImageF1& weight) {
     const float middle = median_inside(still, weight);
     ImageF1 level = still, root(still.size());
@@ -174,7 +179,7 @@ ImageF1 form_of(const ImageF1& still, const ImageF1& weight) {
     return form;
 }
 
-// pattern_px in pixels of the small picture.
+// pattern_px in pixels of the downscaled picture.
 float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) {
     return std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale));
 }

@@ -3,10 +3,10 @@
 
 namespace weft {
 
-/// The artist's light, as it is: texture ← texture · (1 + λ (L − 1)), channel by channel. L is
-/// plate / albedo, or the lighting pass itself where `albedo` says so by being empty. All of one
-/// size, linear light. Where a channel of the albedo is too dark (below 0.004) the others' mean
-/// stands for it; L is kept below 64; NaN and infinity change nothing.
+/// Applies the artist's light exactly: texture ← texture · (1 + λ (L − 1)) by channel, λ =
+/// `strength` (0–1). L is plate / albedo, or the lighting pass if `albedo` is empty. All H×W,
+/// linear light. A channel whose albedo is below 0.004 takes the mean L of the others. L is limited
+/// to 64. NaN and infinity leave the texture unchanged.
 void apply_exact_light(ImageView<float, 3> texture, ViewF3 plate, ViewF3 albedo, ViewF3 lighting,
                        ViewU8x1 matte, float strength);
 

@@ -14,7 +14,7 @@ Expected<Lamp> parse_lamp(std::string_view text) {
                                           [&](const LampKindInfo& k) { return k.name == name; });
     if (info == kLampKinds.end()) {
         return fail(ErrorCode::kUsage,
-                    "Unknown lamp " + quoted(name) + "; there are point, directional and gradient");
+                    "Unknown lamp " + quoted(name) + ". Use point, directional or gradient");
     }
     std::vector<std::pair<int, std::vector<double>>> keys;
     const auto parts = split(text.substr(space), '|');

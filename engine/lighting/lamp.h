@@ -1,5 +1,5 @@
 #pragma once
-// The lamps that an artist paints light with; painted_light.h renders them.
+// Lamps: light that the artist paints. painted_light.h renders them.
 
 #include <array>
 #include <string>
@@ -21,8 +21,8 @@ enum class LampKind {
 struct LampKindInfo {
     LampKind kind;
     std::string_view name;
-    std::size_t numbers;  ///< How many each key has.
-    std::size_t places;   ///< How many of these, from the first on, are in plate pixels.
+    std::size_t numbers;  ///< Numbers in each key.
+    std::size_t places;   ///< How many of them, from the first on, are in plate pixels.
 };
 /// The kinds by their names in files and on the command line.
 inline constexpr std::array<LampKindInfo, 3> kLampKinds{
@@ -39,12 +39,13 @@ struct Lamp {
     bool operator==(const Lamp&) const = default;
 };
 
-/// Changes a lamp on one frame: where it has several keys, the key of this frame, else all frames.
+/// Changes a lamp on one frame: the key of this frame if the lamp has several keys, else all
+/// frames.
 void set_numbers(Lamp& lamp, int frame, std::vector<double> numbers);
 
-/// Lamps between ";", a lamp's keys between "|", each with its frame before a colon or none where
-/// there is one key only: "point 1: 320,180 200 1.5 | 24: 400,180 200 1; gradient 0,0 0,480 1.2
-/// 0.6". Errors: Usage with the lamp and what is wrong.
+/// Lamps as text. Lamps are separated by ";" and the keys of a lamp by "|". A key starts with its
+/// frame and a colon; a single key may omit them: "point 1: 320,180 200 1.5 | 24: 400,180 200 1;
+/// gradient 0,0 0,480 1.2 0.6". Errors: Usage with the lamp and what is wrong.
 [[nodiscard]] Expected<std::vector<Lamp>> parse_lamps(std::string_view text);
 /// The text that parse_lamps() reads back to the same lamps.
 [[nodiscard]] std::string lamps_text(const std::vector<Lamp>& lamps);

@@ -1,12 +1,12 @@
 #pragma once
-// Filters for pictures that are known only in part: sums over windows, to be divided by the same
-// sums of the weights (normalised convolution, Knutsson & Westin 1993), and a fill for the rest.
+// Filters for pictures that are only partly known: weighted sums over windows, divided by the sums
+// of the weights (normalised convolution, Knutsson & Westin 1993), and a fill for unknown pixels.
 
 #include "engine/core/image.h"
 
 namespace weft {
 
-/// Mean over (2 radius + 1)² pixels, counting what lies beyond the border as 0; in place.
+/// Mean over (2 radius + 1)² pixels, in place. Pixels beyond the border count as 0.
 void box_blur(ImageF1& plane, int radius_px);
 
 /// A Gaussian of `sigma_px` as three boxes, with 0 beyond the border; in place.
@@ -19,8 +19,8 @@ void gaussian_blur(ImageF1& plane, float sigma_px);
 /// Gortler et al. 1996). Leaves known pixels as they are; all 0 if nothing is known.
 void fill_unknown(ImageF1& plane, const Matte& known);
 
-/// `plane` less its mean over a window of `radius_px`, from known pixels only. `weight_mean`: the
-/// weight under that box blur. All H×W.
+/// `plane` minus its mean over a window of `radius_px`, from known pixels only. `weight_mean` is
+/// the weight after the same box blur. All H×W.
 [[nodiscard]] ImageF1 high_pass(const ImageF1& plane, const ImageF1& weight,
                                 const ImageF1& weight_mean, int radius_px);
 

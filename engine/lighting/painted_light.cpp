@@ -12,7 +12,7 @@ namespace {
 constexpr int kDownscale = 2;
 constexpr float kLeastGain = 0.01f, kMostGain = 100.0f;
 
-float held(float gain) {
+float clamped_gain(float gain) {
     return std::clamp(gain, kLeastGain, kMostGain);
 }
 
@@ -23,7 +23,7 @@ float gain_at(LampKind kind, const std::vector<float>& n, float x, float y, Size
             const float dx = x - n[0], dy = y - n[1];
             const float r2 = (dx * dx + dy * dy) / std::max(1e-6f, n[2] * n[2]);
             const float fall = std::max(0.0f, 1.0f - r2);
-            return 1.0f + (held(n[3]) - 1.0f) * fall * fall;
+            return 1.0f + (clamped_gain(n[3]) - 1.0f) * fall * fall;
         }
         case LampKind::kDirectional: {
             const float angle = n[0] * std::numbers::pi_v<float> / 180.0f;
@@ -34,14 +34,14 @@ float gain_at(LampKind kind, const std::vector<float>& n, float x, float y, Size
                        s = static_cast<float>(-std::sin(static_cast<long double>(angle)));
             const float reach = std::abs(c) * half_w + std::abs(s) * half_h;
             const float t = ((x - half_w) * c + (y - half_h) * s) / std::max(1e-6f, reach);
-            return std::exp(t * std::log(held(n[1])));
+            return std::exp(t * std::log(clamped_gain(n[1])));
         }
         case LampKind::kGradient: {
             const float dx = n[2] - n[0], dy = n[3] - n[1];
             const float t =
                 std::clamp(((x - n[0]) * dx + (y - n[1]) * dy) / std::max(1e-6f, dx * dx + dy * dy),
                            0.0f, 1.0f);
-            return held(n[4]) + t * (held(n[5]) - held(n[4]));
+            return clamped_gain(n[4]) + t * (clamped_gain(n[5]) - clamped_gain(n[4]));
         }
     }
     return 1.0f;

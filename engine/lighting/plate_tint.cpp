@@ -12,12 +12,12 @@
 namespace weft {
 namespace {
 
-constexpr int kStep = 2;              // px: colours of light need few places
+constexpr int kStep = 2;              // px: every second pixel is enough
 constexpr std::size_t kFewest = 256;  // pixels
-constexpr float kDark = 0.02f;        // of the plate's brightest: less is noise
-constexpr float kClipped = 0.97f;     // of white, on a plate that has nothing above it
-constexpr float kLeastOf = 0.01f;     // the share of pixels that may be of another colour
-constexpr float kNoTint = 0.0f, kSureTint = 0.3f;  // ln B/R of the least coloured
+constexpr float kDark = 0.02f;        // of the plate's brightest; below this is noise
+constexpr float kClipped = 0.97f;     // of white, on a plate without values above it
+constexpr float kLeastOf = 0.01f;     // share of the pixels that may have another colour
+constexpr float kNoTint = 0.0f, kSureTint = 0.3f;  // ln B/R of the least coloured pixels
 constexpr float kOtherShade = 0.1f;                // ln B/R the other way, in the shade
 constexpr float kMost = 1.0f;                      // ln units
 

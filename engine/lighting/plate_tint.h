@@ -1,5 +1,5 @@
 #pragma once
-// The colour that the light of a whole frame has: an evening sun on everything there is.
+// The colour of a whole frame's light, such as an evening sun's.
 
 #include <array>
 
@@ -7,19 +7,19 @@
 
 namespace weft {
 
-/// ln of the gain in R, G and B that a grey surface under the plate's light shows, its luminance 1;
-/// 0 where nothing says that the light has a colour, as on a plate that is balanced for white.
-/// `plate`: linear light. Each of them within ±1. Thread-safe, as is all in this header.
+/// ln of the gain in R, G and B that the plate's light gives a grey surface at luminance 1; each
+/// within ±1. 0 if nothing shows that the light is coloured, as on a plate balanced for white.
+/// `plate`: H×W×3, linear light. All functions of this header are thread-safe.
 ///
-/// How much: the shades of grey of Finlayson & Trezzi 2004 (p = 6). Whether: paint has all colours,
-/// so where even the bluest hundredth of the brighter half of the pixels is orange, it is the light
-/// that may be. But it may also be a picture of one orange material; in an evening the sky lights
-/// what is in shade, so that some of the darker pixels are neutral or blue. (Or all of this with
-/// blue and orange exchanged.)
+/// The amount is by shades of grey (Finlayson & Trezzi 2004, p = 6). The light counts as orange
+/// under two conditions. First, 99 % of the brighter half of the pixels are orange: paint has all
+/// colours. Second, some darker pixels are neutral or blue, because the sky lights the shade;
+/// otherwise the picture may show one orange material. The same holds with blue and orange
+/// exchanged.
 [[nodiscard]] std::array<float, 3> plate_tint(ViewF3 plate);
 
-/// Colours the texture (linear light, in place) by `strength` times a tint; the luminance of a grey
-/// stays. A strength or a tint of 0 changes no bit; pixels whose matte is 0 may stay as they are.
+/// Colours the texture (linear light, in place) by `strength` × `tint`. The luminance of a grey is
+/// kept. A strength or a tint of 0 changes no bit. Pixels whose matte is 0 may be left as they are.
 void apply_tint(ImageView<float, 3> texture, ViewU8x1 matte, const std::array<float, 3>& tint,
                 float strength);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kCovered = 128;
 constexpr int kLevels = 1024;  // of a histogram over encoded luma from 0 to kBrightest
 constexpr float kBrightest = 4.0f;
-constexpr float kPaintQuantile = 0.98f;  // of plate / shading: what is above may be gloss
+constexpr float kPaintQuantile = 0.98f;  // of plate / shading: values above may be gloss
 constexpr float kGlossAbove = 1.15f;
 constexpr float kMaxCast = 1.0f;  // ln units
 constexpr float kDark = 1e-4f;

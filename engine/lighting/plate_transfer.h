@@ -9,15 +9,16 @@
 
 namespace weft {
 
-/// Mean and deviation of the old surface's luma (sRGB curve) onto the texture's (after Reinhard et
-/// al. 2001), or its whole histogram; hue and saturation stay. From pixels whose matte is at least
-/// 128; all of one size. λ = `strength` mixes with the texture as it was. The baselines.
+/// Baselines. Transfers the mean and deviation of the old surface's luma (sRGB curve) to the
+/// texture (after Reinhard et al. 2001), or its whole histogram. Hue and saturation stay.
+/// Statistics come from pixels whose matte is at least 128. λ = `strength` (0–1) blends with the
+/// unchanged texture. All H×W.
 void transfer_statistics(ImageView<float, 3> texture, ViewF3 plate, ViewU8x1 matte, float strength);
 void match_histogram(ImageView<float, 3> texture, ViewF3 plate, ViewU8x1 matte, float strength);
 
-/// How the colour of light changes with its strength inside of a matte: the slope of ln(R/Y),
-/// ln(G/Y), ln(B/Y) of the plate against ln S, and the means of them. The old texture's own colours
-/// do not follow S, so they do not enter the slope.
+/// How the colour of light changes with its strength inside a matte: the slopes of ln(R/Y),
+/// ln(G/Y), ln(B/Y) of the plate over ln S, and their means. The old texture's own colours do not
+/// follow S, so they do not affect the slope.
 struct LightColour {
     std::array<float, 3> slope{};
     std::array<float, 3> mean{};
@@ -26,14 +27,14 @@ struct LightColour {
 /// `plate` and `matte` of the plate's size.
 [[nodiscard]] LightColour light_colour(ViewF3 plate, ViewU8x1 matte, const Shading& shading);
 
-/// Colours the texture as the light is coloured there, relative to the light on the reference frame
-/// (`reference_colour`, S₀), without changing what a grey's luminance would be.
+/// Gives the texture the light's colour at each pixel, relative to the light on the reference frame
+/// (`reference_colour`, S₀). The luminance of a grey is kept.
 void apply_cast(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const Shading& shading,
                 float reference, const LightColour& colour, const LightColour& reference_colour,
                 float strength);
 
-/// Adds `strength` times what the plate is brighter than the brightest paint under its shading: the
-/// old surface's gloss. `plate` and `matte` are of the texture's size.
+/// Adds the old surface's gloss: `strength` × the excess of the plate over the brightest paint
+/// under its shading. `plate` and `matte` have the texture's size.
 void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
                     const Shading& shading, float strength);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostDegree = 6;
 constexpr std::size_t kMostTerms = (kMostDegree + 1) * (kMostDegree + 2) / 2;
-constexpr int kSamples = 40;  // along the longer side: the fit is smooth
+constexpr int kSamples = 40;  // along the longer side: enough, because the fit is smooth
 constexpr int kRounds = 8;
 constexpr double kCauchy = 0.1;  // ln units
 constexpr double kRidge = 1e-5;
@@ -66,7 +66,8 @@ PolynomialFit::PolynomialFit(const ImageF1& plane, const ImageF1& weight, int de
                 const double value = plane.row(y)[x];
                 fill_terms(degree_, (x - centre_x_) * scale_, (y - centre_y_) * scale_, t);
                 if (round > 0) {
-                    // From wide to narrow, so that an edge does not hold the fit where it began.
+                    // The scale goes from wide to narrow, so that an edge does not fix the first
+                    // fit.
                     const double scale = kCauchy * std::max(1, 1 << std::max(0, 4 - round));
                     const double away = (value - value_of(coefficients_, t)) / scale;
                     w /= 1.0 + away * away;

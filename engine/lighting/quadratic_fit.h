@@ -5,7 +5,7 @@
 
 namespace weft {
 
-/// The polynomial surface nearest to a plane where it is known, not bent by edges (iteratively
+/// A polynomial surface fitted to a plane where it is known. Edges do not bend it (iteratively
 /// reweighted least squares, Holland & Welsch 1977, with Cauchy weights).
 class PolynomialFit {
   public:
@@ -21,7 +21,7 @@ class PolynomialFit {
     double centre_x_ = 0, centre_y_ = 0, scale_ = 1;
 };
 
-/// With all terms up to the second.
+/// A fit with all terms up to degree 2.
 class QuadraticFit : public PolynomialFit {
   public:
     QuadraticFit(const ImageF1& plane, const ImageF1& weight) : PolynomialFit(plane, weight, 2) {}

@@ -16,15 +16,16 @@ namespace weft {
 namespace {
 
 constexpr int kTerms = 5;
-constexpr float kMaxDeviations = 3.0f;  // chromaticities beyond are held there
-constexpr double kRidge = 0.02;         // of the terms' variance: flat colours explain nothing
-// Chromaticities (ln) that vary less than this are noise, or the floor's doing, not paint.
+constexpr float kMaxDeviations = 3.0f;  // chromaticities beyond are clamped
+// Of the terms' variance, so that flat colours explain nothing.
+constexpr double kRidge = 0.02;
+// Chromaticities (ln) that vary less than this are noise or come from the floor, not from paint.
 constexpr float kMinDeviation = 0.15f;
-// Share of the differences' energy that colour must explain: below the first the relation is chance
-// or the bluish tint of shadows and is left alone, from the second on it is taken whole.
+// Share of the differences' energy that colour explains: up to kExplainsNothing the relation is
+// chance or the bluish tint of shadows and is ignored; from kExplains on it is used in full.
 constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
-// Share of the explained variance that is wide: up to the first it is the light's tint, from the
-// second on patches of paint.
+// Share of the explained variance in wide structures: up to kTint it is the light's tint, from
+// kPaint on it is painted areas.
 constexpr double kTint = 0.1, kPaint = 0.25;
 
 struct Standard {
@@ -32,7 +33,8 @@ struct Standard {
     float inverse_deviation = 0;
 };
 
-// Weighted mean and deviation; sums by row, in order, so that threads do not matter.
+// Weighted mean and deviation. Rows are summed in order, so that the number of threads does not
+// matter.
 Standard standard_of(const ImageF1& plane, const ImageF1& weight,
                      float min_deviation = kMinDeviation) {
     struct Sums {
@@ -122,7 +124,7 @@ Normal normal_equations(const Terms& terms, const ImageF1& target, const ImageF1
         for (int x = 0; x < weight.width(); ++x)
             total += weight.row(y)[x];
     }
-    // Terms are in standard deviations of the chromaticity, so the ridge is in those too.
+    // The terms are in standard deviations of the chromaticity, and so is the ridge.
     for (std::size_t i = 0; i < kTerms; ++i) {
         for (std::size_t j = 0; j < i; ++j)
             all[i][j] = all[j][i];
@@ -140,23 +142,23 @@ double energy(const ImageF1& plane, const ImageF1& weight) {
     return sum;
 }
 
-// The coefficients, held back as far as they explain little.
-std::array<double, kTerms> trusted_coefficients(const Terms& differences, const ImageF1& target,
-                                                const ImageF1& weight) {
+// The coefficients, scaled down where they explain little.
+std::array<double, kTerms> shrunk_coefficients(const Terms& differences, const ImageF1& target,
+                                               const ImageF1& weight) {
     const Normal normal = normal_equations(differences, target, weight);
     std::array<double, kTerms> coefficients = solve(normal);
     double explained = 0;
     for (std::size_t k = 0; k < kTerms; ++k)
         explained += coefficients[k] * normal[k][kTerms];
     const double share = explained / std::max(1e-12, energy(target, weight));
-    const double trust = smooth_step(share, kExplainsNothing, kExplains);
+    const double confidence = smooth_step(share, kExplainsNothing, kExplains);
     for (double& c : coefficients)
-        c *= trust;
+        c *= confidence;
     return coefficients;
 }
 
-// Light that other objects throw back tints a surface, wide and faint. What of the explained part
-// is so beside the rest is left to the light.
+// Light reflected from other objects gives a surface a wide, faint tint. The share of the explained
+// part that looks like this is left to the light.
 void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
     const ImageF1 wide = QuadraticFit(explained, weight).surface();
     const auto variance = [&](const ImageF1& plane) {
@@ -181,7 +183,7 @@ ImageF1 chromatic_reflectance(const SurfaceSample& sample, int window_px) {
     Terms differences;
     for (std::size_t k = 0; k < kTerms; ++k)
         differences[k] = high_pass(terms[k], sample.weight, weight_mean, window_px);
-    const auto coefficients = trusted_coefficients(differences, target, shade.weight_of_paint());
+    const auto coefficients = shrunk_coefficients(differences, target, shade.weight_of_paint());
 
     ImageF1 explained(sample.box.size());
     parallel_rows(sample.box.height(), 16, [&](int y0, int y1) {

@@ -12,7 +12,7 @@ enum class LightForm {
     kGain,  ///< Linear light: texture × (1 + λ (S/S₀ − 1)), gain within [least_gain, most_gain].
     kDetail,   ///< Display V: (λ Φ + (1−λ) B) · (V_T / B), B the base of the texture's V.
     kLiteral,  ///< Display V, eq. 8 as printed: λ Φ + (1−λ) V_T.
-    // Baselines, without a shading (plate_transfer.h); apply_light does nothing for them.
+    // Baselines that use no shading (plate_transfer.h); apply_light() ignores them.
     kStatistics,  ///< Mean and deviation of the old surface's luma.
     kHistogram    ///< Its histogram.
 };
@@ -23,21 +23,21 @@ enum class LightForm {
 // V is max(R, G, B) under the sRGB curve, Φ the shading under it, B a Gaussian (σ 12 px) of V
 // inside the matte, at least 0.02; V changes by scaling the encoded R, G, B with V'/V.
 
-/// How an illumination is taken out of a plate.
+/// How the shading of a plate is estimated.
 struct ShadingOptions {
-    /// Structures smaller than this belong to the surface, not the light (plate pixels at full
-    /// size); shadow edges of larger areas stay sharp. Contrast below some 10% is light all the
-    /// same.
+    /// Structures smaller than this belong to the surface, not to the light (plate pixels at full
+    /// size). Shadow edges of larger areas stay sharp. Contrast below about 10 % always counts as
+    /// light.
     float pattern_px = 14;
     /// Works at 1/downscale of the plate (1, 2 or 4).
     int downscale = 2;
-    /// Takes out what the surface's own colour explains of its lightness.
+    /// Removes the part of the lightness that the surface's own colour explains.
     bool chromaticity = true;
 };
 
 /// The plate's shading: H/d × W/d, d the downscale (rounded up), linear light, > 0 everywhere;
-/// inside the matte estimated, outside continued smoothly. Old reflectance finer than pattern_px is
-/// gone, edges of larger light and dark areas are sharp to a pixel of this image.
+/// estimated inside the matte, continued smoothly outside. Reflectance finer than pattern_px is
+/// removed; edges of larger light and dark areas are sharp to a pixel of this image.
 struct Shading {
     ImageF1 value;
     int downscale = 2;
@@ -45,52 +45,52 @@ struct Shading {
     Matte inside = {};  ///< H/d × W/d, 255 where estimated, 0 where continued; empty: everywhere.
 };
 
-/// `linear`: plate in linear light, H×W×3; NaN and infinity are left out. `visible`: region without
-/// holdouts; pixels under 128 do not count, the rim counts little. An empty matte gives a shading
-/// of 1 everywhere. Thread-safe, and bit-identical for any number of threads, as is all in this
-/// header.
+/// `linear`: plate in linear light, H×W×3; NaN and infinity are ignored. `visible`: the region's
+/// matte without holdouts; pixels under 128 do not count, and the rim counts little. An empty matte
+/// gives a shading of 1 everywhere. All functions of this header are thread-safe and bit-identical
+/// for any number of threads.
 [[nodiscard]] Shading estimate_shading(ViewF3 linear, ViewU8x1 visible,
                                        const ShadingOptions& options);
 
-/// The two halves of estimate_shading: the plate as the estimate sees it, with what the surface's
-/// colour says of its paint, and the light in it.
+/// The two halves of estimate_shading(): the plate as the estimate sees it, with the part of its
+/// luma that is paint; and the light in it.
 [[nodiscard]] SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible,
                                          const ShadingOptions& options);
 /// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
 [[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
-/// Of `still`, ln light that has no fine pattern left, what is wider than `period_px` of its pixels
-/// or stands out from what may be left of `pattern`, its ln reflectance: the light. All H×W, as is
-/// `weight`, the trust in each pixel.
+/// The light in `still` (ln light without fine pattern): structures that are wider than `period_px`
+/// of its pixels, or stronger than what may be left of `pattern` (ln reflectance). `weight`: the
+/// confidence in each pixel. All H×W.
 [[nodiscard]] ImageF1 light_beyond_period(const ImageF1& still, const ImageF1& weight,
                                           const ImageF1& pattern, float period_px);
-/// Makes a Shading of it.
+/// Converts it to a Shading.
 [[nodiscard]] Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample);
 
-/// Steady in time: mixes the shading with the previous frame's, moved along the motion, where the
-/// two agree within noise; where they do not (a moving shadow, a change of light) the new one
-/// stands. `prev_from_cur`: full-size motion of the surface, pixels; where it is NaN the new one
-/// stands, as it does everywhere if the two differ in size. A change of light wider than some 200
-/// px is followed at once, a smaller one as soon as it exceeds the noise.
+/// Stabilises the shading over time: blends it with the previous frame's, warped along the motion,
+/// where both agree within noise. The new shading is used where they disagree (a moving shadow, a
+/// change of light), where the motion is NaN, and everywhere if the sizes differ. `prev_from_cur`:
+/// full-size motion of the surface, pixels. A change of light wider than about 200 px is followed
+/// at once, a smaller one as soon as it exceeds the noise.
 [[nodiscard]] Shading steady_shading(const Shading& current, const Shading& previous,
                                      ViewF2 prev_from_cur);
 
-/// The median inside the matte: S₀, to be taken on the reference frame.
+/// S₀: the median inside the matte, measured on the reference frame.
 [[nodiscard]] float median_shading(const Shading& shading, ViewU8x1 visible);
 
 /// From an illumination picture E, stretched over `box` of a plate of `full` size (the paper).
 [[nodiscard]] Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full);
 
-/// The artist's passes, exact at full size: a lighting pass is the shading itself; with an albedo
-/// pass it is what the plate has beyond it (linear light, the plate's size). Where neither says
-/// anything (black or not finite) it is continued from around.
+/// Shading from the artist's passes, exact at full size. A lighting pass is the shading itself;
+/// from an albedo pass it is plate / albedo (linear light, the plate's size). Pixels that are black
+/// or not finite are filled from their surroundings.
 [[nodiscard]] Shading shading_from_lighting(ViewF3 lighting);
 [[nodiscard]] Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo);
 
 struct LightOptions {
     LightForm form = LightForm::kGain;
     float strength = 1;  ///< λ, 0–1.
-    /// The gain is held within these. Scene-linear output has no limits: a patch of sun may be a
-    /// hundred times as bright as the rest.
+    /// Limits of the gain. Callers lift them for scene-linear output, where a patch of sun may be
+    /// 100 times as bright as the rest.
     float least_gain = 0.125f, most_gain = 8.0f;
 };
 

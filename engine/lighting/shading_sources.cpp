@@ -43,8 +43,8 @@ bool any_visible(ViewU8x1 visible, int x0, int y0, int d) {
     return false;
 }
 
-// Every value of the shading as `value(x, y)` says; negative: nothing, filled from around. `band`:
-// rows that one thread takes at a time.
+// Fills the shading with `value(x, y)`. Negative values are unknown and filled from their
+// surroundings. `band`: rows that one thread takes at a time.
 template <class Value>
 void measure(Shading& shading, int band, const Value& value) {
     const Size size = shading.value.size();
@@ -64,7 +64,7 @@ void measure(Shading& shading, int band, const Value& value) {
         shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
 }
 
-// A shading at full size from what `value` says of a pixel; not above 0: nothing.
+// A shading at full size from `value(x, y)`. Values not above 0 are unknown.
 template <class Value>
 Shading full_shading(Size size, const Value& value) {
     Shading shading{ImageF1(size, 1.0f), 1, size};

@@ -11,17 +11,17 @@
 namespace weft {
 namespace {
 
-// Per unit of ln luma that goes with the sun, ln R/G falls and ln B/G rises by so much (daylight of
-// 2,500 K to 6,500 K over a sky of 7,000 K to 20,000 K). Paint seldom does both; white beside
-// indigo rises by more.
+// How much ln R/G falls and ln B/G rises per unit of ln luma when the sun's light is missing
+// (daylight of 2,500 K to 6,500 K over a sky of 7,000 K to 20,000 K). Paint seldom does both; white
+// beside indigo rises by more.
 constexpr float kFaintestSky = 0.03f, kSky = 0.08f, kBluestSky = 0.35f, kBluerThanSky = 0.5f;
 constexpr float kFaintShade = 0.08f, kShade = 0.2f;  // ln luma: not reliable below
 constexpr int kDetail = 4;                           // of the window: paint may be finer
 constexpr float kLeastWeight = 1e-3f;
-// Share of the wide differences' energy that is such shade: up to the first it is chance.
+// Share of the wide differences' energy that is such shade; up to kNoShade it is chance.
 constexpr float kNoShade = 0.5f, kSomeShade = 0.8f;
 
-// How much a difference looks like the sun's light missing: 0 to 1.
+// How much a difference looks like missing sunlight, 0 to 1.
 float looks_like_shade(float luma, float red_green, float blue_green) {
     const float seen = smooth_step(std::abs(luma), kFaintShade, kShade);
     if (seen == 0) return 0;

@@ -4,9 +4,9 @@
 
 namespace weft {
 
-/// The shade in which the sun is missing and the sky remains: darker, and bluer by an amount that
-/// goes with it. Told from paint by that relation where it is wide (the two illuminants of
-/// Finlayson et al. 2004, here as a range of directions, since the camera is not known).
+/// Shade that the sky lights and the sun does not: darker, and bluer in proportion. Wide structures
+/// with this relation are shade, others are paint (the two illuminants of Finlayson et al. 2004;
+/// here a range of directions, because the camera is not known).
 class SkyShade {
   public:
     /// `window_px` of the small picture: differences within it are judged. `weight_mean`: the
@@ -15,15 +15,15 @@ class SkyShade {
     SkyShade(const SurfaceSample& sample, const ImageF1& weight_mean, const ImageF1& luma_detail,
              int window_px);
 
-    /// The sample's weight, lower where a difference is such shade, not paint.
+    /// The sample's weight, reduced where a difference is such shade and not paint.
     [[nodiscard]] const ImageF1& weight_of_paint() const { return weight_of_paint_; }
-    /// Takes the colour that this shade has, as far as there is any, out of chromaticities (ln R/G
-    /// and ln B/G of the sample's size): what is left is the same in sun and shade.
+    /// Removes the colour of this shade from chromaticities (ln R/G and ln B/G, of the sample's
+    /// size), so that they are equal in sun and shade.
     void take_out(ImageF1& red_green, ImageF1& blue_green) const;
 
   private:
     ImageF1 weight_of_paint_;
-    float red_ = 0, blue_ = 0;  // the direction, of length 1, or 0 where there is no shade
+    float red_ = 0, blue_ = 0;  // unit vector; 0 if there is no such shade
     float presence_ = 0;        // 0 to 1
 };
 

@@ -17,7 +17,7 @@ constexpr float kAgreement = 2.0f;   // deviations of noise
 constexpr float kMinNoise = 0.004f;  // ln units: half a level of 8 bits at mid grey
 constexpr float kMaxNoise = 0.05f;   // more than that is a change, not noise
 constexpr int kChangeWindow_px =
-    96;  // to each side, plate pixels: what is this wide is a change of light
+    96;  // to each side, plate pixels: a wider change is a change of light
 
 struct Difference {
     ImageF1 value;  // ln(current / previous moved here)
@@ -28,7 +28,7 @@ bool inside(const Shading& s, int x, int y) {
     return s.inside.empty() || s.inside.row(y)[x] != 0;
 }
 
-// ln of the previous shading at a place between pixels, or false where it was not estimated.
+// Looks up ln of the previous shading between pixels. False where it was not estimated.
 bool sample(const Shading& s, float x, float y, float& value) {
     if (!(x >= 0 && y >= 0 && x <= static_cast<float>(s.value.width() - 1) &&
           y <= static_cast<float>(s.value.height() - 1)))
@@ -73,7 +73,7 @@ struct Noise {
     float deviation = 0;
 };
 
-// Median and median absolute deviation: a shadow that moves changes few pixels.
+// Median and median absolute deviation, because a moving shadow changes few pixels.
 Noise noise_of(const Difference& d) {
     std::vector<float> values;
     for (std::size_t i = 0; i < d.value.size_bytes() / sizeof(float); ++i) {
@@ -94,7 +94,7 @@ float agreement(float x, float limit) {
     return k * k;
 }
 
-// The part of the difference that is wide: the light itself has changed there.
+// The wide part of the difference: a change of the light itself.
 ImageF1 wide_change(const Difference& d, const Noise& noise, int window) {
     ImageF1 weight(d.value.size()), sum(d.value.size());
     for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i) {

@@ -14,12 +14,12 @@
 namespace weft {
 namespace {
 
-constexpr int kCovered = 128;        // visible from here on
-constexpr int kSure = 250;           // less is already a mixture
+constexpr int kCovered = 128;        // visible from this coverage on
+constexpr int kSure = 250;           // below this a pixel is a mixture
 constexpr float kRimWeight = 0.02f;  // enough to fill regions that are all rim
 constexpr int kMargin = 2;           // small pixels around the matte's box
 constexpr float kFloorOfMedian = 0.02f, kLeastFloorOfMedian = 0.002f;
-constexpr float kFloorOfDark = 0.5f;  // of the darkest tenth's upper end
+constexpr float kFloorOfDark = 0.5f;  // times the upper end of the darkest tenth
 
 // The box of covered pixels, in plate pixels.
 Recti covered_box(ViewU8x1 visible) {
@@ -43,9 +43,9 @@ Recti covered_box(ViewU8x1 visible) {
     return box;
 }
 
-// Trust of the pixels of row y in [x0, x1): 1 inside, kRimWeight at the rim, 0 outside.
-void trust_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint8_t>& column_min,
-                  float* trust) {
+// Weights of the pixels of row y in [x0, x1): 1 inside, kRimWeight at the rim, 0 outside.
+void weights_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint8_t>& column_min,
+                    float* weights) {
     const std::uint8_t* above = visible.row(std::max(0, y - 1));
     const std::uint8_t* here = visible.row(y);
     const std::uint8_t* below = visible.row(std::min(visible.height() - 1, y + 1));
@@ -58,26 +58,26 @@ void trust_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::uint
         const int around = std::min(std::min(lowest[std::max(a, x - 1)], lowest[x]),
                                     lowest[std::min(b - 1, x + 1)]);
         const bool sure = here[x] >= kSure && around >= kCovered;
-        trust[x - x0] = here[x] < kCovered ? 0.0f : sure ? 1.0f : kRimWeight;
+        weights[x - x0] = here[x] < kCovered ? 0.0f : sure ? 1.0f : kRimWeight;
     }
 }
 
-// Mean colour of every block and its weight; R, G, B are kept in the sample's planes for now.
+// Mean colour and weight of every block; R, G, B are stored in the sample's planes for now.
 void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
     const int full_x0 = s.box.x0 * d;
     const int full_x1 = std::min(linear.width(), s.box.x1 * d);
     const float per_block = 1.0f / static_cast<float>(d * d);
     parallel_rows(s.box.height(), 8, [&](int y0, int y1) {
         std::vector<std::uint8_t> column_min(static_cast<std::size_t>(linear.width()));
-        std::vector<float> trust(static_cast<std::size_t>(full_x1 - full_x0));
+        std::vector<float> weights(static_cast<std::size_t>(full_x1 - full_x0));
         for (int y = y0; y < y1; ++y) {
             float *w = s.weight.row(y), *r = s.red_green.row(y);
             float *g = s.luma.row(y), *b = s.blue_green.row(y);
             const int top = (s.box.y0 + y) * d;
             for (int fy = top; fy < std::min(linear.height(), top + d); ++fy) {
-                trust_of_row(visible, fy, full_x0, full_x1, column_min, trust.data());
+                weights_of_row(visible, fy, full_x0, full_x1, column_min, weights.data());
                 const float* p = linear.pixel(full_x0, fy);
-                const float* t = trust.data();
+                const float* t = weights.data();
                 const float* end = t + (full_x1 - full_x0);
                 for (int i = 0; t < end; ++i) {
                     for (const float* last = std::min(end, t + d); t < last; ++t, p += 3) {
@@ -98,7 +98,7 @@ void average_blocks(ViewF3 linear, ViewU8x1 visible, int d, SurfaceSample& s) {
     });
 }
 
-// A small part of the surface's luminance, so that it goes with the exposure.
+// A small part of the surface's luminance, so that it scales with the exposure.
 float floor_of(const SurfaceSample& s) {
     std::vector<float> values;
     for (int y = 0; y < s.box.height(); ++y) {
@@ -109,7 +109,7 @@ float floor_of(const SurfaceSample& s) {
         }
     }
     const float median = median_of(values, 0.0f);
-    // In scene-linear light shade may be a hundredth of what the sun falls on.
+    // In scene-linear light, shade may be a hundredth of a sunlit area.
     const auto dark = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 10);
     float limit = median;
     if (dark != values.end()) {

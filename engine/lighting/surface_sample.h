@@ -1,6 +1,5 @@
 #pragma once
-// The plate as the estimate of light sees it: small, logarithmic, and only what lies inside the
-// matte.
+// The plate as the shading estimate sees it: downscaled, logarithmic, and only inside the matte.
 
 #include "engine/core/image.h"
 
@@ -9,13 +8,13 @@ namespace weft {
 /// Planes of one size, each H×W of the small picture's part `box`.
 struct SurfaceSample {
     Recti box;           ///< Where the planes lie in the small picture; empty for an empty matte.
-    ImageF1 weight;      ///< Trust in [0, 1]; 0 where nothing of the surface is seen.
+    ImageF1 weight;      ///< Confidence, 0 to 1; 0 where the surface is not visible.
     ImageF1 luma;        ///< ln(Y + floor); 0 where weight is 0.
-    ImageF1 paint;       ///< What of luma the surface's own colour explains; empty: nothing.
+    ImageF1 paint;       ///< The part of luma that the surface's own colour explains; empty: none.
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
-    float floor = 0;     ///< Keeps black from weighing more than it should; linear light.
-    int downscale = 1;   ///< Plate pixels a side of one pixel here.
+    float floor = 0;     ///< Added before the logarithm: damps black; linear light.
+    int downscale = 1;   ///< Side of one pixel here, in plate pixels.
     Size full;           ///< Size of the plate.
 };
 
@@ -25,7 +24,7 @@ inline Size reduced_size(Size full, int downscale) {
 }
 
 /// Averages `linear` in blocks of downscale × downscale over pixels whose `visible` is at least
-/// 128. Pixels at the matte's rim, which other objects' light has mixed into, count little.
+/// 128. Pixels at the matte's rim count little, because light of other objects is mixed into them.
 [[nodiscard]] SurfaceSample sample_surface(ViewF3 linear, ViewU8x1 visible, int downscale);
 
 }  // namespace weft

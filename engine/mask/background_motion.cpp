@@ -19,7 +19,7 @@ constexpr float kLeastScalePx = 0.1f;
 constexpr int kTerms = 8;
 constexpr std::array<int, 2> kRadii = {3, 12};  // of local corrections, in steps
 constexpr std::array<float, 2> kSay = {1.0f, 0.05f};
-constexpr float kPlaneSay = 0.01f;  // of "no correction" beside them
+constexpr float kPlaneWeight = 0.01f;  // weight of "no correction" against them
 
 using Terms = std::array<double, kTerms>;
 
@@ -127,7 +127,7 @@ ImageF2 local_corrections(const PlaneMotion& plane, const std::vector<Sample>& s
     }
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x) {
-            cv::Vec3f sum(kPlaneSay, 0, 0);
+            cv::Vec3f sum(kPlaneWeight, 0, 0);
             for (std::size_t i = 0; i < kRadii.size(); ++i)
                 sum += kSay[i] * means[i].at<cv::Vec3f>(y, x);
             corrections.pixel(x, y)[0] = sum[1] / sum[0];

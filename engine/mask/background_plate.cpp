@@ -11,19 +11,19 @@
 namespace weft {
 namespace {
 
-constexpr float kClearancePx = 3;     // nearer to the shape its colour is mixed in
-constexpr float kSurePx = 12;         // outside by so much a difference is noise, not surface
-constexpr float kLeastNoise = 4;      // mean difference of a pixel and itself, 8-bit levels
-constexpr float kForeignRange = 160;  // over which the differences of something else spread
+constexpr float kClearancePx = 3;     // nearer to the shape, its colour is mixed in
+constexpr float kSurePx = 12;         // farther outside, a difference is noise and not surface
+constexpr float kLeastNoise = 4;      // mean difference of an unchanged pixel, 8-bit levels
+constexpr float kForeignRange = 160;  // levels over which the differences of another object spread
 constexpr float kMostOdds = 3;
-constexpr float kMostGain = 2;        // of a shadow, or its end
-constexpr float kLightShare = 0.35f;  // of a difference in brightness alone
+constexpr float kMostGain = 2;        // of a shadow that comes or goes
+constexpr float kLightShare = 0.35f;  // weight of a difference in brightness alone
 
 int difference(const std::uint8_t* a, const std::uint8_t* b) {
     return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
-// The same where a shadow may have come or gone: a change of brightness alone counts less.
+// The same, but a change of brightness alone counts less, because a shadow may have come or gone.
 float difference_but_light(const std::uint8_t* a, const std::uint8_t* b) {
     const auto plain = static_cast<float>(difference(a, b));
     const int ab = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -37,7 +37,7 @@ float difference_but_light(const std::uint8_t* a, const std::uint8_t* b) {
     return std::min(plain, left);
 }
 
-// Difference, summed over channels, of a pixel and the most alike one of the plate around it.
+// Difference, summed over channels, of a pixel and the most similar one of the plate around it.
 float least_difference(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
     float least = 3 * 255;
     for (int v = std::max(0, y - 1); v <= std::min(plate.height() - 1, y + 1); ++v) {
@@ -51,10 +51,10 @@ float least_difference(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
 
 BackgroundPlate::BackgroundPlate(ViewU8x3 frame, ViewF1 phi)
     : picture_(frame.size()), known_(frame.size()) {
-    learn(frame, phi);
+    update(frame, phi);
 }
 
-void BackgroundPlate::learn(ViewU8x3 frame, ViewF1 phi) {
+void BackgroundPlate::update(ViewU8x3 frame, ViewF1 phi) {
     parallel_rows(frame.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < frame.width(); ++x) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a walk has seen of a shape's surroundings, kept where the shape has since passed in front: a
-// clean plate that moves with the background. What differs from it is not background.
+// A clean plate of a shape's surroundings that moves with the background. It keeps what was visible
+// before the shape passed in front. What differs from it is not background.
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -9,20 +9,20 @@ namespace weft {
 
 class BackgroundPlate {
   public:
-    /// Everything of `frame` that lies clearly outside of the shape.
+    /// Starts with everything of `frame` that lies clearly outside the shape.
     BackgroundPlate(ViewU8x3 frame, ViewF1 phi);
 
     /// Moves the plate to the next frame. `background_from_cur`: where the background of each pixel
     /// of that frame lay in the plate, pixels.
     void move(ViewF2 background_from_cur);
 
-    /// Log odds for inside on the frame that the plate was moved to: how badly the pixel agrees
-    /// with the plate, measured by how badly the surroundings of the expected shape do. 0 where
-    /// the plate is unknown. `frame` and `expected_phi` are cut to `area`, as the result.
+    /// Log odds for inside on the frame that the plate was moved to: how badly a pixel agrees with
+    /// the plate, relative to how badly the surroundings of the expected shape do. 0 where the
+    /// plate is unknown. `frame`, `expected_phi` and the result cover `area`.
     [[nodiscard]] ImageF1 odds(ViewU8x3 frame, ViewF1 expected_phi, const Recti& area) const;
 
-    /// Takes over what is outside of the found shape.
-    void learn(ViewU8x3 frame, ViewF1 phi);
+    /// Adds what lies outside the found shape.
+    void update(ViewU8x3 frame, ViewF1 phi);
 
   private:
     ImageU8x3 picture_;

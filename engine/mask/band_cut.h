@@ -13,9 +13,9 @@ namespace weft {
 [[nodiscard]] Image<std::uint8_t, 1> cut_band(ViewU8x3 frame, ViewF1 log_odds, ViewF1 prior_phi,
                                               ViewU8x1 undecided, float smoothness);
 
-/// Turns parts of `labels` that hang on nothing back: inside parts that touch nothing of the sure
-/// inside (`prior_phi` ≥ `core_px`), and outside parts that touch nothing of the sure outside, when
-/// smaller than `max_area_px`.
+/// Flips disconnected parts of `labels` that are smaller than `max_area_px`: inside parts that do
+/// not touch the sure inside (`prior_phi` ≥ `core_px`), and outside parts that do not touch the
+/// sure outside.
 void remove_islands(Image<std::uint8_t, 1>& labels, ViewF1 prior_phi, float core_px,
                     int max_area_px);
 

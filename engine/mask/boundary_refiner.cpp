@@ -15,22 +15,22 @@ namespace {
 constexpr float kEdgeWidthPx = 1.5f;
 
 // Chosen by sweeps on DAVIS blackswan and dance-twirl and on two objects of a rendered clip. Most
-// matter little there; too small a colour weight against the smoothness lets the matte leak.
-constexpr float kTrustFrom = 0.6f;    // separability below which colours say nothing
-constexpr float kTrustRange = 0.35f;  // and how far above it they are trusted fully
+// have little effect there; a colour weight too small against the smoothness lets the matte leak.
+constexpr float kSeparableFrom = 0.6f;    // separability below which colours do not count
+constexpr float kSeparableRange = 0.35f;  // range above it over which they gain full weight
 constexpr float kColorWeight = 1.5f;
-constexpr float kShapeReachPx = 4;    // shape prior: distance for one unit of log odds, no colours
-constexpr float kTrustedReachPx = 6;  // what it grows by where colours are trusted
-constexpr float kGrowthPenalty = 0.5f;  // log odds against surface beyond the expected boundary
+// Shape prior: distance for one unit of log odds, without colours.
+constexpr float kShapeReachPx = 4;
+constexpr float kSeparableReachPx = 6;  // added to it where colours are reliable
+constexpr float kGrowthPenalty = 0.5f;  // log odds against inside, beyond the expected boundary
 constexpr float kSmoothness = 2;
 constexpr float kWideWeight = 2.3f;
-constexpr float kContradiction = 1.0f;  // mean log odds that open up what seemed settled
+constexpr float kContradiction = 1.0f;  // mean log odds that reopen a decided part
 constexpr float kBoilBands = 0.15f;     // 1.5 px at 854×480
 constexpr float kIslandBands = 4;       // islands up to this many bands² are removed
 
-// Evidence for inside at every pixel of the band: the colours' where they separate, and the
-// shape's, which holds the more firmly the less the colours say (SnapCut eq. 3–5, as a sum of log
-// odds).
+// Evidence for inside at every pixel of the band: from colours where they separate, and from the
+// shape, which counts more where colours count less (SnapCut eq. 3–5, as a sum of log odds).
 struct Evidence {
     ImageF1 log_odds;
     ImageF1 separability;
@@ -43,15 +43,15 @@ Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colo
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < frame.width(); ++x) {
                 if (undecided.row(y)[x] == 0) continue;
-                // Far from where it is expected the shape says no more than at the band's end.
+                // Far from the expected boundary, the shape counts as at the band's end.
                 const float d = std::clamp(phi.row(y)[x], -band_px, band_px);
                 const std::uint8_t* c = frame.pixel(x, y);
                 const ColorProbability p = colors.at(x, y, Vec3(c[0], c[1], c[2]));
                 const float q = std::clamp(p.inside, 0.01f, 0.99f);
-                const float trust =
-                    std::clamp((p.separability - kTrustFrom) / kTrustRange, 0.0f, 1.0f);
-                e.log_odds.row(y)[x] = kColorWeight * trust * std::log(q / (1 - q)) +
-                                       d / (kShapeReachPx + kTrustedReachPx * trust) -
+                const float confidence =
+                    std::clamp((p.separability - kSeparableFrom) / kSeparableRange, 0.0f, 1.0f);
+                e.log_odds.row(y)[x] = kColorWeight * confidence * std::log(q / (1 - q)) +
+                                       d / (kShapeReachPx + kSeparableReachPx * confidence) -
                                        kGrowthPenalty * std::clamp(-d / 3, 0.0f, 1.0f);
                 if (!further_odds.empty()) e.log_odds.row(y)[x] += further_odds.row(y)[x];
                 if (!wide_odds.empty()) e.log_odds.row(y)[x] += kWideWeight * wide_odds.row(y)[x];
@@ -62,7 +62,7 @@ Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colo
     return e;
 }
 
-// The band, and what hangs together with it and is contradicted by the evidence.
+// The band, and connected pixels whose evidence contradicts the expectation.
 Matte undecided_pixels(ViewF1 phi, ViewF1 wide_odds, float band_px, float reach_px) {
     const int w = phi.width(), h = phi.height();
     Matte undecided(phi.size());
@@ -122,8 +122,8 @@ BoundaryEvidence weigh(ViewF1 expected, ViewF1 found, const Evidence& e, float b
     return result;
 }
 
-// Boil is a boundary that moves to and fro by a pixel against the surface. A small difference from
-// where the surface's motion puts it is taken back, a large one is a change of shape and stays.
+// Boil is a boundary that wobbles by a pixel against the surface. A small difference from where the
+// surface's motion puts the boundary is removed; a large one is a change of shape and stays.
 void hold_steady(ImageF1& found, ViewF1 expected, float band_px, float steadiness) {
     if (steadiness <= 0) return;
     const float boil_px = kBoilBands * band_px;
@@ -184,8 +184,8 @@ RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const Local
     hold_steady(result.phi, expected_phi, scale.band_px, steadiness);
     result.matte = edge_alpha(frame, result.phi, kEdgeWidthPx);
     result.evidence = weigh(expected_phi, result.phi, evidence, scale.band_px);
-    // The soft edge tells the boundary's place to a fraction of a pixel; propagated, slow motion is
-    // not lost to rounding.
+    // The soft edge gives the boundary's position to a fraction of a pixel, so that slow motion is
+    // not lost to rounding when it is propagated.
     for (int y = 0; y < frame.height(); ++y) {
         float* phi = result.phi.row(y);
         const std::uint8_t* m = result.matte.row(y);

@@ -12,7 +12,7 @@ namespace weft {
 /// Lengths in pixels at the frame's size.
 struct RefineScale {
     explicit RefineScale(Size frame);
-    float band_px;       ///< How far the boundary may lie from where it is expected.
+    float band_px;       ///< How far the boundary may lie from the expected one.
     int window_half_px;  ///< Half a colour window's side.
     int window_step_px;  ///< Distance between windows along the boundary.
     int sample_stride;   ///< Colour samples are taken from every such pixel.
@@ -22,8 +22,9 @@ struct RefineScale {
 /// How well the evidence at the boundary agreed; each in 0–1, 1 is best.
 struct BoundaryEvidence {
     float separability = 1;  ///< Of the colours inside and outside, along the expected boundary.
-    float certainty = 1;     ///< How clearly the pixels beside the found boundary take its sides.
-    float steadiness = 1;    ///< How little the found shape differs from the expected one.
+    /// How clearly the pixels beside the found boundary belong to their sides.
+    float certainty = 1;
+    float steadiness = 1;  ///< How little the found shape differs from the expected one.
 };
 
 struct RefinedBoundary {
@@ -35,11 +36,11 @@ struct RefinedBoundary {
 /// Places windows along the zero line of `phi`, about `step_px` apart, in scan order.
 [[nodiscard]] std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px);
 
-/// `frame`, `expected_phi` and `further_odds` (more log odds for inside, 0: none; may be empty) are
-/// of one size. So are `wide_odds` (may be empty): where these contradict what is expected, pixels
-/// further than the band from it are decided too. `steadiness` (0–1): how much of a difference of
-/// less than a pixel or two from the expected boundary is taken for boil and left out.
-/// Deterministic for any number of threads.
+/// `frame`, `expected_phi`, `further_odds` (additional log odds for inside; may be empty) and
+/// `wide_odds` (may be empty) are H×W. Where `wide_odds` contradict the expectation, pixels farther
+/// from it than the band are decided too. `steadiness` (0–1): how much of a difference of less than
+/// a pixel or two from the expected boundary counts as boil and is removed. Deterministic for any
+/// number of threads.
 [[nodiscard]] RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi,
                                               const LocalColorField& colors, ViewF1 further_odds,
                                               ViewF1 wide_odds, const RefineScale& scale,

@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr int kReachPx = 4;  // how far the sure colours are looked for
+constexpr int kReachPx = 4;  // how far sure colours are searched
 
 }  // namespace
 
@@ -23,7 +23,8 @@ MixEstimate estimate_mix(Vec3 c, Vec3 inside, float inside_variance, Vec3 outsid
     mix.coverage = std::clamp(t, 0.0f, 1.0f);
     const Vec3 off = c - (outside + axis * mix.coverage);
     const float spread = inside_variance + outside_variance + kNoise;
-    // Far apart compared with their own spread, and the pixel near the line between them.
+    // Reliable if the colours are far apart compared with their spread and the pixel is near their
+    // line.
     const float apart = length2 / (length2 + 4 * spread);
     const float fits = spread / (spread + glm::dot(off, off));
     mix.reliability = std::clamp(2 * apart - 1, 0.0f, 1.0f) * std::min(1.0f, 2 * fits);
@@ -57,7 +58,8 @@ Matte edge_alpha(ViewU8x3 frame, ViewF1 phi, float width_px) {
                     const std::uint8_t* p = frame.pixel(x, y);
                     const MixEstimate mix = estimate_mix(Vec3(p[0], p[1], p[2]), in.mean(),
                                                          in.variance(), out.mean(), out.variance());
-                    // The colour may move the edge by a pixel, not more: the cut has placed it.
+                    // The colour may move the edge by at most a pixel, because the cut has placed
+                    // it.
                     const float low = std::clamp(0.5f + (d - 1) / width_px, 0.0f, 1.0f);
                     const float high = std::clamp(0.5f + (d + 1) / width_px, 0.0f, 1.0f);
                     value += mix.reliability * (std::clamp(mix.coverage, low, high) - value);

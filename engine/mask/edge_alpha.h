@@ -1,5 +1,5 @@
 #pragma once
-// The soft edge of a boundary whose place is known, estimated from one frame.
+// The soft edge of a boundary whose position is known, estimated from one frame.
 
 #include <algorithm>
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// Coverage of a shape with signed distance `phi` (pixels, H×W). Off the edge 0 or 255; within
-/// about `width_px` of it the pixel's colour is projected on the line between the colours of the
-/// sure inside and the sure outside nearby, and where those are alike, or the pixel fits neither,
-/// the shape alone decides (a ramp of `width_px`).
+/// Coverage of a shape with signed distance `phi` (pixels, H×W). Away from the edge it is 0 or 255.
+/// Within about `width_px` of the edge the pixel's colour is projected on the line between the sure
+/// inside and outside colours nearby. Where those are alike, or the pixel fits neither, the shape
+/// alone decides (a ramp of `width_px`).
 [[nodiscard]] Matte edge_alpha(ViewU8x3 frame, ViewF1 phi, float width_px);
 
 /// Weighted mean and spread of colours.
@@ -34,8 +34,8 @@ struct ColorSum {
     }
 };
 
-/// How far a pixel of colour `c` has gone from `outside` to `inside`, and how much that can be
-/// believed (0–1), the spread of both colours (per-channel variance summed) being known.
+/// How far a colour has gone from `outside` (0) to `inside` (1), and how reliable that is (0–1),
+/// given the spread of both colours (per-channel variances, summed).
 struct MixEstimate {
     float coverage = 0;
     float reliability = 0;

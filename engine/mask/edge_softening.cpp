@@ -11,11 +11,11 @@
 namespace weft {
 namespace {
 
-constexpr int kReachPx = 4;         // how far the sure colours are looked for
+constexpr int kReachPx = 4;         // how far sure colours are searched
 constexpr float kOutsideClear = 1;  // mixed pixels lie on both sides of a hard edge
 
-// Distance from every pixel near the boundary to it, positive inside: to the nearest pixel centre
-// of the other side, less half a pixel; kReachPx + 0.5 farther away.
+// Distance from every pixel near the boundary to the nearest pixel centre of the other side, less
+// half a pixel, positive inside; kReachPx + 0.5 farther away.
 ImageF1 near_distance(ViewU8x1 matte) {
     const int w = matte.width(), h = matte.height();
     constexpr int kFar = kReachPx + 1;
@@ -60,7 +60,7 @@ ImageF1 near_distance(ViewU8x1 matte) {
     return phi;
 }
 
-// Coverage by the boundary's shape alone: what a binomial 3×3 window sees of the inside.
+// Coverage by the boundary's shape alone: the inside's share of a binomial 3×3 window.
 float shape_coverage(ViewU8x1 matte, int x, int y) {
     constexpr int kWeights[3] = {1, 2, 1};
     int sum = 0;
@@ -96,8 +96,8 @@ float softened(ViewU8x3 plate, ViewU8x1 matte, ViewF1 phi, int x, int y, float w
 }  // namespace
 
 bool is_hard(ViewU8x1 matte) {
-    // A soft outline has about one partial pixel for each step of boundary; a hard one may carry a
-    // few from compression or from a stray stroke.
+    // A soft outline has about one partial pixel per step of boundary. A hard one may have a few,
+    // from compression or a stray stroke.
     std::int64_t partial = 0, steps = 0;
     for (int y = 0; y < matte.height(); ++y) {
         const std::uint8_t* row = matte.row(y);

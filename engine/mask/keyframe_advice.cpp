@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-// A painted frame lifts its neighbours: half of their shortfall is back after so many frames.
+// A painted frame improves its neighbours; after so many frames half of their shortfall is back.
 constexpr float kLiftFrames = 10;
 
 struct Stretch {
@@ -15,7 +15,7 @@ struct Stretch {
     float shortfall = 0;
 };
 
-// The unpainted stretch whose frames fall short the most, all together.
+// The unpainted stretch with the largest total shortfall.
 Stretch worst_stretch(const std::vector<FrameConfidence>& frames, const std::vector<int>& painted,
                       float wanted) {
     Stretch worst, present;
@@ -34,7 +34,7 @@ Stretch worst_stretch(const std::vector<FrameConfidence>& frames, const std::vec
     return worst;
 }
 
-// Where half of a stretch's shortfall lies on either side.
+// The frame that halves a stretch's shortfall.
 std::size_t middle_of(const std::vector<FrameConfidence>& frames, const Stretch& stretch,
                       float wanted) {
     float sum = 0;

@@ -9,10 +9,10 @@ struct FrameConfidence {
     float confidence = 1;
 };
 
-/// Frames on which a painted matte would help most, best first, at most `most`. A frame is worth as
-/// much as it and its neighbours, up to the painted frames on either side, fall short of
-/// `wanted`; the chosen one is where that shortfall has its middle. Each answer is taken for
-/// painted before the next is looked for. `frames` ascend. Empty when every frame is good enough.
+/// Frames on which a painted matte would help most, best first, at most `most`. The unpainted
+/// stretch with the largest total shortfall of confidence below `wanted` (0–1) comes first; the
+/// suggested frame halves that shortfall. Each suggestion counts as painted before the next is
+/// searched. `frames` ascend. Empty if every frame is good enough.
 [[nodiscard]] std::vector<int> suggest_keyframes(std::vector<FrameConfidence> frames,
                                                  const std::vector<int>& painted,
                                                  float wanted = 0.6f, int most = 3);

@@ -9,14 +9,14 @@
 namespace weft {
 namespace {
 
-constexpr float kNoiseVariance = 9;  // 8-bit levels²: keeps a flat area's Gaussian from a needle
+constexpr float kNoiseVariance = 9;  // 8-bit levels²: the least variance, for flat areas
 constexpr std::size_t kMinSamples = 12;
 
 float squared(Vec3 v) {
     return glm::dot(v, v);
 }
 
-// Seeds far from each other: the mean first, then always the sample that is worst covered.
+// Seeds far from each other: the mean first, then repeatedly the sample that is covered worst.
 std::vector<Vec3> spread_seeds(const std::vector<Vec3>& samples, int count) {
     Vec3 mean(0);
     for (const Vec3& s : samples)
@@ -24,7 +24,8 @@ std::vector<Vec3> spread_seeds(const std::vector<Vec3>& samples, int count) {
     std::vector<Vec3> seeds{mean / static_cast<float>(samples.size())};
     std::vector<float> cover(samples.size(), std::numeric_limits<float>::max());
     while (static_cast<int>(seeds.size()) < count) {
-        // Not the farthest sample, which is an outlier: the one at the 90% rank of a coarse pass.
+        // Not the farthest sample, which may be an outlier, but the one at the 90 % rank of a
+        // coarse pass.
         float mean_cover = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             cover[i] = std::min(cover[i], squared(samples[i] - seeds.back()));
@@ -115,7 +116,7 @@ float ColorMixture::density(Vec3 color) const {
 
 namespace {
 
-// A floor under both densities: a colour that neither side has ever shown decides nothing.
+// The least density of both sides, so that a colour that neither has shown decides nothing.
 constexpr float kOutlierDensity = 5e-8f;
 
 float inside_probability(const ColorWindow& w, Vec3 color) {
@@ -158,8 +159,7 @@ void fit_window(ColorWindow& window, const std::vector<ColorSource>& sources, in
     window.inside.fit(s.inside, s.inside_weight);
     window.outside.fit(s.outside, s.outside_weight);
     if (window.inside.empty() || window.outside.empty()) return;
-    // SnapCut eq. 2: the error of the classifier where the answer is known, the boundary counting
-    // most.
+    // SnapCut eq. 2: the classifier's error where the answer is known. The boundary counts most.
     double error = 0, total = 0;
     const float sigma = 0.5f * static_cast<float>(half);
     visit_window(sources[0], window.source_centers[0], half, 2 * stride, [&](Vec3 c, float phi) {

@@ -35,7 +35,7 @@ class ColorMixture {
 struct ColorSource {
     ViewU8x3 frame;
     ViewF1 phi;
-    float clearance_px = 1.5f;  ///< Pixels nearer to the boundary are left out: mixed colours.
+    float clearance_px = 1.5f;  ///< Nearer to the boundary, colours are mixed and not used.
     float inside_weight = 1;
     float outside_weight = 1;
 };
@@ -45,12 +45,12 @@ struct ColorWindow {
     Vec2i center{0, 0};
     std::vector<Vec2i> source_centers;
     ColorMixture inside, outside;
-    float separability = 0;  ///< 0–1: 1 when the colours tell inside from outside (SnapCut eq. 2).
+    float separability = 0;  ///< 0–1; 1 if colours separate inside from outside (SnapCut eq. 2).
 };
 
 struct ColorProbability {
     float inside = 0.5f;     ///< Probability of being inside, by colour alone.
-    float separability = 0;  ///< How far it can be relied on.
+    float separability = 0;  ///< 0–1: how reliable that is.
 };
 
 class LocalColorField {

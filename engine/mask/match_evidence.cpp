@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kRadius = 2;  // 5×5 patches
 constexpr float kNoiseLevels =
-    3;  // mean difference of a patch and itself a frame later, 8-bit levels
+    3;  // mean difference of an unchanged patch one frame later, 8-bit levels
 constexpr float kMatchWeight = 2;
 constexpr int kPatchValues = 3 * (2 * kRadius + 1) * (2 * kRadius + 1);
 
-// Sum of absolute differences, left early once it cannot be the best any more.
+// Sum of absolute differences; stops early once it cannot be the best.
 int patch_difference(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
                      std::ptrdiff_t b_stride, int best) {
     int sum = 0;

@@ -1,15 +1,15 @@
 #pragma once
-// Which side a pixel was on in the frame before: its neighbourhood is looked for among the pixels
-// that were inside and among those that were outside, and the better match tells (the split
-// nearest- neighbour idea of JumpCut, Fan et al. 2015, with the motion as the only guess).
+// Which side a pixel was on in the frame before. Its patch is searched among the pixels that were
+// inside and among those that were outside; the better match decides (the split nearest-neighbour
+// idea of JumpCut, Fan et al. 2015, with motion as the only guess).
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 
 namespace weft {
 
-/// What is known when two neighbouring frames are matched. The views of the area (`frame`,
-/// `expected_phi`, both motions) are of one size and lie at `origin` in the full-size ones.
+/// Input of match_evidence(). The views of the area (`frame`, `expected_phi`, both motions) have
+/// one size and lie at `origin` in the full-size views.
 struct MatchInput {
     ViewU8x3 frame;
     ViewF1 expected_phi;

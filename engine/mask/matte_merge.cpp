@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr float kVoteWeight = 4;  // log odds of what both say, at the boundary as far from it
+constexpr float kAgreedOdds = 4;  // log odds where both estimates agree
 
 // Bounds of where either estimate is inside.
 Recti joint_bounds(ViewF1 before, ViewF1 after) {
@@ -24,24 +24,24 @@ Recti joint_bounds(ViewF1 before, ViewF1 after) {
     return box;
 }
 
-// Two shapes brought together over an area. `share` is the later one's weight.
+// Two estimates of a shape, combined over an area. `share` is the later one's weight.
 struct JointShape {
     JointShape(ViewF1 before_phi, ViewF1 after_phi, float share, float band_px)
         : before(before_phi),
           after(after_phi),
           expected(before.size()),
           agreed(before.size()),
-          votes(before.size()) {
+          side_odds(before.size()) {
         for (int y = 0; y < before.height(); ++y) {
             for (int x = 0; x < before.width(); ++x) {
                 const float a = before.row(y)[x], b = after.row(y)[x];
                 const bool same = (a > 0) == (b > 0);
                 const float blend = a + share * (b - a);
-                // Where they disagree nothing is settled, however far the blended boundary is.
+                // Where they disagree nothing is settled, even far from the blended boundary.
                 expected.row(y)[x] = same ? blend : std::clamp(blend, 1 - band_px, band_px - 1);
                 agreed.row(y)[x] = !same ? 0 : (a > 0 ? std::min(a, b) : std::max(a, b));
-                votes.row(y)[x] = kVoteWeight * ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
-                                                 share * std::clamp(b / 2, -1.0f, 1.0f));
+                side_odds.row(y)[x] = kAgreedOdds * ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
+                                                     share * std::clamp(b / 2, -1.0f, 1.0f));
                 agreeing += same && a > 0 ? 1 : 0;
                 either += a > 0 || b > 0 ? 1 : 0;
             }
@@ -50,12 +50,12 @@ struct JointShape {
 
     ViewF1 before, after;  ///< Signed distances, pixels.
     ImageF1 expected;      ///< The same distances blended, pixels.
-    ImageF1 agreed;  ///< Distance to the nearer boundary where both take the same side, else 0.
-    ImageF1 votes;   ///< Log odds for inside by the estimates' weights.
+    ImageF1 agreed;     ///< Distance to the nearer boundary where both take the same side, else 0.
+    ImageF1 side_odds;  ///< Log odds for inside by the estimates' weights.
     double agreeing = 0, either = 0;
 };
 
-// Soft edges are where either estimate has them.
+// Edges are soft where either estimate has a soft edge.
 Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, ViewU8x1 after,
              const JointShape& joint, float share, const MatteOptions& options) {
     if (!options.soft_edges) return found.matte;
@@ -82,7 +82,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
                               float position, ViewU8x3 frame, const MatteOptions& options) {
     if (position <= 0) return from_before;
     if (position >= 1) return from_after;
-    // Squared: a walk that is half as sure is more than twice as likely to be wrong.
+    // Squared: a walk with half the confidence is more than twice as likely to be wrong.
     const float before = std::max(from_before.confidence, 1e-3f);
     const float after = std::max(from_after.confidence, 1e-3f);
     const float before_weight = (1 - position) * before * before;
@@ -106,7 +106,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
         w.source_centers = {w.center};
     const LocalColorField colors(std::move(windows), {{part, joint.agreed, 1.5f, 1.0f, 1.0f}},
                                  scale.window_half_px, scale.sample_stride, part.size());
-    const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.votes,
+    const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.side_odds,
                                                   ViewF1(), scale, options.steadiness);
     const Matte matte = soften(part, found, from_before.matte.view().crop(area),
                                from_after.matte.view().crop(area), joint, share, options);
@@ -114,7 +114,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
         std::copy(matte.row(y), matte.row(y) + area.width(),
                   merged.matte.pixel(area.x0, area.y0 + y));
     }
-    // Two walks that never met before and end at the same shape confirm each other.
+    // Two independent walks that end at the same shape confirm each other.
     const auto agreement = static_cast<float>(joint.agreeing / joint.either);
     merged.confidence += (1 - merged.confidence) * agreement * agreement * agreement;
     return merged;

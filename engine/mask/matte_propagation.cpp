@@ -17,8 +17,8 @@
 namespace weft {
 namespace {
 
-constexpr float kClearancePx = 1.5f;  // nearer to a boundary colours are mixed
-// On the frame itself only what lies well outside the expected boundary counts: new background.
+constexpr float kClearancePx = 1.5f;  // nearer to a boundary, colours are mixed
+// Of the new frame, only what lies well outside the expected boundary counts: new background.
 constexpr float kUnsureClearancePx = 6;
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
@@ -49,7 +49,7 @@ ImageF2 own_places(Size size) {
     return places;
 }
 
-// Where each pixel of `area` lay on the keyframe, given where the pixels of the frame before did.
+// Where each pixel of `area` lay on the keyframe, from where the previous frame's pixels lay.
 ImageF2 follow_places(ViewF2 key_from_prev, ViewF2 prev_from_cur, const Recti& area) {
     ImageF2 places(area.size());
     parallel_rows(area.height(), 16, [&](int y0, int y1) {
@@ -77,7 +77,7 @@ Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     return bounds.grown(margin).intersected(rect_of(frame));
 }
 
-// Nearer to the boundary than half of its usual softness colours are mixed.
+// Nearer to the boundary than half of its usual softness, colours are mixed.
 float clearance_of(const ImageF1& phi, const ImageF1& softness) {
     double sum = 0, n = 0;
     for (int y = 0; y < phi.height(); ++y) {
@@ -95,7 +95,7 @@ float clearance_of(const ImageF1& phi, const ImageF1& softness) {
 }  // namespace
 
 struct MatteWalker::State {
-    ImageU8x3 frame;  ///< The frame that was reached last …
+    ImageU8x3 frame;  ///< The last frame of the walk …
     ImageF1 phi;      ///< … and the signed distance of its matte's boundary, pixels.
     ImageU8x3 key_frame;
     ImageF1 key_phi;
@@ -104,15 +104,15 @@ struct MatteWalker::State {
     BackgroundPlate plate;
     MatteOptions options;
     float confidence = 1;
-    ImageF1 key_softness;               ///< Of the keyframe's edge, half its width in pixels …
-    float clearance_px = kClearancePx;  ///< … and what colours are learned beyond.
-    Matte last;                         ///< The matte of the frame that was reached last.
+    ImageF1 key_softness;               ///< Half the width of the keyframe's edge, pixels.
+    float clearance_px = kClearancePx;  ///< Nearer to the boundary, colours are not used.
+    Matte last;                         ///< The matte of the walk's last frame.
     bool soft_edges = false;            ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
-    LocalColorField learn_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
-                                 const Recti& area) const;
+    LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
+                               const Recti& area) const;
 };
 
 MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options) {
@@ -143,10 +143,11 @@ MatteWalker::~MatteWalker() = default;
 MatteWalker::MatteWalker(MatteWalker&&) noexcept = default;
 MatteWalker& MatteWalker::operator=(MatteWalker&&) noexcept = default;
 
-// What the surface looks like is remembered from the keyframe, so that a leak is not learned as
-// surface; what lies around it changes as it moves and comes from the last frame and from this one.
-LocalColorField MatteWalker::State::learn_colors(ViewU8x3 part, const TransportedShape& shape,
-                                                 ViewF2 key_from_cur, const Recti& area) const {
+// The surface's colours come from the keyframe, so that a leak is not taken for surface. The
+// surroundings change as the surface moves; their colours come from the last frame and from this
+// one.
+LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedShape& shape,
+                                               ViewF2 key_from_cur, const Recti& area) const {
     std::vector<ColorWindow> windows = place_windows(shape.phi, scale.window_step_px);
     for (ColorWindow& w : windows) {
         const float* d = shape.prev_from_cur.pixel(w.center.x, w.center.y);
@@ -161,7 +162,7 @@ LocalColorField MatteWalker::State::learn_colors(ViewU8x3 part, const Transporte
     return {std::move(windows), sources, scale.window_half_px, scale.sample_stride, part.size()};
 }
 
-// Hair, fur and motion blur are where they were on the keyframe, moved along.
+// Hair, fur and motion blur stay where they were on the keyframe, warped along the motion.
 Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                  ViewF2 prev_from_cur, const Recti& area) const {
     if (!soft_edges) return found.matte;
@@ -200,7 +201,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         const TransportedShape shape = transport_shape(s.phi, prev_from_cur, area, s.scale);
         const ViewU8x3 part = frame.crop(area);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
-        const LocalColorField colors = s.learn_colors(part, shape, key_from_cur, area);
+        const LocalColorField colors = s.fit_colors(part, shape, key_from_cur, area);
         const ImageF1 matched =
             match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
                             Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
@@ -208,8 +209,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         const RefinedBoundary found =
             refine_boundary(part, shape.phi, colors, matched, s.plate.odds(part, shape.phi, area),
                             s.scale, s.options.steadiness);
-        // What each frame loses depends on how often its boundary had to be guessed. The result
-        // ranks frames by how well they came out; it is not calibrated to be the overlap itself.
+        // Confidence falls with each frame whose boundary had to be guessed. It ranks frames by
+        // quality and is not calibrated to be the overlap itself.
         const BoundaryEvidence& e = found.evidence;
         const float risk = (1 - e.separability) + (1 - e.certainty) + 0.5f * (1 - e.steadiness) +
                            0.5f * (1 - shape.consistency);
@@ -219,7 +220,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         paste(s.key_from_prev, key_from_cur, area);
     }
     estimate.confidence = s.confidence;
-    s.plate.learn(frame, phi);
+    s.plate.update(frame, phi);
     s.phi = std::move(phi);
     s.frame = copy_of(frame);
     s.last = estimate.matte;

@@ -1,5 +1,5 @@
 #pragma once
-// Carrying a painted matte from its keyframe to the neighbouring frames.
+// Propagation of a painted matte from its keyframe to the neighbouring frames.
 
 #include <memory>
 
@@ -10,13 +10,13 @@ namespace weft {
 
 struct MatteEstimate {
     Matte matte;
-    float confidence = 1;  ///< 0–1: how sure the boundary is, 1 on the keyframe itself.
+    float confidence = 1;  ///< 0–1: how certain the boundary is; 1 on the keyframe itself.
 };
 
 struct MatteOptions {
     float steadiness = 0.5f;  ///< 0–1: how much of the boundary's boil is taken out.
-    /// Whether a painted edge is soft (MatteWalker::has_soft_edges()): where none is, merging two
-    /// estimates takes no edge for soft either, however unsure it is.
+    /// Whether a painted edge is soft (MatteWalker::has_soft_edges()). If false, merging two
+    /// estimates makes no edge soft, however uncertain it is.
     bool soft_edges = true;
 };
 
@@ -30,9 +30,9 @@ class MatteWalker {
     MatteWalker(MatteWalker&&) noexcept;
     MatteWalker& operator=(MatteWalker&&) noexcept;
 
-    /// The matte of the next frame of the walk. `prev_from_cur`: for each pixel of `frame` where it
-    /// was in the frame before (of the walk), pixels; its `valid` says where that can be trusted,
-    /// `d` is finite everywhere. Both have the keyframe's size.
+    /// The matte of the next frame of the walk. `prev_from_cur`: for each pixel of `frame`, where
+    /// it was in the walk's previous frame, pixels; `valid` marks reliable motion, and `d` is
+    /// finite everywhere. Both have the keyframe's size.
     [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur);
 
     /// Whether the keyframe's edge is soft anywhere: hair, fur, motion blur.

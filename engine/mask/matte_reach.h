@@ -8,15 +8,15 @@
 namespace weft {
 
 /// The direction in which a painted matte is propagated.
-enum class CarryDirection { kBoth, kForward, kBackward };
+enum class PropagationDirection { kBoth, kForward, kBackward };
 
 /// Beyond its reach a matte is empty; painted keyframes hold on their own frames in any case.
 struct MatteReach {
-    CarryDirection direction = CarryDirection::kBoth;
+    PropagationDirection direction = PropagationDirection::kBoth;
     int first = std::numeric_limits<int>::min(), last = std::numeric_limits<int>::max();
 
-    [[nodiscard]] bool forward() const { return direction != CarryDirection::kBackward; }
-    [[nodiscard]] bool backward() const { return direction != CarryDirection::kForward; }
+    [[nodiscard]] bool forward() const { return direction != PropagationDirection::kBackward; }
+    [[nodiscard]] bool backward() const { return direction != PropagationDirection::kForward; }
     /// Whether a frame gets a matte that was painted on `keys` (ascending, at least one).
     [[nodiscard]] bool covers(int frame, const std::vector<int>& keys) const {
         if (std::binary_search(keys.begin(), keys.end(), frame)) return true;

@@ -14,8 +14,8 @@ namespace weft {
 namespace {
 
 constexpr std::array<float, 3> kRadiiPx = {4, 12, 40};  // at 854×480
-constexpr float kWiderSay = 0.03f;       // of each wider radius against the one before
-constexpr float kDoubtfulTrust = 0.04f;  // of motion that failed the consistency check
+constexpr float kWiderWeight = 0.03f;         // weight of each wider radius against the one before
+constexpr float kInconsistentWeight = 0.04f;  // weight of motion that failed the consistency check
 
 float nearest_phi(ViewF1 phi, float x, float y) {
     const float u = std::clamp(x + 0.5f, 0.0f, static_cast<float>(phi.width()) - 0.5f);
@@ -24,7 +24,7 @@ float nearest_phi(ViewF1 phi, float x, float y) {
 }
 
 // Normalised convolution (Knutsson & Westin 1993) of the motion with the shape as its certainty, at
-// growing radii; a wider one only speaks where the narrower ones have nothing.
+// growing radii. A wider radius counts only where the narrower ones have no data.
 ImageF2 surface_motion(const cv::Mat& weighted, Vec2 fallback, float unit_px) {
     const int w = weighted.cols, h = weighted.rows;
     ImageF2 motion(w, h);
@@ -36,7 +36,7 @@ ImageF2 surface_motion(const cv::Mat& weighted, Vec2 fallback, float unit_px) {
                       cv::BORDER_REPLICATE);
         blurred.push_back(b);
     }
-    const std::array<float, 3> say = {1.0f, kWiderSay, kWiderSay * kWiderSay};
+    const std::array<float, 3> say = {1.0f, kWiderWeight, kWiderWeight * kWiderWeight};
     parallel_rows(h, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < w; ++x) {
@@ -93,9 +93,9 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
             const bool valid = prev_from_cur.valid.row(area.y0 + y)[area.x0 + x] != 0;
             const float phi = nearest_phi(prev_phi, static_cast<float>(area.x0 + x) + d[0],
                                           static_cast<float>(area.y0 + y) + d[1]);
-            const float trust = valid ? 1.0f : kDoubtfulTrust;
-            const float weight = phi <= 0 ? 0.0f : trust;
-            const float other = phi <= 0 ? trust : 0.0f;
+            const float confidence = valid ? 1.0f : kInconsistentWeight;
+            const float weight = phi <= 0 ? 0.0f : confidence;
+            const float other = phi <= 0 ? confidence : 0.0f;
             out[x] = cv::Vec3f(weight, weight * d[0], weight * d[1]);
             outside[x] = cv::Vec3f(other, other * d[0], other * d[1]);
             mean += weight * Vec2(d[0], d[1]);
@@ -123,7 +123,7 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
             }
         }
     });
-    // Stretching motion invalidates the distances: recompute them, and keep the sub-pixel place.
+    // Stretching motion invalidates the distances: recompute them, but keep the sub-pixel position.
     shape.phi = signed_distance(inside, scale.limit_px);
     for (int y = 0; y < h; ++y) {
         float* phi = shape.phi.row(y);

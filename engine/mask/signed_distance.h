@@ -1,6 +1,6 @@
 #pragma once
-// Signed distances of a matte's boundary, the form in which a matte's shape is propagated: it
-// can be resampled every frame without the edge getting softer.
+// Signed distances of a matte's boundary. Mattes are propagated in this form, because it can be
+// resampled every frame without softening the edge.
 
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
@@ -11,8 +11,8 @@ namespace weft {
 /// positive inside, clamped to ±`limit_px`. The frame's border is not a boundary. Thread-safe.
 [[nodiscard]] ImageF1 signed_distance(ViewU8x1 inside, float limit_px);
 
-/// The distances blurred by a small binomial kernel: the staircase of a binary label turns into a
-/// line at sub-pixel places, while distances away from corners stay.
+/// The distances blurred `passes` times by a small binomial kernel: the staircase of a binary label
+/// becomes a line at sub-pixel positions. Distances away from corners stay.
 [[nodiscard]] ImageF1 smooth_distance(ViewF1 phi, int passes);
 
 /// 1 where a matte covers at least half of a pixel, else 0.

@@ -19,7 +19,7 @@ namespace {
 constexpr int kSoftFrom = 26, kSoftTo = 229;  // a tenth and nine tenths of 255
 constexpr int kCellPx = 8;
 
-// Fills what is not known (negative) from the mean of what is, at half the size and so on.
+// Fills unknown (negative) pixels with the mean of known ones, recursively at half the size.
 void fill_unknown(ImageF1& field) {
     const Size size = field.size();
     bool any = false, all = true;
@@ -120,7 +120,7 @@ class MattingSystem {
         return sum;
     }
 
-    // Eq. 12: the window's share of the matting Laplacian.
+    // Eq. 12: the window's contribution to the matting Laplacian.
     void add_window(int cx, int cy) {
         std::array<std::int32_t, 9> number{};
         bool any = false;
@@ -136,7 +136,8 @@ class MattingSystem {
             colour[static_cast<std::size_t>(k)] = Vec3(c[0], c[1], c[2]) / 255.0f;
             mean += colour[static_cast<std::size_t>(k)] / 9.0f;
         }
-        // What grain and 8 bits leave of a plain surface does not span a line of colours.
+        // Regularisation: grain and 8-bit rounding on a plain surface do not span a line of
+        // colours.
         constexpr float kEpsilon = 2e-4f;
         glm::mat3 covariance(kEpsilon / 9.0f);
         for (Vec3& c : colour) {
@@ -229,7 +230,7 @@ ImageF1 edge_softness(ViewU8x1 matte, ViewF1 shape, float limit_px) {
             here.widest = std::max(here.widest, d);
         }
     }
-    // Over the cells around: strands stand apart.
+    // Over the neighbouring cells, because strands stand apart.
     ImageF1 around(cells, -1);
     for (int y = 0; y < cells.height; ++y) {
         for (int x = 0; x < cells.width; ++x) {
@@ -256,8 +257,8 @@ ImageF1 edge_softness(ViewU8x1 matte, ViewF1 shape, float limit_px) {
 }
 
 CoveragePrior colour_prior(ViewU8x3 frame, ViewF1 shape, ViewF1 half_width) {
-    constexpr float kBeyondPx = 5;    // how far past the band sure colours are taken from
-    constexpr float kWeight = 0.02f;  // where the colours are told apart for certain
+    constexpr float kBeyondPx = 5;    // how far beyond the band sure colours are searched
+    constexpr float kWeight = 0.02f;  // where the colours separate with certainty
     CoveragePrior out{ImageF1(frame.size()), ImageF1(frame.size())};
     parallel_rows(frame.height(), 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -303,7 +304,7 @@ Matte soft_alpha(ViewU8x3 frame, ViewU8x1 crisp, ViewF1 shape, ViewF1 half_width
     for (std::size_t n = 0; n < alpha.size(); ++n) {
         const Vec2i p = system.places()[n];
         const float width = std::max(half_width.row(p.y)[p.x], 0.5f);
-        // Where nothing is known the shape decides, faintly.
+        // Where nothing else is known, the shape decides, with a small weight.
         constexpr float kShapeWeight = 1e-4f;
         const float ramp = std::clamp(0.5f + 0.5f * shape.row(p.y)[p.x] / width, 0.0f, 1.0f);
         alpha[n] = ramp;
@@ -324,8 +325,8 @@ Matte soft_alpha(ViewU8x3 frame, ViewU8x1 crisp, ViewF1 shape, ViewF1 half_width
 
 Matte with_soft_edges(ViewU8x3 frame, ViewF1 phi, ViewF1 softness, Matte crisp, ViewU8x1 expected,
                       float steadiness) {
-    constexpr float kMarginPx = 1.5f;   // the boundary's place is not known better
-    constexpr float kExpected = 0.04f;  // weight of what was there before
+    constexpr float kMarginPx = 1.5f;   // uncertainty of the boundary's position
+    constexpr float kExpected = 0.04f;  // weight of the coverage in the frame before
     constexpr float kLimitPx = 40;
     bool any = false;
     for (int y = 0; y < crisp.height() && !any; ++y)

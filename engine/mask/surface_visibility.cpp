@@ -7,7 +7,7 @@ namespace weft {
 namespace {
 
 constexpr int kInside = 128;         // coverage that counts as inside for the outline
-constexpr int kFaint = 16;           // below: no coverage worth counting
+constexpr int kFaint = 16;           // below this, coverage does not count
 constexpr double kFirstStays = 0.5;  // of the best score
 constexpr double kWell = 0.9;        // likewise
 

@@ -38,8 +38,8 @@ Status flush(int file, const std::string& path) {
 }
 
 Status close_file(int file, const std::string& path) {
-    // Network file systems report a full disk only here. After EINTR the file is closed all the
-    // same.
+    // Network file systems report a full disk only here. After EINTR the file is closed
+    // nevertheless.
     if (::close(file) != 0 && errno != EINTR) {
         return tl::unexpected(system_error(path, "cannot be written", errno));
     }
@@ -53,8 +53,8 @@ Status write_through(int file, std::span<const std::byte> bytes, const std::stri
     return status ? closed : status;
 }
 
-// The file descriptor that the path stands for: what lies behind it may be a file, which must be
-// written on, not replaced.
+// The file descriptor that the path names. It may refer to a file, which must be appended to, not
+// replaced.
 std::optional<int> descriptor_in(const std::string& path) {
     if (path == "/dev/stdout") return STDOUT_FILENO;
     if (path == "/dev/stderr") return STDERR_FILENO;
@@ -87,7 +87,7 @@ Error cannot_be_written(const std::string& path, int error_number) {
     return system_error(path, "cannot be written", error_number);
 }
 
-// Whether the rule lets a file of this name appear in the folder `folder`, as things are now.
+// Checks whether the rule allows a file of this name in `folder` at this moment.
 Status check_target(int folder, const std::string& name, const std::string& real,
                     const std::string& shown, const WriteRule& rule) {
     if (rule.fence) WEFT_CHECK_OK(rule.fence->check(shown, real));
@@ -104,11 +104,11 @@ Status check_target(int folder, const std::string& name, const std::string& real
     return {};
 }
 
-// Gives the file its name without replacing another; EEXIST where there is one.
+// Renames the file without replacing another; EEXIST if there is one.
 int rename_new(int folder, const char* from, const char* to) {
     if (::renameat2(folder, from, folder, to, RENAME_NOREPLACE) == 0) return 0;
     if (errno != EINVAL && errno != ENOSYS) return errno;
-    // Network file systems know no such rename; most of them know links.
+    // Network file systems do not support such a rename; most of them support links.
     if (::linkat(folder, from, folder, to, 0) == 0) {
         ::unlinkat(folder, from, 0);
         return 0;
@@ -184,14 +184,14 @@ Expected<TemporaryFile> TemporaryFile::create(const std::string& path, const Wri
     if (place.file.empty() || place.file == "." || place.file == "..")
         return tl::unexpected(cannot_be_written(path, EISDIR));
     place.real_folder = fs::path(real_path(target.string())).parent_path().string();
-    // By its real path, and kept open: what happens to links on the way there changes nothing.
+    // By its real path, and kept open, so that later changes of links on the path have no effect.
     place.folder = ::open(place.real_folder.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (place.folder < 0) return tl::unexpected(cannot_be_written(path, errno));
     std::error_code ignored;
     const fs::path opened =
         fs::read_symlink("/proc/self/fd/" + std::to_string(place.folder), ignored);
     if (opened.is_absolute()) place.real_folder = opened.string();
-    // Known as live before it exists: a clean-up in another thread must not take it.
+    // Registered before it exists, so that a clean-up in another thread does not remove it.
     place.temporary = temporary_name(place.file);
     TemporaryFile temporary(std::move(place));
     WEFT_CHECK_OK(temporary.check());
@@ -234,7 +234,7 @@ Status TemporaryFile::commit() {
 }
 
 Status TemporaryFile::commit_unflushed() {
-    // Once more: another file or a link may have come to lie there meanwhile.
+    // Checks again: another file or a link may have appeared there since.
     WEFT_CHECK_OK(check());
     const char* const from = place_.temporary.c_str();
     const char* const to = place_.file.c_str();
@@ -290,8 +290,8 @@ Status make_folder(const std::string& folder, const WriteRule& rule) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (!error) return {};
-    return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be made: " +
-                                            error.message() + ". Choose another.");
+    return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be created: " +
+                                            error.message() + ". Choose another folder.");
 }
 
 Status make_folder_of(const std::string& path, const WriteRule& rule) {

@@ -1,9 +1,8 @@
 #pragma once
-// The one door through which files are written. A file appears whole or not at all: written under a
-// temporary name in the same folder, flushed to the disk, then renamed; and only where the
-// WriteRule lets it (engine/media/write_rule.h). The rule is asked before anything is written and
-// again when the file gets its name. tests/architecture/writers_test.cpp holds every other source
-// to this.
+// All files are written through these functions. A file appears whole or not at all: it is written
+// under a temporary name in the same folder, flushed to the disk and renamed, and only if the
+// WriteRule allows it (engine/media/write_rule.h). The rule is checked before anything is written
+// and again before the rename. tests/architecture/writers_test.cpp forbids other ways.
 
 #include <cstddef>
 #include <span>
@@ -15,36 +14,36 @@
 
 namespace weft {
 
-/// Writes `bytes` to `path`. Errors: Usage (the rule: a file that is there, an input, a place
-/// outside of the root, a device), NoSpace (disk full, quota, file size limit), Unreadable (folder
-/// missing or not writable, `path` is a folder). On error an older file at `path` is untouched and
-/// no temporary remains. Several threads may write, each its own path.
+/// Writes `bytes` to `path`. Errors: Usage (by the rule: an existing file, an input, a path outside
+/// the root, a device), NoSpace (disk full, quota, file size limit), Unreadable (folder missing or
+/// not writable, `path` is a folder). After an error an older file at `path` is unchanged and no
+/// temporary remains. Several threads may write to different paths.
 [[nodiscard]] Status write_file_atomically(const std::string& path,
                                            std::span<const std::byte> bytes, const WriteRule& rule);
 [[nodiscard]] Status write_file_atomically(const std::string& path, std::string_view text,
                                            const WriteRule& rule);
-/// The bytes of another file. Errors: the same.
+/// Copies the bytes of another file. Errors: the same.
 [[nodiscard]] Status copy_file_atomically(const std::string& from, const std::string& to,
                                           const WriteRule& rule);
 
-/// Whether the path names an open descriptor (/dev/stdout, /dev/fd/3), a pipe or another device.
+/// Returns true if the path names an open descriptor (/dev/stdout, /dev/fd/3), a pipe or another
+/// device.
 [[nodiscard]] bool is_device(const std::string& path);
 
-/// Whether a file could be written there now, so that it is known before the work. Errors: the
-/// same.
+/// Checks before the work whether a file could be written there. Errors: the same.
 [[nodiscard]] Status check_output(const std::string& path, const WriteRule& rule);
 
-/// Makes a folder, or the one of a file, with all above it. Errors: Usage (outside of the root),
+/// Creates a folder, or the folder of a file, with its parents. Errors: Usage (outside the root),
 /// Unreadable, with the reason.
 [[nodiscard]] Status make_folder(const std::string& folder, const WriteRule& rule);
 [[nodiscard]] Status make_folder_of(const std::string& path, const WriteRule& rule);
 
-/// A temporary name beside `path` for a library that writes by name (a movie container). The name
-/// is hidden, carries the host and process, and keeps the extension. Discarded on destruction.
+/// A temporary file beside `path`, for a library that writes by name (a movie container). Its name
+/// is hidden, contains host and process, and keeps the extension. Deleted on destruction.
 class TemporaryFile {
   public:
-    /// Creates the empty file, so that an unwritable folder is known before any work is done.
-    /// Errors as write_file_atomically().
+    /// Creates the empty file, so that an unwritable folder is detected before any work. Errors: as
+    /// write_file_atomically().
     [[nodiscard]] static Expected<TemporaryFile> create(const std::string& path,
                                                         const WriteRule& rule);
     TemporaryFile(TemporaryFile&& other) noexcept;
@@ -52,14 +51,14 @@ class TemporaryFile {
     ~TemporaryFile();
 
     [[nodiscard]] std::string name() const;
-    /// Replaces what the temporary holds.
+    /// Replaces the content of the temporary file.
     [[nodiscard]] Status write(std::span<const std::byte> bytes);
-    /// For a library that failed without a reason: the disk's, when it takes no more. Spoils the
-    /// file. Errors: NoSpace, Unreadable.
+    /// For a library that failed without a reason: the disk's error, if it is full. Destroys the
+    /// content. Errors: NoSpace, Unreadable.
     [[nodiscard]] Status check_disk() const;
     /// Flushes the file to the disk and gives it its final name.
     [[nodiscard]] Status commit();
-    /// The same without the flush: for caches, which carry a checksum and may be lost.
+    /// The same without the flush: for caches, which have a checksum and may be lost.
     [[nodiscard]] Status commit_unflushed();
 
   private:
@@ -78,8 +77,8 @@ class TemporaryFile {
     bool committed_ = false;
 };
 
-/// A private folder below the system's temporary one (TMPDIR). Removed with all it holds on
-/// destruction; those of killed processes of this host go when the next one is made.
+/// A private folder below the system's temporary folder (TMPDIR). Removed with its content on
+/// destruction; folders of killed processes of this host are removed when the next one is created.
 class TemporaryFolder {
   public:
     /// Errors: NoSpace when no folder can be made.
@@ -94,12 +93,12 @@ class TemporaryFolder {
     std::string path_;  // empty once moved from
 };
 
-/// Removes every temporary file and folder of this process and lets no thread begin another: for a
-/// process that is about to _exit(). A thread that asks for one afterwards waits for ever.
+/// Removes every temporary file and folder of this process and prevents new ones: for a process
+/// that is about to call _exit(). A thread that requests one afterwards blocks forever.
 void abandon_temporaries();
 
-/// Removes what a killed run may have left: temporaries in the folder of `path` that nobody writes
-/// any more, that is those of a process of this host that has ended, and any older than a day.
+/// Removes what killed runs left in the folder of `path`: temporaries of processes of this host
+/// that have ended, and any older than a day.
 void remove_stale_temporaries(const std::string& path);
 
 /// The error for a system call that failed on `path`: `doing` as in "cannot be written".

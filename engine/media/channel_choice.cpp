@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-// The layer that a channel's name begins with, without its dot.
+// The layer in a channel's name, without the dot.
 std::string layer_of(const std::string& channel) {
     const std::size_t dot = channel.rfind('.');
     return dot == std::string::npos ? std::string() : channel.substr(0, dot);
@@ -23,7 +23,7 @@ std::string last_word(const std::string& layer) {
     return lower_case(layer.substr(layer.rfind('.') + 1));
 }
 
-// What renderers call the finished picture: Nuke, Arnold, V-Ray, Blender, RenderMan.
+// Renderers' names of the finished picture: Nuke, Arnold, V-Ray, Blender, RenderMan.
 bool names_the_picture(const std::string& layer) {
     static const std::set<std::string> kNames{"rgba",      "rgb",           "beauty",
                                               "combined",  "main",          "color",
@@ -74,7 +74,7 @@ std::optional<ChannelChoice> grey_of(const PartNames& part, int number, const st
     return choice_of(number, {y}, find_channel(part, prefix, {"A", "alpha"}));
 }
 
-// For files whose channels have no telling names: by their number.
+// By number, for files whose channel names say nothing.
 std::optional<ChannelChoice> by_count(const PartNames& part, int number) {
     std::vector<int> colors;
     for (int c = 0; c < static_cast<int>(part.channels.size()) && c < 4; ++c)
@@ -95,7 +95,7 @@ std::optional<ChannelChoice> named_in(const PartNames& part, int number,
     const std::string prefix = request.layer + ".";
     if (auto choice = rgb_of(part, number, prefix)) return choice;
     if (auto choice = grey_of(part, number, prefix, true)) return choice;
-    // A part of a multi-part file carries the layer's name itself.
+    // A part of a multi-part file may have the layer's name itself.
     if (lower_case(part.name) != lower_case(request.layer)) return std::nullopt;
     if (auto choice = rgb_of(part, number, "")) return choice;
     return grey_of(part, number, "", true);
@@ -121,7 +121,7 @@ std::vector<ChannelChoice> picture_layers(const std::vector<PartNames>& parts) {
     return found;
 }
 
-// The picture of an EXR when no layer is asked for. Nothing: no evident one.
+// The picture of an EXR if no layer is requested; empty if that is ambiguous.
 std::optional<ChannelChoice> evident(const std::vector<PartNames>& parts) {
     const auto first = [&](auto&& choose) -> std::optional<ChannelChoice> {
         for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -137,7 +137,7 @@ std::optional<ChannelChoice> evident(const std::vector<PartNames>& parts) {
     if (layers.size() > 1) return std::nullopt;
     if (auto choice = first([](const PartNames& p, int k) { return grey_of(p, k, "", false); }))
         return choice;
-    // One channel alone, such as a matte's A: there is nothing to choose.
+    // A single channel, such as a matte's A: there is no choice.
     const bool alone = parts.size() == 1 && parts[0].channels.size() == 1 && !is_data(parts[0]);
     if (!alone) return std::nullopt;
     const std::string& only = parts[0].channels[0];

@@ -55,7 +55,7 @@ std::vector<std::array<int, 2>> ranks_of(const OIIO::ImageSpec& spec, const std:
 // A feature film's set has some hundred thousand names.
 constexpr std::uint64_t kManifestLimit_bytes = std::uint64_t{64} << 20;
 
-// In the header, or in a file beside the picture.
+// From the header, or from a file beside the picture.
 std::string manifest_text(const OIIO::ImageSpec& spec, const std::string& key,
                           const std::string& path) {
     const std::string inside(spec.get_string_attribute(key + "manifest"));
@@ -76,7 +76,7 @@ void add_layers(const OIIO::ImageSpec& spec, int part, const std::string& path,
         layer.part = part;
         layer.ranks = ranks_of(spec, layer.name);
         const std::string key = attribute.substr(0, attribute.size() - 4);
-        // Without a manifest names still have their hashes.
+        // Without a manifest, names can still be matched by their hashes.
         if (auto ids = parse_cryptomatte_manifest(manifest_text(spec, key, path)))
             layer.ids = std::move(*ids);
         if (!layer.ranks.empty()) layers.push_back(std::move(layer));
@@ -177,7 +177,7 @@ Expected<std::vector<CryptoObject>> objects_of(CryptoFile& file, const Layer& la
     return out;
 }
 
-// * stands for anything.
+// * matches any text.
 bool matches(std::string_view text, std::string_view pattern) {
     std::size_t t = 0, p = 0, star = std::string_view::npos, mark = 0;
     while (t < text.size()) {
@@ -203,7 +203,7 @@ struct Wanted {
     std::set<std::uint32_t> ids;
 };
 
-// Which ids a name stands for: in the layer that it names, else in the first that has it.
+// The ids of a name: in the layer that it names, else in the first layer that has it.
 std::optional<Wanted> find_name(const std::vector<Layer>& layers, std::string_view name) {
     const std::size_t slash = name.find('/');
     for (const bool qualified : {true, false}) {

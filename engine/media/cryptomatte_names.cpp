@@ -21,7 +21,7 @@ class ManifestReader {
             if (!take(':')) return wrong("a name has no value");
             WEFT_TRY(hex, string());
             std::uint32_t id = 0;
-            if (hex.empty() || hex.size() > 8) return wrong("a value has not 8 digits");
+            if (hex.empty() || hex.size() > 8) return wrong("a value does not have 1 to 8 digits");
             for (const char c : hex) {
                 const int digit = digit_of(c);
                 if (digit < 0) return wrong("a value is not hexadecimal");
@@ -52,7 +52,7 @@ class ManifestReader {
         return true;
     }
     Expected<std::string> string() {
-        if (!take('"')) return wrong("a text is missing");
+        if (!take('"')) return wrong("a string is missing");
         std::string out;
         while (at_ < text_.size() && text_[at_] != '"') {
             if (text_[at_] != '\\') {
@@ -69,12 +69,12 @@ class ManifestReader {
                 out += k == std::string_view::npos ? c : kTo[k];
             }
         }
-        if (at_ >= text_.size()) return wrong("a text has no end");
+        if (at_ >= text_.size()) return wrong("a string does not end");
         ++at_;
         return out;
     }
-    // Four digits; of a surrogate pair each half is kept as three bytes, which is what a name's
-    // hash was not made of, but such names are not found in practice.
+    // Four digits. Each half of a surrogate pair becomes three bytes. A name's hash is not made of
+    // those, but such names do not occur in practice.
     Status unicode(std::string& out) {
         unsigned code = 0;
         for (int k = 0; k < 4; ++k, ++at_) {

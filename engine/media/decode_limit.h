@@ -3,11 +3,11 @@
 
 namespace weft {
 
-/// The most that one decoded picture may take, as floats, in bytes: a quarter of the machine's
-/// memory unless set, because up to three copies are held while it is decoded. What claims more is
-/// refused before any of it is allocated (NoSpace). For the whole process; safe from any thread.
+/// The most memory for one decoded picture, as floats, in bytes: a quarter of the machine's memory
+/// by default, because up to three copies exist while it is decoded. A larger picture is rejected
+/// before any memory is allocated (NoSpace). For the whole process; thread-safe.
 [[nodiscard]] std::int64_t decode_limit_bytes();
-/// 0: a quarter of the machine's memory again.
+/// 0 restores the default.
 void set_decode_limit_bytes(std::int64_t bytes);
 
 }  // namespace weft

@@ -33,7 +33,7 @@ class Header {
     bool little_;
 };
 
-// Samples of a pixel, by the descriptor; 0: not known here.
+// Samples per pixel, by the descriptor; 0: not supported here.
 std::uint64_t samples_of(std::uint32_t descriptor) {
     if (descriptor >= 1 && descriptor <= 8) return 1;
     if (descriptor == 50) return 3;                         // RGB
@@ -49,7 +49,7 @@ std::uint64_t line_bytes(std::uint64_t samples, std::uint32_t bits, std::uint32_
     return (samples * bits + 7) / 8;
 }
 
-// Where the pixels of element `k` end, at the least; 0: not known here.
+// The least end of the pixels of element `k`, in bytes; 0: unknown.
 std::uint64_t end_of_element(const Header& header, std::size_t k) {
     const std::size_t at = kElement_at + k * kElement_bytes;
     const std::uint64_t samples = samples_of(header.number(at + 20, 1));
@@ -64,7 +64,8 @@ std::uint64_t end_of_element(const Header& header, std::size_t k) {
     const std::uint64_t padding = header.number(at + 32, 4);
     const std::uint64_t width = header.number(kWidth_at, 4), height = header.number(kHeight_at, 4);
     constexpr std::uint64_t kMostPixels = 1
-                                          << 20;  // a side; beyond it the decoder has its own word
+                                          // A side; beyond it the decoder reports the error.
+                                          << 20;
     if (width > kMostPixels || height > kMostPixels) return 0;
     const std::uint64_t line = line_bytes(width * samples, bits, packing);
     const bool padded = padding != kUndefined && padding < line;

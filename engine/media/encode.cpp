@@ -22,8 +22,9 @@ namespace {
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 
-// Sub, up and average come within 1% of each other on film frames at this level, at two thirds of
-// the time of choosing a filter for every row; level 6 takes four times as long for 6% less.
+// The filters sub, up and average differ by less than 1 % on film frames at this level, and take
+// two thirds of the time of choosing a filter for every row. Level 6 takes four times as long for 6
+// % less.
 constexpr int kPngLevel = 1;
 constexpr int kPngFilterAverage = 0x40;
 
@@ -40,7 +41,7 @@ OIIO::TypeDesc type_of(SampleKind kind) {
     }
 }
 
-// What a DPX header says of the shot rather than of how the pixels are stored.
+// Attributes of the shot in a DPX header, as opposed to those of the pixel storage.
 constexpr std::array kShotAttributes{"smpte:TimeCode",        "smpte:KeyCode",
                                      "dpx:TimeCode",          "dpx:FrameRate",
                                      "dpx:TemporalFrameRate", "dpx:FramePosition",
@@ -65,7 +66,7 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
     ImageSpec spec(samples.size.width, samples.size.height, samples.channels,
                    type_of(samples.kind));
     spec.attribute("oiio:UnassociatedAlpha", 1);  // the samples go into the file as they are
-    // OpenImageIO would write the time of day, and the same frame would differ from run to run.
+    // OpenImageIO would write the current time, and the same frame would differ between runs.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (options.pixel_aspect != 1)
         spec.attribute("PixelAspectRatio", static_cast<float>(options.pixel_aspect));
@@ -121,7 +122,7 @@ Status encode(const std::string& path, const Samples& samples, const WriteOption
     const ImageSpec spec = spec_of(samples, options, output->format_name());
     const std::array parts{WrittenPart{samples.size, samples.channels}};
     if (output->supports("ioproxy")) {
-        // Encoded into memory first: then every failure of the disk is ours to name.
+        // Encoded into memory first, so that all disk errors get our messages.
         std::vector<unsigned char> bytes;
         OIIO::Filesystem::IOVecOutput proxy(bytes);
         if (!output->set_ioproxy(&proxy)) {

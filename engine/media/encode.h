@@ -1,5 +1,6 @@
 #pragma once
-// Internal: samples → an image file, whole or not at all. The only door to OpenImageIO for writing.
+// Internal: encodes samples into an image file, whole or not at all. The only use of OpenImageIO
+// for writing.
 
 #include <string>
 
@@ -9,7 +10,7 @@
 
 namespace weft {
 
-/// Interleaved rows without gaps. kHalf is given as float and stored as half. Channels: grey, RGB
+/// Interleaved rows without gaps. kHalf is passed as float and stored as half. Channels: grey, RGB
 /// or RGBA.
 struct Samples {
     Size size;

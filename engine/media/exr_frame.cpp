@@ -62,7 +62,7 @@ Expected<std::vector<ExrPart>> read_parts(const std::string& path) {
     return parts;
 }
 
-// `origin`: where the picture's (0, 0) lies in the part.
+// `origin`: the position of the picture's (0, 0) in the part.
 void fill_layers(ExrPart& part, const std::vector<ExrLayer>& layers, Vec2i origin, Size size) {
     for (const ExrLayer& layer : layers) {
         const std::size_t count = layer.channels.size();
@@ -125,7 +125,7 @@ ExrPart picture_over(ExrPart part, const ExrFrame& frame, const std::array<int, 
     return part;
 }
 
-// A part of its own for a picture that has no source.
+// A part for a picture without a source.
 ExrPart fresh_part(const ExrFrame& frame, PixelDepth depth, double pixel_aspect) {
     const bool alpha = !frame.alpha.empty();
     ExrPart part;
@@ -153,7 +153,7 @@ void finish_spec(ImageSpec& spec, const WriteOptions& options, bool main_part) {
     spec.attribute("compression", options.exr_compression != "auto" ? options.exr_compression
                                   : loses_nothing(kept)             ? kept
                                                                     : "zip");
-    // Where the plate says no time, OpenImageIO would write the time of day.
+    // If the plate has no time, OpenImageIO would write the current time.
     if (!spec.find_attribute("DateTime")) spec.attribute("DateTime", "1970:01:01 00:00:00");
     spec.erase_attribute("openexr:lineOrder");
     spec.attribute("oiio:UnassociatedAlpha", 1);
@@ -185,14 +185,14 @@ Status write_parts(const std::string& path, std::vector<ExrPart>& parts, const W
         promised.push_back({{part.spec.width, part.spec.height}, part.spec.nchannels});
     WEFT_TRY(temporary, TemporaryFile::create(path, rule));
     if (parts.size() == 1) {
-        // Encoded into memory first: then every failure of the disk is ours to name.
+        // Encoded into memory first, so that all disk errors get our messages.
         std::vector<unsigned char> file;
         OIIO::Filesystem::IOVecOutput proxy(file);
         if (!output->set_ioproxy(&proxy) || !encode(*output, path, parts))
             return tl::unexpected(cannot_write(path, output->geterror()));
         WEFT_CHECK_OK(temporary.write(std::as_bytes(std::span(file))));
     } else if (!encode(*output, temporary.name(), parts)) {
-        // OpenImageIO 2.4 writes several parts by name only: it passes over the proxy.
+        // OpenImageIO 2.4 writes several parts by name only, not through the proxy.
         const std::string reason = output->geterror();
         output.reset();
         WEFT_CHECK_OK(temporary.check_disk());
@@ -203,7 +203,7 @@ Status write_parts(const std::string& path, std::vector<ExrPart>& parts, const W
     return temporary.commit();
 }
 
-// The channels of the picture itself do not belong to a layer.
+// The picture's own channels must not be names of a layer.
 Status check_layer_names(const std::string& path, const ExrPart& part, const ExrFrame& frame,
                          const std::array<int, 3>& rgb) {
     for (const ExrLayer& layer : frame.layers) {

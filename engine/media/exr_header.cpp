@@ -14,7 +14,7 @@ constexpr std::uint32_t kMultiPart = 0x1000;  // flag in the version field
 constexpr std::size_t kLongestName = 255;     // with the long-name flag; else 31
 constexpr int kMostAttributes = 1'000'000;
 
-// Reads a file from its beginning in blocks.
+// Reads a file from its start in blocks.
 class Cursor {
   public:
     explicit Cursor(const InputFile& file) : file_(file) {}
@@ -41,7 +41,7 @@ class Cursor {
         }
         return true;
     }
-    // A text that ends with a zero byte. False where none does in time.
+    // A string that ends with a zero byte; false if there is none within the limit.
     bool name(std::string& text) {
         text.clear();
         for (unsigned char c = 0; byte(c);) {

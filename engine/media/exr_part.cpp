@@ -57,7 +57,7 @@ ExrPart with_depth(ExrPart part, const std::array<int, 3>& rgb, PixelDepth depth
     const std::string alpha = red.substr(0, red.rfind('.') + 1) + "A";
     if (const int at = channel_named(part.spec, alpha); at >= 0) picture.push_back(at);
     const TypeDesc other = depth == PixelDepth::kFloat ? TypeDesc::HALF : TypeDesc::FLOAT;
-    // Channels of mixed depths, and of integers, stay as they are.
+    // Channels of mixed depths, and integer channels, stay as they are.
     if (!std::all_of(rgb.begin(), rgb.end(),
                      [&](int c) { return part.spec.channelformat(c) == other; }))
         return part;

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: a part of an EXR file in memory, on its way from a plate into a frame.
+// Internal: a part of an EXR file in memory, between a plate and a frame.
 
 #include <OpenImageIO/imageio.h>
 
@@ -32,19 +32,19 @@ struct ExrPart {
     }
 };
 
-/// Stores a number in a channel's own format, as the nearest that it holds; NaN and infinity stay.
+/// Stores a number in a channel's own format, rounded to the nearest; NaN and infinity stay.
 void store_sample(unsigned char* to, OIIO::TypeDesc format, float value);
 
-/// The number of the channel of this name; -1 where there is none.
+/// The index of the channel of this name; -1 if there is none.
 [[nodiscard]] int channel_named(const OIIO::ImageSpec& spec, const std::string& name);
 
-/// The channels `rgb`, and the alpha beside them, as half or float where all three are of the
-/// other.
+/// Converts the channels `rgb`, and the alpha beside them, to half or float if all three have the
+/// other depth.
 [[nodiscard]] ExrPart with_depth(ExrPart part, const std::array<int, 3>& rgb, PixelDepth depth);
-/// Another data window; what the part had not is 0.
+/// Sets another data window; new pixels are 0.
 [[nodiscard]] ExrPart with_window(ExrPart part, const Recti& window);
-/// The layers' channels as well, all of 0. Those that the part has already, of an earlier pass,
-/// take the new layer's depth and lose their samples.
+/// Adds the layers' channels, all 0. Channels of an earlier pass that the part already has take the
+/// new layer's depth and lose their samples.
 [[nodiscard]] ExrPart with_channels(ExrPart part, const std::vector<ExrLayer>& layers);
 
 }  // namespace weft

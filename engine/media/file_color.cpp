@@ -11,7 +11,7 @@ namespace {
 
 using Primaries = std::array<double, 8>;
 
-// The coordinates in files are rounded, to as little as three digits.
+// Coordinates in files are rounded, some to three digits.
 constexpr double kSamePrimary = 0.004;
 
 bool same(const Primaries& a, const Primaries& b) {
@@ -78,7 +78,7 @@ std::string icc_profile_name(const unsigned char* profile, std::size_t bytes) {
 }
 
 std::string note_of_profile(const std::string& name) {
-    // Every program's own sRGB profile has the word in its name.
+    // Programs' own sRGB profiles all have the word in their name.
     if (name.find("sRGB") != std::string::npos) return {};
     return name.empty() ? "has an ICC profile" : "has the ICC profile '" + name + "'";
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a file says of its own colours.
+// The colour information of a file.
 
 #include <array>
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace weft {
 
-/// `space`: how values are read if no space is set: "srgb", "linear" or "cineon".
-/// `note`: what the file says that `space` does not hold, to follow the file's name in a sentence
-/// ("has the ICC profile 'Adobe RGB (1998)'"); empty: nothing.
+/// `space`: how values are read if no space is set: "srgb", "linear" or "cineon". `note`: what the
+/// file says beyond `space`, to follow the file's name in a sentence ("has the ICC profile 'Adobe
+/// RGB (1998)'"); empty: nothing.
 struct FileColor {
     std::string space = "srgb";
     std::string note;
@@ -22,7 +22,7 @@ struct FileColor {
 [[nodiscard]] std::string note_of_profile(const std::string& name);
 /// Internal: the note for red, green, blue and white in CIE xy; empty for Rec.709 with D65.
 [[nodiscard]] std::string note_of_primaries(const std::array<double, 8>& xy);
-/// Internal: the note for an encoding exponent (1/2.2: as displays have it, no note).
+/// Internal: the note for an encoding exponent; empty for that of displays (1/2.2).
 [[nodiscard]] std::string note_of_gamma(double exponent);
 
 }  // namespace weft

@@ -92,7 +92,7 @@ Status write_flow_kitti(const std::string& path, const FlowField& flow) {
     for (std::size_t i = 0; i < flow.valid.size_bytes(); ++i) {
         const float u = std::floor(d[2 * i] * kKittiStep + kKittiZero + 0.5f);
         const float v = std::floor(d[2 * i + 1] * kKittiStep + kKittiZero + 0.5f);
-        // Motion of 512 px and more does not fit the format: better unknown than wrong.
+        // Motion of 512 px and more does not fit the format and is marked as unknown.
         if (valid[i] == 0 || !(u >= 0 && u <= 65535 && v >= 0 && v <= 65535)) continue;
         codes[3 * i] = static_cast<std::uint16_t>(u);
         codes[3 * i + 1] = static_cast<std::uint16_t>(v);

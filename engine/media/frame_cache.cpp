@@ -16,7 +16,7 @@ std::size_t bytes_of(const PlateFrame& frame) {
     return frame.rgb.size_bytes() + frame.alpha.size_bytes() + sizeof frame;
 }
 
-// Whoever waits for this decoding must get an answer, so running out of memory is one.
+// Other threads may wait for this decoding, so running out of memory is returned as a result.
 SharedFrame decode(const FrameReader& reader, int frame) {
     try {
         WEFT_TRY(pixels, reader.read(frame));
@@ -34,8 +34,8 @@ struct CachedReader::State {
         Hash128 stamp;
         std::shared_ptr<const PlateFrame> pixels;
     };
-    // A decoding under way. Keyed by the stamp too: who asks after the file has changed must not
-    // get what was read before.
+    // A decoding in progress. The key includes the stamp, so that a request after the file has
+    // changed does not get the old picture.
     using Key = std::pair<int, Hash128>;
 
     std::size_t budget_bytes = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A plate whose latest frames stay decoded, so that analysis, preview and rendering may ask for the
-// same frame without decoding it twice.
+// A plate whose latest frames stay decoded, so that analysis, preview and rendering do not decode
+// the same frame twice.
 
 #include <cstddef>
 #include <memory>
@@ -12,9 +12,9 @@
 
 namespace weft {
 
-/// Keeps frames up to a budget, the longest unused going first. All calls may come from several
-/// threads; a frame that several ask for at once is decoded once, different frames at the same
-/// time. A frame whose stamp() has changed is decoded again. Errors are not kept.
+/// Keeps frames up to a budget and drops the least recently used first. Thread-safe: a frame that
+/// several threads request is decoded once, different frames in parallel. A frame whose stamp() has
+/// changed is decoded again. Errors are not kept.
 class CachedReader final : public FrameReader {
   public:
     CachedReader(std::shared_ptr<const FrameReader> reader, std::size_t budget_bytes);
@@ -22,7 +22,7 @@ class CachedReader final : public FrameReader {
 
     /// The frame without a copy; it stays valid after the cache has dropped it. Errors as read().
     [[nodiscard]] Expected<std::shared_ptr<const PlateFrame>> read_shared(int frame) const;
-    /// What the kept frames take, never more than the budget.
+    /// Memory of the kept frames, never more than the budget.
     [[nodiscard]] std::size_t size_bytes() const;
 
     [[nodiscard]] const std::vector<int>& frames() const override { return reader_->frames(); }

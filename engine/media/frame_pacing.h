@@ -1,5 +1,5 @@
 #pragma once
-// Internal: whether a movie's frames follow each other at a constant rate.
+// Internal: detects whether a movie's frame rate is constant.
 
 #include <cstdint>
 #include <vector>
@@ -13,13 +13,13 @@ class FramePacing {
     /// A frame without a time stamp: nothing is known from here on.
     void add_unknown() { known_ = false; }
 
-    /// For how long single frames are shown, in ticks. The last frame's duration is not known.
+    /// The display times of single frames, in ticks. The last frame's is unknown.
     struct Durations {
         std::int64_t shortest = 0, longest = 0;
     };
     [[nodiscard]] Durations durations() const;
-    /// True when some frame is shown for clearly longer or shorter than most are. Containers round
-    /// time stamps to whole ticks, so a constant rate gives durations that differ by a tick or two.
+    /// True if some frame is shown for clearly longer or shorter than most. Containers round time
+    /// stamps to whole ticks, so a constant rate gives durations that differ by a tick or two.
     [[nodiscard]] bool varies() const;
 
   private:

@@ -24,7 +24,7 @@ std::uint8_t quantise(float v) {
     return v >= 1.0f ? std::uint8_t{255} : static_cast<std::uint8_t>(v * 255.0f + 0.5f);
 }
 
-// Where the matte's samples lie among a raster's channels. Luma reads three.
+// The matte's samples among a raster's channels. Luma reads three.
 struct Source {
     bool luma = false;
     int channel = 0;
@@ -45,7 +45,7 @@ bool has_transparency(const Raster& raster) {
         raster.samples);
 }
 
-// "R", "G", "B", "A", "Y" and the default, among the colour channels. Nothing: no such channel.
+// "R", "G", "B", "A", "Y" and the default, among the colour channels; empty if there is none.
 std::optional<Source> find_source(const Raster& raster, const std::string& channel) {
     const bool grey = raster.colors() < 3;
     const int alpha = raster.channels - 1;
@@ -157,8 +157,8 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
                             " has no integer ids (its samples are floating point), so no value "
                             "can be picked. Leave the matte value out.");
         }
-        // Without a channel the ids are in the first one: luma would mix them, and an id matte's
-        // alpha says where there is any object.
+        // Without a channel the ids are in the first one: luma would mix them, and an ID matte's
+        // alpha only marks where there is any object.
         matte = equal_to(raster, select.channel.empty() ? 0 : source.channel, *select.value);
     } else {
         matte = coverage(raster, source);

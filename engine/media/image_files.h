@@ -10,36 +10,36 @@
 
 namespace weft {
 
-/// Reads any format OpenImageIO knows. Errors: Unreadable (missing, truncated, not an image), with
-/// the path; NoSpace when it would not fit into memory.
+/// Reads any format of OpenImageIO. Errors: Unreadable (missing, truncated, not an image), with the
+/// path; NoSpace if it does not fit into memory.
 [[nodiscard]] Expected<PlateFrame> read_image(const std::string& path,
                                               const std::string& layer = {});
 
-/// Which part of a matte file is the matte.
+/// Selects the matte in a matte file.
 struct MatteSelect {
-    /// An id matte: 255 where the (integer) pixel equals it, else 0. Looked up in `channel`, or in
-    /// the first one; of a palette file the ids are the indices, not the colours.
+    /// An ID matte: 255 where the (integer) pixel equals it, else 0. Read from `channel`, or from
+    /// the first one; in a palette file the ids are the indices, not the colours.
     std::optional<int> value;
     std::string channel;  ///< "R", "G", "B", "A", "Y" (luma) or a channel's name; empty: A
                           ///< when the file has an alpha that is not all opaque, else Y.
     bool invert = false;
-    /// Objects of a Cryptomatte by name, with commas between (engine/media/cryptomatte.h); the
-    /// others do not count then, but for `invert`.
+    /// Cryptomatte objects by name, separated by commas (engine/media/cryptomatte.h). The other
+    /// members except `invert` are then ignored.
     std::string crypto = {};
     bool operator==(const MatteSelect&) const = default;
 };
 
-/// Coverage 0–255, of any size when `expected` is empty (rounded; 16-bit and float files are
-/// quantised). Errors: MissingFrames when the file is not there, Unreadable when it is no image,
-/// has no such channel, or its size differs from `expected` (the message gives both sizes); Usage
-/// for `value` on a float file.
+/// Coverage 0–255, of any size if `expected` is empty (rounded; 16-bit and float files are
+/// quantised). Errors: MissingFrames if there is no such file; Unreadable if it is not an image,
+/// lacks the channel, or differs in size from `expected` (the message gives both sizes); Usage for
+/// `value` on a float file.
 [[nodiscard]] Expected<Matte> read_matte(const std::string& path, const MatteSelect& select,
                                          Size expected);
 
 /// `.flo` (Middlebury) or 16-bit PNG in the KITTI encoding. Unknown motion has d = 0 and valid = 0.
 /// Errors as read_matte().
 [[nodiscard]] Expected<FlowField> read_flow(const std::string& path, Size expected);
-/// How a pass holds motion. Vectors of renderers point upwards for y > 0.
+/// How a pass encodes motion. In renderers' vectors y points up.
 enum class MotionConvention {
     kFiles,    ///< .flo and KITTI: read_flow().
     kBlender,  ///< Cycles' Vector pass: pixels; X, Y to the previous frame, Z, W from the next.
@@ -51,23 +51,23 @@ enum class MotionConvention {
 struct MotionSelect {
     MotionConvention convention = MotionConvention::kFiles;
     MotionDirection direction = MotionDirection::kForward;
-    std::string layer = {};  ///< What stands before ".X" in the channels' names; empty: found.
+    std::string layer = {};  ///< The part of the channels' names before ".X"; empty: detected.
 };
-/// The motion to the next or the previous frame, pixels, y down. Errors as read_flow(); Unreadable,
-/// listing the channels, when there is no such pass.
+/// The motion to the next or the previous frame, H×W×2 pixels, y down. Errors: as read_flow();
+/// Unreadable, listing the channels, if there is no such pass.
 [[nodiscard]] Expected<FlowField> read_motion(const std::string& path, const MotionSelect& select,
                                               Size expected);
 
-/// A UV pass or an ST-map: two channels (U, V or R, G) in 0–1, the origin at the bottom left; more
-/// where a texture repeats. `layer`: what stands before ".U"; empty: found. Errors as
+/// A UV pass or an ST-map: two channels (U, V or R, G) in 0–1, origin at the bottom left; larger
+/// where a texture repeats. `layer`: the part of the names before ".U"; empty: detected. Errors: as
 /// read_motion().
 [[nodiscard]] Expected<ImageF2> read_uv(const std::string& path, const std::string& layer,
                                         Size expected);
 
-/// Errors: MissingFrames when there is no such file.
+/// Errors: MissingFrames if there is no such file.
 [[nodiscard]] Status check_picture_exists(const std::string& path);
 
-/// In steps of 1/64 px. Motion of 512 px and more does not fit and is written as unknown. Errors as
+/// In steps of 1/64 px. Motion of 512 px and more does not fit and becomes unknown. Errors: as
 /// write_image().
 [[nodiscard]] Status write_flow_kitti(const std::string& path, const FlowField& flow);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Texts in the headers of picture files.
+// Text entries in the headers of picture files.
 
 #include <map>
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace weft {
 
-/// What write_image() put there of WriteOptions::metadata, by name. An EXR holds every text under
-/// its own name; other formats hold them in the text "Software", as "weft VERSION name=value …" for
-/// what fits, and textures and licences in "Copyright". Empty when the file cannot be read.
+/// The entries of WriteOptions::metadata that write_image() stored, by name. An EXR has each under
+/// its own name. Other formats store what fits in "Software", as "weft VERSION name=value …", and
+/// textures and licences in "Copyright". Empty if the file cannot be read.
 [[nodiscard]] std::map<std::string, std::string> read_recipe_metadata(const std::string& path);
 
 /// Internal: the text for "Software" of formats without names of their own, and back.

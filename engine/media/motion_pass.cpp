@@ -1,4 +1,4 @@
-// Motion and texture coordinates out of renderers' passes: read_motion() and read_uv().
+// Motion and texture coordinates from renderers' passes: read_motion() and read_uv().
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-// What a renderer writes: a vector in `units`, y upwards, times `sign` the way to the other frame.
+// A renderer's convention: a vector in `units`, y up; times `sign` it leads to the other frame.
 struct Convention {
     std::array<const char*, 2> forward, backward;  // channels after "LAYER."
     std::array<const char*, 2> layers;             // where to look when none is named
@@ -29,7 +29,7 @@ Convention convention_of(MotionConvention convention) {
     using C = Convention;
     switch (convention) {
         case MotionConvention::kBlender:
-            // Cycles' Vector pass: X, Y lead to the previous frame, Z, W come from the next one.
+            // Cycles' Vector pass: X, Y lead to the previous frame; Z, W come from the next one.
             return {{"Z", "W"}, {"X", "Y"}, {"Vector", ""}, C::kPixels, -1, 1, false};
         case MotionConvention::kNuke:
             return {{"u", "v"}, {"u", "v"}, {"forward", "backward"}, C::kPixels, 1, 1, false};
@@ -60,7 +60,7 @@ Expected<std::vector<float>> read_channel(const std::string& path, const std::st
     return std::move(*samples);
 }
 
-// "shot.Vector" and the like: what stands before ".X" in the file, when the layer is not named.
+// "shot.Vector" and the like: the part before ".X" in the file, if the layer is not named.
 Expected<std::string> find_layer(const std::string& path, const Convention& convention,
                                  const std::array<const char*, 2>& channels, bool forward) {
     WEFT_TRY(names, exr_channels(path));

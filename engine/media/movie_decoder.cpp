@@ -12,8 +12,8 @@ extern "C" {
 namespace weft {
 namespace {
 
-// Demuxers of the movies that are known by their extensions (sequence_folder.cpp). FFmpeg has
-// others that read lists of further files: concat, HLS, DASH. Plain sound is let in to be told.
+// Demuxers for the movie extensions (sequence_folder.cpp). FFmpeg has others that read lists of
+// further files: concat, HLS, DASH. Sound files are accepted so that they can be reported.
 constexpr const char* kContainers = "mov,matroska,avi,mxf,mpeg,mpegvideo,mpegts,asf,ogg,wav,mp3";
 
 double as_double(AVRational r) {
@@ -34,8 +34,7 @@ bool MovieDecoder::rewind() {
     if (!frame_ || !packet_) return false;
 
     if (!check_input_file(path_)) return false;
-    // A movie is one local file: a play list inside it must not reach for others or for the
-    // network.
+    // A movie is one local file: a play list in it must not open other files or the network.
     AVDictionary* options = nullptr;
     av_dict_set(&options, "protocol_whitelist", "file", 0);
     av_dict_set(&options, "format_whitelist", kContainers, 0);
@@ -47,7 +46,7 @@ bool MovieDecoder::rewind() {
     if (avformat_find_stream_info(input_.get(), nullptr) < 0) return false;
     const AVCodec* codec = nullptr;
     const int best = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-    // A song's cover counts as a stream of pictures.
+    // A song's cover is a video stream.
     const bool cover =
         best >= 0 && (input_->streams[best]->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
     if (best < 0 || cover) {
@@ -70,13 +69,13 @@ bool MovieDecoder::open_codec(const AVCodec* codec) {
     return avcodec_open2(codec_.get(), codec, nullptr) >= 0;
 }
 
-// Gives the decoder one more packet of its stream, or tells it that there are no more.
+// Sends the decoder one more packet of its stream, or the end of the stream.
 void MovieDecoder::feed() {
     while (av_read_frame(input_.get(), packet_.get()) >= 0) {
         const bool ours = packet_->stream_index == stream_->index;
         if (ours) {
             discarded_ += (packet_->flags & AV_PKT_FLAG_DISCARD) != 0;
-            // A damaged packet costs its frame, not the movie.
+            // A damaged packet loses its frame, not the movie.
             static_cast<void>(avcodec_send_packet(codec_.get(), packet_.get()));
         }
         av_packet_unref(packet_.get());
@@ -88,7 +87,7 @@ void MovieDecoder::feed() {
 
 const AVFrame* MovieDecoder::next() {
     if (!codec_) return nullptr;
-    // While draining, each damaged frame that was still inside gives one error.
+    // While draining, each damaged frame that is still inside gives one error.
     int errors_left = 256;
     while (true) {
         const int result = avcodec_receive_frame(codec_.get(), frame_.get());

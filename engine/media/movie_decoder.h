@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the pictures of one movie file, in the order in which they are shown.
+// Internal: the frames of one movie file, in display order.
 
 #include <string>
 
@@ -13,25 +13,25 @@ class MovieDecoder {
   public:
     explicit MovieDecoder(std::string path) : path_(std::move(path)) {}
 
-    /// Starts again before the first frame. False when the file is not a movie.
+    /// Restarts before the first frame. False if the file is not a movie.
     [[nodiscard]] bool rewind();
     /// After rewind() was false: the file has sound, but no pictures.
     [[nodiscard]] bool has_sound_only() const { return sound_only_; }
-    /// The next frame, valid until the next call; null after the last. What cannot be decoded is
-    /// passed over.
+    /// The next frame, valid until the next call; null after the last. Skips frames that cannot be
+    /// decoded.
     [[nodiscard]] const AVFrame* next();
 
     // After rewind():
     [[nodiscard]] double fps() const;  ///< 0 when the file does not say.
     /// Seconds between the units of a frame's time stamp.
     [[nodiscard]] double tick_s() const;
-    /// How many frames the container says it shows; 0 when it does not.
+    /// The number of frames by the container; 0 if it does not say.
     [[nodiscard]] int claimed_frames() const;
-    /// True when that is only its duration times its rate, which does not detect a variable rate.
+    /// True if that is only its duration times its rate, which does not reveal a variable rate.
     [[nodiscard]] bool claims_by_duration() const { return stream_->nb_frames <= 0; }
     /// Width of a pixel over its height.
     [[nodiscard]] double pixel_aspect() const;
-    /// By how much the picture is to be turned clockwise for display: 0, 90, 180 or 270.
+    /// Clockwise rotation for display: 0, 90, 180 or 270 degrees.
     [[nodiscard]] int rotation_deg() const;
 
   private:

@@ -50,7 +50,7 @@ void luma_row(const float* rgb, int width, std::uint8_t* luma, int coded_width,
         luma[x] = code(16.0f + 219.0f * pixels[static_cast<std::size_t>(x)].y);
     }
     for (std::size_t x = 0; x < chroma.size(); ++x) {
-        // Chroma lies on the even columns, so the low pass is centred there.
+        // Chroma is sited on the even columns, so the low pass is centred there.
         const Ycc &l = pixels[x == 0 ? 0 : 2 * x - 1], &m = pixels[2 * x], &r = pixels[2 * x + 1];
         chroma[x].cb = 0.25f * (l.cb + r.cb) + 0.5f * m.cb;
         chroma[x].cr = 0.25f * (l.cr + r.cr) + 0.5f * m.cr;
@@ -144,7 +144,7 @@ bool is_deep(const AVPixFmtDescriptor& format) {
                        [](const AVComponentDescriptor& c) { return c.depth > 8; });
 }
 
-// A palette's alpha is left out, as it is in picture files.
+// A palette's alpha is ignored, as in picture files.
 bool has_alpha(const AVPixFmtDescriptor& format) {
     return (format.flags & AV_PIX_FMT_FLAG_ALPHA) && !(format.flags & AV_PIX_FMT_FLAG_PAL);
 }
@@ -160,7 +160,7 @@ bool is_full_range(const AVFrame& frame, const AVPixFmtDescriptor& format) {
         default:
             break;
     }
-    // Grey without a tag comes from pictures.
+    // Untagged grey comes from pictures.
     const bool grey = format.nb_components <= 2;
     return grey ? frame.color_range != AVCOL_RANGE_MPEG : frame.color_range == AVCOL_RANGE_JPEG;
 }
@@ -252,7 +252,7 @@ std::vector<T> rgb_from_ycc(const AVFrame& ycc, Luma weights, const Levels& leve
     return samples;
 }
 
-// Where chroma lies, in 1/256 of a luma pixel from the first one's centre; only for the directions
+// Position of chroma in 1/256 of a luma pixel from the first one's centre; only for the directions
 // in which there is less chroma than luma.
 void set_chroma_position(SwsContext* scaler, const AVPixFmtDescriptor& format,
                          AVChromaLocation chroma) {
@@ -329,7 +329,8 @@ bool MovieConverter::prepare(const AVFrame& frame) {
     av_opt_set_int(s, "dstw", frame.width, 0);
     av_opt_set_int(s, "dsth", frame.height, 0);
     av_opt_set_int(s, "dst_format", to, 0);
-    // Without these the fast paths round down; the last gives every machine the same codes.
+    // Without these flags the fast paths round down; the last one gives every machine the same
+    // codes.
     av_opt_set_int(
         s, "sws_flags",
         SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT, 0);

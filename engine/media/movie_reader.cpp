@@ -28,8 +28,8 @@ std::size_t bytes_of(const Raster& raster) {
                       raster.samples);
 }
 
-// The frames of one movie by number. Going back means decoding again from the start; on the way the
-// frames before the wanted one are kept, because stepping back usually continues.
+// The frames of one movie by number. Going back means decoding again from the start; the frames
+// before the requested one are kept on the way, because stepping back usually continues.
 class MovieFrames {
   public:
     explicit MovieFrames(const std::string& path) : decoder_(path) {}
@@ -83,8 +83,8 @@ struct MovieFacts {
     PixelDepth depth = PixelDepth::kU8;
     double fps = 0;
     double pixel_aspect = 1;
-    int frames = 0;         ///< That can be decoded.
-    int claimed = 0;        ///< What the container says; 0 when it does not.
+    int frames = 0;         ///< frames that can be decoded
+    int claimed = 0;        ///< number by the container; 0 if it does not say
     int damaged = 0;        ///< Frames that were decoded with errors.
     int first_damaged = 0;  ///< Counted from 0.
     bool high_dynamic_range = false;
@@ -128,7 +128,7 @@ class MoviePlate final : public FrameReader {
         }
         if (!raster) {
             return tl::unexpected(
-                damaged(path_, "frame " + std::to_string(frame) + " cannot be decoded any more"));
+                damaged(path_, "frame " + std::to_string(frame) + " can no longer be decoded"));
         }
         if (raster->info.size != facts_.size) {
             return tl::unexpected(another_size(path_, frame, raster->info.size, facts_.size));
@@ -144,7 +144,7 @@ class MoviePlate final : public FrameReader {
     std::vector<std::string> warnings() const override {
         std::vector<std::string> found;
         if (facts_.claimed > facts_.frames) {
-            found.push_back(path_ + " says it has " + std::to_string(facts_.claimed) +
+            found.push_back(path_ + " claims " + std::to_string(facts_.claimed) +
                             " frames, but only " + std::to_string(facts_.frames) +
                             " can be decoded. It may be cut off: compare it with its source.");
         }
@@ -152,7 +152,7 @@ class MoviePlate final : public FrameReader {
             found.push_back(path_ + " is damaged in " + std::to_string(facts_.damaged) +
                             " frames, first in " +
                             std::to_string(frames_.front() + facts_.first_damaged) +
-                            ". Look at them, or copy the movie again.");
+                            ". Check these frames, or copy the movie again.");
         }
         if (facts_.high_dynamic_range) {
             found.push_back(path_ +
@@ -191,7 +191,8 @@ class MoviePlate final : public FrameReader {
     mutable MovieFrames decoded_;
 };
 
-// Containers lie about their number of frames, so they are counted. `frame` is the first one.
+// Containers are unreliable about their number of frames, so frames are counted. `frame`: the
+// first.
 Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::string& path,
                     MovieFacts& facts) {
     FramePacing pacing;
@@ -209,9 +210,9 @@ Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::stri
         if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
     }
     facts.claimed = decoder.claimed_frames();
-    // Frames that could not be decoded leave gaps, which have a warning of their own.
-    const bool all_there = facts.claimed <= facts.frames || decoder.claims_by_duration();
-    facts.variable_rate = facts.damaged == 0 && all_there && pacing.varies();
+    // Frames that could not be decoded leave gaps, which have their own warning.
+    const bool complete = facts.claimed <= facts.frames || decoder.claims_by_duration();
+    facts.variable_rate = facts.damaged == 0 && complete && pacing.varies();
     if (facts.variable_rate) facts.claimed = facts.frames;
     const auto [shortest, longest] = pacing.durations();
     facts.shortest_s = static_cast<double>(shortest) * decoder.tick_s();

@@ -20,11 +20,11 @@ extern "C" {
 namespace weft {
 namespace {
 
-// Part of the result: x264's bytes depend on the number of threads, so it is the same everywhere.
+// Affects the result: x264's bytes depend on the number of threads, so it is the same everywhere.
 constexpr int kEncoderThreads = 4;
-// FFV1 of FFmpeg 5.1 turns smaller pictures black.
+// FFmpeg 5.1's FFV1 turns smaller pictures black.
 constexpr int kMinLossless_px = 3;
-// H.264's largest level and x264 end here; asked for more, FFmpeg 5.1 refuses but leaks.
+// The limit of H.264's highest level and of x264. Beyond it FFmpeg 5.1 fails with a leak.
 constexpr int kMaxLossy_px = 16384;
 constexpr int kSlices = 4;
 constexpr double kMinFps = 0.01, kMaxFps = 1000;
@@ -54,10 +54,9 @@ AVRational frame_rate(double fps) {
     return standard.num > 0 ? standard : av_d2q(fps, kLargestTerm);
 }
 
-// What is encoded, before the codec's own settings. The frames are sRGB, so that is the transfer
-// curve in the tags: players that manage colours (QuickTime, Safari) then show what the PNG frames
-// show, where a BT.709 tag would make them lift the shadows, and the others look at the matrix and
-// the range only.
+// Describes the frames, before the codec's own settings. They are sRGB, and so is the transfer tag:
+// players with colour management (QuickTime, Safari) then show what the PNG frames show. A BT.709
+// tag would make them lift the shadows. Other players only use the matrix and the range.
 void describe(AVCodecContext& codec, Size coded, AVRational fps, bool lossless, double aspect) {
     codec.width = coded.width;
     codec.height = coded.height;
@@ -83,7 +82,7 @@ void choose_quality(AVCodecContext& codec, AVRational fps, bool lossless, Dictio
         options.set("slicecrc", "1");
         return;
     }
-    // A key frame a second: reviewers step back and forth.
+    // One key frame per second, because reviewers step back and forth.
     codec.gop_size = std::max(1, static_cast<int>(std::lround(av_q2d(fps))));
     if (codec.codec_id == AV_CODEC_ID_H264) {
         options.set("preset", "fast");
@@ -127,7 +126,7 @@ class VideoFile final : public MovieWriter {
             return fail(ErrorCode::kUsage, path_ + ": all frames of a movie must have one size.");
         }
         if (failure_) return tl::unexpected(*failure_);
-        // The encoder may still look at the frame before.
+        // The encoder may still be reading the previous frame.
         WEFT_CHECK_OK(check(av_frame_make_writable(frame_.get())));
         if (lossless_) {
             fill_bgr0(display_rgb, *frame_);
@@ -187,7 +186,8 @@ class VideoFile final : public MovieWriter {
         WEFT_CHECK_OK(check(avformat_alloc_output_context2(
             &output, nullptr, lossless_ ? "matroska" : "mp4", url.c_str())));
         output_.reset(output);
-        // Else Matroska numbers its segments at random, and both name the library's version.
+        // Otherwise Matroska numbers its segments randomly, and both containers name the library's
+        // version.
         output->flags |= AVFMT_FLAG_BITEXACT;
         stream_ = avformat_new_stream(output, nullptr);
         if (!stream_) return check(AVERROR(ENOMEM));
@@ -197,7 +197,7 @@ class VideoFile final : public MovieWriter {
         stream_->sample_aspect_ratio = codec_->sample_aspect_ratio;
         WEFT_CHECK_OK(check(avio_open(&output->pb, url.c_str(), AVIO_FLAG_WRITE)));
         Dictionary options;
-        // The index in front lets a player start while the file is still being copied.
+        // The index in front lets a player start before the file is copied completely.
         if (!lossless_) options.set("movflags", "+faststart");
         return check(avformat_write_header(output, &options.entries));
     }
@@ -216,8 +216,8 @@ class VideoFile final : public MovieWriter {
         }
     }
 
-    /// Turns FFmpeg's result into ours and keeps the first failure. Containers pass over what the
-    /// disk said while they write, so that is asked for as well.
+    /// Converts FFmpeg's result to an error and keeps the first failure. Containers ignore the
+    /// disk's errors while they write, so these are checked too.
     Status check(int result) {
         const bool disk_failed = output_ && output_->pb && output_->pb->error < 0;
         if (disk_failed) result = output_->pb->error;

@@ -1,4 +1,4 @@
-// Stands in for the movie files in a build without FFmpeg.
+// Replaces the movie files in a build without FFmpeg.
 
 #include <memory>
 #include <string>

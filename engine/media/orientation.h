@@ -1,5 +1,5 @@
 #pragma once
-// Internal: how a camera was held, as EXIF and TIFF say it.
+// Internal: the camera's orientation by EXIF and TIFF.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace weft {
 
-/// The tag Orientation (0x0112 of TIFF 6.0 and Exif 2.3): 1 is upright, 2 to 4 are mirrored or
-/// upside down, 5 to 8 lie on their side, so that width and height change places.
+/// The Orientation tag (0x0112 of TIFF 6.0 and Exif 2.3): 1 is upright, 2 to 4 are mirrored or
+/// upside down, 5 to 8 lie on their side, which swaps width and height.
 inline bool lies_on_its_side(int orientation) {
     return orientation >= 5 && orientation <= 8;
 }
 
-/// The value of the tag in an Exif block (it begins with a TIFF header); 1 where there is none.
+/// The tag's value in an Exif block (which begins with a TIFF header); 1 if there is none.
 [[nodiscard]] int orientation_of_exif(const unsigned char* exif, std::size_t bytes);
 
-/// The size as it is to be seen.
+/// The size after rotation.
 [[nodiscard]] inline Size upright(Size stored, int orientation) {
     return lies_on_its_side(orientation) ? Size{stored.height, stored.width} : stored;
 }
 
-/// Interleaved samples of a picture of the size `stored`, as they are to be seen. Any value but 2
-/// to 8 leaves them as they are.
+/// Interleaved samples of a picture of size `stored`, rotated upright. Values other than 2 to 8
+/// leave them unchanged.
 template <class T>
 [[nodiscard]] std::vector<T> upright(std::vector<T> samples, Size stored, int channels,
                                      int orientation) {

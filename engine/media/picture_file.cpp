@@ -21,7 +21,7 @@ struct Signature {
     std::size_t at = 0;
 };
 
-// Readers by OpenImageIO's names.
+// Signatures of files, with OpenImageIO's names of their readers.
 constexpr std::array kSignatures{
     Signature{"\x89PNG"sv, "png"sv},
     Signature{"\xff\xd8\xff"sv, "jpeg"sv},
@@ -46,7 +46,7 @@ constexpr std::array kSignatures{
     Signature{"DDS "sv, "dds"sv},
 };
 
-// The reader of a file that begins with `head`; empty: of no known kind.
+// The reader for a file that begins with `head`; empty if its kind is unknown.
 std::string reader_of(const std::string& path, std::string_view head) {
     for (const Signature& s : kSignatures) {
         if (head.size() >= s.at && head.substr(s.at).starts_with(s.bytes))
@@ -78,9 +78,8 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path
     std::array<char, 16> head{};
     WEFT_TRY(count, file.read_at(0, head.data(), head.size()));
     const std::string reader = reader_of(path, {head.data(), count});
-    if (reader.empty())
-        return tl::unexpected(damaged(path, "it begins like no known kind of picture"));
-    // OpenImageIO lets libpng print what is wrong with a header.
+    if (reader.empty()) return tl::unexpected(damaged(path, "its kind is unknown"));
+    // OpenImageIO lets libpng print errors of the header.
     if (reader == "png") WEFT_CHECK_OK(probe_png(path));
     auto input = OIIO::ImageInput::create(reader);
     OIIO::ImageSpec spec;

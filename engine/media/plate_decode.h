@@ -1,5 +1,5 @@
 #pragma once
-// Internal: samples as they stand in a file → a plate.
+// Internal: converts a file's samples into a plate.
 
 #include "engine/core/error.h"
 #include "engine/media/frame_reader.h"
@@ -8,10 +8,10 @@
 namespace weft {
 
 [[nodiscard]] PixelDepth depth_of(SampleKind kind);
-/// Integer files hold values for a display, the others scene-linear ones.
+/// Integer files hold display-encoded values, the others scene-linear ones.
 [[nodiscard]] bool is_display_encoded(SampleKind kind);
 
-/// Grey goes into all three channels; a second or fourth channel is the alpha.
+/// Grey is copied into all three channels; a second or fourth channel is the alpha.
 [[nodiscard]] PlateFrame to_plate(const Raster& raster);
 
 }  // namespace weft

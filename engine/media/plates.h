@@ -16,18 +16,18 @@ namespace weft {
 [[nodiscard]] Expected<std::shared_ptr<const FrameReader>> open_movie_plate(
     const std::string& path, const ReadOptions& options);
 
-/// The one numbered sequence of pictures in a folder. Errors: Usage when it holds several (the
-/// message lists them), MissingFrames when none, Unreadable folder.
+/// The only numbered sequence of pictures in a folder. Errors: Usage if there are several (the
+/// message lists them), MissingFrames if there is none, Unreadable folder.
 [[nodiscard]] Expected<SequencePattern> find_sequence(const std::string& folder);
 
-/// The last number in a file name (plate.-0012.exr: -12), or nothing.
+/// The last number in a file name (plate.-0012.exr: -12), if there is one.
 [[nodiscard]] std::optional<int> number_in_name(const std::string& path);
 
-/// By the extension, in any case: a container that movies come in; a picture.
+/// By extension, ignoring case: a movie container; a picture.
 [[nodiscard]] bool has_movie_extension(const std::string& path);
 [[nodiscard]] bool has_picture_extension(const std::string& path);
 
-/// Path, size and modification time of a file and a number that tells frames of one file apart.
+/// Hash of a file's path, size and modification time, and of a number for frames of one file.
 [[nodiscard]] Expected<Hash128> stamp_file(const std::string& path, int frame);
 
 }  // namespace weft

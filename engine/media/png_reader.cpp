@@ -15,8 +15,8 @@
 namespace weft {
 namespace {
 
-// libpng leaves by calling the error handler, which must not return. An exception passes through
-// its frames (Debian builds it with unwind tables) and, unlike longjmp, runs our destructors.
+// libpng reports errors through a handler that must not return. An exception passes through its
+// frames (Debian builds it with unwind tables) and, unlike longjmp, runs our destructors.
 struct PngFailure {
     std::string reason;
 };
@@ -26,7 +26,7 @@ struct PngFailure {
 }
 void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// Where libpng stands in the file.
+// libpng's position in the file.
 struct Source {
     const InputFile& file;
     std::uint64_t at = 0;
@@ -93,7 +93,7 @@ class PngHandle {
     png_infop info_ = nullptr;
 };
 
-// The chunk sRGB settles it; a profile goes before gAMA and cHRM (PNG 1.2, 11.3.3).
+// The sRGB chunk has precedence, then a profile, then gAMA and cHRM (PNG 1.2, 11.3.3).
 std::string PngHandle::color_note() const {
     if (png_get_valid(png_, info_, PNG_INFO_sRGB) != 0) return {};
     png_charp name = nullptr;

@@ -24,7 +24,7 @@ namespace {
 using OIIO::ImageInput;
 using OIIO::ImageSpec;
 
-// Channels [begin, end) of one part of a file, and which of them, counted from `begin`, make the
+// Channels [begin, end) of one part of a file, and which of them, counted from `begin`, are the
 // raster's channels.
 struct Pick {
     int subimage = 0;
@@ -33,8 +33,7 @@ struct Pick {
     bool has_alpha = false;
 };
 
-// The callers work on several frames at a time; a decoder's own threads would only get in their
-// way.
+// Callers process several frames in parallel, so a decoder's own threads would only compete.
 void single_threaded() {
     static std::once_flag once;
     std::call_once(once, [] {
@@ -130,8 +129,8 @@ Expected<Pick> find_pick(ImageInput& input, const std::string& path, const Raste
     return pick;
 }
 
-// libjpeg fills the missing rest of a file with grey and merely warns. Stray bytes between markers,
-// which some cameras write, harm nothing.
+// libjpeg fills the missing rest of a file with grey and only warns. Stray bytes between markers,
+// which some cameras write, are harmless.
 bool is_harmless(const std::string& message) {
     return message.find("extraneous bytes") != std::string::npos &&
            message.find("remature") == std::string::npos &&
@@ -211,12 +210,12 @@ double fps_of(const ImageSpec& spec) {
 double pixel_aspect_of(const ImageInput& input) {
     const ImageSpec& spec = input.spec();
     const double aspect = spec.get_float_attribute("PixelAspectRatio", 1.0f);
-    // OpenImageIO 2.4 takes a JPEG's densities (dots a unit of length) the wrong way round.
+    // OpenImageIO 2.4 inverts a JPEG's densities (dots per unit of length).
     const bool inverse = std::string_view(input.format_name()) == "jpeg" && aspect > 0;
     return sane_pixel_aspect(inverse ? 1 / aspect : aspect);
 }
 
-// EXR has no such tag; other programs ignore what some write there.
+// EXR has no such tag; other programs ignore one that is written.
 int orientation_of(const ImageInput& input) {
     if (is_exr(input)) return 1;
     const int orientation = input.spec().get_int_attribute("Orientation", 1);
@@ -307,8 +306,8 @@ Expected<RasterInfo> probe_oiio(const std::string& path, const RasterRequest& re
     return info_of(*input, path, pick);
 }
 
-// A PNG has neither layers nor named channels, so such a request takes OpenImageIO's way to the
-// message that lists what there is.
+// A PNG has neither layers nor named channels, so OpenImageIO handles such a request and the
+// message lists what there is.
 bool goes_to_libpng(const std::string& path, const RasterRequest& request) {
     return request.layer.empty() && request.channel.empty() && is_png(path);
 }

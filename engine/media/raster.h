@@ -1,6 +1,6 @@
 #pragma once
-// Internal: the samples of an image file as they stand in it, before they become a plate, a matte
-// or a motion field. The only door to OpenImageIO and libpng for reading.
+// Internal: the samples of an image file, before they become a plate, a matte or a motion field.
+// The only use of OpenImageIO and libpng for reading.
 
 #include <array>
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace weft {
 
-/// How the samples stand in the file. kOther is any other integer or double, read as float.
+/// The sample format of the file. kOther is any other integer or double, read as float.
 enum class SampleKind { kU8, kU16, kU32, kHalf, kFloat, kOther };
 
 struct RasterInfo {
-    Size size;                          ///< The display window, as it is to be seen.
-    SampleKind kind = SampleKind::kU8;  ///< Of the channels that were asked for; mixed: the widest.
+    Size size;                          ///< The display window, upright.
+    SampleKind kind = SampleKind::kU8;  ///< Of the requested channels; the widest if mixed.
     double fps = 0;                     ///< 0 when the file does not say.
     double pixel_aspect = 1;            ///< Width of a pixel over its height.
     FileColor color = {};
-    int orientation = 1;  ///< How the file stores it (orientation.h); already applied.
+    int orientation = 1;  ///< As stored in the file (orientation.h); already applied.
 };
 
-/// 1 where a file states what no lens has.
+/// The aspect, or 1 for a value that no lens has.
 inline double sane_pixel_aspect(double aspect) {
     return aspect > 0.05 && aspect < 20 ? aspect : 1.0;
 }
 
 /// Interleaved samples, `channels` per pixel, row by row without gaps. Half, float and other kinds
-/// are held as float, integers as their own codes.
+/// are stored as float, integers as their own codes.
 struct Raster {
     RasterInfo info;
     int channels = 0;  ///< Colour channels (1 or 3), then alpha when there is one.
@@ -47,29 +47,30 @@ struct Raster {
 struct RasterRequest {
     std::string layer;    ///< "beauty" takes beauty.R, .G, .B, .A; empty: choose_channels().
     std::string channel;  ///< One channel by its full name, instead of a layer.
-    /// Integer codes as they stand: palette indices instead of colours, and 1, 2 and 4 bits without
-    /// scaling them to 8.
+    /// Integer codes unchanged: palette indices instead of colours, and 1, 2 and 4 bits without
+    /// scaling to 8.
     bool raw_codes = false;
 };
 
-/// Where an EXR file holds a layer's R, G and B: the part and the channels in it.
+/// The part and channels of an EXR file that hold a layer's R, G and B.
 struct ColourPlace {
     int part = 0;
     std::array<int, 3> rgb{};
 };
-/// Errors: Unreadable when the file is not an EXR or the layer has no three colours.
+/// Errors: Unreadable if the file is not an EXR or the layer lacks one of the three.
 [[nodiscard]] Expected<ColourPlace> locate_colour(const std::string& path,
                                                   const std::string& layer);
 
-/// The names of all channels of an EXR's parts, a part's own name in front where it has one and the
-/// channels have none. Errors: Unreadable.
+/// The names of all channels of an EXR's parts, prefixed with the part's name if the channels have
+/// no layer. Errors: Unreadable.
 [[nodiscard]] Expected<std::vector<std::string>> exr_channels(const std::string& path);
 
-/// Reads the header only. Errors: Unreadable with the path; `RasterRequest` names nothing there.
+/// Reads only the header. Errors: Unreadable, with the path, also if there is no such layer or
+/// channel.
 [[nodiscard]] Expected<RasterInfo> probe_raster(const std::string& path,
                                                 const RasterRequest& request);
 /// Errors: Unreadable (not an image, truncated, damaged, no such layer or channel: the message
-/// lists those there are), NoSpace when the picture is larger than the machine's memory.
+/// lists the known ones), NoSpace if the picture exceeds decode_limit_bytes().
 [[nodiscard]] Expected<Raster> read_raster(const std::string& path, const RasterRequest& request);
 
 }  // namespace weft

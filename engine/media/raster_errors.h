@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what both decoders say and check alike.
+// Internal: messages and checks that both decoders share.
 
 #include <cstdint>
 #include <exception>
@@ -16,16 +16,16 @@ namespace weft {
                                const std::string& advice);
 [[nodiscard]] Error damaged(const std::string& path, const std::string& reason);
 
-/// Errors: NoSpace when a picture of this size takes more than decode_limit_bytes(): better said
-/// than killed by the system half way.
+/// Errors: NoSpace if a picture of this size takes more than decode_limit_bytes(), so that the
+/// system does not kill the process half way.
 [[nodiscard]] Status check_memory(const std::string& path, Size size, int channels);
 
-/// Errors: Unreadable when `have`, the size of what is called `what` ("its motion"), is not the
-/// plate's. An empty plate's size allows any.
+/// Errors: Unreadable if `have`, the size of `what` ("its motion"), differs from the plate's. An
+/// empty plate size allows any.
 [[nodiscard]] Status check_plate_size(const std::string& path, const std::string& what, Size have,
                                       Size plate, const std::string& advice);
 
-/// `body()`, with what the libraries below OpenImageIO throw as errors about the file.
+/// Calls `body()` and converts exceptions of OpenImageIO's libraries into errors about the file.
 template <class F>
 auto guarded(const std::string& path, const F& body) -> decltype(body()) {
     try {

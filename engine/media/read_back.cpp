@@ -18,7 +18,7 @@ std::string facts(Size size, int channels) {
     return size_text(size) + " pixels of " + std::to_string(channels) + " channels";
 }
 
-// The rows that were written last, of a part of an EXR.
+// True if the last rows of an EXR part can be read; they were written last.
 bool reads_last_rows(ImageInput& input, int part) {
     const ImageSpec spec = input.spec_dimensions(part, 0);
     const int y1 = spec.y + spec.height;

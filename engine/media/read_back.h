@@ -1,5 +1,5 @@
 #pragma once
-// A file that was just written is opened again before it counts.
+// Opens a file that was just written, to check it.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace weft {
 
-/// A part of a picture file as it was handed to the encoder.
+/// A part of a picture file, as passed to the encoder.
 struct WrittenPart {
     Size size;  ///< Of the data window.
     int channels = 0;
@@ -20,12 +20,12 @@ struct WrittenPart {
 [[nodiscard]] Error read_back_error(const std::string& path, const std::string& how);
 
 /// Opens `file`, the temporary of `path`, and compares the number of parts, their sizes and their
-/// channels; of an EXR, whose parts are written one after the other, it reads each part's last rows
-/// too. Errors: RenderFailed, naming `path`.
+/// channels. Of an EXR, whose parts are written one after the other, it also reads each part's last
+/// rows. Errors: RenderFailed, naming `path`.
 [[nodiscard]] Status check_written_picture(const std::string& file, const std::string& path,
                                            std::span<const WrittenPart> parts);
 
-/// The same for a movie: one video stream of this size with so many frames.
+/// The same for a movie: one video stream of this size with this number of frames.
 [[nodiscard]] Status check_written_movie(const std::string& file, const std::string& path,
                                          Size size, std::int64_t frames);
 

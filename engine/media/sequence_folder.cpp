@@ -24,8 +24,8 @@ bool has_extension(const std::string& path, const std::array<const char*, N>& kn
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-// A file name cut at the last number of its stem. A minus belongs to the number where it cannot be
-// a dash between words: at the start, or behind a dot or an underscore.
+// A file name split at the last number of its stem. A minus belongs to the number if it cannot be a
+// dash between words: at the start, or behind a dot or an underscore.
 struct NumberedName {
     std::string prefix, digits, suffix;
 };
@@ -106,7 +106,7 @@ bool has_picture_extension(const std::string& path) {
 
 Expected<SequencePattern> find_sequence(const std::string& folder) {
     WEFT_TRY(groups, group_files(folder));
-    // A lone picture with a number in its name beside a real sequence is not a second sequence.
+    // A single picture with a number in its name beside a real sequence is not a second sequence.
     const bool real = std::any_of(groups.begin(), groups.end(),
                                   [](const auto& group) { return group.second.files > 1; });
     if (real) std::erase_if(groups, [](const auto& group) { return group.second.files == 1; });

@@ -21,7 +21,7 @@ struct Placeholder {
 constexpr int kMaxPadding = 12;
 constexpr std::int64_t kBeyond = std::numeric_limits<std::int64_t>::max();
 
-/// A run of # or of @, or %d, %04d, that starts at `i`; length 0 when there is none.
+/// A run of # or of @, or %d, %04d, that starts at `i`; length 0 if there is none.
 Placeholder placeholder_at(std::string_view s, std::size_t i) {
     if (s[i] == '#' || s[i] == '@') {
         std::size_t end = i;
@@ -36,7 +36,7 @@ Placeholder placeholder_at(std::string_view s, std::size_t i) {
     while (end < s.size() && std::isdigit(static_cast<unsigned char>(s[end])) && width < 1000) {
         width = width * 10 + (s[end++] - '0');
     }
-    // Without the zero, %4d would pad with blanks, which no renderer writes: not a placeholder.
+    // %4d would pad with blanks, which no renderer writes, so it is not a placeholder.
     if (end >= s.size() || s[end] != 'd' || (width > 0 && !zero)) return {};
     return {i, end + 1 - i, std::max(1, std::min(width, kMaxPadding + 1))};
 }
@@ -115,8 +115,8 @@ std::optional<std::int64_t> SequencePattern::number_in(std::string_view path) co
     if (end != number.data() + number.size()) return std::nullopt;
     if (error == std::errc::result_out_of_range || frame < -kBeyond) return kBeyond;
     if (error != std::errc()) return std::nullopt;
-    // 00012 is not a name that #### would write, nor is -0: one file for each number, one number
-    // for each file.
+    // #### would not write 00012, nor -0: each number has one file name, and each file name one
+    // number.
     if (padded(frame, padding_) != number) return std::nullopt;
     return frame;
 }

@@ -9,14 +9,14 @@
 
 namespace weft {
 
-/// A numbered file name: `####` or `@@@@` (one character a digit, at least that many), `%04d`,
-/// `%d`. A name without any of these is a single file (is_single()).
+/// A numbered file name: `####` or `@@@@` (at least as many digits as characters), `%04d`, `%d`. A
+/// name without any of these is a single file (is_single()).
 class SequencePattern {
   public:
-    /// Errors: Usage when more than one placeholder stands in the name, or one in the folder part
-    /// (there a lone # or @ is an ordinary character).
+    /// Errors: Usage if the name has more than one placeholder, or the folder part has one (a
+    /// single # or @ is an ordinary character there).
     [[nodiscard]] static Expected<SequencePattern> parse(std::string_view text);
-    /// A single file whose name is taken as it stands (logo@2x.png has no frame number).
+    /// A single file whose name is used literally (logo@2x.png has no frame number).
     [[nodiscard]] static SequencePattern single(std::string_view path);
 
     [[nodiscard]] bool is_single() const { return !numbered_; }
@@ -24,15 +24,15 @@ class SequencePattern {
     /// Negative numbers are written as -0012: the sign comes before the padding. A single file has
     /// the same path for every frame.
     [[nodiscard]] std::string path_for(int frame) const;
-    /// The frame number in a path that this pattern would write, or nothing:
-    /// path_for(*frame_of(p)) == p. Numbers beyond kMaxFrameNumber are none.
+    /// The frame number in a path that this pattern would write: path_for(*frame_of(p)) == p. Empty
+    /// for other paths and for numbers beyond kMaxFrameNumber.
     [[nodiscard]] std::optional<int> frame_of(std::string_view path) const;
-    /// The frames whose files are in the folder now, ascending; none for a single file. Error:
+    /// The frames whose files are in the folder now, ascending; none for a single file. Errors:
     /// Unreadable folder, or a file in it numbered beyond kMaxFrameNumber.
     [[nodiscard]] Expected<std::vector<int>> list_frames() const;
 
   private:
-    // The number that stands in the path, however large (at most kBeyond), or nothing.
+    // The number in the path, however large (at most kBeyond), if there is one.
     [[nodiscard]] std::optional<std::int64_t> number_in(std::string_view path) const;
 
     std::string text_, prefix_,

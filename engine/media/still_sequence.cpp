@@ -60,7 +60,7 @@ class StillSequence final : public FrameReader {
     }
 
   private:
-    // A single file has one frame only, though every number leads to its path.
+    // A single file has only one frame, although every number leads to its path.
     bool is_missing(int frame, const std::string& path) const {
         if (pattern_.is_single() && frame != frames_.front()) return true;
         struct stat status {};

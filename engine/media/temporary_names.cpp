@@ -24,7 +24,7 @@ namespace {
 constexpr std::string_view kMark = ".weft-";
 constexpr std::time_t kAbandonedAfter_s = 24 * 3600;
 
-// Process numbers mean something on one host only, and a render farm shares folders.
+// Process numbers are valid on one host only, and a render farm shares folders.
 std::string host_tag() {
     char host[256] = {};
     gethostname(host, sizeof host - 1);
@@ -38,7 +38,7 @@ struct Origin {
     int pid = 0;
 };
 
-// Reads what temporary_name() wrote; nothing for any other file.
+// Parses a name from temporary_name(); empty for any other file.
 std::optional<Origin> origin_of(const std::string& file_name) {
     const std::size_t mark = file_name.rfind(kMark);
     if (file_name.empty() || file_name[0] != '.' || mark == std::string::npos) return std::nullopt;
@@ -98,7 +98,7 @@ bool LiveNames::has(const std::string& file_name) {
 }
 
 void LiveNames::abandon() {
-    mutex_.lock();  // and never unlocked
+    mutex_.lock();  // never unlocked
     std::error_code ignored;
     for (const auto& [name, path] : paths_)
         fs::remove_all(path, ignored);
@@ -148,8 +148,8 @@ Expected<TemporaryFolder> TemporaryFolder::create() {
         }
         if (!error) error = std::make_error_code(std::errc::file_exists);
     }
-    return fail(ErrorCode::kNoSpace,
-                "No temporary folder can be made: " + error.message() + ". Set TMPDIR.");
+    return fail(ErrorCode::kNoSpace, "A temporary folder cannot be created: " + error.message() +
+                                         ". Set TMPDIR to a writable folder.");
 }
 
 }  // namespace weft

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: names of files that are being written, told apart from those that a killed run left.
+// Internal: names of files that are being written, distinct from those that a killed run left.
 
 #include <sys/types.h>
 
@@ -9,20 +9,20 @@
 
 namespace weft {
 
-/// ".plate.0012.weft-HOST-PID-COUNT.png" for plate.0012.png: hidden, of this host and process, of
-/// the same extension, and never the same twice in a process.
+/// ".plate.0012.weft-HOST-PID-COUNT.png" for plate.0012.png: hidden, with host and process, with
+/// the same extension, and unique within a process.
 [[nodiscard]] std::string temporary_name(const std::string& file_name);
 
-/// Temporaries of this process that are being written, so that those of an earlier process with the
-/// same number (containers reuse them) can be told apart. Thread-safe.
+/// Temporaries that this process is writing, as opposed to those of an earlier process with the
+/// same number (containers reuse them). Thread-safe.
 class LiveNames {
   public:
-    /// Never destroyed: abandon() may run while the process ends.
+    /// Never destroyed, because abandon() may run while the process ends.
     static LiveNames& instance();
     void add(const std::string& path);
     void remove(const std::string& path);
     [[nodiscard]] bool has(const std::string& file_name);
-    /// Removes all of them and lets no thread add another.
+    /// Removes all of them and prevents new ones.
     void abandon();
 
   private:
@@ -30,7 +30,7 @@ class LiveNames {
     std::map<std::string, std::string> paths_;  // by file name, which is of this process alone
 };
 
-/// Removes from `folder` the temporaries of the kind (S_IFREG, S_IFDIR) that nobody writes any
+/// Removes from `folder` the temporaries of the kind (S_IFREG, S_IFDIR) that no process writes any
 /// more.
 void remove_stale(const std::string& folder, mode_t kind);
 

@@ -28,7 +28,7 @@ Status require_movies(const std::string& /*path*/) {
 
 void silence_video_library() {
     static std::once_flag once;
-    // A callback, not a level: other users of the library in this process set the level.
+    // A callback instead of a log level, which other users of the library in this process may set.
     std::call_once(once, [] { av_log_set_callback([](void*, int, const char*, std::va_list) {}); });
 }
 
@@ -37,7 +37,7 @@ std::string file_url(const std::string& path) {
 }
 
 AVRational standard_rate(double fps, double tolerance) {
-    // NTSC's are multiples of 24 or 30, divided by 1.001.
+    // NTSC rates are multiples of 24 or 30, divided by 1.001.
     constexpr double kWhole = 1e-4;
     const int whole = static_cast<int>(std::lround(fps));
     if (whole <= 0) return {0, 1};
@@ -48,7 +48,7 @@ AVRational standard_rate(double fps, double tolerance) {
 }
 
 Error video_write_error(const std::string& path, int av_error) {
-    // FFmpeg's own codes are tags of four letters; those of the system are small numbers.
+    // FFmpeg's own codes are tags of four letters; the system's are small numbers.
     constexpr int kLastErrno = 4095;
     const int system = AVUNERROR(av_error);
     if (system == ENOMEM) {

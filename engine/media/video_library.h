@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the door to FFmpeg's libraries: kept quiet, owned by smart pointers, errors in words.
+// Internal: access to FFmpeg's libraries, silenced, with smart pointers and error messages.
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -13,7 +13,7 @@ extern "C" {
 
 namespace weft {
 
-/// Keeps FFmpeg from writing to stderr: what went wrong is said by our errors. Called before every
+/// Prevents FFmpeg from writing to stderr, because our errors report failures. Call before every
 /// use; acts once.
 void silence_video_library();
 
@@ -29,16 +29,16 @@ using AvPacket = std::unique_ptr<AVPacket, AvFree<av_packet_free>>;
 using AvCodec = std::unique_ptr<AVCodecContext, AvFree<avcodec_free_context>>;
 using AvInput = std::unique_ptr<AVFormatContext, AvFree<avformat_close_input>>;
 
-/// The name under which FFmpeg opens this file and nothing else: "a:b.mp4" would be a protocol.
+/// A name that FFmpeg opens as this file only: "a:b.mp4" would be a protocol.
 [[nodiscard]] std::string file_url(const std::string& path);
 
-/// The whole rate at `fps`, or the NTSC rate (24000/1001 and its kin) within `tolerance` frames per
-/// second of it, else {0, 1}: people write NTSC's rates with two or three decimals, and Matroska in
-/// nanoseconds.
+/// The whole rate at `fps`, or the NTSC rate (24000/1001 and the like) within `tolerance` frames
+/// per second of it, else {0, 1}. People write NTSC rates with two or three decimals, and Matroska
+/// in nanoseconds.
 [[nodiscard]] AVRational standard_rate(double fps, double tolerance);
 
-/// The error for an FFmpeg call that failed while `path` was written. NoSpace when the disk or the
-/// memory is full, Unreadable for other troubles of the system, else RenderFailed.
+/// The error for an FFmpeg call that failed while `path` was written. NoSpace if the disk or the
+/// memory is full, Unreadable for other system errors, else RenderFailed.
 [[nodiscard]] Error video_write_error(const std::string& path, int av_error);
 
 }  // namespace weft

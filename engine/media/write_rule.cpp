@@ -71,7 +71,7 @@ bool WriteFence::allows(const std::string& real_folder) const {
            });
 }
 
-// The frames of a sequence share a folder, and resolving it costs a look at each of its parents.
+// The frames of a sequence share a folder, and resolving it checks each of its parents.
 std::string WriteFence::real_name(const std::string& path) {
     const fs::path whole(path);
     const fs::path folder = whole.parent_path();
@@ -90,7 +90,7 @@ void WriteFence::protect(const std::string& path) {
 void WriteFence::protect_frames(const SequencePattern& pattern) {
     if (pattern.is_single()) return protect(pattern.text());
     const fs::path whole(real_name(pattern.text()));
-    // Only the name: a folder may hold what would look like a second placeholder.
+    // Only the name, because a folder may contain what looks like a second placeholder.
     if (auto name = SequencePattern::parse(whole.filename().string()))
         frames_.push_back({whole.parent_path().string(), std::move(*name)});
 }

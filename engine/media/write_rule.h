@@ -1,6 +1,6 @@
 #pragma once
-// What may happen at a path that is written. Every file that Weft writes goes through
-// engine/media/atomic_file.h with one of these rules.
+// Rules for writing at a path. Every file that Weft writes goes through engine/media/atomic_file.h
+// with one of them.
 
 #include <sys/types.h>
 
@@ -16,23 +16,23 @@
 
 namespace weft {
 
-/// The files that a run reads and must leave alone, and the folders that it may write to. Filled
+/// The files that a run reads and must not change, and the folders that it may write to. Filled
 /// once, then shared and immutable; check() is thread-safe.
 class WriteFence {
   public:
-    /// From now on nothing may be written outside of `folder` and of those added before. It need
-    /// not exist yet. Errors: Usage when `folder` is a file.
+    /// From now on, writing is only allowed inside `folder` and folders added before. It need not
+    /// exist yet. Errors: Usage if `folder` is a file.
     [[nodiscard]] Status add_root(const std::string& folder);
-    /// The file at `path`, whatever other names lead to it (hard links, symbolic links, "..",
-    /// case). A file that does not exist is protected by its name.
+    /// Protects the file at `path` under all its names (hard links, symbolic links, "..", case). A
+    /// file that does not exist is protected by its name.
     void protect(const std::string& path);
-    /// Every frame of the pattern, whether its file exists or not.
+    /// Protects every frame of the pattern, whether its file exists or not.
     void protect_frames(const SequencePattern& pattern);
 
     /// `shown`: the path as the user wrote it, for messages. `real`: absolute, without symbolic
-    /// links in its folder part. Errors: Usage (an input, or outside of the root).
+    /// links in its folder part. Errors: Usage (an input, or outside the root).
     [[nodiscard]] Status check(const std::string& shown, const std::string& real) const;
-    /// The same for a folder that is about to be made.
+    /// The same for a folder that is about to be created.
     [[nodiscard]] Status check_folder(const std::string& folder) const;
 
   private:
@@ -51,17 +51,17 @@ class WriteFence {
 };
 
 enum class Existing {
-    kRefuse,  ///< A file that is there stays: Usage, naming it.
+    kRefuse,  ///< An existing file stays: Usage, naming it.
     kReplace
 };
 
-/// The default is the most careful one.
+/// The default is the most restrictive one.
 struct WriteRule {
     Existing existing = Existing::kRefuse;
-    /// A symbolic link at the path is followed: only for the project that the user opened through
-    /// it. Else the link itself is replaced.
+    /// Follows a symbolic link at the path: only for a project that the user opened through it.
+    /// Otherwise the link itself is replaced.
     bool follow_link = false;
-    /// /dev/stdout, a pipe or another device may be written to.
+    /// Allows /dev/stdout, a pipe or another device.
     bool device = false;
     std::shared_ptr<const WriteFence> fence = nullptr;  ///< Null: no inputs, no root.
 
@@ -69,7 +69,7 @@ struct WriteRule {
     [[nodiscard]] static WriteRule own() { return {Existing::kReplace, false, false, nullptr}; }
 };
 
-/// What may happen at a path when the user gave --overwrite or did not.
+/// The rule for existing files, with or without --overwrite.
 [[nodiscard]] inline Existing existing_by(bool overwrite) {
     return overwrite ? Existing::kReplace : Existing::kRefuse;
 }
@@ -77,8 +77,8 @@ struct WriteRule {
 /// "PATH exists already. Use --overwrite, or another name."
 [[nodiscard]] Error exists_already(const std::string& path);
 
-/// The folder of `path`, or of the current folder where it has none, absolute and without symbolic
-/// links, and the file's name in it. What does not exist yet is taken as it is written.
+/// The folder of `path` (the current folder if it has none), absolute and without symbolic links,
+/// and the file's name in it. Parts that do not exist yet are kept as written.
 [[nodiscard]] std::string real_path(const std::string& path);
 
 }  // namespace weft

@@ -19,8 +19,8 @@ constexpr int kLevels = 3;
 constexpr int kIterations = 20;
 constexpr double kSettledPx = 0.002;
 constexpr double kLeastCorrelation = 0.5;
-// The smaller eigenvalue of the mean structure tensor, of values around 1: a contrast of some 1 % a
-// pixel in every direction.
+// The smaller eigenvalue of the mean structure tensor, of values around 1: a contrast of about 1 %
+// per pixel in every direction.
 constexpr double kLeastTexture = 1e-4;
 
 struct Level {
@@ -145,8 +145,8 @@ Window window_at(const Level& l, int cx, int cy, double dx, double dy) {
 
 enum class Found { kNo, kNoTexture, kYes };
 
-// Gauss–Newton for the displacement of one window; the windows' mean difference is taken out, so a
-// constant change of brightness does not pull. dx, dy: the start and the result.
+// Gauss–Newton for the displacement of one window. The windows' mean difference is removed, so that
+// a constant change of brightness has no effect. dx, dy: the start and the result.
 Found track(const Level& l, int cx, int cy, double& dx, double& dy) {
     for (int i = 0; i < kIterations; ++i) {
         const Window w = window_at(l, cx, cy, dx, dy);
@@ -185,7 +185,7 @@ Patch follow(const std::vector<Level>& pyramid, int x, int y) {
             p.dx = dx;
             p.dy = dy;
         } else {
-            // A coarse level that fails leaves the start as it was.
+            // A coarse level that fails leaves the start unchanged.
             if (found == Found::kYes) {
                 p.dx = dx;
                 p.dy = dy;

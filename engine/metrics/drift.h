@@ -7,20 +7,21 @@
 
 namespace weft {
 
-/// Motion that is left between two pictures that should show the same texture at the same place.
+/// The remaining motion between two pictures that should show the same texture at the same place.
 struct ResidualMotion {
-    double mean_px = 0;        ///< Mean length over the patches that were found again.
-    double mean_x_px = 0;      ///< Mean of the components: a common slide shows here,
-    double mean_y_px = 0;      ///< a swim does not.
-    std::int64_t patches = 0;  ///< Found again; 0 means that the other numbers say nothing.
-    std::int64_t lost = 0;     ///< Had texture but were not found again (correlation below 0.5).
+    double mean_px = 0;        ///< Mean length over the patches that were matched.
+    double mean_x_px = 0;      ///< Mean of the components: nonzero for a common slide,
+    double mean_y_px = 0;      ///< zero for a swim.
+    std::int64_t patches = 0;  ///< Patches matched; with 0 the other numbers are undefined.
+    /// Patches with texture that were not matched (correlation below 0.5).
+    std::int64_t lost = 0;
 };
 
 /// Pyramidal Lucas–Kanade (Lucas & Kanade 1981; Bouguet 2001) on patches every 8 px, each a
 /// Gaussian window (σ 6 px, 31 × 31) over pixels inside `region` (255) of the local-mean-normalised
-/// luma, so that a change of the light is no motion. Patches without texture in two directions or
-/// with less than half of their window inside are left out. Slides of up to about 10 px are found.
-/// Own code, different from the estimators that render. Deterministic.
+/// luma, so that changes of light do not count as motion. Skips patches without texture in two
+/// directions or with less than half of their window inside. Finds slides of up to about 10 px.
+/// Independent of the estimators that render. All H×W. Deterministic.
 [[nodiscard]] ResidualMotion residual_motion(ViewF1 expected_luma, ViewF1 seen_luma,
                                              ViewU8x1 region);
 

@@ -53,7 +53,7 @@ struct Table {
     static std::size_t idx(int k) { return static_cast<std::size_t>(k); }
 };
 
-// Power by band of a block, its mean taken out, so that the sum over bands is the mean square.
+// Power of a block by band. The mean is removed, so that the sum over bands is the mean square.
 std::array<double, GrainSpectrum::kBands> powers(const ImageF3& difference, int x0, int y0, int c) {
     static const Table t;
     using Block = std::array<std::array<double, kSide>, kSide>;
@@ -108,7 +108,7 @@ bool whole(ViewU8x1 visible, int x0, int y0) {
     return true;
 }
 
-// Mean squared gradient of the picture under a small blur, which leaves grain out.
+// Mean squared gradient of the picture under a small blur, which removes grain.
 double steepness(const ImageF1& luma, int x0, int y0) {
     const auto mean = [&](int x, int y) {
         float sum = 0;
@@ -160,7 +160,7 @@ void GrainSpectrumMeter::add(ViewF3 from, ViewF3 to, const FlowField& motion, Vi
     });
     blocks_.insert(blocks_.end(), found.begin(), found.end());
 
-    // How this difference hangs together with the one before, at one place of the surface.
+    // How this difference correlates with the one before, at one place of the surface.
     if (has_last_) {
         const ImageF3& other = forward ? difference : last_;
         const ImageF3& here = forward ? last_ : difference;
@@ -212,7 +212,7 @@ GrainSpectrum GrainSpectrumMeter::spectrum() const {
             double sum = 0;
             for (const std::size_t k : order)
                 sum += blocks_[k].power[c][b];
-            // A difference holds the grain of two frames.
+            // A difference contains the grain of two frames.
             const double power = 0.5 * sum / static_cast<double>(order.size());
             out.band[c][b] = std::sqrt(power);
             all += power;

@@ -9,7 +9,7 @@
 namespace weft {
 
 /// Mean over the region (`matte` ≥ kInsideCoverage) of V = max(R, G, B) of encoded values, in 8-bit
-/// units. Nothing where no pixel inside is finite.
+/// units. Empty if no pixel inside is finite. Both H×W.
 [[nodiscard]] std::optional<double> mean_value(ViewF3 encoded, ViewU8x1 matte);
 
 /// Collects one pair of means per frame; remembers sums only.

@@ -32,8 +32,8 @@ void for_each_inside(ViewF1 a, ViewF1 b, ViewU8x1 inside, const Visit& visit) {
 
 // Profiles across an edge.
 constexpr int kReach = 14;            // px to each side
-constexpr int kAcross = 12;           // the gradient is the greatest within so many px
-constexpr int kBeside = 5;            // parallel profiles to each side, averaged: noise
+constexpr int kAcross = 12;           // the gradient is the maximum within this many px
+constexpr int kBeside = 5;            // parallel profiles to each side, averaged against noise
 constexpr int kStep = 6;              // px between places that are tried
 constexpr double kLeastStep = 0.2;    // of ln light from one end of a profile to the other
 constexpr double kLeastSlope = 0.02;  // of ln light a px, in the middle
@@ -88,7 +88,7 @@ struct Edge {
     double middle, width;
 };
 
-// Where the profile crosses 10, 50 and 90 % of its step; nothing where it makes no clear one.
+// Where the profile crosses 10, 50 and 90 % of its step; empty if it has no clear step.
 std::optional<Edge> edge_of(const Profile& p) {
     double low = 0, high = 0;
     for (std::size_t k = 0; k < kEnds; ++k)
@@ -159,7 +159,7 @@ void ShadowEdges::add(ViewF1 result, ViewF1 truth, ViewU8x1 inside) {
             const double steep = std::hypot(g.x, g.y);
             if (steep < kLeastSlope) continue;
             const Direction d{g.x / steep, g.y / steep};
-            // Rows are tried every few px; along one, only the edge's middle.
+            // Rows are tried every few px; on each row only the middle of an edge counts.
             if (std::abs(d.x) < 0.7) continue;
             bool greatest = true;
             for (int k = -kAcross; k <= kAcross && greatest; ++k) {

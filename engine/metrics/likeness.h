@@ -1,5 +1,5 @@
 #pragma once
-// A result beside what it should be: the same surface rendered with the new material.
+// A result compared with the ideal: the same surface rendered with the new material.
 
 #include <array>
 #include <vector>
@@ -10,20 +10,20 @@
 namespace weft {
 
 /// One frame. Differences are means of |expected − seen| over pixels and channels, 8-bit levels;
-/// negative where there is no such pixel.
+/// negative if there is no such pixel.
 struct FrameLikeness {
     int frame = 0;
-    ResidualMotion features;  ///< Where the picture's features are, inside the matte.
+    ResidualMotion features;  ///< Displacement of the picture's features, inside the matte.
     double interior = -1;     ///< Where the matte is 250 and more.
     double soft_edge = -1;    ///< Where it is 5 to 249.
     double outside = -1;
-    /// How much the soft edge's error has changed since the frame before: mean over soft pixels of
-    /// |(expected − seen)(t) − (expected − seen)(t − 1)|. An edge that is wrong in the same way in
-    /// every frame has none, an edge that boils has.
+    /// Change of the soft edge's error since the frame before: mean over soft pixels of |(expected
+    /// − seen)(t) − (expected − seen)(t − 1)|. 0 for an edge that is wrong in the same way in every
+    /// frame; large for one that boils.
     double soft_edge_change = -1;
 };
 
-/// A part of a frame that is least as it should be, for the eye.
+/// The part of a frame that differs most, for visual inspection.
 struct WorstCrop {
     int frame = 0;
     Recti box;
@@ -31,18 +31,18 @@ struct WorstCrop {
     ImageU8x3 expected, seen;
 };
 
-/// Compares two sequences over a matte, frame by frame, in time's order. Not thread-safe.
+/// Compares two sequences over a matte, frame by frame in time order. Not thread-safe.
 class SequenceLikeness {
   public:
     explicit SequenceLikeness(int most_crops = 10) : most_crops_(most_crops) {}
 
-    /// Both encoded for a display, white 1.0, and the matte of one size, that of all frames before.
+    /// Both display-encoded, white 1.0, H×W×3; `matte` H×W. All frames have one size.
     const FrameLikeness& add(int frame, ViewF3 expected, ViewF3 seen, ViewU8x1 matte);
 
     [[nodiscard]] const std::vector<FrameLikeness>& frames() const { return frames_; }
-    /// One a frame at most, the worst first.
+    /// At most one per frame, the worst first.
     [[nodiscard]] const std::vector<WorstCrop>& worst() const { return worst_; }
-    /// Means over the frames that have the figure (patches count alike in `offset_px`).
+    /// Means over the frames that have the figure (`offset_px`: over all patches).
     struct Summary {
         double offset_px = 0, largest_offset_px = 0;  ///< Of features; the largest of a frame.
         double interior = 0, soft_edge = 0, outside = 0, soft_edge_change = 0;
@@ -59,7 +59,8 @@ class SequenceLikeness {
     Matte last_matte_;
 };
 
-/// The crops in a row, expected above, seen below it, and four times their difference about grey.
+/// The crops side by side: expected on top, seen below it, then four times their difference about
+/// grey.
 [[nodiscard]] ImageU8x3 strip_of(const std::vector<WorstCrop>& crops);
 
 }  // namespace weft

@@ -26,7 +26,7 @@ double coverage_at(ViewU8x1 matte, double px, double py) {
 }  // namespace
 
 std::optional<double> matte_chatter_px(const FlowField& motion, ViewU8x1 from, ViewU8x1 to) {
-    // Where two motions land in one place, one of the two is hidden there.
+    // Where two motions land at one place, one of them is hidden there.
     const Matte seen = landing_is_single(motion, grown_cover(from, kChatterReachPx));
     RowSum change, edge;
     for (int y = 1; y + 1 < from.height(); ++y) {

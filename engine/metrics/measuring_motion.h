@@ -1,6 +1,6 @@
 #pragma once
-// Motion to measure with when no true motion is given. It must not be the estimator that rendered
-// (DIS): a result measured with its own motion flatters itself.
+// Motion for measuring when no true motion is given. It must not come from the estimator that
+// rendered (DIS), because a result measured with its own motion looks too good.
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -19,12 +19,12 @@ enum class MeasuringEstimator {
 /// "deepflow" or "farneback", for reports.
 [[nodiscard]] const char* name_of(MeasuringEstimator estimator);
 
-/// The motion later_from_earlier of what lies inside `earlier_matte` (coverage above 0), on the
-/// earlier frame's pixels. Lumas in 8-bit units; not finite values count as 0. Estimated both ways
-/// inside the bounding box of both mattes grown by 48 px; valid inside that box where going there
-/// and back misses by at most 0.5 px + 5 % of the way, inside the earlier matte and up to
-/// `beyond_px` (at most 48) around it. Not valid anywhere when a matte is empty.
-/// Deterministic, whatever the number of threads. All four of one size. Thread-safe.
+/// The motion later_from_earlier (pixels) of what lies inside `earlier_matte` (coverage above 0),
+/// on the earlier frame's pixels. Lumas in 8-bit units; values that are not finite count as 0.
+/// Estimated both ways inside the bounding box of both mattes grown by 48 px. Valid inside that box
+/// where the way there and back misses by at most 0.5 px + 5 % of its length, inside the earlier
+/// matte and up to `beyond_px` (at most 48) around it; nowhere if a matte is empty. Deterministic
+/// for any number of threads. All H×W. Thread-safe.
 [[nodiscard]] FlowField measuring_motion(
     ViewF1 earlier_luma, ViewF1 later_luma, ViewU8x1 earlier_matte, ViewU8x1 later_matte,
     MeasuringEstimator estimator = MeasuringEstimator::kDeepFlow, int beyond_px = 0);

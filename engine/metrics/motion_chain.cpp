@@ -53,7 +53,7 @@ bool invert_at(const FlowField& cur_from_next, ViewU8x1 inside, Vec2 p, Vec2 gue
 }
 
 // For each pixel of the target frame, the pixel of the source frame that lands nearest to its
-// centre gives a first guess of the inverse; -1 where none lands.
+// centre, as a first guess of the inverse; -1 if none lands.
 Image<std::int32_t, 1> landings(const FlowField& f, ViewU8x1 inside) {
     Image<std::int32_t, 1> out(f.size(), -1);
     ImageF1 nearest(f.size(), std::numeric_limits<float>::infinity());
@@ -74,7 +74,7 @@ Image<std::int32_t, 1> landings(const FlowField& f, ViewU8x1 inside) {
     return out;
 }
 
-// A pixel that lands where p lies or, where the motion spreads pixels apart, right beside it.
+// A pixel that lands at p's pixel or, where the motion spreads pixels apart, right beside it.
 bool first_guess(const Image<std::int32_t, 1>& lands, Vec2 p, Vec2& guess) {
     constexpr int kOrder[9][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
                                   {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
@@ -126,8 +126,8 @@ void draw(const Triangle& t, ViewU8x1 inside, FlowField& out) {
     }
 }
 
-// `step(from, here, motion)` for every point that is still followed: where it began, where it is,
-// and its motion from there to here, which it carries on. False: the point is lost.
+// Calls `step(from, here, motion)` for every point that is still tracked: its start, its current
+// position, and the motion between them, which `step` extends. False: the point is lost.
 template <class Step>
 void follow(FlowField& chain, const Step& step) {
     parallel_rows(chain.d.height(), 16, [&](int y0, int y1) {
@@ -142,7 +142,7 @@ void follow(FlowField& chain, const Step& step) {
     });
 }
 
-// A pixel of the surface that has spread over more than this is a tear, not a surface.
+// A pixel of the surface that spreads over more than this is a tear.
 constexpr float kMostSpreadPx = 8.0f;
 
 }  // namespace

@@ -60,7 +60,7 @@ Matte eroded_inside(ViewU8x1 matte, int radius_px) {
 }
 
 Matte grown_cover(ViewU8x1 matte, int radius_px) {
-    // What is nowhere near the matte is its inverse, eroded.
+    // Pixels without any coverage near by are the eroded inverse.
     const auto inverted = [](ViewU8x1 of) {
         Matte out(of.size());
         for (int y = 0; y < of.height(); ++y)

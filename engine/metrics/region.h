@@ -1,5 +1,5 @@
 #pragma once
-// Luma and the pixels a measurement looks at.
+// Luma, and the pixels that a measurement uses.
 
 #include <cstdint>
 
@@ -14,12 +14,12 @@ inline constexpr int kInsideCoverage = 250;
 /// `encoded` has 1.0 for white. NaN and infinity come out as they are.
 [[nodiscard]] ImageF1 luma_8bit(ViewF3 encoded);
 
-/// 255 where `matte` ≥ kInsideCoverage within the whole square of (2·radius + 1)² pixels around,
-/// else 0. What lies beyond the picture counts as inside, so a region is not eroded where the
-/// picture cuts it off.
+/// 255 where `matte` ≥ kInsideCoverage in the whole square of (2·radius + 1)² pixels around, else
+/// 0. Pixels beyond the picture count as inside, so that a region is not eroded where the picture
+/// cuts it.
 [[nodiscard]] Matte eroded_inside(ViewU8x1 matte, int radius_px);
 
-/// 255 where `matte` covers anything (> 255 − kInsideCoverage) within the square of (2·radius + 1)²
+/// 255 where `matte` is above 255 − kInsideCoverage anywhere in the square of (2·radius + 1)²
 /// pixels around, else 0.
 [[nodiscard]] Matte grown_cover(ViewU8x1 matte, int radius_px);
 
@@ -29,7 +29,7 @@ inline constexpr int kInsideCoverage = 250;
 /// 255 where `mask` is inside (≥ kInsideCoverage) and `luma` is a finite number, else 0.
 [[nodiscard]] Matte inside_and_finite(ViewU8x1 mask, ViewF1 luma);
 
-/// Pixels that are not 0.
+/// Number of pixels that are not 0.
 [[nodiscard]] std::int64_t count_set(ViewU8x1 mask);
 
 /// Σ and number over rows, added in a fixed order: rows first, each from left to right.

@@ -1,5 +1,5 @@
 #pragma once
-// Are two frames the same, and where not (`weft diff`).
+// Whether two frames are equal, and where they differ (`weft diff`).
 
 #include <array>
 #include <cstdint>
@@ -10,27 +10,28 @@
 
 namespace weft {
 
-/// Values in the frames' own units (1.0 = white of an integer file). Two NaN are the same, whatever
-/// their bits; a NaN beside a number differs and counts as an infinite difference.
+/// Values in the frames' own units (1.0 = white of an integer file). Two NaN are equal whatever
+/// their bits; a NaN beside a number is an infinite difference.
 struct FrameDiff {
     bool equal = true;
     std::array<double, 3> max_abs{};   ///< Per channel.
     std::array<double, 3> mean_abs{};  ///< Per channel, over all pixels of the frame.
     std::int64_t pixels = 0;
     std::int64_t differing = 0;  ///< Pixels that differ in any channel.
-    Recti box;                   ///< Around all of them; empty when there is none.
+    Recti box;                   ///< Around all of them; empty if there are none.
     std::optional<Vec2i> first;  ///< The first of them in scanline order.
-    /// 10 log10(1 / mean squared difference) over all channels; nothing when the frames are equal.
+    /// 10 log10(1 / mean squared difference) over all channels; empty if the frames are equal.
     std::optional<double> psnr_db;
 };
 
-/// Errors: Differs when the sizes do (the message gives both).
+/// Errors: Differs if the sizes differ (the message gives both).
 [[nodiscard]] Expected<FrameDiff> diff_frames(ViewF3 a, ViewF3 b);
 
-/// The same over the pixels where `where` is 0: what lies outside a matte must not change.
+/// The same over the pixels where `where` is 0: outside a matte nothing may change. Errors: also
+/// Unreadable if `where` has another size.
 [[nodiscard]] Expected<FrameDiff> diff_outside(ViewF3 a, ViewF3 b, ViewU8x1 where);
 
-/// Of many frames.
+/// The summary of many frames.
 struct SequenceDiff {
     std::int64_t frames = 0;
     std::int64_t differing_frames = 0;

@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 constexpr int kErodePx = 4;
-// A texture of one colour has rounding errors only.
+// A texture of one colour has only rounding errors.
 constexpr double kLeastDetail = 1e-4;
 
 }  // namespace

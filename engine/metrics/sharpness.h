@@ -7,20 +7,19 @@
 
 namespace weft {
 
-/// Detail of one picture, measured on N = Y / (local mean of Y + 4), which a smooth change of the
-/// light leaves as it is. The local mean is a Gaussian of σ 8 px over the region alone.
+/// Detail of one picture, measured on N = Y / (local mean of Y + 4), which a smooth change of light
+/// leaves unchanged. The local mean is a Gaussian of σ 8 px over the region alone.
 struct Detail {
     double mean_laplacian = 0;  ///< Mean |N(left) + N(right) + N(up) + N(down) − 4 N|.
     double rms_contrast = 0;    ///< Standard deviation of N.
     std::int64_t pixels = 0;    ///< How many were measured.
 };
 
-/// `luma` in 8-bit units; `region` (255 = inside; anything less than kInsideCoverage is outside) is
-/// eroded by 4 px before anything is measured, and the picture's outermost pixels and those that
-/// are not finite are left out.
+/// `luma` in 8-bit units, H×W. `region` (255 = inside; below kInsideCoverage is outside) is eroded
+/// by 4 px first. The picture's outermost pixels and values that are not finite are ignored.
 [[nodiscard]] Detail measure_detail(ViewF1 luma, ViewU8x1 region);
 
-/// Fewer pixels than this say nothing about a texture.
+/// Fewer pixels give no reliable measure of a texture.
 inline constexpr std::int64_t kLeastDetailPixels = 200;
 
 struct SharpnessKept {

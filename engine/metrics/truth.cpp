@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-constexpr double kShade = 0.6;    // of the median luminance: less is a cast shadow
+constexpr double kShade = 0.6;    // of the median luminance: below this is a cast shadow
 constexpr int kShadeOpening = 2;  // px: specks are not shadows
 
 ImageF3 to_linear(ViewF3 encoded) {
@@ -73,8 +73,8 @@ Matte shade_of(const ImageF3& truth, ViewU8x1 matte) {
     return spread(spread(dark, true), false);
 }
 
-// The new material's own colour at a soft pixel: that of the pixels inside near by, which are not
-// mixed with anything. False where there are none.
+// The new material's own colour at a soft pixel: that of unmixed pixels inside near by. False if
+// there are none.
 bool colour_near(const ImageF3& linear, ViewU8x1 matte, int x, int y, double* colour) {
     constexpr int kReach = 4;                // px
     constexpr double kVariance = 1.5 * 1.5;  // px²
@@ -96,8 +96,8 @@ bool colour_near(const ImageF3& linear, ViewU8x1 matte, int x, int y, double* co
     return true;
 }
 
-// The picture as it would be with the new material brighter by `gain`: of a soft pixel M T + (1 −
-// M) G it is T alone that the gain is for, not the background.
+// The picture with the new material brighter by `gain`: of a soft pixel M T + (1 − M) G only T gets
+// the gain, not the background.
 void brighten_material(ImageF3& linear, ViewU8x1 matte, const double (&gain)[3]) {
     const ImageF3 before = linear;
     parallel_rows(linear.height(), 16, [&](int y0, int y1) {

@@ -1,6 +1,6 @@
 #pragma once
-// A result against the same scene rendered with the new material: inside, in the soft edge and in
-// cast shadows, up to one overall gain.
+// A result compared with the same scene rendered with the new material: inside, in the soft edge
+// and in cast shadows, up to one overall gain.
 
 #include <cstdint>
 #include <optional>
@@ -14,17 +14,17 @@ namespace weft {
 /// display-encoded RGB, white = 1, of one size. Not thread-safe.
 class TruthComparison {
   public:
-    /// `blur_px`: both are compared after a Gaussian of this deviation, inside of the matte only;
-    /// for a truth whose texture is like the new one but does not lie at the same place. 0: none.
+    /// `blur_px`: both are compared after a Gaussian of this deviation, inside the matte only; for
+    /// a truth whose texture resembles the new one but lies at another place. 0: none.
     explicit TruthComparison(float blur_px = 0) : blur_px_(blur_px) {}
 
     void gather(ViewF3 result, ViewF3 truth, ViewU8x1 matte);
 
-    /// Mean |difference| over channels, 8-bit levels. Nothing where a frame has no such pixels.
+    /// Mean |difference| over channels, 8-bit levels. Empty if a frame has no such pixels.
     struct Frame {
         std::optional<double> inside, soft_edge, shadow;
-        /// Median luminance inside, as a share of the first compared frame's: how a change of light
-        /// is followed.
+        /// Median luminance inside, relative to the first compared frame: how well the result
+        /// follows changes of light.
         double brightness = 1, true_brightness = 1;
     };
     [[nodiscard]] Frame compare(ViewF3 result, ViewF3 truth, ViewU8x1 matte);

@@ -21,7 +21,8 @@ float median(std::vector<float>& values) {
     return *middle;
 }
 
-// The luma of the frame before where the motion says, and whether that lay in the region.
+// The luma of the frame before, looked up along the motion, and whether the place lay in the
+// region.
 struct Moved {
     cv::Mat luma, visible;
 };
@@ -41,9 +42,9 @@ Moved moved(ViewU8x1 prev, ViewU8x1 prev_visible, const ImageF2& d, const cv::Re
     return out;
 }
 
-// Levels a pixel of distance in the outline's band, and how wide the band is.
+// Levels per pixel of distance in the outline's band, and the band's width.
 constexpr float kSlope = 8, kBand_px = 12;
-// How strongly the luma inside counts beside it.
+// Weight of the luma inside against it.
 constexpr float kLumaShare = 0.7f;
 constexpr int kMargin_px = 24;
 
@@ -54,7 +55,7 @@ cv::Mat outline_picture(const cv::Mat& luma, const cv::Mat& visible, float mean)
     cv::Mat depth, away;
     cv::distanceTransform(inside, depth, cv::DIST_L2, 5);
     cv::distanceTransform(outside, away, cv::DIST_L2, 5);
-    // Smoothed by its own region alone: the surroundings stay out.
+    // Smoothed within its own region, so that the surroundings have no effect.
     cv::Mat share, light;
     inside.convertTo(share, CV_32F, 1.0 / 255);
     luma.convertTo(light, CV_32F);
@@ -133,9 +134,9 @@ FlowField estimate_contour_flow(ViewU8x1 cur, ViewU8x1 cur_visible, ViewU8x1 pre
     cv::copyMakeBorder(from, from, 0, bottom, 0, right, cv::BORDER_REPLICATE);
     cv::copyMakeBorder(to, to, 0, bottom, 0, right, cv::BORDER_REPLICATE);
 
-    // An outline says little at any one place, so patches are wide and the smoothing is strong; the
-    // half size is fine enough (blender_fox_gt's fox: median error 0.83 px, by estimate_flow() 2.3;
-    // at the full size 1.2, at a quarter 1.0).
+    // An outline is weak evidence at any one place, so patches are wide and the smoothing is
+    // strong. The half size is fine enough (blender_fox_gt's fox: median error 0.83 px, by
+    // estimate_flow() 2.3; at the full size 1.2, at a quarter 1.0).
     const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
     int finest = 1;
     while ((cur.width() >> finest) > 640)

@@ -91,12 +91,12 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
         }
         if (!good) {
             return unreadable(
-                "Its line " + std::to_string(number) +
+                "Line " + std::to_string(number) +
                 " is not a frame and the x and y of four corners. Write nine numbers on each "
                 "line: the frame, then x and y of the four corners");
         }
         if (!track.emplace(frame, quad).second)
-            return unreadable("Frame " + std::to_string(frame) + " is there twice");
+            return unreadable("Frame " + std::to_string(frame) + " occurs twice");
     }
     return completed(std::move(track));
 }
@@ -155,8 +155,8 @@ Expected<CornerTrack> parse_after_effects(std::string_view text,
 
 // ---- Nuke -------------------------------------------------------------------------------------
 
-// The values of a knob's text: "12.5", or "curve x1 12 13 x5 14", where each x sets the frame and
-// each number is the next one's. What else stands there (slopes, kinds of curve) is passed over.
+// The values of a knob: "12.5", or "curve x1 12 13 x5 14", where each x sets the frame and each
+// number is the value of the next frame. Slopes and kinds of curve are skipped.
 std::map<int, double> knob_values(std::string_view text) {
     std::map<int, double> out;
     int frame = 0;
@@ -168,7 +168,7 @@ std::map<int, double> knob_values(std::string_view text) {
     return out;
 }
 
-// The text from an opening brace to the one that closes it, without both.
+// The text between an opening brace and the one that closes it.
 std::string_view braced(std::string_view text) {
     int depth = 0;
     for (std::size_t k = 0; k < text.size(); ++k) {

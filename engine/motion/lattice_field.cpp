@@ -27,7 +27,7 @@ struct Tap {
     std::array<float, 4> weight;
 };
 
-// Where a frame coordinate falls among `count` nodes; the coordinate must lie inside the inner
+// The nodes around a frame coordinate among `count` nodes. The coordinate must lie inside the inner
 // ones.
 Tap tap_at(float coordinate, int spacing, int count) {
     const float g = coordinate / static_cast<float>(spacing) + LatticeField::kMargin;
@@ -56,12 +56,12 @@ struct Affine {
     Vec2 offset{0};
 };
 
-// What the whole field does to places, by least squares over its nodes.
+// The affine part of the whole field, by least squares over its nodes.
 Affine mean_affine(const LatticeField& field) {
     const ImageF2& nodes = field.nodes();
     const Vec2 middle = 0.5f * (field.node_position(0, 0) +
                                 field.node_position(nodes.width() - 1, nodes.height() - 1));
-    // The nodes lie symmetrically about their middle, so that the sums over x, y and 1 are apart.
+    // The nodes lie symmetrically about their middle, so the sums over x, y and 1 are independent.
     Vec2 mean(0), along_x(0), along_y(0);
     float xx = 0, yy = 0;
     for (int j = 0; j < nodes.height(); ++j) {
@@ -81,9 +81,9 @@ Affine mean_affine(const LatticeField& field) {
     return out;
 }
 
-// Where p + field(p) is `target`: Newton's steps from where `whole` has it. Of all places that are
-// passed, `start` among them, the one that comes nearest, for a field that folds over has no root
-// everywhere.
+// Solves p + field(p) = `target` by Newton's method, starting from `start` or the solution for
+// `whole`. Returns the nearest of all places that were tried, because a field that folds over has
+// no root everywhere.
 Vec2 newton_root(const LatticeField& field, Vec2 target, Vec2 start, const Affine& whole) {
     const auto residual = [&](Vec2 p) { return target - (p + field.at(p)); };
     constexpr float kFlat = 1e-3f;
@@ -97,7 +97,7 @@ Vec2 newton_root(const LatticeField& field, Vec2 target, Vec2 start, const Affin
     for (int k = 0; k < 16; ++k) {
         const Vec2 r = residual(p);
         const float miss = glm::length(r);
-        // Also where it is not a number.
+        // Also true for NaN.
         if (!(miss < 1e6f)) break;
         if (miss < least) {
             least = miss;
@@ -127,8 +127,8 @@ LatticeField::LatticeField(Size full, int spacing)
 }
 
 Vec2 LatticeField::at(Vec2 p) const {
-    // Inside the inner nodes all four taps exist; outside, the field goes on with the gradient that
-    // it has at the nearest inner place.
+    // Inside the inner nodes all four taps exist. Outside, the field continues with its gradient at
+    // the nearest inner place.
     const float step = static_cast<float>(spacing_);
     const Vec2 low(-step), high = node_position(nodes_.width() - 2, nodes_.height() - 2);
     const Vec2 q(std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y));

@@ -1,5 +1,5 @@
 #pragma once
-// A smooth displacement field, held on a lattice of nodes and interpolated between them.
+// A smooth displacement field on a lattice of nodes, with interpolation between them.
 
 #include <cstdint>
 
@@ -56,8 +56,8 @@ class LatticeField {
 /// result has `inner`'s spacing.
 [[nodiscard]] LatticeField compose(const LatticeField& inner, const LatticeField& outer);
 
-/// The field the other way: from a_from_b, b_from_a. Any turn and scale; where the field folds
-/// over, the place that comes nearest. Same frame size and spacing.
+/// The field in the other direction: from a_from_b, b_from_a. Works for any rotation and scale;
+/// where the field folds over it gives the nearest place. Same frame size and spacing.
 [[nodiscard]] LatticeField inverse(const LatticeField& field);
 
 /// a + weight · (b − a), node by node; both of the same frame size and spacing.

@@ -14,8 +14,8 @@ cv::Mat as_mat(ViewU8x1 image) {
             static_cast<std::size_t>(image.stride())};
 }
 
-// DIS builds a pyramid down to patches of 8 px; smaller pictures are padded by repeating the
-// border. It also wants rows without gaps, which a crop does not have.
+// DIS builds a pyramid down to patches of 8 px, so smaller pictures are padded by repeating the
+// border. It also needs rows without gaps, which a crop does not have.
 constexpr int kSmallest = 64;
 
 cv::Mat prepared(const cv::Mat& image) {
@@ -51,7 +51,7 @@ float squared(float v) {
     return v * v;
 }
 
-// Marks in `there.valid` the pixels from which going there and back misses.
+// Marks in `there.valid` the pixels whose way there and back misses.
 void check_one_way(const FlowField& there, const ImageF2& back, float tolerance_px, Matte& valid) {
     parallel_rows(there.d.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -75,7 +75,7 @@ FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
     assert(source.size() == target.size());
     const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
     const bool draft = quality == FlowQuality::kDraft;
-    // The finest pyramid level decides about precision and cost (measured on blender_fox_gt: the
+    // The finest pyramid level determines precision and cost (measured on blender_fox_gt: the
     // rolling ball's error is 1.2 px at a quarter, 0.37 at a half and 0.14 at the full size).
     // Larger plates end at a level of about the same size.
     const int widest = draft ? 512 : 1280;
@@ -120,7 +120,7 @@ FlowField invert_flow(const FlowField& target_from_source) {
             if (!target_from_source.valid.at(x, y)) continue;
             const float* d = target_from_source.d.pixel(x, y);
             const float gx = static_cast<float>(x) + d[0], gy = static_cast<float>(y) + d[1];
-            // Also what is not a number lands nowhere.
+            // NaN lands nowhere either.
             if (!(gx > -1 && gy > -1 && gx < static_cast<float>(size.width) &&
                   gy < static_cast<float>(size.height))) {
                 continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Dense motion between two frames.
+// Dense optical flow between two frames.
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -8,20 +8,20 @@ namespace weft {
 
 enum class FlowQuality { kDraft, kFinal };
 
-/// DIS optical flow (Kroeger et al. 2016, OpenCV): for each pixel of `source` where it lies in
-/// `target`, H×W×2 pixels, every pixel valid. 8-bit luma, both of one size. Deterministic.
+/// DIS optical flow (Kroeger et al. 2016, OpenCV): for each pixel of `source` the displacement to
+/// `target`, H×W×2 pixels, every pixel valid. 8-bit luma, both H×W. Deterministic.
 [[nodiscard]] FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality);
 
-/// Marks as invalid where going there and back misses by more than `tolerance_px` plus 5% of the
-/// way, or leaves the frame (Sundaram et al. 2010). Both fields change only in `valid`.
+/// Marks pixels as invalid whose way there and back misses by more than `tolerance_px` plus 5 % of
+/// its length, or leaves the frame (Sundaram et al. 2010). Only `valid` changes.
 void check_consistency(FlowField& target_from_source, FlowField& source_from_target,
                        float tolerance_px = 0.7f);
-/// The same of the first field alone.
+/// The same for the first field alone.
 void check_consistency(FlowField& target_from_source, const ImageF2& source_from_target,
                        float tolerance_px = 0.7f);
 
-/// Inverts a motion field by splatting; where nothing lands, or something nearer overwrote,
-/// invalid.
+/// Inverts a motion field by splatting. Invalid where nothing lands, or where contributions
+/// disagree by more than a pixel because two surfaces meet.
 [[nodiscard]] FlowField invert_flow(const FlowField& target_from_source);
 
 }  // namespace weft

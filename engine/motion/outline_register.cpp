@@ -16,11 +16,11 @@ cv::Mat as_mat(ViewU8x1 v) {
 
 constexpr float kWidest_px = 24;
 
-// What all pictures of a frame are made of.
+// What all pictures of a frame are computed from.
 struct Shape {
     cv::Rect box;
     cv::Mat distance;      // signed, positive inside
-    cv::Mat open;          // visible, away from what passes in front
+    cv::Mat open;          // visible, away from holdouts
     cv::Mat light, share;  // luma where open, and 1 there
 
     explicit Shape(const OutlineView& view) {
@@ -36,7 +36,7 @@ struct Shape {
         cv::distanceTransform(inside, distance, cv::DIST_L2, 5);
         cv::distanceTransform(outside, away, cv::DIST_L2, 5);
         distance -= away;
-        // An occluder's own ink is drawn over the surface beside it.
+        // The ink of an occluder covers the surface beside it.
         open = as_mat(view.visible)(box) >= 250;
         cv::erode(open, open, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
         open.convertTo(share, CV_32F, 1.0 / 255);
@@ -45,10 +45,10 @@ struct Shape {
     }
 };
 
-// Compared are the distance within `band` px of the outline, and inside of that the luma, smoothed
-// by `sigma`, less its surroundings.
+// Compares the distance within `band` px of the outline and, inside, the luma smoothed by `sigma`
+// less its surroundings.
 RegistrationPicture picture(const Shape& shape, float band, float sigma) {
-    constexpr float kDistance_px = 6, kInk = 20;  // that count as one
+    constexpr float kDistance_px = 6, kInk = 20;  // that count as 1
     constexpr float kMostInk = 1.5f;
     RegistrationPicture out;
     if (shape.box.empty()) return out;
@@ -95,7 +95,7 @@ class OutlineMatch {
 
     [[nodiscard]] bool empty() const { return prev_.box.empty() || cur_.box.empty(); }
 
-    // Whether a homography was found; `field` is where it starts and ends.
+    // True if a homography was found; `field` is its start and its result.
     bool planar(LatticeField& field) const {
         for (const Stage& stage : {Stage{24, 4, 0, 0, 15}, Stage{10, 2, 0, 0, 12}}) {
             const PlanarRegistration found =
@@ -106,8 +106,9 @@ class OutlineMatch {
         return true;
     }
     void smooth(LatticeField& field) const {
-        // Stiff: what the outline does not say is best left to the surroundings. (assets/drawn,
-        // mean error of a step: cape 1.5 px; at four times the stiffness 3.0, at a third 2.2.)
+        // Stiff, because what the outline does not determine is best taken from the surroundings.
+        // (assets/drawn, mean error of a step: cape 1.5 px; at four times the stiffness 3.0, at a
+        // third 2.2.)
         for (const Stage& stage : {Stage{20, 4, 32, 0.25f, 14}, Stage{12, 2.5f, 24, 0.17f, 10},
                                    Stage{8, 1.2f, 16, 0.08f, 8}}) {
             field = register_lattice(of(prev_, stage), of(cur_, stage), field, options(stage));
@@ -151,8 +152,8 @@ LatticeField register_outline(const OutlineView& prev, const OutlineView& cur,
     if (!match.planar(plane)) return field;
     LatticeField bent = plane;
     match.smooth(bent);
-    // A raw estimate may fit the outline while the surface slips along it; what starts from a plane
-    // slips less and is preferred unless it fits clearly worse.
+    // A raw estimate may fit the outline while the surface slips along it. A result that starts
+    // from a homography slips less and is preferred unless it fits clearly worse.
     constexpr double kClearlyWorse = 1.35;
     double with_field = match.residual(field, kNarrow);
     const double with_bent = match.residual(bent, kNarrow);

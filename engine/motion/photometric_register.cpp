@@ -152,7 +152,7 @@ double planar_step(const RegistrationPicture& anchor,
             b[i] -= wj * t.r;
         }
     }
-    // Perspective is held back by a prior of about a tenth over the region.
+    // A prior limits perspective to about a tenth over the region.
     const double prior = 100 * scale * scale;
     a[6][6] += prior;
     a[7][7] += prior;

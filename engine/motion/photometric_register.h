@@ -1,5 +1,5 @@
 #pragma once
-// Where a surface in one frame lies in another, found by comparing the pictures directly.
+// Registers a surface between two frames by comparing the pictures directly.
 
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
@@ -7,11 +7,11 @@
 namespace weft {
 
 /// A frame's luma as registration compares it: inside the region only, less its local mean and over
-/// its local deviation, so that shading and a change of light hardly count. Immutable.
+/// its local deviation, so that shading and changes of light have little effect. Immutable.
 struct RegistrationPicture {
     Recti area;      ///< Of the frame; the images below cover it.
     ImageF1 value;   ///< About −3…3.
-    ImageF1 inside;  ///< 1 well inside the region, 0 where nothing is to be compared.
+    ImageF1 inside;  ///< 1 well inside the region, 0 where nothing is compared.
 };
 
 /// `luma`, `visible`: H×W, 8 bit, of one size. Pure; deterministic.
@@ -20,14 +20,14 @@ struct RegistrationPicture {
 /// How well a map explains the frame: both in units of the local deviation.
 struct RegistrationFit {
     double residual = 0;  ///< Robust mean of |anchor(map(p)) − cur(p)|.
-    double share = 0;     ///< Of the region's pixels: seen in the anchor and agreeing.
+    double share = 0;     ///< Of the region's pixels, those that the anchor shows and that agree.
 };
 
 struct RegistrationOptions {
-    int samples = 60000;         ///< At most about so many pixels are compared.
-    int iterations = 8;          ///< At most; ends when nothing moves.
+    int samples = 60000;         ///< The most pixels that are compared, approximately.
+    int iterations = 8;          ///< At most; stops when the map no longer changes.
     int lattice_px = 12;         ///< Spacing of the correction's nodes.
-    float stiffness_px = 0.15f;  ///< Second differences of the correction that are usual, px.
+    float stiffness_px = 0.15f;  ///< The usual size of the correction's second differences, px.
 };
 
 struct PlanarRegistration {
@@ -36,9 +36,9 @@ struct PlanarRegistration {
     bool found = false;  ///< False: too few pixels or no convergence; the field is the initial one.
 };
 
-/// The homography that takes the frame to the anchor, by Gauss–Newton on robust photometric
-/// residuals (Lucas & Kanade 1981; Baker & Matthews 2004, forwards additive), from `initial`
-/// (anchor_from_cur, right to a pixel or so). The field has `initial`'s lattice. Pure;
+/// The homography from the frame to the anchor, by Gauss–Newton on robust photometric residuals
+/// (Lucas & Kanade 1981; Baker & Matthews 2004, forwards additive), from `initial`
+/// (anchor_from_cur, right to about a pixel). The field has `initial`'s lattice. Pure;
 /// deterministic.
 [[nodiscard]] PlanarRegistration register_planar(const RegistrationPicture& anchor,
                                                  const RegistrationPicture& cur,
@@ -54,7 +54,7 @@ struct PlanarRegistration {
                                             const LatticeField& initial,
                                             const RegistrationOptions& options);
 
-/// How well any map explains the frame, by the same measure for all.
+/// How well a map explains the frame, by one measure for all maps.
 [[nodiscard]] RegistrationFit registration_fit(const RegistrationPicture& anchor,
                                                const RegistrationPicture& cur,
                                                const LatticeField& anchor_from_cur,

@@ -15,7 +15,7 @@ cv::Mat as_mat(ViewU8x1 v) {
 
 // Local means reach this far, px at a width of 854.
 constexpr float kLocal_px = 4;
-// Pixels nearer to the outline than this are mixed with what lies behind.
+// Pixels nearer to the outline are mixed with the background.
 constexpr float kEdge_px = 3;
 
 // Catmull–Rom weights of four neighbours at fraction t, and their derivatives.
@@ -36,7 +36,7 @@ RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     const cv::Mat inside = all(box);
     out.area = {box.x, box.y, box.x + box.width, box.y + box.height};
 
-    // Local mean and deviation by normalised convolution: nothing outside takes part.
+    // Local mean and deviation by normalised convolution, from inside the region only.
     const double sigma = kLocal_px * static_cast<double>(luma.width()) / 854.0;
     cv::Mat value, share, mean, square;
     as_mat(luma)(box).convertTo(value, CV_32F);
@@ -44,7 +44,7 @@ RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     cv::GaussianBlur(value, value, {0, 0}, 0.6);
     const auto local = [&](const cv::Mat& m, cv::Mat& smooth) {
         const int r = 2 * static_cast<int>(std::lround(sigma)) + 1;
-        // Two box filters stand for the Gaussian.
+        // Two box filters replace the Gaussian.
         cv::boxFilter(m, smooth, CV_32F, {r, r}, {-1, -1}, true, cv::BORDER_REPLICATE);
         cv::boxFilter(smooth, smooth, CV_32F, {r, r}, {-1, -1}, true, cv::BORDER_REPLICATE);
     };
@@ -56,7 +56,7 @@ RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     value -= mean;
     local(value.mul(value).mul(share), square);
     cv::divide(square, covered, square);
-    // Nine levels² keep a blank place from becoming a picture of its noise.
+    // Nine levels² keep a blank place from showing only its noise.
     square += 9.0f;
     cv::sqrt(square, square);
     cv::divide(value, square, value);
@@ -137,7 +137,7 @@ double robust_spread(std::vector<float>& sizes) {
 RegistrationFit registration_fit(const RegistrationPicture& anchor, const RegistrationPicture& cur,
                                  const LatticeField& anchor_from_cur,
                                  const RegistrationOptions& options) {
-    // Saturating: a pixel that shows something else counts as much as one that shows nothing.
+    // Saturating: a pixel that shows something else counts as one that shows nothing.
     constexpr double kMost = 1.0;
     RegistrationFit fit;
     double sum = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the direct registrations share: the pixels that are compared, and how.
+// What the direct registrations share: which pixels are compared, and how.
 
 #include <optional>
 #include <vector>
@@ -22,10 +22,10 @@ struct RegistrationLookup {
     Vec2 gradient;  ///< Per pixel.
 };
 
-/// The picture at any position by Catmull–Rom, with its gradient; nothing outside its region.
+/// The picture at any position by Catmull–Rom, with its gradient; empty outside its region.
 [[nodiscard]] std::optional<RegistrationLookup> look_up(const RegistrationPicture& picture, Vec2 p);
 
-/// 1.4826 · median of absolute residuals, kept above what one level of noise makes. Reorders.
+/// 1.4826 · median of absolute residuals, at least what one level of noise gives. Reorders.
 [[nodiscard]] double robust_spread(std::vector<float>& sizes);
 
 /// Weight of a residual of r robust deviations (Cauchy, 95% efficient at 2.385).

@@ -35,8 +35,8 @@ class System {
         rhs_[node].x += x;
         rhs_[node].y += y;
     }
-    // The step x that, with what was corrected `before`, minimises data + stiffness · |second
-    // differences of before + x|² + a trace of |before + x|², by conjugate gradients.
+    // The step x that minimises data + stiffness · |second differences of (before + x)|² + a small
+    // multiple of |before + x|², where `before` is the correction so far; by conjugate gradients.
     const std::vector<glm::dvec2>& solve(const std::vector<glm::dvec2>& before, double stiffness,
                                          int iterations);
 
@@ -97,7 +97,7 @@ void System::add_bending(const std::vector<glm::dvec2>& x, double stiffness,
             if (i > 0 && i + 1 < w) bend(at(i - 1, j), at(i, j), at(i + 1, j));
             if (j > 0 && j + 1 < h) bend(at(i, j - 1), at(i, j), at(i, j + 1));
             if (i + 1 < w && j + 1 < h) {
-                // The mixed second difference, twice as in the thin plate's energy.
+                // The mixed second difference counts twice, as in the thin plate's energy.
                 const glm::dvec2 d =
                     2.0 * stiffness *
                     (x[at(i, j)] - x[at(i + 1, j)] - x[at(i, j + 1)] + x[at(i + 1, j + 1)]);
@@ -147,7 +147,7 @@ struct Term {
     Vec2 g;
 };
 
-// Puts the residuals into the system of a lattice.
+// Adds the residuals to the system of a lattice.
 void fill(System& system, const LatticeField& lattice, const std::vector<Term>& terms,
           double scale) {
     const int width = lattice.nodes().width();
@@ -182,7 +182,7 @@ LatticeField register_lattice(const RegistrationPicture& anchor, const Registrat
     LatticeField field = initial;
     const auto samples = registration_samples(cur, options.samples);
     if (samples.size() < 100) return field;
-    // Two or three neighbouring residuals say the same once.
+    // Neighbouring residuals are correlated, two or three at a time.
     constexpr double kIndependent = 0.4;
     const double stiffness =
         1.0 / (static_cast<double>(options.stiffness_px) * options.stiffness_px);

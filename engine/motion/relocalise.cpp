@@ -38,7 +38,7 @@ Points points_of(const RegistrationPicture& picture) {
     return out;
 }
 
-// Whether the map keeps the corners of `area` in order and about their size.
+// True if the map keeps the corners of `area` in order and about their size.
 bool sane(const cv::Mat& h, const Recti& area) {
     const auto x0 = static_cast<float>(area.x0), y0 = static_cast<float>(area.y0);
     const auto x1 = static_cast<float>(area.x1), y1 = static_cast<float>(area.y1);
@@ -76,7 +76,7 @@ std::optional<LatticeField> find_again(const RegistrationPicture& anchor,
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
             const Vec2 p = field.node_position(i, j);
-            // Beyond the horizon there is no surface; what counts lies well before it.
+            // Beyond the horizon there is no surface; the region lies well before it.
             const double w = std::max(0.05, m[6] * p.x + m[7] * p.y + m[8]);
             field.set_node(i, j,
                            {static_cast<float>((m[0] * p.x + m[1] * p.y + m[2]) / w) - p.x,

@@ -1,5 +1,5 @@
 #pragma once
-// Finding a surface again that was out of view.
+// Finds a surface again that was out of view.
 
 #include <optional>
 
@@ -8,11 +8,11 @@
 
 namespace weft {
 
-/// anchor_from_cur of a surface about whose place nothing is known: distinctive points of both
-/// pictures (SIFT, Lowe 2004) matched both ways, and the homography that most of them agree on
-/// (RANSAC with a fixed seed). Right to a pixel or two, for registration to go on from;
-/// `spacing_px` is the field's. Nothing when fewer than 12 points agree or the map turns the
-/// surface inside out. Pure; deterministic.
+/// anchor_from_cur of a surface whose position is unknown: distinctive points of both pictures
+/// (SIFT, Lowe 2004) are matched both ways, and the homography that most of them agree on is taken
+/// (RANSAC with a fixed seed). Right to a pixel or two, as a start for registration; `spacing_px`
+/// is the field's. Empty if fewer than 12 points agree or the map turns the surface inside out.
+/// Pure; deterministic.
 [[nodiscard]] std::optional<LatticeField> find_again(const RegistrationPicture& anchor,
                                                      const RegistrationPicture& cur, Size frame,
                                                      int spacing_px);

@@ -16,7 +16,7 @@ struct Sample {
     float weight;  // 0–1
 };
 
-// Scale of a set of residuals: 1.4826 · median of their norms / √2 (per component).
+// Standard deviation (per component) of a set of residuals, from the median of their norms.
 float robust_scale(const std::vector<Sample>& samples, const std::vector<Vec2>& residuals) {
     std::vector<float> norms;
     norms.reserve(residuals.size());
@@ -59,7 +59,7 @@ bool solve_with_pivots(std::array<std::array<double, N>, N>& a,
     return true;
 }
 
-// The region's centre and half extent, to keep polynomials well conditioned.
+// The region's centre and half extent, which keep polynomials well conditioned.
 struct Frame2D {
     Vec2 centre{0};
     float radius = 1;
@@ -102,8 +102,8 @@ Vec2 evaluate(const Quadratic& model, Vec2 q) {
     return {static_cast<float>(u), static_cast<float>(v)};
 }
 
-// The quadratic inside the region's reach, its tangent beyond: a parabola far outside of the data
-// that made it is fantasy.
+// The quadratic inside the region's extent, its tangent beyond: a parabola is not reliable far from
+// its data.
 Vec2 evaluate_tamed(const Quadratic& model, Vec2 q) {
     constexpr float kReach = 1.6f;
     const float r = glm::length(q);
@@ -115,7 +115,7 @@ Vec2 evaluate_tamed(const Quadratic& model, Vec2 q) {
     return evaluate(model, edge) + slope * (r - kReach);
 }
 
-// Iteratively reweighted least squares with Cauchy weights (Black & Anandan 1996 use the like).
+// Iteratively reweighted least squares with Cauchy weights (as in Black & Anandan 1996).
 Quadratic fit_quadratic(const std::vector<Sample>& samples, const Frame2D& frame) {
     Quadratic model{};
     std::vector<Vec2> residuals(samples.size());
@@ -137,8 +137,8 @@ Quadratic fit_quadratic(const std::vector<Sample>& samples, const Frame2D& frame
                 rhs[j][1] += w * b[j] * s.d.y;
             }
         }
-        // A faint ridge on the slopes and a stronger one on the curvature: a sliver of surface
-        // gives no evidence about either across it.
+        // A faint ridge on the slopes and a stronger one on the curvature, because a sliver of
+        // surface determines neither across it.
         constexpr std::array<double, 6> kRidge{1e-9, 1e-4, 1e-4, 1e-3, 1e-3, 1e-3};
         for (std::size_t j = 0; j < 6; ++j) {
             for (std::size_t k = j + 1; k < 6; ++k)
@@ -155,8 +155,8 @@ Quadratic fit_quadratic(const std::vector<Sample>& samples, const Frame2D& frame
     return model;
 }
 
-// Weighted sums of a cell or, once blurred, of a neighbourhood: everything that an affine fit of
-// two components needs.
+// Weighted sums of a cell or, once blurred, of a neighbourhood: all that an affine fit of two
+// components needs.
 enum Moment { kW, kWx, kWy, kWxx, kWxy, kWyy, kU, kUx, kUy, kV, kVx, kVy, kMoments };
 using Moments = Image<double, kMoments>;
 
@@ -201,7 +201,7 @@ Vec2 affine_at_node(const double* m, Vec2 node, double sigma) {
     const double mxx = (m[kWxx] - 2 * qx * m[kWx] + qx * qx * w) / s2;
     const double myy = (m[kWyy] - 2 * qy * m[kWy] + qy * qy * w) / s2;
     const double mxy = (m[kWxy] - qx * m[kWy] - qy * m[kWx] + qx * qy * w) / s2;
-    // The slope is held back where the neighbourhood is one-sided.
+    // A ridge limits the slope where the neighbourhood is one-sided.
     const double ridge = 0.15 * w;
     std::array<std::array<double, 3>, 3> a{
         {{w, mx, my}, {mx, mxx + ridge, mxy}, {my, mxy, myy + ridge}}};
@@ -261,11 +261,11 @@ Level fit_level(const std::vector<Sample>& samples, const std::vector<Vec2>& res
     return level;
 }
 
-// Holds a level back to what stands out of the noise: δ · τ² / (τ² + se²). se² is the local fit's
-// own variance; τ², how much this surface really deviates from the stiffer model at this level, is
-// taken from all nodes together (empirical Bayes), by a quantile: a rolling ball's shadow moves
-// across the ground as one, and only the rest of the ground tells that the ground does not move
-// with it.
+// Shrinks a level to what exceeds the noise: δ · τ² / (τ² + se²). se² is the local fit's own
+// variance. τ², how much this surface really deviates from the stiffer model at this level, is
+// estimated from all nodes together (empirical Bayes), by a quantile. Example: a rolling ball's
+// shadow moves across the ground, and only the rest of the ground shows that the ground does not
+// move with it.
 void shrink(Level& level, float noise, float samples_per_independent) {
     const auto variance_at = [&](int i, int j) {
         // For Gaussian weights the effective number of samples is (Σg)²/Σg² = 2 Σg.
@@ -339,8 +339,9 @@ LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitO
         residuals[i] = samples[i].d;
     subtract(samples, field, residuals);
 
-    // The noise of the raw motion is what even the finest fit leaves. Half of it again, because the
-    // estimator's errors are correlated over about the width of that fit and are partly followed.
+    // The noise of the raw motion is what even the finest fit leaves, and half of it again, because
+    // the estimator's errors are correlated over about the width of that fit and are partly
+    // followed.
     const int finest =
         std::max(options.spacing_px / 2, static_cast<int>(std::lround(options.finest_px / 2)));
     const float spread = std::max(options.noise_floor_px, robust_scale(samples, residuals));
@@ -348,7 +349,7 @@ LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitO
     subtract(samples, fit_level(samples, residuals, full, finest, 3 * spread).correction, left);
     const float noise = std::max(options.noise_floor_px, 1.5f * robust_scale(samples, left));
 
-    // Corrections, from wide to narrow.
+    // Corrections, from wide to narrow support.
     const float correlation = std::max(1.0f, options.correlation_px / static_cast<float>(stride));
     const float samples_per_independent = correlation * correlation;
     for (int spacing = 8 * finest; spacing >= finest; spacing /= 2) {
@@ -372,12 +373,12 @@ Matte motion_weights(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 valid, int border
                        static_cast<std::size_t>(v.stride()));
     };
     cv::Mat inside = as_mat(visible) >= 128;
-    // The frame's border is not the surface's border: only the matte's own edge is avoided.
+    // The frame's border is not the surface's border, so only the matte's own edge is avoided.
     cv::Mat distance, framed;
     cv::copyMakeBorder(inside, framed, 1, 1, 1, 1, cv::BORDER_REPLICATE);
     cv::distanceTransform(framed, distance, cv::DIST_L2, 3);
     distance = distance(cv::Rect(1, 1, inside.cols, inside.rows));
-    // A thin region keeps what it has: the border gives way until a third of the region remains.
+    // The border narrows in a thin region until a third of the region remains.
     double border = border_px;
     const int area = cv::countNonZero(inside);
     while (border > 1 && cv::countNonZero(distance > border) * 3 < area)
@@ -395,9 +396,9 @@ Matte motion_weights(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 valid, int border
         const float* e = energy.ptr<float>(y);
         for (int x = 0; x < out.width(); ++x) {
             if (d[x] <= border || valid.at(x, y) == 0) continue;
-            // Sobel's sum of 24 is a slope of about 3 levels a pixel: half trust.
-            const float trust = e[x] / (e[x] + 24.0f);
-            out.at(x, y) = static_cast<std::uint8_t>(std::lround(10 + 245 * trust));
+            // Sobel's sum of 24 is a slope of about 3 levels per pixel: half the weight.
+            const float confidence = e[x] / (e[x] + 24.0f);
+            out.at(x, y) = static_cast<std::uint8_t>(std::lround(10 + 245 * confidence));
         }
     }
     return out;

@@ -5,11 +5,12 @@
 
 namespace weft {
 
-/// Works out whatever of a shot's analysis is not in the store yet: propagated mattes, coordinates,
-/// shading. A frame's results depend on the frames between it and its references and keyframes
-/// only, never on which frames are asked for, so that parts of a shot can be analysed on different
-/// machines. Progress: stage "analyse", one unit a visited frame. The backend grows the textures of
-/// the paper's mode faster if it can; the results are the same.
+/// Computes what is missing of a shot's analysis in the store: propagated mattes, coordinates,
+/// shading. A frame's results depend only on the frames between it and its references and
+/// keyframes, never on which frames are requested, so different machines can analyse parts of a
+/// shot. Progress: stage "analyse", one unit per visited frame. The backend may grow the textures
+/// of the paper's mode faster; the results are the same. Errors: those of the source and the store;
+/// cancellation.
 [[nodiscard]] Status analyse_shot(const ShotSource& source, const ShotPlan& plan,
                                   AnalysisStore& store, const CancelToken& cancel,
                                   const ProgressFn& progress, const Backend* backend = nullptr);

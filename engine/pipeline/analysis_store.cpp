@@ -116,7 +116,7 @@ ImageF1 from_luma_codes(const std::vector<std::int16_t>& codes, Size size) {
 }  // namespace
 
 Bytes encode(const SurfaceSample& s) {
-    // Above 0 stays above 0: it says where the surface is.
+    // Weights above 0 stay above 0, because they mark where the surface is.
     std::vector<std::uint8_t> weight(s.weight.size_bytes() / sizeof(float));
     std::transform(s.weight.data(), s.weight.data() + weight.size(), weight.begin(), [](float w) {
         return static_cast<std::uint8_t>(w > 0 ? std::clamp(w * 255.0f + 0.5f, 1.0f, 255.0f)

@@ -1,6 +1,6 @@
 #pragma once
-// A shot's analysis: what has to be worked out in the frames' order, kept so that rendering a frame
-// is a pure function afterwards.
+// A shot's analysis: results that need the frames in order, stored so that rendering a frame is a
+// pure function.
 
 #include <cstdint>
 #include <map>
@@ -20,14 +20,15 @@ enum class AnalysisKind : std::uint8_t {
     kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made).
     kMatte,          ///< Propagated and merged, with its confidence.
     kCoords,         ///< ref_from_cur
-    kCoordsOneWay,   ///< The same between two references, as the first of them found it.
-    kHistoryBefore,  ///< Between two references: as followed from the one before,
+    kCoordsOneWay,   ///< The same between two references, as tracked from one of them.
+    kHistoryBefore,  ///< Between two references: as tracked from the one before,
     kHistoryAfter,   ///< and from the one after.
-    kHeldBetween,    ///< Such a frame shows the drawing of the frame before in time.
-    kLightSample,  ///< The plate as the estimate of light sees it (only while light is estimated).
+    /// Between two references: the frame repeats the drawing of the frame before in time.
+    kHeldBetween,
+    kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).
     kShading,
     kGrain,        ///< At the reference frame.
-    kShutter,      ///< The plate's, at the reference frame.
+    kShutter,      ///< The plate's shutter, at the reference frame.
     kPaperTexture  ///< The paper mode's synthesised picture.
 };
 
@@ -35,7 +36,8 @@ struct AnalysisKey {
     int region = 0;
     int frame = 0;
     AnalysisKind kind = AnalysisKind::kCoords;
-    int layer = 0;  ///< Of mattes: 0 the extent, k the painted holdout k − 1, or zone_layer().
+    /// Of mattes: 0 is the full matte, k the painted holdout k − 1, a zone as zone_layer() says.
+    int layer = 0;
     auto operator<=>(const AnalysisKey&) const = default;
 };
 
@@ -47,7 +49,7 @@ class AnalysisStore {
     virtual ~AnalysisStore() = default;
     [[nodiscard]] virtual bool has(const AnalysisKey& key) const = 0;
     [[nodiscard]] virtual Status put(const AnalysisKey& key, const Bytes& bytes) = 0;
-    /// Error: RenderFailed when there is none or it is damaged.
+    /// Error: RenderFailed if it is missing or damaged.
     [[nodiscard]] virtual Expected<Bytes> get(const AnalysisKey& key) const = 0;
 };
 
@@ -63,7 +65,7 @@ class MemoryAnalysisStore final : public AnalysisStore {
     std::map<AnalysisKey, Bytes> blobs_;
 };
 
-/// A matte with its confidence, as the walkers gave it.
+/// A propagated matte with its confidence, 0–1.
 struct StoredMatte {
     Matte matte;
     float confidence = 1;
@@ -77,7 +79,7 @@ struct StoredMatte {
 [[nodiscard]] Bytes encode(const GrainModel& grain);
 [[nodiscard]] Bytes encode(const ImageU8x3& picture);
 [[nodiscard]] Bytes encode(float number);
-/// Errors: RenderFailed when the bytes are not what the encoder wrote.
+/// Errors: RenderFailed if the bytes are not what the encoder wrote.
 [[nodiscard]] Expected<StoredMatte> decode_matte(const Bytes& bytes);
 [[nodiscard]] Expected<LatticeField> decode_lattice(const Bytes& bytes);
 [[nodiscard]] Expected<Shading> decode_shading(const Bytes& bytes);

@@ -77,7 +77,7 @@ Matte seam_texels(const TexturePlane& plane) {
             const std::uint8_t* from = plane.origin.pixel(x, y);
             const std::uint8_t* to = plane.origin.pixel(i, j);
             if (from[0] != to[0] || from[1] != to[1]) return true;
-            // Of a turned sample the neighbour lies in another direction.
+            // In a rotated sample the neighbour lies in another direction.
             return std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]) != 1;
         }
         return b[0] - a[0] != i - x || b[1] - a[1] != j - y;

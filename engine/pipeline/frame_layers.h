@@ -1,5 +1,5 @@
 #pragma once
-// What a compositor needs to do the composite again: the parts that a frame was put together from.
+// The parts that a frame was composited from, so that a compositor can repeat the composite.
 
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/fields.h"
@@ -13,7 +13,8 @@ namespace weft {
 struct FrameLayers {
     ImageF3 patch;  ///< All regions, premultiplied, unclipped.
     ImageF1 alpha;
-    ImageF3 edge;   ///< What soft edges take away of the old surface, and all that the rest leaves.
+    /// What soft edges remove of the old surface, and the remainder of the equation.
+    ImageF3 edge;
     ImageF3 light;  ///< What the texture was multiplied by; 1 where there is no region.
     ImageF2 st;     ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
     ImageF1 seam;   ///< 1 where a seam of the texture plane shows.
@@ -36,7 +37,7 @@ struct LayerShare {
     float id = 0;
 };
 void add_share(FrameLayers& layers, const LayerShare& share);
-/// The finished texture (with grain and ink) over what the layers below left.
+/// Lays the finished texture (with grain and ink) over the layers below.
 void add_patch(FrameLayers& layers, const Recti& box, ViewU8x1 matte, ViewF3 texture);
 /// `plate` and `composite` in the working space.
 void finish_layers(FrameLayers& layers, ViewF3 plate, ViewF3 composite);

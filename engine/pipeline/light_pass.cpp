@@ -7,7 +7,8 @@
 namespace weft {
 namespace {
 
-// Where the pixels of the small picture were on the reference frame's, in small pixels.
+// For each pixel of the downscaled picture, the displacement to the reference frame, in small
+// pixels.
 ImageF2 small_motion(const LatticeField& ref_from_cur, const SurfaceSample& sample) {
     ImageF2 d(sample.box.size());
     const auto scale = static_cast<float>(sample.downscale);

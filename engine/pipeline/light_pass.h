@@ -6,8 +6,8 @@
 namespace weft {
 
 /// Turns the light samples of a region (AnalysisKind::kLightSample, with kCoords, of every frame of
-/// `span`) into shadings, with the frames of RegionPlan::light_evidence as evidence of what is
-/// paint. Errors: cancellation, and those of the store.
+/// `span`) into shadings. The frames of RegionPlan::light_evidence show what is paint. Errors:
+/// cancellation, and those of the store.
 [[nodiscard]] Status estimate_light(const PassContext& context, int region, FrameSpan span,
                                     AnalysisStore& store);
 

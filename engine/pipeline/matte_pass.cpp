@@ -27,11 +27,12 @@ struct Job {
     [[nodiscard]] bool between_keys(int frame) const {
         return frame > keys.front() && frame < keys.back();
     }
-    // Both ways there is a second opinion between two keys.
+    // Between two keys, propagation in both directions gives two estimates to merge.
     [[nodiscard]] bool merged(int frame) const {
-        return reach.direction == CarryDirection::kBoth && between_keys(frame) && !is_key(frame);
+        return reach.direction == PropagationDirection::kBoth && between_keys(frame) &&
+               !is_key(frame);
     }
-    // The frames that the walk passes in each direction.
+    // The frames that the walk visits in each direction.
     [[nodiscard]] FrameSpan forward() const {
         return {keys.front(), reach.forward()
                                   ? std::max(keys.back(), std::min(span.last, reach.last))
@@ -78,7 +79,7 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
     return jobs;
 }
 
-// Over all jobs.
+// The frames that the walks of all jobs visit.
 FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
     FrameSpan all = (jobs[0].*of)();
     for (const Job& job : jobs) {
@@ -96,7 +97,7 @@ Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
                           : source.holdout_key(job.region, job.layer - 1, frame);
 }
 
-// Moves a job's walker to this frame; the estimate is the painted matte itself on a keyframe.
+// Advances a job's walker to this frame. On a keyframe the estimate is the painted matte itself.
 Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job, FrameSpan within,
                                             const SweepFrame& at) {
     if (job.is_key(at.frame)) {
@@ -156,7 +157,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
     return {};
 }
 
-// A matte is empty where it is not propagated to.
+// A matte is empty beyond the reach of its propagation.
 Status fill_the_rest(const PassContext& context, AnalysisStore& store,
                      const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {

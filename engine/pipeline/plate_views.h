@@ -1,5 +1,5 @@
 #pragma once
-// What the analysis looks at: the plate in 8 bit, as the display shows it.
+// The plate as the analysis sees it: display-encoded, 8 bit.
 
 #include "engine/color/color_space.h"
 #include "engine/core/image.h"
@@ -14,10 +14,10 @@ struct PlateViews {
 
 [[nodiscard]] PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate);
 
-/// The plate in the working space.
+/// The image converted to another space.
 [[nodiscard]] ImageF3 transformed(const ImageF3& image, const ColorTransform& transform);
 
-/// extent · (1 − holdout), rounded; the holdout may be empty.
+/// extent · (1 − holdout), rounded; `holdout` may be empty.
 [[nodiscard]] Matte without_holdout(const Matte& extent, const Matte& holdout);
 /// Sets `mask` to 0 where `finite` is 0; an empty `finite` changes nothing.
 void drop_nonfinite(Matte& mask, const Matte& finite);

@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// The light on a region on a frame: estimated, from the artist's pass, or painted; nothing where
-/// it comes from a picture or from nowhere. `working`: the plate in the working space. Errors:
+/// The shading of a region on a frame: estimated, from the artist's pass, or painted. Empty if the
+/// light comes from a picture or there is none. `working`: the plate in the working space. Errors:
 /// those of the source and of the store.
 [[nodiscard]] Expected<std::optional<Shading>> region_shading(const ShotSource& source,
                                                               const RegionPlan& region,

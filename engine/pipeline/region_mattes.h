@@ -5,11 +5,11 @@
 
 namespace weft {
 
-/// A region's extent on a frame: from its files, or as it was propagated (which must be done).
+/// A region's full matte on a frame: from its files, or as propagated (propagate_mattes() first).
 [[nodiscard]] Expected<Matte> extent_matte(const ShotSource& source, const ShotPlan& plan,
                                            const AnalysisStore& store, int region, int frame);
-/// The region's holdout on a frame, the maximum of those from files and those that were propagated
-/// (which must be done); an empty image when it has none.
+/// The region's holdout on a frame: the maximum of those from files and of propagated ones
+/// (propagate_mattes() first); an empty image if it has none.
 [[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
                                             const AnalysisStore& store, int region, int frame);
 

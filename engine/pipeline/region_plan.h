@@ -1,5 +1,5 @@
 #pragma once
-// What the pipeline needs to know of one region: plain settings, all paths and names resolved.
+// What the pipeline needs of one region: plain settings, with all paths and names resolved.
 
 #include <cstdint>
 #include <map>
@@ -33,9 +33,10 @@ namespace weft {
 /// A texture as it was read: exactly one of `sample` (to be grown) and `plane` (used as it is).
 struct TexturePicture {
     ImageF3 pixels;             ///< In the texture's own space.
-    std::vector<ImageF3> also;  ///< Further samples of the same material, in the same space.
+    std::vector<ImageF3> also;  ///< More samples of the same material, in the same space.
     bool is_plane = false;
-    WrapMode wrap = WrapMode::kRepeat;  ///< Beyond a given plane; grown planes repeat.
+    /// Beyond the border of a given plane; grown planes repeat.
+    WrapMode wrap = WrapMode::kRepeat;
 };
 
 /// A matte painted on a few frames and propagated to the others.
@@ -64,21 +65,23 @@ struct RegionPlan {
     [[nodiscard]] bool propagated() const { return !matte_keys.empty(); }
     float matte_steadiness = 0.5f;  ///< Of propagated mattes, 0–1.
     MatteReach matte_reach;
-    bool has_holdout = false;  ///< In files.
+    bool has_holdout = false;  ///< Holdouts from files.
     std::vector<PaintedMatte> painted_holdouts;
     std::vector<ZonePlan> zones;
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
     std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.
     bool true_motion = false;
-    bool motion_forward = true;  ///< A file of true motion points to the next frame, else back.
-    CornerTrack track;           ///< Of the plane that the surface follows; empty: none.
-    PlanePlacement placement;    ///< Of keyed scales the smallest, for which the plane is grown.
-    KeyedNumbers scale_keys, rotate_keys, offset_keys;  ///< Over time, instead of placement's own.
+    /// True-motion files point to the next frame; false: to the previous one.
+    bool motion_forward = true;
+    CornerTrack track;         ///< The track of the plane that the surface follows; empty: none.
+    PlanePlacement placement;  ///< With keyed scales the smallest, for which the plane is grown.
+    /// Over time, in place of the values in `placement`.
+    KeyedNumbers scale_keys, rotate_keys, offset_keys;
     [[nodiscard]] bool placement_moves() const {
         return !scale_keys.empty() || !rotate_keys.empty() || !offset_keys.empty();
     }
-    /// The placement as it is on a frame, always with respect to the reference frame.
+    /// The placement on a frame, relative to the reference frame.
     [[nodiscard]] PlanePlacement placement_at(int frame) const {
         PlanePlacement out = placement;
         if (!scale_keys.empty()) out.scale = scale_keys.float_at(frame)[0];
@@ -109,12 +112,14 @@ struct RegionPlan {
     LightOptions light;
     KeyedNumbers strength_keys;  ///< λ over time, instead of light.strength.
     std::vector<Lamp> lamps;     ///< For kPainted.
-    float cast = 0;              ///< How far the light's colour is taken over, 0–1.
-    float highlights = 0;        ///< How much of the old surface's gloss is kept.
+    float cast = 0;              ///< How much of the light's colour the texture takes, 0–1.
+    float highlights = 0;        ///< How much of the old surface's gloss stays, 0–1.
     enum class Pass { kNone, kAlbedo, kLighting };
-    Pass light_pass = Pass::kNone;  ///< A pass of the artist's that gives the plate's light.
-    bool exact_light = false;       ///< That light as it is, not relative to the reference frame's.
-    bool has_uv = false;            ///< A UV pass says which place of the plane each pixel shows.
+    Pass light_pass = Pass::kNone;  ///< A pass of the artist that gives the plate's light.
+    /// Uses that light as it is, not relative to the reference frame's.
+    bool exact_light = false;
+    /// A UV pass gives the place of the plane that each pixel shows.
+    bool has_uv = false;
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {
         return strength_keys.empty() ? light.strength : strength_keys.float_at(frame)[0];
@@ -128,26 +133,27 @@ struct RegionPlan {
         return light_source == LightSource::kPlate && lights() && light_pass == Pass::kNone &&
                !is_transfer(light.form);
     }
-    /// Frames whose evidence tells the old texture from light, ascending; empty: each frame stands
-    /// for itself. They do not depend on what part of a shot is rendered.
+    /// Frames that show what is old texture and what is light, ascending; empty: each frame is
+    /// estimated alone. They do not depend on the part of the shot that is rendered.
     std::vector<int> light_evidence;
-    // Finish: what the plate's camera does to a picture.
+    // Finish: effects of the plate's camera.
     float grain = 0, focus = 0;     ///< Strengths; 0: none.
-    bool has_depth = false;         ///< Focus follows a depth pass.
+    bool has_depth = false;         ///< Defocus follows a depth pass.
     std::vector<int> grain_frames;  ///< Grain is measured on these, from the reference on.
-    /// How long the shutter is open, in degrees of 360 a frame: the texture is blurred along its
-    /// motion. Without a number it is the plate's own, measured on the frames `shutter_evidence`.
+    /// Shutter angle in degrees of 360 per frame; the texture is blurred along its motion. Empty:
+    /// the plate's own, measured on the frames `shutter_evidence`.
     std::optional<float> shutter_deg = 0.0f;
-    std::vector<int> shutter_evidence;  ///< A run of frames with the reference at its beginning.
+    /// Consecutive frames that begin with the reference frame.
+    std::vector<int> shutter_evidence;
     [[nodiscard]] bool estimates_shutter() const {
         return !shutter_deg && !shutter_evidence.empty();
     }
-    // Ink on top: from a pass, or found in the plate.
+    // Ink on top: from a pass, or extracted from the plate.
     bool has_lines = false, extract_lines = false;
     float line_width_px = 4;
 };
 
-/// What holds for the whole shot.
+/// Settings of the whole shot.
 struct ShotPlan {
     std::vector<int> frames;  ///< To be rendered, ascending.
     FlowQuality quality = FlowQuality::kFinal;
@@ -155,11 +161,12 @@ struct ShotPlan {
     bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
         out_from_plate, display_from_working;
-    bool layers = false;              ///< Frames are rendered with their FrameLayers.
-    bool keep_planes = false;         ///< Scenes keep what their planes were made of.
-    float plate_quantum = 0;          ///< The step of the plate's codes, of 1; 0: floating point.
-    std::vector<RegionPlan> regions;  ///< Lowest layer first.
-    std::shared_ptr<StageStore> stages;  ///< Planes and motion made before; may be null.
+    bool layers = false;       ///< Frames are rendered with their FrameLayers.
+    bool keep_planes = false;  ///< Scenes keep what their planes were made of.
+    /// The step of the plate's codes, as a share of white; 0: floating point.
+    float plate_quantum = 0;
+    std::vector<RegionPlan> regions;     ///< Lowest layer first.
+    std::shared_ptr<StageStore> stages;  ///< Stored planes and motion; may be null.
 };
 
 }  // namespace weft

@@ -29,8 +29,8 @@ constexpr float kKnee = 0.9f;  // of the roll-off
 
 enum class Place { kDevice, kCpu };
 
-// The renderer of one frame, with what its regions share. On a device the frame stays there from
-// the first region to the last.
+// Renders one frame and holds what its regions share. On a device the frame stays there from the
+// first region to the last.
 class FrameRenderer {
   public:
     FrameRenderer(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
@@ -49,44 +49,44 @@ class FrameRenderer {
         if (place == Place::kDevice) device_ = backend.open_frame(canvas_);
     }
 
-    /// After an error: whether it was the device's, and the CPU may still do it.
+    /// After an error: true if the device failed, so that the CPU can still render the frame.
     [[nodiscard]] bool device_failed() const { return device_failed_; }
     Status add(int index, const RegionScene& scene);
     Expected<RenderedFrame> finish();
 
   private:
     [[nodiscard]] Expected<Matte> composite_matte(int index);
-    // The light that falls on the region, or nothing.
+    // The light on the region; empty: none.
     [[nodiscard]] Expected<std::optional<Shading>> shading(int index, const RegionScene& scene);
     Status light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                  const std::optional<Shading>& shading, ImageF3& texture);
-    // What the plate's camera does to a picture: its blur before light, which has it already, and
-    // its grain after.
+    // Effects of the plate's camera: the blur before light, which is blurred already, and the grain
+    // after it.
     Status match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
-    // The plate's blur over the box where it differs from place to place.
+    // The plate's blur over the box, if it varies over the picture.
     [[nodiscard]] Expected<std::optional<ImageF1>> local_blur(int index, const Recti& box,
                                                               ViewU8x1 matte) const;
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
-    // The texture in the working space, finished and laid into the canvas. `matte` covers the
+    // The texture in the working space, finished and composited over the canvas. `matte` covers the
     // frame, `inside` the box.
     Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
                       const RegionScene& scene, const Matte& matte, const Matte& inside,
                       const std::optional<Shading>& shading);
-    // The region's share of the frame's layers, but for the patch.
+    // The region's contribution to the frame's layers, except for the patch.
     Status note_share(int index, const RegionSurface& surface, const Recti& box,
                       const RegionScene& scene, const Matte& inside, ViewF3 unlit, ViewF3 lit);
     Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
                          const RegionScene& scene, const Matte& inside,
                          const std::optional<Shading>& shading);
-    // An error of the device is remembered as one.
+    // Remembers that an error came from the device.
     template <class T>
     Expected<T> of_device(Expected<T> result) {
         device_failed_ = device_failed_ || !result;
         return result;
     }
-    // The region's ink, from its pass or found in the plate, over the lit texture.
-    // The old surface gets it too: ink across the edge belongs to neither.
+    // Lays the region's ink, from its pass or extracted from the plate, over the lit texture. The
+    // old surface gets it too, because ink across the edge belongs to neither.
     Status lay_ink(int index, const Recti& box, const Matte& matte, ImageF3& texture,
                    ImageF3& old_surface);
 
@@ -111,7 +111,7 @@ const RegionPlan& region_of(const ShotPlan& plan, int index) {
     return plan.regions[static_cast<std::size_t>(index)];
 }
 
-// Whether a device can do all that a region asks for: texture, a gain of light, composite.
+// True if a device supports all that a region needs: texture, a gain of light, composite.
 bool fits_device(const RegionPlan& region, const RegionScene& scene) {
     const bool light = !region.lights() || (region.light.form == LightForm::kGain &&
                                             region.cast <= 0 && region.highlights <= 0);
@@ -188,7 +188,7 @@ Expected<std::optional<ImageF1>> FrameRenderer::local_blur(int index, const Rect
         return Found(
             sloping_blur(edge_blurs(working_.view().crop(box), matte, kSoftEdge), box.size()));
     WEFT_TRY(nearness, source_.depth(index, frame_));
-    // One lens: the whole plate tells, and hidden detail of the region too little.
+    // There is one lens, so the whole plate is measured; the region alone shows too little detail.
     const Matte everywhere(working_.size(), 255);
     const auto lens = fit_focus(edge_blurs(working_, everywhere, kSoftEdge), nearness);
     if (!lens) return Found(std::nullopt);
@@ -264,7 +264,7 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
     ImageF3 old_surface = unmix_surface(area, inside);
-    // The ink has the plate's grain already.
+    // The ink already has the plate's grain.
     WEFT_CHECK_OK(lay_ink(index, box, matte, texture, old_surface));
     if (layers_) add_patch(*layers_, box, inside, texture);
     composite_over(area, area, old_surface, inside, texture);
@@ -298,7 +298,7 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
                                     const std::optional<Shading>& shading) {
     WEFT_TRY(lookup, surface.lookup(box));
     const ImageView<float, 3> area = canvas_.view().crop(box);
-    // Over another region the old surface is what that one shows.
+    // Over another region, the old surface is what that region shows.
     if (!device_box_.intersected(box).empty()) {
         WEFT_CHECK_OK(of_device(device_->read(box, area)));
     }
@@ -404,7 +404,8 @@ Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& p
                                     plate->size());
         fits = fits && fits_device(plan.regions[k], scenes[k]) && surface.is_one_lookup();
     }
-    // A device that fails half-way has told the backend why; the CPU then renders the frame.
+    // A device that fails half-way has reported the reason to its backend; the CPU then renders the
+    // frame.
     if (fits) {
         auto rendered = on(Place::kDevice, again);
         if (!again) return rendered;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the pipeline gets pictures from. The pipeline itself opens no file.
+// The pipeline's source of pictures. The pipeline itself opens no file.
 
 #include <memory>
 #include <optional>
@@ -18,15 +18,14 @@ class ShotSource {
     [[nodiscard]] virtual Size size() const = 0;
     /// The decoded plate, H×W×3, in the plate's own space; NaN and infinity as they stand.
     [[nodiscard]] virtual Expected<std::shared_ptr<const ImageF3>> plate(int frame) const = 0;
-    /// The extent matte of a region, where mattes are given frame by frame.
+    /// The full matte of a region, if mattes are given frame by frame.
     [[nodiscard]] virtual Expected<Matte> matte(int region, int frame) const = 0;
     /// A painted matte keyframe (RegionPlan::matte_keys names the frames).
     [[nodiscard]] virtual Expected<Matte> matte_key(int region, int frame) const = 0;
-    /// A painted key of what passes in front (RegionPlan::painted_holdouts). A source that has none
-    /// need not override it.
+    /// A painted key of a holdout (RegionPlan::painted_holdouts). A source without any need not
+    /// override it.
     [[nodiscard]] virtual Expected<Matte> holdout_key(int region, int painted, int frame) const;
-    /// What passes in front of the region frame by frame: the maximum of those of its holdouts that
-    /// come from files; nothing when it has none.
+    /// The maximum of the region's holdouts that come from files; empty if it has none.
     [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
     /// The matte of a region's zone (RegionPlan::zones) from its files, and a painted key of it. A
     /// source that has none need not override them.
@@ -36,7 +35,7 @@ class ShotSource {
     [[nodiscard]] virtual Expected<Matte> lines(int /*region*/, int /*frame*/) const {
         return Matte();
     }
-    /// The file of true motion of this frame, to the next or the previous one as
+    /// The true motion of this frame in pixels, to the next or the previous one as
     /// RegionPlan::motion_forward says.
     [[nodiscard]] virtual Expected<FlowField> motion(int region, int frame) const = 0;
     /// The region's UV pass (RegionPlan::has_uv): H×W×2 of the plate's size, 0–1, origin bottom
@@ -48,7 +47,7 @@ class ShotSource {
         return ImageF1();
     }
     /// The artist's albedo or lighting pass (RegionPlan::light_pass) in linear light, of the
-    /// plate's size. A source that has none need not override it.
+    /// plate's size. A source without one need not override it.
     [[nodiscard]] virtual Expected<ImageF3> light_pass(int region, int frame) const;
 };
 

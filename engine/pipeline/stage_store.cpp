@@ -3,7 +3,7 @@
 namespace weft {
 namespace {
 
-// Raised whenever growing a plane computes something else.
+// Raise this whenever the pixels of grown planes change.
 constexpr int kPlaneVersion = 1;
 
 }  // namespace

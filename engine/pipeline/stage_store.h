@@ -1,5 +1,5 @@
 #pragma once
-// What is worth keeping of stages that do not depend on the order of frames: planes and motion.
+// Storage for results that do not depend on the order of frames: planes and motion.
 
 #include <optional>
 
@@ -9,18 +9,19 @@
 
 namespace weft {
 
-/// Thread-safe. What cannot be stored is computed again: neither function fails.
+/// Thread-safe. Neither function fails: what cannot be stored is computed again.
 class StageStore {
   public:
     virtual ~StageStore() = default;
     [[nodiscard]] virtual std::optional<TexturePlane> plane(const Hash128& key) const = 0;
     virtual void keep_plane(const Hash128& key, const TexturePlane& plane) = 0;
-    /// The estimated motion prev_from_cur with its consistency, where it was worked out before.
+    /// The estimated motion prev_from_cur with its consistency, if it is stored.
     [[nodiscard]] virtual std::optional<FlowField> motion(int current, int previous) const = 0;
     virtual void keep_motion(int current, int previous, const FlowField& motion) = 0;
 };
 
-/// Of all that a grown plane depends on, but for the backend, which changes nothing.
+/// Hash of all that a grown plane depends on. The backend is left out: it does not change the
+/// plane.
 [[nodiscard]] Hash128 plane_key(const std::vector<ImageU8x3>& samples, const PlaneOptions& options);
 
 }  // namespace weft

@@ -18,7 +18,7 @@ std::vector<SurfaceJob> surface_jobs(const ShotPlan& plan, const AnalysisStore& 
         job.primary = job.references.front();
         std::sort(job.references.begin(), job.references.end());
         job.coords = region.temporal == TemporalMode::kLocked;
-        // Further references anchor coordinates; nothing else is carried from them.
+        // Further references anchor coordinates only.
         if (!job.coords) job.references = {job.primary};
         job.paper = region.temporal == TemporalMode::kPaper;
         job.shading = region.estimates_light();

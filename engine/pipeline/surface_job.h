@@ -29,7 +29,7 @@ struct SurfaceJob {
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
     HeldFrames held;
     bool held_now = false;
-    std::set<int> held_frames;  // whose drawing is that of the frame before in time
+    std::set<int> held_frames;  // frames that repeat the drawing of the frame before in time
     std::optional<Shading> last_shading;
     std::optional<PaperWalker> painter;
     Matte last_visible, extent_now;
@@ -43,7 +43,7 @@ struct SurfaceJob {
     }
     // Light is estimated from several frames at once, after the legs.
     [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }
-    // Between two references what the first leg finds is not final: blend() makes it so.
+    // Between two references the first leg's result is not final; blend() completes it.
     [[nodiscard]] AnalysisKind coords_kind(int frame) const {
         const bool between =
             frame > references.front() && frame < references.back() && !is_reference(frame);
@@ -60,16 +60,16 @@ struct SurfaceJob {
     }
 };
 
-/// The regions of which something is still to be analysed.
+/// The regions that still need analysis.
 [[nodiscard]] std::vector<SurfaceJob> surface_jobs(const ShotPlan& plan,
                                                    const AnalysisStore& store);
 
-/// The three sweeps over all jobs; one without anything to do is empty.
+/// The three sweeps over all jobs; a sweep without work is empty.
 struct SurfaceLegs {
     std::optional<SweepOptions> forward;   // from the primary references to the ends
     std::optional<SweepOptions> backward;  // from the last references to the begins
     std::optional<SweepOptions> again;     // from references before a primary up to it
-    [[nodiscard]] int steps() const;       ///< Frames at which they stop, all together.
+    [[nodiscard]] int steps() const;       ///< Frames at which the sweeps stop, in all.
 };
 
 [[nodiscard]] SurfaceLegs surface_legs(const std::vector<SurfaceJob>& jobs);

@@ -16,7 +16,7 @@
 namespace weft {
 namespace {
 
-// What all three legs do at a stop.
+// What the three legs do at each frame.
 class Follower {
   public:
     Follower(const PassContext& context, AnalysisStore& store) : context_(context), store_(store) {}
@@ -27,7 +27,7 @@ class Follower {
             job.held = HeldFrames();
     }
 
-    // Leg 1: out of the primary reference.
+    // Leg 1: forwards from the primary reference.
     Status forward(SurfaceJob& job, const SweepFrame& at) {
         if (at.frame < job.primary || at.frame > job.span.last) return {};
         WEFT_TRY(visible, visible_at(job, at));
@@ -38,13 +38,13 @@ class Follower {
         return keep_all(job, at, visible);
     }
 
-    // Leg 2: down from the references after the primary one, through it, to the begin.
+    // Leg 2: backwards from the references after the primary one, through it, to the beginning.
     Status backward(SurfaceJob& job, const SweepFrame& at) {
         if (at.frame > job.references.back() || at.frame < job.span.first) return {};
         WEFT_TRY(visible, visible_at(job, at));
         if (at.frame >= job.primary && job.is_reference(at.frame)) {
             WEFT_CHECK_OK(restart(job, at, visible));
-            // What the first leg left at the primary reference is where the past begins.
+            // Shading before the primary reference continues from what leg 1 stored there.
             if (at.frame == job.primary && job.shading && !job.gathers_light()) {
                 WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kShading}));
                 WEFT_TRY(shading, decode_shading(bytes));
@@ -57,7 +57,7 @@ class Follower {
                                       : keep_all(job, at, visible);
     }
 
-    // Leg 3: up from the references before the primary one.
+    // Leg 3: forwards from the references before the primary one.
     Status again(SurfaceJob& job, const SweepFrame& at) {
         if (at.frame < job.references.front() || at.frame >= job.primary) return {};
         WEFT_TRY(visible, visible_at(job, at));
@@ -67,7 +67,7 @@ class Follower {
     }
 
   private:
-    // Also says whether the drawing of the frame before is held: job.held_now.
+    // Also sets job.held_now: whether the drawing of the frame before is held.
     [[nodiscard]] Expected<Matte> visible_at(SurfaceJob& job, const SweepFrame& at) const {
         WEFT_TRY(extent,
                  extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
@@ -106,13 +106,13 @@ class Follower {
         return {};
     }
 
-    // What the artist put right on this frame, or null.
+    // The artist's pins on this frame, or null.
     [[nodiscard]] static const std::vector<SurfacePin>* pins_at(const SurfaceJob& job, int frame) {
         const auto pins = job.plan->corrections.find(frame);
         return job.coords && pins != job.plan->corrections.end() ? &pins->second : nullptr;
     }
 
-    // At a reference frame whose coordinates an earlier leg found.
+    // At a reference frame whose coordinates an earlier leg has found.
     Status restart(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
         if (!job.coords || at.frame == job.primary) return start(job, at, visible, nullptr);
         WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kCoords}));
@@ -153,13 +153,13 @@ class Follower {
         return {};
     }
 
-    // Frames that have been passed and are known better now.
+    // Stores better coordinates for frames that were passed.
     Status keep_found_late(SurfaceJob& job, int frame) {
         const auto found = job.walker->take_found_late();
         if (!job.coords && !job.gathers_light()) return {};
         for (const LatticeField& ref_from_frame : found) {
             frame += walking_back_ ? 1 : -1;
-            // The second and the third leg blend what they find with what the first has found.
+            // Legs 2 and 3 blend their result with that of leg 1.
             const bool between = walking_back_ ? frame > job.primary : frame < job.primary;
             if (!between) {
                 WEFT_CHECK_OK(keep(job, frame, job.coords_kind(frame), encode(ref_from_frame)));
@@ -174,7 +174,7 @@ class Follower {
         return {};
     }
 
-    // The track gives the motion to any frame at once: nothing adds up.
+    // The track gives the motion to any frame directly, so errors do not add up.
     void follow_track(SurfaceJob& job, const SweepFrame& at, const Matte& visible) const {
         const auto motion_to = [&](int frame) {
             return plane_motion(job.plan->track.at(at.frame), job.plan->track.at(frame),
@@ -184,8 +184,9 @@ class Follower {
                                   motion_to(job.anchored_at));
     }
 
-    // prev_from_cur from the files, which point one way in time: the other way is inverted, by what
-    // was visible of the surface in the frame before, or an occluder's motion would land on it.
+    // prev_from_cur from the files, which point in one direction of time. The other direction is
+    // inverted, using what was visible of the surface in the frame before; otherwise an occluder's
+    // motion would land on it.
     [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame) const {
         const bool direct = job.plan->motion_forward == walking_back_;
         if (direct) return context_.source.motion(job.region, frame);
@@ -195,7 +196,8 @@ class Follower {
         return invert_flow(cur_from_prev);
     }
 
-    // While a seam hides that a stretched texture was let go, both are kept for it to choose.
+    // While a seam hides that a stretched texture returned to its shape, both tracks are stored for
+    // it.
     Status keep_stretched(const SurfaceJob& job, int frame) {
         const LatticeField* stretched = job.walker->stretched();
         if (!stretched || !job.coords) return {};
@@ -233,7 +235,7 @@ class Follower {
         return {};
     }
 
-    // Grain is the camera's: all of the plate shows it.
+    // Grain comes from the camera, so the whole plate is measured.
     Status measure_grain(SurfaceJob& job, const SweepFrame& at) {
         if (!job.grain || at.frame > job.plan->grain_frames.back()) return {};
         ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
@@ -263,7 +265,8 @@ class Follower {
         return keep(job, job.primary, AnalysisKind::kShutter, encode(job.shutter_meter.degrees()));
     }
 
-    // Where a frame lies between two references, 0 to 1: frames of one drawing lie at one place.
+    // A frame's position between two references, 0 to 1. Frames of one drawing have the same
+    // position.
     static float position_between(const SurfaceJob& job, int frame, int before, int after) {
         int first = frame, last = frame + 1;
         while (first > before && job.held_frames.contains(first))
@@ -274,15 +277,15 @@ class Follower {
         return static_cast<float>(first - before) / static_cast<float>(after - before);
     }
 
-    // Between two references the tracks from both are kept. Their difference is spread over
-    // the interval; where it is too large for that, both are kept for a seam to choose.
+    // Between two references the tracks from both are stored. Their difference is spread over the
+    // interval; where it is too large for that, both are stored for a seam to choose.
     Status blend(SurfaceJob& job, int frame, const Matte& visible, const LatticeField& mine) {
         if (!job.coords) return {};
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
         const float smooth = smooth_rise(position_between(job, frame, *(after - 1), *after));
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
-        // Walking back, the walker comes from the reference after.
+        // Walking backwards, the walker comes from the reference after.
         const LatticeField& from_before = walking_back_ ? other : mine;
         const LatticeField& from_after = walking_back_ ? mine : other;
         constexpr float kSlowestPx = 0.2f;  // per frame, at a plate 854 px wide: not visible

@@ -14,7 +14,7 @@ struct Loaded {
     int frame = 0;
     std::shared_ptr<const ImageF3> plate;
     PlateViews views;
-    FlowField motion;  // to the frame before, once it is estimated
+    FlowField motion;  // to the frame before, once it has been estimated
 };
 
 Expected<Loaded> load(const PassContext& context, int frame) {
@@ -58,7 +58,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
             WEFT_TRY(here, load(context, frame));
             const PlateViews& before = last->second.views;
             if (!plan.stages->motion(frame, frame - 1) || !plan.stages->motion(frame - 1, frame)) {
-                // One estimate each way serves both directions of a sweep.
+                // One estimate in each direction serves sweeps both ways.
                 FlowField down = estimate_flow(here.views.luma, before.luma, plan.quality);
                 FlowField up = estimate_flow(before.luma, here.views.luma, plan.quality);
                 check_consistency(down, up);
@@ -77,7 +77,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
 
 Status sweep(const PassContext& context, const SweepOptions& options, const SweepVisitor& visit) {
     const int step = options.last >= options.first ? 1 : -1;
-    // With one thread only reading goes on beside the visitor.
+    // With one thread, only reading runs beside the visitor.
     const bool ahead = thread_count() > 1;
     const auto motion_from = [&](const Loaded& current, const Loaded& previous) {
         return options.motion ? motion_between(context.plan, current.frame, current.views,
@@ -97,7 +97,7 @@ Status sweep(const PassContext& context, const SweepOptions& options, const Swee
         WEFT_TRY(here, next.get());
         current = std::move(here);
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        // `current` stays where it is until that has been waited for.
+        // `current` must not move until the task has finished.
         if (frame != options.last)
             next = std::async(std::launch::async, load_next, frame + step, &current);
         if (!ahead && previous.plate) current.motion = motion_from(current, previous);

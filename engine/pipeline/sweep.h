@@ -1,5 +1,5 @@
 #pragma once
-// Going through a shot's frames in order, with the motion between neighbours.
+// Visits a shot's frames in order, with the motion between neighbours.
 
 #include <functional>
 
@@ -19,17 +19,17 @@ struct SweepFrame {
     std::shared_ptr<const ImageF3> plate;
     const PlateViews* views = nullptr;
     /// Estimated motion to the frame before (of the sweep) with its consistency; empty on the first
-    /// frame and when the sweep does without motion.
+    /// frame and if the sweep uses no motion.
     const FlowField* prev_from_cur = nullptr;
 };
 
-/// From frame `first` to `last`, both inclusive, forwards or backwards as they lie.
+/// From frame `first` to `last`, both inclusive, in either direction of time.
 struct SweepOptions {
     int first = 0, last = 0;
     bool motion = true;
 };
 
-/// What a pass needs of its surroundings.
+/// What all passes share.
 struct PassContext {
     const ShotSource& source;
     const ShotPlan& plan;
@@ -40,25 +40,24 @@ struct PassContext {
 
 using SweepVisitor = std::function<Status(const SweepFrame&)>;
 
-/// Visits the frames in order; while the present one is worked on, the next plate is read and, with
-/// more than one thread, its motion estimated. What is found depends on neither. Errors: those of
-/// the source and of the visitor, and cancellation.
+/// Visits the frames in order. While one is processed, the next plate is read and, with more than
+/// one thread, its motion estimated; the results are the same without. Errors: those of the source
+/// and of the visitor, and cancellation.
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
                            const SweepVisitor& visit);
 
-/// prev_from_cur between two neighbours of a sweep, estimated or kept from before
-/// (ShotPlan::stages).
+/// prev_from_cur between two neighbours of a sweep, estimated or taken from ShotPlan::stages.
 [[nodiscard]] FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& current,
                                        int previous, const PlateViews& previous_views);
 
-/// Works out the motion between each of `frames` (ascending) and the one before it, both ways, and
-/// keeps it in ShotPlan::stages, so that sweeps over `span` find it. Errors: those of the source,
-/// cancellation.
+/// Computes the motion between each of `frames` (ascending) and the one before it, in both
+/// directions, and stores it in ShotPlan::stages for sweeps over `span`. Errors: those of the
+/// source, cancellation.
 [[nodiscard]] Status keep_motion(const ShotSource& source, const ShotPlan& plan,
                                  const std::vector<int>& frames, FrameSpan span,
                                  const CancelToken& cancel, const ProgressFn& progress);
 
-/// The error of a cancelled work.
+/// The error of cancelled work.
 [[nodiscard]] tl::unexpected<Error> cancelled(const CancelToken& cancel);
 
 }  // namespace weft

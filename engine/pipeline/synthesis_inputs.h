@@ -6,11 +6,11 @@
 
 namespace weft {
 
-/// The region's samples in 8 bit as synthesis sees them.
+/// The region's samples as synthesis sees them, in 8 bit.
 [[nodiscard]] std::vector<ImageU8x3> synthesis_samples(const RegionPlan& region);
 
-/// A region's settings for growing a plane of `size`; frame, guide and tiling are the caller's. The
-/// backend may search for placements; the plane is the same without.
+/// A region's settings for growing a plane of `size`. Frame, guide and tiling are set by the
+/// caller. The backend may search for placements; the plane is the same without it.
 [[nodiscard]] PlaneOptions plane_options(const RegionPlan& region, std::uint64_t seed, Size size,
                                          const Backend* backend = nullptr);
 

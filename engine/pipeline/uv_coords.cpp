@@ -6,7 +6,7 @@
 namespace weft {
 namespace {
 
-// One pixel further out: what the two pixels behind it, in any of eight directions, lead to.
+// Grows by one pixel: continues the two pixels behind it in a straight line, in eight directions.
 void continue_outwards(ImageF2& coords, Matte& known) {
     static constexpr std::array<std::array<int, 2>, 8> kWays{
         {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};

@@ -4,10 +4,10 @@
 
 namespace weft {
 
-/// Texture coordinates of `box` out of a UV pass (H×W of the plate, 0–1, origin bottom left) on a
-/// plane of `plane` texels; `scale` 2 shows the texture twice as large. On soft pixels a renderer
-/// has mixed the surface's coordinates with others': there they are continued from the pixels that
-/// `matte` (of the box's size) covers wholly, in straight lines, three pixels far.
+/// Texture coordinates of `box` from a UV pass (H×W of the plate, 0–1, origin bottom left) on a
+/// plane of `plane` texels. `scale` 2 shows the texture twice as large. On soft pixels a renderer
+/// mixes the surface's coordinates with others; there they are continued in straight lines, up to
+/// three pixels far, from the pixels that `matte` (of the box's size) covers wholly.
 [[nodiscard]] TextureCoords coords_from_uv(const ImageF2& uv, const Recti& box, ViewU8x1 matte,
                                            Size plane, float scale);
 

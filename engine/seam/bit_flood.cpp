@@ -3,8 +3,8 @@
 namespace weft {
 namespace {
 
-// Bits of r, and all to which unbroken `step` bits lead from them, twice as far each time (Kogge &
-// Stone 1973); `carry` is what the word before leads to.
+// The bits of r and all bits that unbroken `step` bits lead to from them, twice as far in each
+// round (Kogge & Stone 1973). `carry`: the carry bit from the word before.
 std::uint64_t run_up(std::uint64_t r, std::uint64_t step, std::uint64_t carry) {
     r |= carry;
     for (int shift = 1; shift < 64; shift *= 2) {
@@ -22,7 +22,7 @@ std::uint64_t run_down(std::uint64_t r, std::uint64_t step) {
     return r;
 }
 
-// Along one row, both ways.
+// Fills along one row, both ways.
 void fill_row(const std::uint64_t* right, const std::uint64_t* left, std::uint64_t* r,
               std::size_t words) {
     std::uint64_t carry = 0;
@@ -43,7 +43,7 @@ void flood(const FloodSteps& steps, BitRows& reached) {
     const std::size_t words = reached.words();
     const int h = steps.size.height;
     std::vector<std::uint64_t> before(words);
-    // Fills row y, taking over what comes from `from`; whether it changed.
+    // Fills row y, with what comes in from `from`. Returns true if the row changed.
     const auto visit = [&](int y, const std::uint64_t* from, const std::uint64_t* step) {
         std::uint64_t* r = reached.row(y);
         std::uint64_t gained = 0;

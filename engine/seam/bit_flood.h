@@ -28,14 +28,14 @@ class BitRows {
     std::vector<std::uint64_t> bits_;
 };
 
-/// From which pixels a step leads to the neighbour on each side.
+/// The pixels from which a step leads to the neighbour on each side.
 struct FloodSteps {
     explicit FloodSteps(Size s) : size(s), right(s), left(s), down(s), up(s) {}
     Size size;
     BitRows right, left, down, up;
 };
 
-/// Adds to `reached` all that its pixels lead to.
+/// Adds to `reached` all pixels that its pixels lead to.
 void flood(const FloodSteps& steps, BitRows& reached);
 
 }  // namespace weft

@@ -22,12 +22,11 @@ struct CornerGrid {
     std::vector<std::uint32_t> right, down;  ///< Cost to the next corner, below 2^31, or kWall.
 };
 
-/// Corners that are one face: stepping between them costs nothing.
+/// Corners that form one face: a step between them costs nothing.
 using CornerGroup = std::vector<std::int32_t>;
 
-/// Distances of all corners from `start`, in 64 bits; those that are not below the distance to
-/// `end` are set to it. Returned are the distances (0 in the padding) and that distance; where no
-/// way leads to `end`, kUnreachable.
+/// Distances of all corners from `start`, in 64 bits; at most the distance to `end`, and 0 in the
+/// padding. `to_end` is the distance to `end`, or kUnreachable.
 struct CornerDistances {
     static constexpr std::uint64_t kUnreachable = ~std::uint64_t{0};
     std::vector<std::uint64_t> distance;
@@ -37,9 +36,8 @@ struct CornerDistances {
                                                const CornerGroup& end,
                                                const std::vector<CornerGroup>& groups);
 
-/// The two ways to compute them, for tests: Dijkstra's algorithm, and passes over rows and columns,
-/// which is faster on photographs and returns nothing (an empty `distance`) where a distance may
-/// not fit its 30 bits.
+/// The two algorithms, for tests: Dijkstra's, and passes over rows and columns. The passes are
+/// faster on photographs; they return an empty `distance` if a distance may not fit their 30 bits.
 [[nodiscard]] CornerDistances distances_by_heap(const CornerGrid& grid, const CornerGroup& start,
                                                 const CornerGroup& end,
                                                 const std::vector<CornerGroup>& groups);

@@ -1,7 +1,7 @@
 // Distances by passes over whole rows and columns, down, up, right and left, until no step improves
-// any of them. A seam through photographs seldom turns back, so that a few passes do, each a linear
-// walk through memory; Dijkstra's heap costs more than all of them. The end state is the same: the
-// distances are the only fixed point.
+// any of them. A seam through photographs seldom turns back, so a few passes are enough. Each is a
+// linear walk through memory; Dijkstra's heap costs more than all of them. The result is the same,
+// because the distances are the only fixed point.
 
 #include <algorithm>
 
@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t kFar = std::uint32_t{1} << 30;  // So that far plus a wall fits 32 bits.
 
-// Lines are rows, or columns: `along` and `across` are the distances in the arrays from a corner to
-// the next on its line and on the next line.
+// Lines are rows or columns. `along` and `across` are the array distances from a corner to the next
+// one on its line and on the next line.
 struct Lines {
     int count, length;
     std::ptrdiff_t along, across;
@@ -86,7 +86,7 @@ class Passes {
             distance_[static_cast<std::size_t>(c)] = least;
     }
 
-    // Whether any step still improves anything; which columns have such a step along or into them.
+    // True if any step still improves a distance; marks the columns with such a step.
     bool find_work_on_columns() {
         std::fill(column_works_.begin(), column_works_.end(), std::uint8_t{0});
         std::uint32_t any = 0;
@@ -134,7 +134,7 @@ class Passes {
         return found;
     }
 
-    // Takes over what the line before offers, then settles each line both ways.
+    // Takes the distances that the line before offers, then settles each line both ways.
     void pass(const Lines& lines, const std::vector<Hull>& hulls,
               const std::vector<std::uint8_t>& work, bool backward) {
         bool changed = false;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kInfinite = std::int64_t{1} << 62;
 
-// Where a pixel's parent in its tree lies: one of the four neighbours, its own terminal, nowhere.
+// Where a pixel's parent in its tree lies: one of the four neighbours, its own terminal, or none.
 enum Link : std::uint8_t { kRight, kLeft, kDown, kUp, kTerminal, kNothing };
 enum Tree : std::uint8_t { kNoTree, kSource, kSink };
 
@@ -62,10 +62,9 @@ class GridFlow {
     static std::size_t at(Node n) { return static_cast<std::size_t>(n); }
     [[nodiscard]] Node node(int x, int y) const { return (y + 1) * stride_ + x + 1; }
 
-    // Arcs carry the same capacity both ways, so a residual never exceeds twice an int32. A
-    // positive terminal residual is what the source may still send, a negative one what the sink
-    // may take. What both data terms have in common, and the cost of tied pixels, is spent from the
-    // start.
+    // Arcs have the same capacity both ways, so a residual never exceeds twice an int32. A positive
+    // terminal residual is what the source can still send, a negative one what the sink can take.
+    // The common part of both data terms, and the cost of tied pixels, is spent at the start.
     void load() {
         const bool data = !p_.old_cost.empty();
         for (int y = 0; y < h_; ++y) {
@@ -140,14 +139,14 @@ class GridFlow {
         queue_.push_back(n);
     }
 
-    // What the arc between n and its neighbour in direction d can still carry in the tree's sense:
+    // The residual capacity between n and its neighbour in direction d, in the tree's direction:
     // away from the source, or towards the sink.
     [[nodiscard]] std::uint32_t outward(Node n, std::uint8_t d, Tree tree) const {
         return tree == kSource ? residual_[at(n)][d] : residual_[at(n + offset_[d])][opposite(d)];
     }
 
-    // Extends the tree of n by its free neighbours; where it meets the other tree, augments and
-    // returns true.
+    // Extends the tree of n by its free neighbours. Augments and returns true if it meets the other
+    // tree.
     bool grow(Node n) {
         const auto tree = static_cast<Tree>(tree_[at(n)]);
         for (std::uint8_t d = 0; d < 4; ++d) {
@@ -171,7 +170,7 @@ class GridFlow {
         return false;
     }
 
-    // Sends what fits along the path source … s → t … sink, s and t being neighbours.
+    // Sends the flow that fits along the path source … s → t … sink; s and t are neighbours.
     void augment(Node s, std::uint8_t d) {
         const Node t = s + offset_[d];
         std::int64_t room = residual_[at(s)][d];
@@ -219,8 +218,8 @@ class GridFlow {
         orphans_.push_back(n);
     }
 
-    // The number of steps from n to its tree's terminal, or 0 when the way ends in an orphan. A way
-    // that was found whole is marked, so that later walks of this round stop at it.
+    // The number of steps from n to its tree's terminal, or 0 if the path ends in an orphan. Marks
+    // a complete path, so that later walks of this round stop at it.
     std::int32_t depth_to_terminal(Node n) {
         std::int32_t steps = 0;
         Node m = n;
@@ -242,8 +241,8 @@ class GridFlow {
         return total;
     }
 
-    // Looks for the neighbour of the same tree that is nearest to the terminal and can still carry;
-    // without one the orphan leaves the tree and its children become orphans.
+    // Finds the neighbour of the same tree that is nearest to the terminal and has residual
+    // capacity. Without one the orphan leaves the tree and its children become orphans.
     void adopt(Node n) {
         const auto tree = static_cast<Tree>(tree_[at(n)]);
         std::int32_t best = std::numeric_limits<std::int32_t>::max();
@@ -269,7 +268,7 @@ class GridFlow {
         }
     }
 
-    // What the source still reaches when no more flow fits.
+    // The pixels that the source still reaches when no more flow fits.
     Image<std::uint8_t, 1> minimal_source_set() const {
         std::vector<std::uint8_t> reached(terminal_.size(), 0);
         std::vector<Node> stack;

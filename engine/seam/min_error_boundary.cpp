@@ -1,5 +1,5 @@
-// Efros & Freeman 2001 under the costs of the exact cut: one boundary per side of the window that
-// is tied to the old picture, each the cheapest that is monotone along its side.
+// Efros & Freeman 2001 with the costs of the exact cut: one boundary for each side of the window
+// that is tied to the old picture, each the cheapest one that is monotone along its side.
 
 #include <algorithm>
 #include <cstdint>
@@ -36,7 +36,7 @@ struct SideView {
         const Vec2i c = pixel(l, d);
         return p.cells.at(c.x, c.y);
     }
-    // The arc between two neighbouring pixels; 0 where one takes no part.
+    // The arc between two neighbouring pixels; 0 if one of them is outside the overlap.
     [[nodiscard]] std::int64_t arc(Vec2i a, Vec2i b) const {
         if (p.cells.at(a.x, a.y) == SeamCell::kOutside ||
             p.cells.at(b.x, b.y) == SeamCell::kOutside) {
@@ -51,7 +51,7 @@ struct SideView {
     [[nodiscard]] std::int64_t along(int l, int d) const {  ///< Between lines l−1 and l.
         return arc(pixel(l - 1, d), pixel(l, d));
     }
-    // How many pixels from the side may be old.
+    // The most pixels from the side that may stay old.
     [[nodiscard]] int reach(int l) const {
         int d = 0;
         while (d < depth() && (cell(l, d) == SeamCell::kFree || cell(l, d) == SeamCell::kOld))
@@ -95,11 +95,11 @@ void cut_lines(const SideView& v, int l0, int l1, const std::vector<int>& reach,
     }
 }
 
-// Marks as old what lies before the boundary along one side.
+// Marks the pixels before the boundary along one side as old.
 void cut_side(const SideView& v, Image<std::uint8_t, 1>& labels) {
     const int lines = v.lines();
     std::vector<int> reach(static_cast<std::size_t>(lines)), at(static_cast<std::size_t>(lines), 0);
-    // A side whose overlap never ends inside the window bounds nothing: another side does.
+    // If a side's overlap never ends inside the window, another side limits it.
     int narrowest = v.depth();
     for (int l = 0; l < lines; ++l) {
         reach[static_cast<std::size_t>(l)] = v.reach(l);

@@ -12,7 +12,7 @@ constexpr std::array<Vec2i, 4> kForward{Vec2i{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 constexpr std::array<Vec2i, 4> kOutward{Vec2i{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
 constexpr std::array<Vec2i, 4> kEndCorner{Vec2i{1, 0}, {1, 1}, {0, 1}, {0, 0}};
 
-// One side of a pixel that faces the outside, met on the walk, and the corner where it ends.
+// A side of a pixel that faces the outside, found on the walk, and the corner where it ends.
 struct BorderSide {
     SeamCell tie;
     std::int32_t corner;
@@ -38,7 +38,7 @@ class OuterBorder {
         return (y + 1) * (w_ + 2) + x + 1;
     }
 
-    // Sides between a pixel that takes part and one that does not.
+    // Sides between a pixel of the overlap and one outside.
     [[nodiscard]] std::size_t count_sides() const {
         std::size_t sides = 0;
         for (int y = 0; y <= h_; ++y) {
@@ -54,8 +54,8 @@ class OuterBorder {
         return sides;
     }
 
-    // Follows the outer border of the first component. False unless that border is all the border
-    // there is: then there is one component and it has no hole.
+    // Follows the outer border of the first component. False unless that is the whole border, so
+    // that there is one component without holes.
     bool walk() {
         int x = 0, y = 0;
         const SeamCell* first =

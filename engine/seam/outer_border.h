@@ -18,9 +18,9 @@ struct BorderStretches {
     std::vector<CornerGroup> others;
 };
 
-/// Nothing unless the overlap is one piece without holes whose border falls into one arc tied to
-/// the old side and one tied to the new side, and every tied pixel hangs together with its arc.
-/// Then its minimum cut is a shortest path from `start` to `end`.
+/// Empty unless the overlap is one piece without holes, its border has one arc tied to the old side
+/// and one tied to the new side, and every tied pixel is connected to its arc. The minimum cut is
+/// then a shortest path from `start` to `end`.
 [[nodiscard]] std::optional<BorderStretches> border_stretches(const Image<SeamCell, 1>& cells);
 
 }  // namespace weft

@@ -17,13 +17,13 @@
 namespace weft {
 namespace {
 
-// Two pixels tied to the same side are never parted.
+// Two pixels tied to the same side are never separated.
 bool can_part(SeamCell a, SeamCell b) {
     return a != SeamCell::kOutside && b != SeamCell::kOutside && (a == SeamCell::kFree || a != b);
 }
 
-// The cost of stepping from each corner to the right (across a vertical pair of pixels) and down
-// (across a horizontal pair).
+// The cost of a step from each corner to the right (between a vertical pair of pixels) and down
+// (between a horizontal pair).
 CornerGrid dual_of(const SeamProblem& p) {
     const int w = p.cells.width(), h = p.cells.height();
     CornerGrid grid(p.cells.size());
@@ -45,9 +45,9 @@ CornerGrid dual_of(const SeamProblem& p) {
     return grid;
 }
 
-// The distances, capped at the cut's value, are flow potentials: their differences are a maximum
-// flow from old to new, to the right φ(below) − φ(above), downwards φ(left) − φ(right). What the
-// old ties reach in its residual graph is the minimal source set.
+// The distances, capped at the cut's value, are flow potentials. Their differences are a maximum
+// flow from old to new: to the right φ(below) − φ(above), downwards φ(left) − φ(right). The pixels
+// that the old ties reach in its residual graph are the minimal source set.
 Image<std::uint8_t, 1> minimal_source_set(const SeamProblem& p, const CornerGrid& grid,
                                           const std::vector<std::uint64_t>& distance) {
     const int w = p.cells.width(), h = p.cells.height();
@@ -101,7 +101,7 @@ std::optional<SeamResult> solve_planar_dual(const SeamProblem& problem) {
     SeamResult result;
     result.energy = static_cast<std::int64_t>(distances.to_end);
     result.labels = minimal_source_set(problem, grid, distances.distance);
-    // Costs, distances as they are found and as they are kept, four bits of steps and one reached.
+    // Costs, distances in both formats, four bits of steps and one bit of reached per pixel.
     result.graph_bytes = grid.right.size() * (3 * sizeof(std::uint32_t) + sizeof(std::uint64_t)) +
                          problem.cells.size_bytes() * 5 / 8;
     return result;

@@ -23,7 +23,7 @@ class RadixHeap {
         ++count_;
     }
 
-    /// The item with the smallest key; of equal keys any.
+    /// The item with the smallest key; any of them on a tie.
     Item pop() {
         if (buckets_[0].empty()) refill();
         const Item item = buckets_[0].back();
@@ -37,7 +37,7 @@ class RadixHeap {
         return static_cast<std::size_t>(std::bit_width(key ^ last_));
     }
 
-    // Spreads the first bucket in use over the lower ones, relative to its smallest key.
+    // Distributes the first bucket in use over the lower ones, relative to its smallest key.
     void refill() {
         std::size_t b = 1;
         while (buckets_[b].empty())

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// Kept texels get a rim as wide as a seam needs to find a way through.
+// The rim around kept texels is wide enough for a seam.
 constexpr int kLeastRim_px = 12;
 // Regenerated texels may move their seams a little outwards.
 constexpr int kAgainRim_px = 6;
@@ -28,7 +28,8 @@ class Amender {
     }
 
   private:
-    // Shows the kept texels and opens a rim around them. False when all of them are there already.
+    // Shows the kept texels and opens a rim around them. False if the plane already shows all of
+    // them.
     [[nodiscard]] bool keep(const PlaneAmendment& amendment, Image<std::uint8_t, 1>& open) {
         bool changed = false;
         std::vector<Vec2i> texels;
@@ -48,7 +49,7 @@ class Amender {
         return changed;
     }
 
-    // Opens the places themselves. False when there is nothing to open.
+    // Opens the places themselves. False if there are none.
     [[nodiscard]] bool clear(const PlaneAmendment& amendment, Image<std::uint8_t, 1>& open) {
         std::vector<Vec2i> texels;
         for (const TexelRun& run : amendment.runs)
@@ -60,7 +61,7 @@ class Amender {
     }
 
     void open_around(const std::vector<Vec2i>& texels, int rim_px, Image<std::uint8_t, 1>& open) {
-        // A square around each, rows first and then columns, so that it costs 2·rim a texel.
+        // Squares around the texels, rows first and then columns, at a cost of 2·rim per texel.
         Image<std::uint8_t, 1> rows(canvas_.size(), 0);
         for (const Vec2i p : texels)
             for (int d = -rim_px; d <= rim_px; ++d)
@@ -76,7 +77,7 @@ class Amender {
         }
     }
 
-    // Where in the atlas the run's k-th texel comes from.
+    // The place in the atlas that the run's k-th texel comes from.
     [[nodiscard]] std::optional<Vec2i> place_of(const TexelRun& run, int k) const {
         const auto page = std::find_if(
             atlas_.pages().begin(), atlas_.pages().end(), [&](const SampleAtlas::Page& p) {
@@ -89,7 +90,7 @@ class Amender {
         return page->rect.contains(at.x, at.y) ? std::optional<Vec2i>(at) : std::nullopt;
     }
 
-    // Grows what is open, everything else locked. `salt` 0: with the plane's own seed.
+    // Grows what is open, with everything else locked. `salt` 0: with the plane's own seed.
     [[nodiscard]] bool grow(const Image<std::uint8_t, 1>& open, std::uint64_t salt,
                             std::size_t index, PlaneStats& stats, const CancelToken& cancel) {
         Canvas fresh(canvas_.size(), canvas_.torus());
@@ -104,8 +105,8 @@ class Amender {
         PlaneOptions options = options_;
         options.amendments.clear();
         options.guide.reset();
-        // In the first round of refinement all seams are cut again; further ones would look at the
-        // whole plane.
+        // The first round of refinement cuts all seams again; further rounds would search the whole
+        // plane.
         options.refine_passes = std::min(options.refine_passes, 1);
         if (salt != 0) options.seed = mix64(options.seed + mix64(salt + (index << 32)));
         PlaneStats part;

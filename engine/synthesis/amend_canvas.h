@@ -1,5 +1,5 @@
 #pragma once
-// Putting an artist's decisions into a finished plane.
+// Applies an artist's locked and regenerated patches to a finished plane.
 
 #include <vector>
 
@@ -10,12 +10,11 @@
 
 namespace weft {
 
-/// Carries out the options' amendments in their order on a canvas that has been grown. Where kept
-/// texels differ from what was grown, a rim around them is grown again, with the kept texels and
-/// all beyond the rim locked, so that they join by cut seams; where they are the same, nothing
-/// changes. What is to be made again is grown once more inside of its own rim, kept texels
-/// excepted. Texels that do not lie on the plane, or show what is not in the atlas, are left out.
-/// False when it was cancelled.
+/// Applies the options' amendments in order to a grown canvas. Where kept texels differ from the
+/// grown ones, a rim around them is grown again with the kept texels and everything beyond the rim
+/// locked, so that they join by cut seams. Where they are equal, nothing changes. Texels to
+/// regenerate are grown again inside a rim of their own, except for kept texels. Texels that lie
+/// outside the plane, or come from outside the atlas, are ignored. False if cancelled.
 [[nodiscard]] bool amend_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
                                 Canvas& canvas, PlaneStats& stats, const CancelToken& cancel);
 

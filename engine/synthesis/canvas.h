@@ -1,5 +1,5 @@
 #pragma once
-// The plane while it grows.
+// A texture plane while it grows.
 
 #include <cstdint>
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace weft {
 
-/// Pixels, where they came from, and which are there yet. On a torus positions wrap around; on a
-/// plane what lies outside is never filled. Threads may work on different pixels at
-/// once.
+/// Pixels, their source places, and which of them are filled. On a torus positions wrap around;
+/// otherwise pixels outside are never filled. Threads may work on different pixels at the same
+/// time.
 class Canvas {
   public:
     Canvas(Size size, bool torus)
@@ -20,7 +20,7 @@ class Canvas {
     [[nodiscard]] Size size() const { return filled_.size(); }
     [[nodiscard]] bool torus() const { return torus_; }
 
-    /// The stored position of (x, y), or nothing outside of a plane.
+    /// The stored position of (x, y); empty outside a canvas that does not wrap.
     [[nodiscard]] std::optional<Vec2i> resolve(int x, int y) const {
         const Size s = size();
         if (torus_) return Vec2i{wrapped(x, s.width), wrapped(y, s.height)};
@@ -32,7 +32,7 @@ class Canvas {
         return p && filled_.at(p->x, p->y) != 0;
     }
 
-    /// 1 where a stored row is filled, else 0.
+    /// Per pixel of a stored row: 1 if filled, else 0.
     [[nodiscard]] const std::uint8_t* filled_row(int y) const { return filled_.row(y); }
 
     /// The same of a stored rectangle.
@@ -40,7 +40,7 @@ class Canvas {
         return filled_.view().crop(rect);
     }
 
-    /// Shows sample pixel `from` with the colour `rgb` at `p`, a stored position.
+    /// Stores sample pixel `from` with the colour `rgb` at `p`, a stored position.
     void set(Vec2i p, const std::uint8_t* rgb, Vec2i from) {
         std::uint8_t* out = pixels_.pixel(p.x, p.y);
         out[0] = rgb[0], out[1] = rgb[1], out[2] = rgb[2];
@@ -48,10 +48,10 @@ class Canvas {
         s[0] = from.x, s[1] = from.y;
         filled_.at(p.x, p.y) = 1;
     }
-    /// The same for `count` neighbours from (x, y) on, which may lie anywhere.
+    /// The same for `count` neighbours from `p` on; `p` may lie outside.
     void set_run(Vec2i p, int count, const std::uint8_t* rgb, Vec2i from);
 
-    /// Pixels that no patch may change any more, at stored positions.
+    /// Locks a stored position: no patch may change it.
     void lock(Vec2i p) {
         if (locked_.empty()) locked_ = Image<std::uint8_t, 1>(size(), 0);
         locked_.at(p.x, p.y) = 1;
@@ -76,12 +76,12 @@ class Canvas {
     Image<std::uint8_t, 1> locked_;  ///< Empty: none.
 };
 
-/// A copy of a rectangle of the canvas, which may reach over its borders.
+/// A copy of a rectangle of the canvas, which may reach beyond its borders.
 struct Block {
     Recti rect;
-    ImageU8x3 pixels;               ///< Anything where not filled.
+    ImageU8x3 pixels;               ///< Undefined where not filled.
     Image<std::uint8_t, 1> filled;  ///< 0 or 1.
-    Image<std::uint8_t, 1> inside;  ///< 1 where the canvas has such a pixel at all.
+    Image<std::uint8_t, 1> inside;  ///< 1 where the canvas has this pixel.
 };
 
 [[nodiscard]] Block copy_block(const Canvas& canvas, const Recti& rect);

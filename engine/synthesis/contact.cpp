@@ -17,7 +17,7 @@ class Sides {
             const std::size_t above = static_cast<std::size_t>(line) * stride_;
             std::uint16_t* first = &first_[above + stride_];
             std::uint16_t* last = &last_[above + stride_];
-            // How many filled pixels follow each edge, and how many come before it.
+            // How many filled pixels follow each edge, and how many precede it.
             int after = filled(line, depth) ? least : 0;
             for (int at = depth - 1; at >= 0; --at) {
                 after = filled(line, at) ? after + 1 : 0;
@@ -35,7 +35,7 @@ class Sides {
         }
     }
 
-    // Thin contacts of the lines [line0, line1), for the sides at two edges.
+    // Thin contacts of the lines [line0, line1) with the sides at two edges.
     [[nodiscard]] std::uint32_t count(int begin, int end, int line0, int line1) const {
         const auto at = [&](const std::vector<std::uint16_t>& sums, int line, int edge) {
             return std::uint32_t{

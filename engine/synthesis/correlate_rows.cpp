@@ -37,7 +37,7 @@ void correlate_scalar(const Rows& rows, const std::int16_t* a, std::size_t strid
 
 #if defined(__x86_64__)
 
-// One chunk of b stays in a register while it meets `N` rows of a, which are aligned.
+// One chunk of b stays in a register while `N` rows of a, which are aligned, are read.
 template <int N>
 [[gnu::target("avx512f,avx512bw,avx512vl,avx512vnni")]] void group_avx512(const Rows& rows,
                                                                           const std::int8_t* a,

@@ -11,16 +11,16 @@
 
 namespace weft {
 
-/// Rows are read in chunks of so many elements.
+/// Number of elements that are read at a time.
 inline constexpr int kCorrelationChunk = 64;
 
-/// Where one row of a correlation starts on either side, in elements, and its length.
+/// The start of one row of a correlation on either side, in elements, and its length.
 struct CorrelationRow {
     std::size_t a, b;
     int chunks;
 };
 
-/// The signed side, in the form that an instruction set wants. Values lie in [−128, 127].
+/// The signed side, in the layout of an instruction set. Values lie in [−128, 127].
 class SignedPlane {
   public:
     /// All 0. `stride` and the starts of rows must be multiples of kCorrelationChunk.

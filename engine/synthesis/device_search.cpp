@@ -16,7 +16,7 @@ DeviceSearch::DeviceSearch(const SampleAtlas& atlas, const PlaneOptions& options
         setup.guide_weight = options.guide->guide_weight();
     }
     search_ = options.backend->open_plane_search(setup);
-    // Only what is kept from before is there before the sweep.
+    // Before the sweep the canvas holds only locked texels.
     if (canvas.any_locked()) show(canvas, rect_of(canvas.size()));
 }
 

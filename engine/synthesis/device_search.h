@@ -1,6 +1,5 @@
 #pragma once
-// The placement search of a backend that has one of its own, for a plane that grows by several
-// threads.
+// A backend's own placement search, shared by the threads that grow a plane.
 
 #include <memory>
 #include <mutex>
@@ -15,20 +14,20 @@
 
 namespace weft {
 
-/// Asks the backend of the options, and tells it what the canvas shows. Where there is no such
-/// backend, or it has failed, the caller searches by itself: what is found is the same.
-/// Thread-safe; searches and updates go one after another.
+/// Searches with the options' backend and keeps its copy of the canvas up to date. If there is no
+/// such backend, or it has failed, the caller searches on the CPU with the same result.
+/// Thread-safe; searches and updates run one after another.
 class DeviceSearch {
   public:
-    /// What the canvas holds already is told at once.
+    /// Sends the present contents of the canvas.
     DeviceSearch(const SampleAtlas& atlas, const PlaneOptions& options, const Canvas& canvas);
 
     [[nodiscard]] bool usable();
-    /// Tells that the canvas has changed in `rect`, which on a torus may reach over its borders. No
+    /// Sends the changes of the canvas in `rect`, which on a torus may reach beyond its borders. No
     /// other thread may write there meanwhile.
     void show(const Canvas& canvas, const Recti& rect);
-    /// PlacementSearch::find() for a window of the atlas over `block` of the canvas as it was shown
-    /// last. Nothing when the device cannot tell.
+    /// PlacementSearch::find() for a window of the atlas over `block` of the canvas, as of the last
+    /// show(). Empty if the device cannot do it.
     [[nodiscard]] std::optional<Shortlist> find(const Recti& block, const Recti& window, Vec2i lo,
                                                 Vec2i hi, const std::vector<Vec2i>& forbidden);
 

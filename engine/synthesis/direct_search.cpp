@@ -1,7 +1,7 @@
 // Σ |C(p) − S(p−t)|² = Σ |C|² + Σ (|S|² − 256 Σ S) − 2 Σ (C − 128)·S over the filled pixels p that
-// the sample reaches. The first two sums come from integral images, because what is filled is a few
-// rectangles; the third multiplies signed by unsigned bytes, which is what the processor does best.
-// Everything is an integer.
+// the sample reaches. The first two sums come from integral images, because the filled area is a
+// few rectangles. The third multiplies signed by unsigned bytes, the processor's fastest
+// multiplication. All values are integers.
 
 #include "engine/synthesis/direct_search.h"
 
@@ -73,7 +73,7 @@ std::vector<TranslationGroup> group_translations(const std::vector<std::uint8_t>
 
 DirectSearch::DirectSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     : sample_size_(sample.size()), block_(block), lo_(lo), hi_(hi) {
-    // The position p − t of the sample lies at p − t + hi of the padded one.
+    // The sample's position p − t is p − t + hi in the padded sample.
     const Size padded{block.width + hi.x - lo.x, block.height + hi.y - lo.y};
     row_bytes_ = 3 * static_cast<std::size_t>(padded.width);
     padded_.assign(row_bytes_ * static_cast<std::size_t>(padded.height) + kCorrelationChunk, 0);
@@ -139,7 +139,7 @@ void DirectSearch::add_layer(ViewU8x3 picture, ViewU8x1 mask, std::uint32_t weig
         counts.set_row(y, [&](int x) { return m[x] ? 1 : 0; });
     }
 
-    // Σ (C − 128)·S for groups of translations that differ in y alone.
+    // Σ (C − 128)·S for groups of translations that differ in y only.
     std::vector<std::int64_t> products(costs.size());
     std::vector<CorrelationRow> rows;
     for (const TranslationGroup& group : groups) {
@@ -175,8 +175,8 @@ void DirectSearch::add_layer(ViewU8x3 picture, ViewU8x1 mask, std::uint32_t weig
     }
 }
 
-// The rows s of the sample that meet the block's rows s + first_ty … s + first_ty + size − 1, as
-// far as any of these is set.
+// The rows s of the sample that meet the block's rows s + first_ty … s + first_ty + size − 1, if
+// any of these is set.
 void DirectSearch::rows_of_group(const std::vector<Hull>& hulls, std::size_t stride, int first_ty,
                                  int size, std::vector<CorrelationRow>& rows) const {
     rows.clear();

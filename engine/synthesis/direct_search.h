@@ -1,5 +1,5 @@
 #pragma once
-// The exact costs of all translations at once, by integer correlation.
+// The exact costs of all translations, by integer correlation.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace weft {
 
-/// Translations that one pass of the correlation takes together: some neighbouring rows, and the
+/// Translations that one pass of the correlation computes together: some neighbouring rows, and the
 /// columns in which one of these rows has an allowed translation. Counted from 0.
 struct TranslationGroup {
     int row = 0, rows = 0;
     std::vector<int> columns;
 };
-/// `allowed` holds a byte for each translation, row by row. With a period most are forbidden, and
-/// most rows and columns need no pass.
+/// `allowed`: one byte per translation, row by row. With a period most translations are forbidden,
+/// and most rows and columns need no pass.
 [[nodiscard]] std::vector<TranslationGroup> group_translations(
     const std::vector<std::uint8_t>& allowed, int columns);
 
-/// A sample prepared for direct comparison with blocks of one size, over the translations
-/// t ∈ [lo, hi]. Thread-safe once made.
+/// A sample prepared for direct comparison with blocks of one size, over the translations t ∈ [lo,
+/// hi]. Thread-safe once constructed.
 class DirectSearch {
   public:
     DirectSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi);
 
-    /// OverlapScorer::cost() of every allowed translation (1 in `allowed`), row by row, by the
-    /// instruction set in force; those of others are 0.
+    /// OverlapScorer::cost() of every allowed translation (1 in `allowed`), row by row, with the
+    /// current instruction set; 0 for the others.
     [[nodiscard]] std::vector<OverlapCost> costs(const MatchTarget& target,
                                                  const std::vector<std::uint8_t>& allowed) const;
 

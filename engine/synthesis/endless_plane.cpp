@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLargestHalf = 36;
 constexpr int kSamplesPerTile = 3;
-constexpr int kLargestSample = 200;  // Larger ones are laid in pieces of this size.
+constexpr int kLargestSample = 200;  // A larger one is used in windows of this size.
 constexpr int kKept = 4;             // Texels on either side of a corner that every strip keeps.
 constexpr int kFurthest = 1 << 30;
 
@@ -61,7 +61,7 @@ PlaneOptions EndlessPlane::part_options(Size size, std::uint64_t number) const {
     o.tileable = false;
     o.guide.reset();
     o.orientations = {};
-    o.align = false;  // A frame has no first placement to be in step with; its costs keep it so.
+    o.align = false;  // A frame has no first placement to align with; the costs keep it aligned.
     o.region = mix64(options_.region) + number;
     return o;
 }
@@ -104,7 +104,7 @@ std::optional<Canvas> EndlessPlane::grow_strip(bool upright, int kind,
     return canvas;
 }
 
-// Near a corner the strip that lies nearer to a texel shows; there they all keep the corner.
+// Near a corner the strip nearer to a texel shows; in the corner itself they all show the same.
 Canvas EndlessPlane::frame_of(const Borders& b) const {
     const int t = tile_px_, m = half_;
     Canvas canvas({t, t}, false);
@@ -163,7 +163,7 @@ Expected<EndlessPlane::Part> EndlessPlane::read(const Recti& rect,
                                                 const CancelToken& cancel) const {
     if (rect.empty() || rect.x0 < -kFurthest || rect.y0 < -kFurthest || rect.x1 > kFurthest ||
         rect.y1 > kFurthest) {
-        return fail(ErrorCode::kUsage, "No such part of a texture plane can be read.");
+        return fail(ErrorCode::kUsage, "The requested part is empty or beyond ±2^30 texels.");
     }
     try {
         Part out{ImageU8x3(rect.size()), Image<std::int32_t, 2>(rect.size())};

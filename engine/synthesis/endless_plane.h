@@ -1,5 +1,5 @@
 #pragma once
-// A plane without end, assembled on demand from tiles (Wang tiles; Cohen et al. 2003) whose borders
+// An endless plane, assembled on demand from tiles (Wang tiles; Cohen et al. 2003) whose borders
 // are cut like any other seam.
 
 #include <array>
@@ -18,30 +18,29 @@
 
 namespace weft {
 
-/// Two kinds of border run between tiles from left to right and two from top to bottom; a tile is
-/// known by its four borders, so that there are 16. Each border is a strip grown by itself, around
-/// a corner that all tiles share; a tile is grown into the frame that its strips make, whose
-/// outermost texels stay. Which kind lies where is drawn from the seed and the place, so that any
-/// part of the plane can be read at once, in any order, always with the same result. A tile is
-/// grown when it is first read. Thread-safe.
+/// There are two kinds of vertical and two kinds of horizontal border; a tile is identified by its
+/// four borders, so there are 16. Each border is a strip that is grown by itself, around a corner
+/// that all tiles share. A tile is grown into the frame of its strips, whose outermost texels stay.
+/// The seed and the place determine which kind lies where, so any part of the plane can be read at
+/// any time, in any order, with the same result. A tile is grown when it is first read.
+/// Thread-safe.
 class EndlessPlane {
   public:
-    /// Of the options the size, tiling, guide and orientations take no part. Errors: those of
-    /// grow_plane().
+    /// Ignores the options' size, tiling, guide and orientations. Errors: those of grow_plane().
     static Expected<std::unique_ptr<EndlessPlane>> make(ImageU8x3 sample,
                                                         const PlaneOptions& options,
                                                         const CancelToken& cancel = {});
 
     struct Part {
         ImageU8x3 pixels;
-        Image<std::int32_t, 2> source;  ///< Which sample pixel each texel shows.
+        Image<std::int32_t, 2> source;  ///< The sample pixel that each texel shows.
     };
-    /// The texels of `rect`, which may lie anywhere within ±2^30. Errors: NoSpace; cancelled, while
-    /// tiles are grown.
+    /// The texels of `rect`, anywhere within ±2^30. Errors: NoSpace; cancelled, while tiles are
+    /// grown.
     [[nodiscard]] Expected<Part> read(const Recti& rect, const CancelToken& cancel = {}) const;
 
     [[nodiscard]] int tile_px() const { return tile_px_; }
-    /// What the tiles grown so far take; at most 16 tiles of 11 bytes a texel.
+    /// Memory of the tiles grown so far: at most 16 tiles of 11 bytes per texel.
     [[nodiscard]] std::size_t bytes() const;
 
   private:
@@ -69,7 +68,7 @@ class EndlessPlane {
     std::unique_ptr<SampleAtlas> atlas_;
     int half_ = 0;  ///< Of a strip's width.
     int tile_px_ = 0;
-    Vec2i corner_{0, 0};  ///< Of the sample: the upper left of the part that all corners show.
+    Vec2i corner_{0, 0};  ///< Top left, in the sample, of the part that all corners show.
     std::array<std::array<std::unique_ptr<Canvas>, 2>, 2> strips_;  ///< [upright][kind]
     mutable std::array<Tile, 16> tiles_;
     mutable std::atomic<std::size_t> bytes_{0};

@@ -1,5 +1,5 @@
 #pragma once
-// Blending across the seams of a finished plane.
+// Feathering: blends across the seams of a finished plane.
 
 #include <cstdint>
 
@@ -9,9 +9,9 @@
 namespace weft {
 
 /// The plane with each texel within `radius_px` of a seam blended linearly between the patches
-/// there: every texel q around p votes, with a weight that falls to 0 at the radius, for the
-/// texture continued from q's source to p. Texels whose neighbours all continue one patch keep
-/// their value. With `wrap` the plane's opposite borders are neighbours. Pure.
+/// there. Every texel q around p contributes the texture continued from q's source to p, with a
+/// weight that falls to 0 at the radius. Texels whose neighbours all continue one patch keep their
+/// value. With `wrap` the plane's opposite borders are neighbours. Pure.
 [[nodiscard]] ImageU8x3 feather_seams(const SampleAtlas& atlas,
                                       ImageView<const std::int32_t, 2> source, int radius_px,
                                       bool wrap);

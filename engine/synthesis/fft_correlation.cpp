@@ -1,6 +1,7 @@
 // Σ w·|C(p) − S(p−t)|² = Σ w·|C|² + Σ w(p)·|S(p−t)|² − 2 Σ w(p)·C(p)·S(p−t) over the pixels p that
 // the sample reaches. The first sum is exact, from an integral image; the others are correlations.
-// All values are taken less the sample's mean, which changes no difference and keeps errors small.
+// The sample's mean is subtracted from all values, which changes no difference and keeps errors
+// small.
 
 #include "engine/synthesis/fft_correlation.h"
 
@@ -51,7 +52,7 @@ struct FftCorrelation::Weighted {
 
 FftCorrelation::FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi)
     : sample_size_(sample.size()), block_(block), lo_(lo), hi_(hi) {
-    // Circular wrap must not bring a sample pixel over a block pixel that it does not reach.
+    // Circular wrap must not move a sample pixel over a block pixel that it does not reach.
     const auto size = [](int s, int b, int l, int h) {
         return fast_fft_size(std::max({b, s + std::max(h, 0), b - l}));
     };
@@ -135,7 +136,7 @@ FftCorrelation::Weighted FftCorrelation::weigh(const MatchTarget& target, float*
     return out;
 }
 
-// w ⋆ |S|² − 2 Σ w·C ⋆ S at the translations asked for, as PlaneFft::backward_rows() leaves it.
+// w ⋆ |S|² − 2 Σ w·C ⋆ S at the requested translations, in the layout of PlaneFft::backward_rows().
 void FftCorrelation::correlate(const float* planes, float* out) const {
     const std::size_t size = fft_->spectrum_size();
     const auto area =

@@ -1,5 +1,5 @@
 #pragma once
-// Estimated placement costs for all translations at once, by FFT, with a bound of their error.
+// Estimated placement costs for all translations by FFT, with an error bound.
 
 #include <array>
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace weft {
 
-/// A sample prepared for correlation with blocks; blocks and the translations asked for are bounded
-/// when it is made. Thread-safe once made.
+/// A sample prepared for correlation with blocks. The block size and the translations are fixed by
+/// the constructor. Thread-safe once constructed.
 class FftCorrelation {
   public:
-    /// `block` is the size of the blocks; translations t run over [lo, hi] on each axis, where
-    /// t is where the sample's origin lies in the block.
+    /// `block` is the size of the blocks. Translations t run over [lo, hi] on each axis; t is the
+    /// position of the sample's origin in the block.
     FftCorrelation(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi);
     ~FftCorrelation();
     FftCorrelation(const FftCorrelation&) = delete;
@@ -27,7 +27,7 @@ class FftCorrelation {
     struct Estimate {
         std::vector<double> ssd;
         std::vector<std::uint64_t> weight;
-        double error = 0;  ///< |estimate − exact| is never larger.
+        double error = 0;  ///< Upper bound of |estimate − exact|.
     };
     [[nodiscard]] Estimate estimate(const MatchTarget& target) const;
 
@@ -44,7 +44,7 @@ class FftCorrelation {
     std::array<int, 3> mean_{};
     /// Of channels 0…2 less their mean, and of their squared length.
     std::array<std::vector<FftLanes>, 4> spectra_;
-    std::array<double, 4> norms_{};  ///< Euclidean lengths of what the spectra are of.
+    std::array<double, 4> norms_{};  ///< Euclidean lengths of the inputs of the spectra.
 };
 
 }  // namespace weft

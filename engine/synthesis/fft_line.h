@@ -15,7 +15,7 @@ struct FftTwiddle {
     float re, im;
 };
 
-/// Takes `radix` elements that lie `parts` · `stride` apart to neighbouring places `stride` apart.
+/// Moves `radix` elements that lie `parts` · `stride` apart to neighbouring places `stride` apart.
 struct FftPass {
     int radix, parts, stride;
     std::size_t twiddles;  ///< Index of the first: radix − 1 for each part.
@@ -41,7 +41,7 @@ struct SixteenFloats {
 
 #define WEFT_FFT_INLINE [[gnu::always_inline]] inline
 
-/// What one register holds of an element.
+/// The part of an element that one register holds.
 template <class T>
 struct FftValue {
     typename T::V re, im;
@@ -57,7 +57,7 @@ template <class T>
 WEFT_FFT_INLINE const typename T::V& imaginary_part(const FftLanes& x, int part) {
     return reinterpret_cast<const typename T::V*>(x.im.data())[part];
 }
-/// A transform backwards is one forwards with real and imaginary parts exchanged before and after.
+/// A backward transform is a forward one with real and imaginary parts swapped before and after.
 template <class T, bool Backward>
 WEFT_FFT_INLINE void load(const FftLanes& x, int part, FftValue<T>& v) {
     v.re = Backward ? imaginary_part<T>(x, part) : real_part<T>(x, part);
@@ -157,8 +157,8 @@ WEFT_FFT_INLINE void run_pass(const FftPass& pass, const FftTwiddle* w, const Ff
     }
 }
 
-/// Transforms line.length elements of `in`, at least two, which may be `b` and else stays as it is.
-/// Gives the buffer that holds the result, `a` or `b`.
+/// Transforms line.length elements of `in` (at least two). `in` may be `b`; otherwise it is not
+/// changed. Returns the buffer that holds the result, `a` or `b`.
 template <class T, bool Backward>
 WEFT_FFT_INLINE FftLanes* run_line(const FftLine& line, const FftLanes* in, FftLanes* a,
                                    FftLanes* b) {

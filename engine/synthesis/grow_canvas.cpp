@@ -9,8 +9,8 @@
 namespace weft {
 namespace {
 
-// The baselines stay what they are, and a guided plane (synthesized for each frame) what its guide
-// asks.
+// The baselines are not refined, nor is a guided plane, which is synthesized for each frame to
+// match its guide.
 bool refines(const PlaneOptions& o) {
     return o.refine_passes > 0 && o.seam == SeamMethod::kGraphCut &&
            o.seam_cost == SeamCost::kGradient && !o.guide;

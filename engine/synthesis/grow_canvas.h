@@ -1,5 +1,5 @@
 #pragma once
-// The whole of growing: the first sweep, seams cut again, further blocks over the worst seams.
+// The stages of growing: the first sweep, cutting all seams again, blocks over the worst seams.
 
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
@@ -9,9 +9,9 @@
 
 namespace weft {
 
-/// Fills what is not filled of the canvas, whose size and torus are those of the options, and
-/// refines it where the options ask for it. False when it was cancelled. Adds to the stage times,
-/// counts and peak bytes.
+/// Fills the unfilled part of the canvas, whose size and torus are those of the options, and
+/// refines it if the options say so. False if cancelled. Adds to the stage times, counts and peak
+/// bytes.
 [[nodiscard]] bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
                                Canvas& canvas, PlaneStats& stats, const CancelToken& cancel,
                                const ProgressFn& progress);

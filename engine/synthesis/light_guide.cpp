@@ -11,9 +11,10 @@ namespace {
 // Three boxes of 25 px are nearly a Gaussian of 12.5 px.
 constexpr int kRadius_px = 12;
 constexpr int kPasses = 3;
-constexpr int kUnit = 256;  // Of a level, so that nothing is lost between passes.
+// Fixed-point units per level, so that no precision is lost between passes.
+constexpr int kUnit = 256;
 
-// The mean over [i − r, i + r], as far as there is something.
+// The mean over [i − r, i + r], as far as it lies inside.
 void box(const std::int32_t* in, std::int32_t* out, int n) {
     std::int64_t sum = 0;
     int first = 0, last = 0;

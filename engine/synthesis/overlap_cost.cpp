@@ -7,11 +7,11 @@
 namespace weft {
 namespace {
 
-// A run has at most 2^14 pixels of 3 channels, but its sum may still pass 32 bits: chunks do not.
+// A run has at most 2^14 pixels of 3 channels, and its sum may exceed 32 bits; a chunk's does not.
 constexpr int kChunk = 4096;
 
-// The compiler turns this into widening multiply-adds; forced inline so that each caller compiles
-// it for its own instruction set. Integers: the same sum whatever the width.
+// The compiler turns this into widening multiply-adds. Forced inline so that each caller compiles
+// it for its own instruction set. Integer sums do not depend on the vector width.
 [[gnu::always_inline]] inline std::uint64_t squared_differences(const std::uint8_t* a,
                                                                 const std::uint8_t* b, int n) {
     std::uint64_t total = 0;

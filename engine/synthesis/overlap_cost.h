@@ -1,5 +1,5 @@
 #pragma once
-// The exact cost of placing a sample over a block: integers, so that every search gives one winner.
+// The exact cost of placing a sample over a block. Integers, so that every search finds one winner.
 
 #include <cstdint>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// What a placement is compared with: the filled pixels of a block and, with a guide, what the
-/// block should resemble. Weights are integers; the guide's images are empty without one.
+/// What a placement is compared with: the filled pixels of a block and, with a guide, the picture
+/// that the block should resemble. Weights are integers; without a guide its images are empty.
 struct MatchTarget {
     ViewU8x3 pixels;
     ViewU8x1 filled;  ///< 0 or 1.
@@ -25,7 +25,7 @@ struct OverlapCost {
     std::uint64_t weight = 0;
 };
 
-/// a/b as fractions: whether `a` ≤ `b` · numerator / denominator, exactly.
+/// Whether `a` ≤ `b` · numerator / denominator, exactly; costs are fractions.
 [[nodiscard]] bool at_most(const OverlapCost& a, const OverlapCost& b, std::uint32_t numerator = 1,
                            std::uint32_t denominator = 1);
 
@@ -34,10 +34,10 @@ class OverlapScorer {
   public:
     OverlapScorer(const MatchTarget& target, ViewU8x3 sample);
 
-    /// The cost of showing sample pixel p − t at the block's pixel p, over the block's pixels where
-    /// the sample reaches.
+    /// The cost of showing sample pixel p − t at the block's pixel p, over the block's pixels that
+    /// the sample reaches. `t` in pixels.
     [[nodiscard]] OverlapCost cost(Vec2i t) const;
-    /// Pixels that take part when the sample covers the whole block.
+    /// Pixels that are compared if the sample covers the whole block.
     [[nodiscard]] std::int64_t pixels() const { return pixels_; }
 
   private:

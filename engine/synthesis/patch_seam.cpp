@@ -14,12 +14,12 @@ ViewU8x3 new_picture(ViewU8x3 atlas, const Patch& patch) {
                        r.y1 - patch.origin.y});
 }
 
-// Ties by the four neighbours; the outermost pixels of the patch look into the canvas.
+// Ties by the four neighbours; the outermost pixels of the patch use the canvas's pixels.
 Image<SeamCell, 1> tie_overlap(const Canvas& canvas, ViewU8x1 filled, ViewU8x1 inside,
                                const Recti& rect) {
     const int w = rect.width(), h = rect.height();
     Image<SeamCell, 1> cells(w, h, SeamCell::kOutside);
-    // 1 where a pixel of the patch is to be filled still.
+    // 1 where a pixel of the patch is still unfilled.
     Image<std::uint8_t, 1> empty(w + 2, h + 2, 0);
     for (int y = 0; y < h; ++y) {
         const std::uint8_t *f = filled.row(y), *in = inside.row(y);

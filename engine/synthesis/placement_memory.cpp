@@ -10,7 +10,7 @@ namespace {
 constexpr double kReuseTolerance = 0.05;
 constexpr int kFarStep_px = 12;
 
-// Of a step and its opposite the one that leads downwards.
+// Of a step and its opposite, the one that leads downwards.
 Vec2i downwards(Vec2i d) {
     return d.y < 0 || (d.y == 0 && d.x < 0) ? Vec2i{-d.x, -d.y} : d;
 }
@@ -33,7 +33,7 @@ bool PlacementMemory::neighbours(Vec2i d) const {
     return std::abs(d.x) < near_.width && std::abs(d.y) < near_.height;
 }
 
-// How far the steps from the neighbours are from any that was made before, in pixels, up to
+// The distance of the steps from the neighbours to the nearest earlier step, in pixels, up to
 // kFarStep_px.
 int PlacementMemory::novelty(Vec2i origin) const {
     int least = kFarStep_px;
@@ -49,7 +49,7 @@ int PlacementMemory::novelty(Vec2i origin) const {
     return least;
 }
 
-// Shares of the patch that show what a near patch shows, the nearer the more.
+// The share of the patch that shows what a near patch shows, weighted by nearness.
 double PlacementMemory::reuse(const Placed& next) const {
     const Recti from = next.from();
     const double area = static_cast<double>(from.width()) * from.height();

@@ -1,5 +1,5 @@
 #pragma once
-// What earlier placements mean for the next one: copies, repeated steps, places used before.
+// Avoids visible repetition: copies, repeated steps, places of the sample used before.
 
 #include <vector>
 
@@ -19,15 +19,15 @@ struct Placed {
 /// The placements around the next one.
 class PlacementMemory {
   public:
-    /// `near` is how far apart placements are that an eye compares. On a torus the placements must
-    /// be given once for each turn.
+    /// `near`: the distance within which repetition is visible. On a torus each placement must be
+    /// given once per turn.
     PlacementMemory(std::vector<Placed> earlier, Size near);
 
     [[nodiscard]] const std::vector<Placed>& earlier() const { return earlier_; }
 
-    /// Of equally good candidates for the patch those that use places of the sample least that are
-    /// near already, and of these the ones whose steps from the neighbours are least like steps
-    /// made before: equal steps are what an eye sees as a grid of repeats.
+    /// Of equally good candidates for the patch, those that reuse places of nearby patches least,
+    /// and of these the ones whose steps from the neighbours differ most from earlier steps,
+    /// because equal steps are visible as a grid of repeats.
     [[nodiscard]] std::vector<Vec2i> least_repetitive(const std::vector<Vec2i>& origins,
                                                       const Recti& rect) const;
 

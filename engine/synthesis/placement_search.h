@@ -1,6 +1,6 @@
 #pragma once
-// Where to place the sample next: the exact winner over all admissible translations, and those that
-// are nearly as good.
+// Where to place the sample next: the exact best translation of all that are allowed, and those
+// that are nearly as good.
 
 #include <memory>
 #include <vector>
@@ -35,16 +35,16 @@ inline constexpr std::uint32_t kGoodNumerator = 130, kGoodDenominator = 100;
 [[nodiscard]] std::vector<std::uint8_t> allowed_translations(Vec2i lo, Vec2i hi,
                                                              const std::vector<Vec2i>& forbidden);
 
-/// Searches one sample (or one window of it) over blocks of one size, with the translations
-/// t ∈ [lo, hi], t being where the sample's origin lies in the block. What a search
-/// method needs of the sample is prepared once, at its first use. Thread-safe.
+/// Searches one sample (or a window of it) over blocks of one size, with the translations t ∈ [lo,
+/// hi]; t is the position of the sample's origin in the block. Each search method prepares its data
+/// at its first use. Thread-safe.
 class PlacementSearch {
   public:
     PlacementSearch(ViewU8x3 sample, Size block, Vec2i lo, Vec2i hi);
     ~PlacementSearch();
     PlacementSearch(PlacementSearch&&) noexcept;
 
-    /// `forbidden` translations do not take part, unless all are.
+    /// `forbidden` translations are ignored, unless all are forbidden.
     [[nodiscard]] Shortlist find(const MatchTarget& target, const std::vector<Vec2i>& forbidden,
                                  SearchMethod method = SearchMethod::kFastest);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The energy of a plane's seams, counted again from its source map.
+// The energy of a plane's seams, recounted from its source map.
 
 #include <cstdint>
 
@@ -13,7 +13,7 @@ struct PlaneEnergy {
     std::int64_t length_px = 0;
 };
 
-/// The part of recount_energy() that lies between texel `p` and its right and lower neighbours.
+/// The part of recount_energy() between texel `p` and its right and lower neighbours.
 [[nodiscard]] PlaneEnergy texel_energy(const SampleAtlas& atlas,
                                        ImageView<const std::int32_t, 2> source, Vec2i p, bool wrap);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over rectangles of exact integers.
+// Exact integer sums over rectangles.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +18,7 @@ class RectangleSums {
         std::fill_n((*sums_).begin(), columns_, 0);
     }
 
-    /// All rows from the top; `value(x)` of each pixel.
+    /// Call for all rows from the top; `value(x)` of each pixel.
     template <class Value>
     void set_row(int y, Value value) {
         std::int64_t run = 0;

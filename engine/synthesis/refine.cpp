@@ -12,9 +12,11 @@
 namespace weft {
 namespace {
 
-constexpr int kBlock = 48;              // Texels; a block covers about one seam's length.
-constexpr int kLargestWindow = 192;     // Of a larger sample only a window is searched for a block.
-constexpr double kShareOfEnergy = 0.9;  // Blocks beyond the worst that hold so much of it wait.
+constexpr int kBlock = 48;  // Texels; a block covers about one seam's length.
+// Of a larger sample only a window is searched for each block.
+constexpr int kLargestWindow = 192;
+// Blocks are taken, the worst first, until they hold this share of it.
+constexpr double kShareOfEnergy = 0.9;
 constexpr int kApart_px = 2;
 
 int block_side(int page_px, int plane_px) {
@@ -29,8 +31,8 @@ std::vector<int> starts(int page_px, int window_px) {
     return out;
 }
 
-// Colours of the three pictures at both pixels of a pair: the patch that p shows, the one that q
-// shows, and the new one.
+// Colours of the three pictures at both pixels of a pair: the patch of p, the patch of q, and the
+// new one.
 struct PairColours {
     std::array<const std::uint8_t*, 3> p, q;
 };
@@ -43,7 +45,7 @@ float distance(const std::uint8_t* a, const std::uint8_t* b) {
     return std::sqrt(static_cast<float>(sum));
 }
 
-// The seam cost between two of the pictures, as fill_seam_costs() has it.
+// The seam cost between two of the pictures, as in fill_seam_costs().
 std::int32_t pair_cost(const PairColours& k, Picture a, Picture b) {
     const float sum = distance(k.p[a], k.p[b]) + distance(k.q[a], k.q[b]);
     const float gradient = distance(k.p[a], k.q[a]) + distance(k.p[b], k.q[b]);
@@ -90,7 +92,7 @@ double Refiner::pass(int index, PlaneStats& stats) {
     std::vector<Outcome> outcomes(corners.size());
     parallel_for(corners.size(), [&](std::size_t i) {
         const Vec2i at = corners[i];
-        // A stream of its own, apart from the sweep's.
+        // A stream of its own, separate from the sweep's.
         const Rng rng(mix64(options_.seed + 1), options_.region, options_.frame,
                       (static_cast<std::uint64_t>(index) << 32) + i);
         outcomes[i] = refine_block({at.x, at.y, at.x + block_.width, at.y + block_.height}, rng);
@@ -104,14 +106,14 @@ double Refiner::pass(int index, PlaneStats& stats) {
     return gained;
 }
 
-// The upper left corners of overlapping blocks, the ones with most energy first. Each round looks
-// at blocks that lie a little differently.
+// The top left corners of overlapping blocks, those with most energy first. Each round shifts the
+// blocks a little.
 std::vector<Vec2i> Refiner::worst_blocks(Vec2i shift) const {
     struct Scored {
         double energy;
         Vec2i at;
     };
-    // Energies of cells of a quarter block, so that a block's middle is 2×2 of them.
+    // Energies of cells of a quarter of a block, so that a block's middle is 2×2 cells.
     const Size cell{std::max(1, block_.width / 4), std::max(1, block_.height / 4)};
     const Size plane = canvas_.size();
     Image<double, 1> cells(plane.width / cell.width + 1, plane.height / cell.height + 1, 0.0);
@@ -151,7 +153,8 @@ std::vector<Vec2i> Refiner::worst_blocks(Vec2i shift) const {
     return out;
 }
 
-// Of these, in order, each that keeps its distance from those before it, on a torus all ways round.
+// The first of these, in order, that keep their distance from those before (on a torus in all
+// directions).
 std::vector<Vec2i> Refiner::apart(const std::vector<Vec2i>& corners) const {
     std::vector<Vec2i> out;
     const Size plane = canvas_.size();
@@ -188,7 +191,7 @@ Vec2i Refiner::source_at(int x, int y) const {
     return {s[0], s[1]};
 }
 
-// The best place of one window of the atlas for the block, other than what the block shows already.
+// The best place in one window of the atlas for the block, other than what the block already shows.
 std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) {
     const Window& window = windows_[rng.below(windows_.size())];
     const Vec2i start{window.rect.x0, window.rect.y0};

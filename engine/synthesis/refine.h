@@ -19,18 +19,18 @@ namespace weft {
 /// nearer to the energy that is counted, ‖A−B‖ alone, and still follow edges.
 inline constexpr float kRefineGradientFloor = 64;
 
-/// Refines a filled canvas. Each block is cut into the plane so that its border joins what is there
-/// and the seams that it covers vanish: an old seam's pair of pixels has its cost when both stay
-/// old, none when both become new. Whatever does not lower the recounted energy is undone, so the
-/// energy never rises. Guides take no part.
+/// Refines a filled canvas. Each block is cut into the plane so that its border joins its
+/// surroundings and the seams that it covers vanish: an old seam's pair of pixels has its cost if
+/// both stay old, none if both become new. A change that does not lower the recounted energy is
+/// undone, so the energy never rises. Ignores guides.
 class Refiner {
   public:
-    /// `device` belongs to the canvas, and is told of every block.
+    /// `device` belongs to the canvas and is updated with every block.
     Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
             DeviceSearch& device);
 
-    /// One round over the plane's worst places, which are so far apart that they are worked on at
-    /// once. Returns how much energy it took away, and adds to the refinements and peak bytes.
+    /// One round over the plane's worst places, which lie far enough apart to be refined in
+    /// parallel. Returns the energy that it removed, and adds to the refinements and peak bytes.
     double pass(int index, PlaneStats& stats);
 
   private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLargest = 768;
 constexpr int kLeastStep = 12;
-constexpr int kSourceGrid = 4;  // Of the sample's pixels every 4th in x and y is followed.
+constexpr int kSourceGrid = 4;  // Every 4th of the sample's pixels in x and y is checked.
 constexpr double kPeriodTolerance_px = 2.5;
 
 Recti middle(Size s) {
@@ -67,7 +67,7 @@ bool is_peak(const Image<double, 1>& c, int x, int y) {
     const double here = c.at(x, y);
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-            // Above the first row the picture is the same turned around.
+            // Above the first row the autocovariance is its own half-turn.
             const int ny = y + dy, nx = x + dx;
             const double there = ny < 0 ? c.at(c.width() - 1 - nx, -ny) : c.at(nx, ny);
             if (there > here) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// All that a plane may show: every sample, in every orientation that is allowed, in one picture.
+// Everything that a plane may show: every sample in every allowed orientation, in one picture.
 
 #include <cstdint>
 #include <vector>
@@ -8,25 +8,25 @@
 
 namespace weft {
 
-/// How a sample may lie in the plane besides upright.
+/// Allowed orientations of a sample besides upright.
 struct Orientations {
     bool rotations = false;  ///< By quarter turns.
-    bool mirror = false;     ///< Left and right exchanged.
+    bool mirror = false;     ///< Left and right swapped.
 };
 
-/// Pages below one another with a gap of one row, so that pixels of different pages are never
-/// neighbours. A single upright sample is not copied: its positions in the atlas are its own.
-/// Thread-safe once made; valid while the samples' pixels are.
+/// The pages lie below one another with a gap of one row, so that pixels of different pages are
+/// never neighbours. A single upright sample is not copied, and its positions in the atlas are its
+/// own. Thread-safe once constructed; valid as long as the samples' pixels.
 class SampleAtlas {
   public:
-    /// An orientation is the number of quarter turns (counter-clockwise), plus 4 when the sample
-    /// was mirrored before.
+    /// An orientation is the number of quarter turns (counter-clockwise), plus 4 if the sample was
+    /// mirrored first.
     struct Page {
         Recti rect;
         int sample = 0;
         int orientation = 0;
     };
-    /// A pixel of a sample as it was given.
+    /// A pixel of an original sample.
     struct Place {
         int sample = 0, orientation = 0;
         Vec2i at{0, 0};
@@ -42,8 +42,7 @@ class SampleAtlas {
     [[nodiscard]] const Page& page_of(Vec2i at) const {
         return pages_[page_of_row_[static_cast<std::size_t>(at.y)]];
     }
-    /// The pixel at `at`, or, where that lies outside of the page that `owner` is on, the nearest
-    /// of that page.
+    /// The pixel at `at`; outside the page of `owner`, the nearest pixel of that page.
     [[nodiscard]] const std::uint8_t* continued(Vec2i at, Vec2i owner) const {
         const Recti& r = page_of(owner).rect;
         return view_.pixel(at.x < r.x0    ? r.x0

@@ -1,13 +1,13 @@
 #pragma once
-// Memory that a thread uses again: fresh pages for every search cost more than the search.
+// Reused memory of a thread: fresh pages for every search cost more than the search.
 
 #include <utility>
 #include <vector>
 
 namespace weft {
 
-/// A vector of `count` elements, which hold anything. Each thread keeps the few that it has used at
-/// one time. To be destroyed by the thread that made it.
+/// A vector of `count` elements with undefined values. Each thread keeps up to four for reuse. Must
+/// be destroyed by the thread that constructed it.
 template <class Vector>
 class Scratch {
   public:
@@ -19,7 +19,7 @@ class Scratch {
         memory_.resize(count);
     }
     ~Scratch() {
-        // The next one asks for room before it is needed; without any it is simply freed.
+        // Kept only if there is room without an allocation; otherwise it is freed.
         if (kept().capacity() > kept().size()) kept().push_back(std::move(memory_));
     }
     Scratch(const Scratch&) = delete;

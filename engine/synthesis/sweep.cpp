@@ -106,8 +106,8 @@ bool Sweep::run(PlaneStats& stats, const CancelToken& cancel, const ProgressFn& 
     return !stopped_;
 }
 
-// In any number of threads, each band behind the one above. Bands start in order, so that the one
-// that others wait for is always at work.
+// Runs the bands in any number of threads, each behind the one above. Bands start in order, so that
+// the band that others wait for is always running.
 template <class GrowBand>
 void Sweep::for_each_band(GrowBand grow) {
     const auto run = [&](std::size_t i) {
@@ -125,7 +125,8 @@ void Sweep::for_each_band(GrowBand grow) {
         }
         finish();
     };
-    // On a torus a band meets itself, so that it must be whole before the next one starts.
+    // On a torus the last band meets the first, so a band must be complete before the next one
+    // starts.
     if (canvas_.torus()) {
         for (std::size_t i = 0; i < bands_.size(); ++i)
             run(i);
@@ -154,19 +155,19 @@ void Sweep::lay_band_again(std::size_t index, Canvas& canvas, float gradient_flo
         const std::size_t bytes = lay_patch(canvas, copy_block(canvas, p.rect), atlas_.pixels(),
                                             {p.rect, p.origin}, options_, gradient_floor);
         band.peak_bytes = std::max(band.peak_bytes, bytes);
-        // The next patch may reach back further than its right end does.
+        // The next patch may start left of this patch's right end.
         band.done_x.store(p.rect.x1 - x_.overlap - 1, std::memory_order_release);
         band.done_x.notify_all();
     }
-    // Where the band above has filled this one's right end too, the last patch lies before it; the
-    // band below must not begin there while the one above is still at work.
+    // If the band above has filled this band's right end too, the last patch lies before it. The
+    // band below must not start there while the band above is still running.
     if (!canvas.torus()) wait_for(index, INT_MAX);
 }
 
 void Sweep::grow_band(std::size_t index) {
     Band& band = bands_[index];
     for (int x = 0; x < canvas_.size().width; ++x) {
-        // What is above must be there before the band can tell what it lacks.
+        // The band above must be done here before this band can find its unfilled columns.
         if (!canvas_.torus()) wait_for(index, x - x_.overlap + x_.block + x_.window);
         if (cancel_->cancelled()) stopped_ = true;
         if (stopped_) break;
@@ -185,7 +186,7 @@ bool Sweep::column_filled(const Band& band, int x) const {
     return true;
 }
 
-// Returns when the band above neither reads nor writes anything to the left of x any more.
+// Returns when the band above no longer reads or writes left of x.
 void Sweep::wait_for(std::size_t index, int x) {
     if (index == 0) return;
     const std::atomic<int>& done_x = bands_[index - 1].done_x;
@@ -216,8 +217,8 @@ Sweep::GuideBlock Sweep::copy_guide(const Recti& rect) const {
     return out;
 }
 
-// The placements that the block's may be compared with: in bands above those that start within a
-// window's width of its right end, which wait_for() has seen finished.
+// The placements that the block's candidates are compared with. From bands above: those that start
+// within a window's width of its right end, which wait_for() guarantees to be finished.
 PlacementMemory Sweep::memory(std::size_t index, const Recti& block) const {
     std::vector<Placed> out;
     const Recti reach{block.x0 - 2 * x_.window, block.y0 - 2 * y_.window, block.x1 + x_.window,
@@ -243,9 +244,9 @@ PlacementMemory Sweep::memory(std::size_t index, const Recti& block) const {
     return PlacementMemory(std::move(out), {x_.window, y_.window});
 }
 
-// Translations at which the sample would only continue an earlier placement (no new texture comes
-// of them, and their error is 0), fall out of step, or merely touch what is there. Each rule leaves
-// something of what the ones before it left.
+// Forbidden translations: the sample would only continue an earlier placement (no new texture, with
+// an error of 0), is not aligned with the rows, or only touches its surroundings. Each rule keeps
+// some of the translations that the rules before it left.
 std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
                                     const PlacementMemory& memory) const {
     const int columns = x_.hi - x_.lo + 1, rows = y_.hi - y_.lo + 1;
@@ -255,8 +256,8 @@ std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
         if (rect_of(bad.size()).contains(t.x, t.y)) bad.at(t.x, t.y) = 1;
     }
     if (period_.count > 0) forbid_misaligned(block.rect, to_canvas, memory, bad);
-    // Bands keep the overlap above and to the left; only on a torus, or where something was there
-    // before, can a patch touch what it meets from the other side.
+    // Bands keep the overlap above and to the left. Only on a torus, or beside locked texels, can a
+    // patch touch filled pixels on the other side.
     if (canvas_.torus() || canvas_.any_locked()) forbid_thin_contacts(block, bad);
     std::vector<Vec2i> out;
     for (int y = 0; y < rows; ++y) {
@@ -267,7 +268,7 @@ std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
     return out;
 }
 
-// In step with the placements that the block overlaps: over more than a neighbour's distance the
+// Aligned with the placements that the block overlaps. Farther placements are not used, because the
 // error of the period, found on a small sample, would add up.
 void Sweep::forbid_misaligned(const Recti& block, Vec2i to_canvas, const PlacementMemory& memory,
                               Image<std::uint8_t, 1>& bad) const {
@@ -342,7 +343,7 @@ Sweep::Choice Sweep::choose(std::size_t index, int x, Rng& rng) {
     return choice;
 }
 
-// Returns where the band goes on.
+// Returns the x at which the band continues.
 int Sweep::lay(std::size_t index, int x) {
     Band& band = bands_[index];
     const int number = band.count.load(std::memory_order_relaxed);

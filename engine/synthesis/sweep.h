@@ -22,24 +22,24 @@
 
 namespace weft {
 
-/// Grows one canvas. The plane is divided into bands as high as every patch fills for certain. In
-/// each the next patch covers the leftmost column that is not filled yet and reaches back over what
-/// is to its left and above. A patch sees the bands above only as far as they are finished beyond
-/// its reach, so that several bands grow at once with the result of growing one after another.
+/// Grows one canvas. The plane is divided into bands that every patch fills over their full height.
+/// In each band the next patch covers the leftmost unfilled column and reaches back over the filled
+/// texels to its left and above. A patch sees the bands above only where they are finished beyond
+/// its reach, so several bands can grow at once with the result of growing one after another.
 class Sweep {
   public:
-    /// `device` belongs to the canvas, and is told of every patch.
+    /// `device` belongs to the canvas and is updated with every patch.
     Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
           DeviceSearch& device);
     ~Sweep();
 
-    /// Fills the canvas by up to thread_count() threads; false when it was cancelled. Adds to the
-    /// stage times (shares of the wall clock), placements and peak bytes.
+    /// Fills the canvas with up to thread_count() threads; false if cancelled. Adds to the stage
+    /// times (shares of the wall clock), placements and peak bytes.
     [[nodiscard]] bool run(PlaneStats& stats, const CancelToken& cancel,
                            const ProgressFn& progress);
 
-    /// Lays the same patches in the same order into an empty canvas, cutting under another ε of the
-    /// gradient-normalised cost. False when it was cancelled. Adds to the peak bytes alone.
+    /// Lays the same patches in the same order into an empty canvas, with another ε of the
+    /// gradient-normalised cost. False if cancelled. Adds to the peak bytes only.
     [[nodiscard]] bool cut_again(Canvas& canvas, float gradient_floor, PlaneStats& stats,
                                  const CancelToken& cancel);
 
@@ -58,7 +58,7 @@ class Sweep {
         int block_y0 = 0;
         std::vector<Placed> placed;  ///< Never reallocated while the sweep runs.
         std::atomic<int> count{0};
-        /// Nothing to the left of it is read or written by this band any more.
+        /// This band no longer reads or writes left of it.
         std::atomic<int> done_x{std::numeric_limits<int>::min()};
         double search_s = 0, seam_s = 0, busy_s = 0;
         std::size_t peak_bytes = 0;

@@ -82,8 +82,8 @@ Image<double, 1> self_mismatch(ViewU8x3 s, Vec2i reach) {
     return out;
 }
 
-// Moves that are better than all around them, and much better than what lies between them and no
-// move at all: the slope around the origin is not repetition.
+// Moves that are better than all moves around them, and much better than what lies between them and
+// the origin: the slope around the origin is not repetition.
 std::vector<Candidate> local_minima(const Image<double, 1>& m, Vec2i reach) {
     std::vector<Candidate> out;
     const auto at = [&](int dx, int dy) {
@@ -110,8 +110,8 @@ std::vector<Candidate> local_minima(const Image<double, 1>& m, Vec2i reach) {
     return out;
 }
 
-// Planks and stripes: along one axis all moves are alike. Then the best of the local minima on the
-// other axis, or no step.
+// Planks and stripes: along one axis all moves are alike. Takes the best local minimum on the other
+// axis; empty if there is none.
 std::optional<Candidate> step_across(const Image<double, 1>& m, Vec2i reach, bool along_x) {
     const auto at = [&](int along, int across) {
         return along_x ? m.at(reach.x + along, across) : m.at(reach.x + across, along);
@@ -129,7 +129,7 @@ std::optional<Candidate> step_across(const Image<double, 1>& m, Vec2i reach, boo
         const double here = at(0, d);
         if (d < kLeastStep || here > kRepeats || ridge < here + 0.2) continue;
         if (here > std::min(at(0, d - 1), at(0, d + 1))) continue;
-        // The shortest of nearly equal ones is the step, others are its multiples.
+        // Of nearly equal ones the shortest is the step; the others are its multiples.
         if (best && here > best->mismatch - 0.05) continue;
         best = Candidate{along_x ? Vec2i{0, d} : Vec2i{d, 0}, here};
     }
@@ -157,8 +157,8 @@ bool TexturePeriod::holds(Vec2i d, double tolerance_px) const {
     return false;
 }
 
-// Two steps: the discs round the lattice's points, which are few; a test of every translation took
-// longer than the search among those that hold.
+// With two steps: the discs around the lattice's points, which are few. A test of every translation
+// took longer than the search among the allowed ones.
 Image<std::uint8_t, 1> TexturePeriod::held(Vec2i first, Size size, double tolerance_px) const {
     Image<std::uint8_t, 1> out(size, count == 0 ? 1 : 0);
     if (count == 1) {
@@ -247,7 +247,7 @@ TexturePeriod find_period(ViewU8x3 sample) {
         period.count = 2;
         break;
     }
-    // A single step on the slant is chance more often than structure.
+    // A single slanting step is more often chance than structure.
     if (period.count == 1 &&
         std::min(std::abs(period.steps[0].x), std::abs(period.steps[0].y)) > 2) {
         period = {};

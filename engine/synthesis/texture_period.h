@@ -1,5 +1,5 @@
 #pragma once
-// Whether a sample repeats by itself: courses of bricks, tiles, a weave.
+// Detects whether a sample is periodic: courses of bricks, tiles, a weave.
 
 #include <array>
 
@@ -8,25 +8,25 @@
 
 namespace weft {
 
-/// The lattice of translations that bring a texture onto itself. Without steps it has none.
+/// The lattice of translations that map a texture onto itself; none without steps.
 struct TexturePeriod {
     int count = 0;                 ///< Steps in use: 0, 1 (rows, planks) or 2.
     std::array<Vec2i, 2> steps{};  ///< In pixels, not collinear, the shorter first.
     /// Mean squared difference of the sample and itself moved by the first step, over that of
-    /// unrelated pixels: 0 repeats exactly, 1 not at all.
+    /// unrelated pixels: 0 repeats exactly, 1 does not repeat.
     double mismatch = 1;
 
-    /// Whether a translation is within `tolerance_px` of one of the lattice; with a single step
-    /// only what lies along that step counts.
+    /// True if a translation is within `tolerance_px` of a lattice point; with a single step only
+    /// the part along that step counts.
     [[nodiscard]] bool holds(Vec2i d, double tolerance_px) const;
-    /// One byte for each of the translations first + (x, y): 1 where it holds.
+    /// One byte for each of the translations first + (x, y): 1 where holds() is true.
     [[nodiscard]] Image<std::uint8_t, 1> held(Vec2i first, Size size, double tolerance_px) const;
-    /// The shortest steps of the lattice along each axis, 0 where there is none.
+    /// The shortest lattice steps along each axis, in pixels; 0 if there is none.
     [[nodiscard]] Size axis_px() const;
 };
 
-/// Looks for steps of at least 8 px and at most half the sample (of a large one, of its middle 256
-/// px). Thread-safe.
+/// Searches steps of at least 8 px and at most half the sample (of a large one, its middle 256 px).
+/// Thread-safe.
 [[nodiscard]] TexturePeriod find_period(ViewU8x3 sample);
 
 }  // namespace weft

@@ -1,6 +1,6 @@
 #pragma once
-// A texture plane: a sample grown into a larger image of the same texture by placing it again and
-// again and cutting along the best seams (Kwatra et al. 2003; the paper, 2.1–2.3).
+// A texture plane: a sample grown into a larger image of the same texture by repeated placement and
+// cuts along the best seams (Kwatra et al. 2003; the paper, 2.1–2.3).
 
 #include <cstdint>
 #include <optional>
@@ -20,23 +20,23 @@
 
 namespace weft {
 
-/// A picture that the plane should resemble (the warped previous frame in the paper's mode, a
-/// wanted illumination): enters placement costs and the data terms of the cut with `weight` (λ_t).
+/// A picture that the plane should resemble (the warped previous frame in the paper's mode, an
+/// illumination picture). It enters placement costs and the data terms of the cut with `weight`
+/// (λ_t, 0–1000).
 struct PlaneGuide {
-    ViewU8x3 target;  ///< As large as the plane.
+    ViewU8x3 target;  ///< Of the plane's size.
     ViewU8x1 known;   ///< 0 where the target is unknown.
     float weight = 1.0f;
 
-    /// Weights are integers in placement costs: of a filled pixel, and of a guided one.
+    /// Integer weights in placement costs: of a filled pixel, and of a guided one.
     static constexpr std::uint32_t kFillWeight = 256;
     [[nodiscard]] std::uint32_t guide_weight() const {
         return static_cast<std::uint32_t>(weight * static_cast<float>(kFillWeight) + 0.5f);
     }
 };
 
-/// Rounds of refinement that a plane gets unless told otherwise. In the first all cuts are made
-/// again, in the others further blocks are laid over the worst seams. Neither other seam methods
-/// nor guided planes are refined.
+/// The default number of refinement rounds. The first cuts all seams again, the others lay further
+/// blocks over the worst seams. Other seam methods and guided planes are not refined.
 inline constexpr int kDefaultRefinePasses = 2;
 
 struct PlaneOptions {
@@ -86,14 +86,14 @@ struct TexturePlane {
 [[nodiscard]] Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas,
                                                      const TexturePlane& plane);
 
-/// Whether a sample of this size can be grown with this overlap. Errors: Usage, saying what would
-/// do.
+/// Checks that a sample of this size can be grown with this overlap (px). Errors: Usage, with the
+/// sizes that are allowed.
 [[nodiscard]] Status check_sample(Size sample, int overlap_px);
 
-/// Grows a plane. Deterministic: the same samples and options give the same bytes, whatever the
-/// number of threads. Errors: Usage when there is no sample or more than 64, when a sample is
-/// smaller than twice 12 px on a side or than the overlap, or the size is not in [1, 16384];
-/// NoSpace; cancelled. A constant-colour sample is not an error: the plane is that colour.
+/// Grows a plane. Deterministic: the same samples and options give the same bytes for any number of
+/// threads. Errors: Usage if there is no sample or more than 64, a sample is smaller than 24 px on
+/// a side or than the overlap, or the size is not in [1, 16384]; NoSpace; cancelled. A sample of
+/// one colour is not an error: the plane has that colour.
 [[nodiscard]] Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples,
                                                 const PlaneOptions& options,
                                                 const CancelToken& cancel = {},
@@ -102,8 +102,7 @@ struct TexturePlane {
                                                 const CancelToken& cancel = {},
                                                 const ProgressFn& progress = {});
 
-/// What an artist should know about a sample before it is grown, or nothing: that it is one flat
-/// colour.
+/// A warning about a sample before it is grown (that it is one flat colour), if there is one.
 [[nodiscard]] std::optional<std::string> sample_warning(ViewU8x3 sample);
 
 }  // namespace weft

@@ -13,8 +13,8 @@ Registered register_against(const Anchor& anchor, const RegistrationPicture& cur
     out.fit = registration_fit(anchor.picture, cur, out.anchor_from_cur, options);
     options.iterations = 10;
     PlanarRegistration plane = register_planar(anchor.picture, cur, out.anchor_from_cur, options);
-    // A plane has few parameters and the least jitter: it is used where it explains the frame as
-    // well as the smooth field does, which has enough of them to follow some of the noise.
+    // A homography has few parameters and the least jitter. It is used where it explains the frame
+    // as well as the smooth field, which has enough parameters to follow some of the noise.
     constexpr double kAsWell = 1.03;
     out.planar = plane.found && plane.fit.residual <= kAsWell * out.fit.residual &&
                  kAsWell * plane.fit.share >= out.fit.share;

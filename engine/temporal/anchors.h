@@ -1,5 +1,5 @@
 #pragma once
-// The frames that a walk is registered against.
+// The frames against which a walk is registered.
 
 #include <vector>
 
@@ -9,19 +9,20 @@
 
 namespace weft {
 
-/// A frame of the walk whose place on the reference frame is known.
+/// A frame of the walk whose position on the reference frame is known.
 struct Anchor {
     RegistrationPicture picture;
     LatticeField ref_from_anchor;
-    int generation = 0;  ///< How many anchors lie between it and the reference frame.
+    int generation = 0;  ///< Number of anchors between it and the reference frame.
 };
 
-/// A frame as one anchor explains it.
+/// A frame registered against one anchor.
 struct Registered {
     LatticeField anchor_from_cur;
     RegistrationFit fit;
     bool planar = false;  ///< By a homography.
-    /// Whether this is the surface at all: unrelated pictures leave a residual of about 0.7.
+    /// True if the picture shows the surface at all: unrelated pictures leave a residual of about
+    /// 0.7.
     [[nodiscard]] bool holds() const { return fit.residual < 0.45 && fit.share > 0.5; }
 };
 
@@ -30,15 +31,15 @@ struct Registered {
 [[nodiscard]] Registered register_against(const Anchor& anchor, const RegistrationPicture& cur,
                                           const LatticeField& initial, FlowQuality quality);
 
-/// The anchors of one walk: the first, which is the reference frame or what stands for it, and the
-/// latest few. Not thread-safe.
+/// The anchors of one walk: the first, which is the reference frame or replaces it, and the latest
+/// few. Not thread-safe.
 class AnchorSet {
   public:
     /// Makes `anchor` the present one.
     void add(Anchor anchor);
     [[nodiscard]] const Anchor& present() const { return anchors_[present_]; }
     void use(std::size_t index) { present_ = index; }
-    /// Drops all: what they say of the reference frame no longer holds.
+    /// Drops all anchors, because their mapping to the reference frame is no longer valid.
     void clear() { anchors_.clear(); }
     [[nodiscard]] bool empty() const { return anchors_.empty(); }
     [[nodiscard]] std::size_t present_index() const { return present_; }

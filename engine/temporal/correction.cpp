@@ -12,7 +12,7 @@ Point point_of(Vec2 v) {
     return {v.x, v.y};
 }
 
-// Where the texture that belongs at p is to be fetched from.
+// The place that the texture belonging at p is fetched from.
 Point source_of(Point p, const std::vector<SurfacePin>& pins) {
     double total = 0;
     Point to_mean, from_mean;
@@ -35,7 +35,7 @@ Point source_of(Point p, const std::vector<SurfacePin>& pins) {
         turn += w * std::conj(a) * b;
         spread += w * std::norm(a);
     }
-    // One pin, or several at one place, say nothing of turning.
+    // One pin, or several at one place, do not determine a rotation.
     turn = spread > 1e-9 * total ? turn / spread : Point(1, 0);
     return turn * (p - to_mean) + from_mean;
 }

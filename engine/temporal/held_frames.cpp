@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kBlock = 8;
 constexpr std::int64_t kLeastPixels = 64;
-// A block with fewer pixels of the surface is judged by the whole only: one pixel is not reliable.
+// A block with fewer pixels of the surface is not judged by itself, because one pixel is not
+// reliable.
 constexpr int kLeastInBlock = 4;
 
 struct Difference {

@@ -1,5 +1,5 @@
 #pragma once
-// Held drawings: in drawn animation a drawing often stands for two or three frames.
+// Holds: in drawn animation a drawing often stays for two or three frames.
 
 #include <optional>
 
@@ -7,8 +7,9 @@
 
 namespace weft {
 
-/// How alike two frames of one drawing are, in 8-bit levels of the most differing channel. A codec
-/// leaves a little; a line that moves by half a pixel differs by some ten in the blocks it crosses.
+/// Limits of the difference between two frames of one drawing, in 8-bit levels of the channel that
+/// differs most. A codec leaves small differences; a line that moves by half a pixel differs by
+/// about ten in the blocks that it crosses.
 struct HoldLimits {
     float mean = 0.5f;   ///< Of the difference over the whole surface.
     float block = 2.0f;  ///< Of every block of 8×8 px of the frame, over its part of the surface.
@@ -16,26 +17,26 @@ struct HoldLimits {
 
 /// What a frame shows of a region.
 struct HoldView {
-    ViewU8x3 display;  ///< The plate's display codes.
-    ViewU8x1 extent;   ///< The region's matte, hidden parts included.
+    ViewU8x3 display;  ///< The region's full matte.
+    ViewU8x1 extent;   ///< The holdout; may be empty.
     ViewU8x1 holdout;  ///< What passes in front of it; may be empty.
 };
 
-/// Whether two frames show the same drawing of a region: compared are the pixels where either
-/// extent is at least a half and neither holdout is above 0, so a flat fill that moves shows by its
-/// outline, while background and whatever passes in front do not count. False where fewer than 64
-/// such pixels are left, or less than a third of the extents. All of one size. Thread-safe.
+/// True if two frames show the same drawing of a region. Compares the pixels where either full
+/// matte is at least a half and neither holdout is above 0, so a flat fill that moves differs at
+/// its outline, and background and holdouts do not count. False if fewer than 64 such pixels are
+/// left, or less than a third of the full mattes. All H×W. Thread-safe.
 [[nodiscard]] bool same_drawing(const HoldView& a, const HoldView& b,
                                 const HoldLimits& limits = {});
 
-/// Says frame by frame whether a region's drawing is held. Each frame is compared with the first
-/// one of the hold, not with its neighbour, so that a slow movement does not pass for a hold. A
-/// copy of that first frame is kept. Not thread-safe.
+/// Detects frame by frame whether a region's drawing is held. Each frame is compared with the first
+/// one of the hold, of which a copy is kept, so that slow movement does not pass for a hold. Not
+/// thread-safe.
 class HeldFrames {
   public:
     explicit HeldFrames(const HoldLimits& limits = {}) : limits_(limits) {}
-    /// The next frame of the walk, in either direction of time: true where it shows the drawing of
-    /// the frame before, whose coordinates then hold for it to the bit.
+    /// The next frame of the walk, in either direction of time. True if it shows the drawing of the
+    /// frame before; the coordinates of that frame then hold for it bit for bit.
     [[nodiscard]] bool advance(const HoldView& frame);
 
   private:

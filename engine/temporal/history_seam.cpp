@@ -51,7 +51,7 @@ ImageF1 smooth_noise(Size size, std::uint64_t seed) {
     return out;
 }
 
-// The graph: a node for every cell and frame, the history before being the source.
+// The graph: a node for every cell and frame; the track from the reference before is the source.
 class HistoryGraph {
   public:
     HistoryGraph(const std::vector<HistoryEvidence>& frames, const HistoryCutOptions& options)
@@ -116,7 +116,7 @@ class HistoryGraph {
         const bool is_last = t + 1 == frames_.size();
         for (int y = 0; y < size_.height; ++y) {
             for (int x = 0; x < size_.width; ++x) {
-                // To the references themselves, which show one history each.
+                // Links to the references, which show one track each.
                 const Weight from_first = t == 0 ? units(change(t, x, y)) : 0;
                 const Weight to_last = is_last ? units(change(t, x, y)) : 0;
                 if (from_first + to_last > 0)
@@ -128,8 +128,8 @@ class HistoryGraph {
         }
     }
 
-    // Smoothly random places in line, 0 to 1, equally many of them everywhere: of any surface,
-    // small or large, the same share changes in each frame.
+    // A smooth random number from 0 to 1 for every cell, uniformly distributed over the surface, so
+    // that the same share of any surface changes in each frame.
     [[nodiscard]] ImageF1 in_turn() const {
         ImageF1 order = smooth_noise(size_, options_.seed);
         std::vector<std::pair<float, int>> line;
@@ -150,8 +150,9 @@ class HistoryGraph {
     }
 
     void hold_to_their_times() {
-        // Levels a pixel and frame of deviation. A share of the mismatch, as what a seam costs is:
-        // the stronger the textures differ, the more a flash would be seen too.
+        // Cost of a change away from the cell's time, in levels per pixel and frame: a share of the
+        // mismatch, like the cost of a seam, because a flash is more visible where the textures
+        // differ more.
         constexpr float kLeastHold = 3.0f, kHold = 0.5f;
         constexpr float kEarliest = 0.15f, kLatest = 0.85f;
         const ImageF1 order = in_turn();
@@ -193,7 +194,7 @@ HistoryLayers spread_disagreement(const LatticeField& before, const LatticeField
                 std::clamp(std::hypot(d.x, d.y) / std::max(limit_px, 1e-6f) - 1.0f, 0.0f, 1.0f);
             const float slides = 1.0f - smooth_rise(beyond);
             out.before.set_node(i, j, before.node(i, j) + weight * slides * d);
-            // The same expression where both meet, so that they agree to the bit.
+            // The same expression for both, so that they agree bit for bit.
             if (slides == 1.0f)
                 out.after.set_node(i, j, out.before.node(i, j));
             else

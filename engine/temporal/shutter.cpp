@@ -25,8 +25,8 @@ bool inside(ViewU8x1 visible, Vec2 p) {
 constexpr int kMostLags = 64;           // px
 using Variogram = std::vector<double>;  // at 0, 1, 2 … px
 
-// What a box of `length` along the way makes of a picture's variogram (Journel & Huijbregts 1978):
-// the mean of γ(t + u) − γ(u) under the triangle of u from −length to length.
+// The effect of a box of `length` along the motion on a picture's variogram (Journel & Huijbregts
+// 1978): the mean of γ(t + u) − γ(u) under the triangle of u from −length to length.
 double regularised(const Variogram& sharp, int t, double length) {
     if (length < 1e-3) return sharp[static_cast<std::size_t>(t)];
     const auto gamma = [&](double x) {
@@ -44,8 +44,8 @@ double regularised(const Variogram& sharp, int t, double length) {
     return sum / weights;
 }
 
-// How badly a blur of `length` explains what is seen along the motion by what is seen across it:
-// mean squared difference of the logarithms, contrast left open.
+// How badly a blur of `length` explains the variogram along the motion by the one across it: mean
+// squared difference of the logarithms, with free contrast.
 double misfit(const Variogram& along, const Variogram& across, double length, int reach) {
     double sum = 0, squares = 0;
     for (int t = 1; t <= reach; ++t) {
@@ -59,12 +59,12 @@ double misfit(const Variogram& along, const Variogram& across, double length, in
     return squares / reach - (sum / reach) * (sum / reach);
 }
 
-// Over how many pixels the variograms are compared, at a speed of px a frame.
+// The lags (px) over which the variograms are compared, at a speed in px per frame.
 int reach_at(double speed) {
     return std::clamp(static_cast<int>(speed), 4, kMostLags / 2);
 }
 
-// The share of a frame that the shutter is open; 0 where a sharp picture explains as much.
+// The share of a frame during which the shutter is open; 0 if a sharp picture explains as much.
 double open_share(const Variogram& along, const Variogram& across, double speed) {
     const int reach = reach_at(speed);
     const double sharp = misfit(along, across, 0, reach);
@@ -76,7 +76,7 @@ double open_share(const Variogram& along, const Variogram& across, double speed)
             best = length;
         }
     }
-    // Surfaces seen aslant and patterns that run one way come to a third of this without any blur.
+    // Slanting surfaces and directional patterns reach a third of this without any blur.
     constexpr double kClearly = 0.02, kExplained = 0.25, kShortest = 0.15;
     const bool blurred = sharp > kClearly && least < kExplained * sharp && best > kShortest * speed;
     return blurred ? best / speed : 0.0;
@@ -105,8 +105,8 @@ void ShutterMeter::add(ViewU8x1 luma, ViewU8x1 visible, const LatticeField& prev
     }
     if (places.size() < kFewest) return;
     speed /= static_cast<double>(places.size());
-    // A blur of up to the whole way is averaged over as much beyond what is compared. No more than
-    // that is asked of a small region.
+    // A blur over the whole displacement also averages that far beyond the compared lags. A small
+    // region may not have more.
     const int lags = std::min(kMostLags, 2 * reach_at(speed) + 2);
     Variogram along(static_cast<std::size_t>(lags) + 1), across = along, count = along;
     for (const Place& place : places) {

@@ -1,5 +1,5 @@
 #pragma once
-// How long the plate's shutter is open: what its motion blur says of itself.
+// The plate's shutter angle, measured from its motion blur.
 
 #include <vector>
 
@@ -8,18 +8,19 @@
 
 namespace weft {
 
-/// Measures the shutter of a plate from a moving surface. How much a picture differs over a way of
-/// τ px, its variogram, is taken along the motion and across it. A shutter that is open while the
-/// surface moves by L px averages along the motion alone; the L that turns the variogram across
-/// into the one along is the blur, if it explains clearly more than none. Not thread-safe.
+/// Measures the shutter of a plate from a moving surface. The variogram of a picture (how much
+/// pixels τ px apart differ) is taken along the motion and across it. A shutter that is open while
+/// the surface moves by L px averages along the motion only. The blur is the L that turns the
+/// variogram across into the one along, if it explains that clearly better than no blur. Not
+/// thread-safe.
 class ShutterMeter {
   public:
     /// `luma`: a frame, 8 bit; `visible`: the region's matte without holdouts; `prev_from_cur`: the
-    /// surface's motion to the frame before. Frames in which it moves by less than 3 px say
-    /// nothing.
+    /// surface's motion to the frame before, pixels. Ignored unless enough of the surface (400
+    /// places of a 2 px grid) moves by at least 4 px.
     void add(ViewU8x1 luma, ViewU8x1 visible, const LatticeField& prev_from_cur);
-    /// Degrees of 360 a frame, the median of the frames; 0 where nothing moved fast enough, or
-    /// where the frames do not clearly show a blur.
+    /// The shutter angle in degrees of 360 per frame, the median over the frames. 0 if nothing
+    /// moved fast enough, or the frames do not clearly show a blur.
     [[nodiscard]] float degrees() const;
 
   private:

@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 constexpr float kLimit = 3.0f;  // times
-constexpr float kPull = 0.33f;  // a frame, at twice the limit
+constexpr float kPull = 0.33f;  // per frame, at twice the limit
 
 Vec2 landing(const LatticeField& field, int i, int j) {
     return field.node_position(i, j) + field.node(i, j);
@@ -71,7 +71,7 @@ Similarity fit(const LatticeField& field, const ImageF1& weight) {
     return out;
 }
 
-// 1 within `reach` nodes of where `marks` is, falling smoothly to 0 at twice that.
+// 1 within `reach` nodes of the marks, falling smoothly to 0 at twice that distance.
 ImageF1 spread(const ImageF1& marks, int reach) {
     ImageF1 out(marks.size());
     for (int j = 0; j < marks.height(); ++j) {
@@ -96,7 +96,7 @@ ImageF1 spread(const ImageF1& marks, int reach) {
 
 std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 visible) {
     constexpr float kMuch = 0.2f;    // of the surface
-    constexpr float kEnough = 0.7f;  // of the limit: it shall not come back at once
+    constexpr float kEnough = 0.7f;  // of the limit, so that it is not reached again at once
     const Size size = field.nodes().size();
     ImageF1 excess(size), weight(size);
     int seen = 0, past = 0;
@@ -167,7 +167,7 @@ bool limit_stretch(LatticeField& field, ViewU8x1 visible) {
     const Similarity target = fit(field, weight);
     for (int j = 1; j + 1 < size.height; ++j) {
         for (int i = 1; i + 1 < size.width; ++i) {
-            // The mean over the neighbours: a pull that starts at one node would tear there.
+            // The mean over the neighbours, because a pull on a single node would tear the field.
             float pull = 0;
             for (int k = 0; k < 9; ++k)
                 pull += excess.at(i + k % 3 - 1, j + k / 3 - 1) / 9.0f;

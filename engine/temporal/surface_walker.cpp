@@ -42,20 +42,20 @@ struct SurfaceWalker::State {
     LatticeField anchor_from_cur;  // of the present anchor
     int since_older_tried = 0;     // frames
 
-    // While nothing of the surface is to be seen, and then until it is found again.
     // After the texture was released to its own shape: its previous track, continued for the
     // frames over which a seam hides the change.
     LatticeField relaxed_at_event, stretched_at_event, stretched;
     int hiding_left = 0;  // frames
     bool hide_reanchoring = false;
 
-    bool lost = false;
+    bool lost = false;                     // not visible, or not found again yet
     int hidden_for = 0, searched_for = 0;  // frames
-    std::int64_t largest_px = 0;           // the most that was visible of it in one frame
-    // The last frame on which enough of it was seen to tell how it moves as a whole.
+    std::int64_t largest_px = 0;           // the largest visible area in any frame
+    // The last frame that showed enough of the surface to determine its motion as a whole.
     LatticeField steady_ref_from_cur, steady_step;
     int since_steady = 0;  // frames
-    // What was seen of it while it was searched for, and each one's step from the frame before.
+    // Frames on which it was visible while it was searched, each with the step from the frame
+    // before.
     struct Searched {
         RegistrationPicture picture;
         LatticeField prev_from_cur;
@@ -71,7 +71,7 @@ struct SurfaceWalker::State {
     }
     [[nodiscard]] Size frame_size() const { return last_luma.size(); }
 
-    // Where the frame is on an anchor by what is known of both on the reference frame.
+    // The position of the frame on an anchor, from the positions of both on the reference frame.
     [[nodiscard]] LatticeField predicted(const Anchor& anchor) const {
         return compose(ref_from_cur, inverse(anchor.ref_from_anchor));
     }
@@ -87,12 +87,12 @@ struct SurfaceWalker::State {
     }
 
     [[nodiscard]] bool is_hidden(std::int64_t visible_px);
-    // Whether too little of it is seen to tell how it moves.
+    // True if too little of the surface is visible to determine its motion.
     [[nodiscard]] bool is_sliver(std::int64_t visible_px) const {
         return 6 * visible_px < largest_px;
     }
     bool reanchor(ViewU8x1 visible);
-    void carry_stretched();
+    void advance_stretched();
     void note_steady(ViewU8x1 visible, std::int64_t visible_px);
     void find_late(const RegistrationPicture& cur, ViewU8x1 visible);
     void wait_out_of_view();
@@ -100,7 +100,7 @@ struct SurfaceWalker::State {
     void register_frame(const RegistrationPicture& cur, ViewU8x1 visible);
     bool try_others(const RegistrationPicture& cur, int generation_below, double share_above);
 
-    // Whether the picture inside the region tells less about its motion than its outline does.
+    // True if the picture inside the region determines its motion less well than the outline does.
     [[nodiscard]] bool has_no_structure(ViewU8x1 luma, ViewU8x1 visible,
                                         const FlowField& motion) const {
         constexpr float kEnough = 1.25f;
@@ -137,12 +137,13 @@ struct SurfaceWalker::State {
 
 bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
     largest_px = std::max(largest_px, visible_px);
-    // A narrow strip does not determine the whole.
+    // A narrow strip does not determine the motion of the whole.
     return visible_px < std::max<std::int64_t>(64, largest_px / 100);
 }
 
-// A sliver's own motion, continued over the whole surface and over many frames, is fantasy: what
-// goes on behind what hides it is a similarity of what was last seen well.
+// A sliver's own motion is not reliable when it is extrapolated over the whole surface and many
+// frames. Behind an occluder the surface therefore follows a similarity of its last reliable
+// motion.
 void SurfaceWalker::State::note_steady(ViewU8x1 visible, std::int64_t visible_px) {
     ++since_steady;
     if (lost || 3 * visible_px < largest_px) return;
@@ -151,7 +152,7 @@ void SurfaceWalker::State::note_steady(ViewU8x1 visible, std::int64_t visible_px
     since_steady = 0;
 }
 
-// The surface goes on as it last moved; for a while, since nothing moves so for ever.
+// The surface continues its last motion, for a limited time.
 void SurfaceWalker::State::wait_out_of_view() {
     constexpr int kLongest = 24;
     searched_for = 0;
@@ -171,8 +172,8 @@ void SurfaceWalker::State::wait_out_of_view() {
     lost = true;
 }
 
-// The frames between the surface's return and its being found: back from here along the steps that
-// were seen, each registered against this frame. A sliver is held to have moved as the whole does.
+// The frames between the surface's return and its detection: backwards from here along the measured
+// steps, each registered against this frame. A sliver is assumed to move as the whole does.
 void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 visible) {
     const Anchor here{cur, ref_from_cur, 0};
     const bool here_too = is_sliver(count_of(visible)) && !steady_step.nodes().empty();
@@ -191,7 +192,7 @@ void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 vi
     searched.clear();
 }
 
-// The surface is in view again, roughly where it was heading or anywhere else.
+// The surface is in view again, near its predicted position or anywhere else.
 void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visible,
                                   std::int64_t visible_px) {
     const auto accept = [&](std::size_t k, const Registered& found) {
@@ -210,7 +211,7 @@ void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visib
         const auto start = find_again(all[k].picture, cur, frame_size(), options.spacing_px);
         if (start && accept(k, register_against(all[k], cur, *start, options.quality))) return;
     }
-    // Enough of it has been in view for long enough: it does not look as it did.
+    // Enough of it has been visible for long enough: its appearance has changed.
     constexpr int kLongest = 10;
     constexpr std::size_t kMostKept = 32;
     if (++searched_for > kLongest && 2 * visible_px > largest_px) {
@@ -224,8 +225,8 @@ void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visib
     searched.push_back({cur, prev_from_cur, is_sliver(visible_px)});
 }
 
-// Takes another anchor of an earlier generation where one explains the frame. Generations below
-// `generation_below` only; the share must exceed `share_above`.
+// Switches to another anchor of an earlier generation if one explains the frame. Only generations
+// below `generation_below`; the share must exceed `share_above`.
 bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int generation_below,
                                       double share_above) {
     const auto& all = anchors.all();
@@ -239,8 +240,8 @@ bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int genera
     return false;
 }
 
-// Where much of the surface is past the limit the texture goes back to its own shape at once, and
-// the previous track continues beside it for a while.
+// If much of the surface is past the stretch limit, the texture returns to its own shape at once,
+// and the previous track continues beside it for a while.
 bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
     if (!hide_reanchoring || hiding_left > 0) return false;
     std::optional<LatticeField> relaxed = relaxed_stretch(ref_from_cur, visible);
@@ -252,8 +253,8 @@ bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
     return true;
 }
 
-// Both lie on the surface alike, so whatever the registration finds holds for both.
-void SurfaceWalker::State::carry_stretched() {
+// Both tracks lie on the same surface, so the registration's correction holds for both.
+void SurfaceWalker::State::advance_stretched() {
     if (hiding_left == 0 || --hiding_left == 0) {
         stretched = {};
         return;
@@ -264,8 +265,8 @@ void SurfaceWalker::State::carry_stretched() {
 void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8x1 visible) {
     const Registered found =
         register_against(anchors.present(), cur, anchor_from_cur, options.quality);
-    // The chain is steady but drifts, the registration does not drift but jitters: the gains of
-    // the (stationary) Kalman filters between them.
+    // The chain is steady but drifts; the registration does not drift but jitters. The gains are
+    // those of stationary Kalman filters that combine them.
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
     correct(anchors.present_index(),
             mix(anchor_from_cur, found.anchor_from_cur, found.planar ? kPlanarGain : kSmoothGain));
@@ -280,7 +281,7 @@ void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8
         if (!try_others(cur, anchors.present().generation + 1, kEnough)) become_anchor(cur);
         return;
     }
-    // An older anchor has less drift: where the view comes back to it, it is taken again.
+    // An older anchor has less drift, so it is used again when the view returns to it.
     constexpr int kEvery = 6;
     if (anchors.present().generation > 0 && ++since_older_tried >= kEvery) {
         since_older_tried = 0;
@@ -324,20 +325,20 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
     if (s.is_hidden(visible_px)) {
         s.wait_out_of_view();
-        if (hiding) s.carry_stretched();
+        if (hiding) s.advance_stretched();
         return keep();
     }
     const auto noted = [&]() -> const LatticeField& {
         s.note_steady(visible, visible_px);
-        if (hiding) s.carry_stretched();
+        if (hiding) s.advance_stretched();
         return keep();
     };
     const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);
-    // What has just come into view has no motion yet.
+    // A part that has just come into view has no motion yet.
     s.follow(was_hidden   ? s.prev_from_cur
              : by_outline ? s.fit_outline(luma, visible, extent)
                           : s.fit_motion(luma, visible, prev_from_cur));
-    // Without structure inside there is nothing to be registered by: the chain goes on alone.
+    // Without structure inside there is nothing to register: the chain continues alone.
     if (!by_outline) {
         const RegistrationPicture cur = registration_picture(luma, visible);
         if (s.lost) {

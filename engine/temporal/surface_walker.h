@@ -1,5 +1,5 @@
 #pragma once
-// Following a surface from its reference frame through the shot, without drift.
+// Tracks a surface from its reference frame through the shot without drift.
 
 #include <memory>
 #include <vector>
@@ -13,56 +13,54 @@ namespace weft {
 
 struct SurfaceWalkerOptions {
     FlowQuality quality = FlowQuality::kFinal;
-    bool exact_motion = false;  ///< The motion is true: follow it closely, do not register.
+    bool exact_motion = false;  ///< The motion is exact: follow it closely and do not register.
     int spacing_px = 8;         ///< Of the lattices.
 };
 
-/// Walks away from a reference frame, forwards or backwards in time, and holds where every pixel
-/// was on it (method: "Temporal consistency", surface-locked mode).
+/// Walks away from a reference frame, forwards or backwards in time, and keeps the position of
+/// every pixel on it (method: "Temporal consistency", surface-locked mode).
 ///
-/// Motion from frame to frame is fitted (fit_surface_motion) and chained; where the region shows
-/// nothing but its outline (structure_to_noise), from that (register_outline). A chain drifts,
-/// so each frame is also registered against an *anchor*, at first the reference frame itself: by a
-/// homography where one explains the picture, else by a smooth field (register_planar,
-/// register_lattice). When too little of the anchor is to be seen, the present frame becomes the
-/// next one. Not thread-safe; several walkers may run in several threads.
+/// Motion from frame to frame is fitted (fit_surface_motion()) and chained. Where the region shows
+/// only its outline (structure_to_noise()), the motion comes from that (register_outline()). A
+/// chain drifts, so each frame is also registered against an *anchor*, at first the reference frame
+/// itself: by a homography where one explains the picture, else by a smooth field
+/// (register_planar(), register_lattice()). When too little of the anchor is visible, the current
+/// frame becomes the next anchor. Not thread-safe; several walkers may run in several threads.
 class SurfaceWalker {
   public:
-    /// `luma`: the frame to start from, 8 bit. `visible`: extent matte without holdouts, the same
-    /// size. `extent`: the matte with what is hidden; empty: `visible`. `ref_from_start`: where the
-    /// start's pixels were on the reference frame; the walk starts on the reference frame itself
-    /// without it.
+    /// `luma`: the frame to start from, 8 bit, H×W. `visible`: the full matte without holdouts.
+    /// `extent`: the full matte; empty: `visible`. `ref_from_start`: where the start's pixels were
+    /// on the reference frame; null: the start is the reference frame.
     SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
                   const LatticeField* ref_from_start = nullptr, ViewU8x1 extent = {});
     ~SurfaceWalker();
     SurfaceWalker(SurfaceWalker&&) noexcept;
     SurfaceWalker& operator=(SurfaceWalker&&) noexcept;
 
-    /// Goes on to the next frame of the walk. `prev_from_cur`: raw motion, for each of its pixels
-    /// where it was in the frame before (of the walk); its `valid` says where that can be trusted.
-    /// Returns ref_from_cur, which is defined everywhere: behind holdouts and outside the matte the
-    /// surface's motion is continued.
+    /// Goes on to the next frame of the walk. `prev_from_cur`: raw motion, for each pixel its
+    /// position in the walk's previous frame; `valid` marks reliable motion. Returns ref_from_cur,
+    /// which is defined everywhere: behind holdouts and outside the matte the surface's motion is
+    /// continued.
     const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
                                 ViewU8x1 extent = {});
-    /// Where the pixels of frames that have been passed were on the reference frame, better than
-    /// advance() could tell then: a surface that comes back into view shows too little of itself
-    /// at first, and is found some frames later. The latest first: of the frame before the present
-    /// one, the one before that, and so on. Empties it.
+    /// Better positions on the reference frame for frames that were passed. A surface that returns
+    /// into view shows too little of itself at first and is found some frames later. The latest
+    /// first: the frame before the current one, the one before that, and so on. Empties the list.
     [[nodiscard]] std::vector<LatticeField> take_found_late();
-    /// Whether, from here on, a texture that has become stretched or sheared past the limit over
-    /// much of the surface goes back to its own shape at once (relaxed_stretch()), which a seam is
-    /// to hide over the next frames. Otherwise it slides back slowly. Off at first.
+    /// If `hide`, a texture that is stretched or sheared past the limit over much of the surface
+    /// returns to its own shape at once (relaxed_stretch()), and a seam hides the change over the
+    /// next frames. Otherwise it slides back slowly, which is the default.
     void hide_reanchoring(bool hide);
-    /// For kReanchorFrames frames after that: ref_from_cur as it would be without. Else null.
+    /// For kReanchorFrames frames after that: ref_from_cur without the return. Else null.
     [[nodiscard]] const LatticeField* stretched() const;
-    /// Goes on to a frame whose motion is known as a whole: of the step, and to the frame at which
-    /// the walk is anchored. Nothing is estimated and nothing registered.
+    /// Goes on to a frame whose motion is known everywhere: of the step, and to the frame of the
+    /// anchor. Nothing is estimated or registered.
     void advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
                        LatticeField anchor_from_cur);
-    /// Goes on to a frame that shows the same drawing as the one before: nothing moves.
+    /// Goes on to a frame that shows the same drawing as the frame before: nothing moves.
     void hold();
-    /// Makes the present frame, whose pictures these are, the anchor: further reference frames.
-    /// With `ref_from_here` the surface lies there from now on, whatever the walk has found.
+    /// Makes the current frame, whose pictures these are, the anchor; for further reference frames.
+    /// With `ref_from_here` the surface has that position from now on, whatever the walk has found.
     void anchor_here(ViewU8x1 luma, ViewU8x1 visible, const LatticeField* ref_from_here = nullptr);
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;

@@ -42,7 +42,7 @@ WEFT_HD int ceil_div(int a, int b) {
     return (a + b - 1) / b;
 }
 
-/// Integers only: the order of the additions does not show.
+/// Integers only, so the order of the additions does not matter.
 WEFT_HD void atomic_add(u64* to, u64 value) {
 #ifdef __CUDA_ARCH__
     atomicAdd(reinterpret_cast<unsigned long long*>(to), static_cast<unsigned long long>(value));

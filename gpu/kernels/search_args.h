@@ -1,6 +1,6 @@
 #pragma once
 // What the search kernels share. Pixels are 32-bit words: red, green and blue in the low bytes and,
-// on a canvas, 1 in the highest where the pixel takes part.
+// on a canvas, 1 in the highest where the pixel is compared.
 
 #include "gpu/kernels/portable.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// From the costs the winner, and all that are nearly as good. One block: the costs of a placement
-// are a few hundred to a few thousand.
+// Selects the best cost and all that are nearly as good. One block, because a placement has only a
+// few hundred to a few thousand costs.
 
 #include "gpu/kernels/search_args.h"
 
@@ -66,7 +66,7 @@ struct SearchSelect {
                static_cast<Wide>(b.ssd) * wa * numerator;
     }
 
-    // Of equal ones the lower index, in whatever order they come.
+    // On a tie the lower index wins, whatever the order of arrival.
     WEFT_HD static void take_better(Shared& s, int t, const Cost& cost, u32 index) {
         const bool no_worse = s.index[t] == kNone || at_most(cost, s.cost[t], 1, 1);
         if (!no_worse) return;

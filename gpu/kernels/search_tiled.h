@@ -1,6 +1,6 @@
 #pragma once
 // Register-tiled candidates, the strategy that `cuda` uses. A sum of squared differences over the
-// pixels that take part is Σa² − 2Σab + Σb². Σab is one dp4a for a pixel and a candidate; a thread
+// compared pixels is Σa² − 2Σab + Σb². Σab is one dp4a for a pixel and a candidate; a thread
 // takes five neighbouring candidates, so that a pixel of the sample that it has read serves five
 // times from a register. Σa² and Σb² come from sums along rows: two look-ups for each run of filled
 // pixels. A block takes a small tile of the target and up to 640 candidates; what it finds is added
@@ -25,7 +25,7 @@ struct SearchTiled {
     static_assert(kTileW == 32, "a row of the target is one word of bits");
 
     struct Shared {
-        u32 target[kTileH][kTileW];  ///< 0 where a pixel does not take part.
+        u32 target[kTileH][kTileW];  ///< 0 where a pixel is not compared.
         u8 takes_part[kTileH][kTileW];
         u32 bits[kTileH];                 ///< The same, a bit for each.
         u32 squares[kTileH][kTileW + 1];  ///< Sums of a² before each pixel.

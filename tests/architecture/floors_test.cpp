@@ -1,5 +1,5 @@
-// An include may only point to its own folder or downwards. These two tables are the rule; what
-// docs/ARCHITECTURE.md says in words stands here once as an allow-list.
+// An include may only point to its own folder or a lower floor. These tables are the rule that
+// docs/ARCHITECTURE.md summarises.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,16 +56,16 @@ const std::vector<Floor> kFloors{
     {"texture_db/sources",
      {"engine/core", "engine/media", "texture_db/describe", "texture_db/catalogue",
       "texture_db/library"}},
-    // 4: the document knows lower floors only by the headers that hold parameter types; its files
-    // also by the one function that writes a file whole
+    // 4: the document uses lower floors only through headers that define parameter types; its codec
+    // also uses the function that writes files
     {"app/project",
      {"engine/core", "engine/compute/wrap_mode.h", "engine/lighting/lamp.h",
       "engine/lighting/light_source.h", "engine/lighting/shading.h", "engine/mask/matte_reach.h",
-      "engine/mask/roto_shape.h", "engine/pipeline/layer_kind.h", "engine/seam/seam.h",
-      "engine/seam/seam_cost.h", "engine/synthesis/plane_amendment.h",
+      "engine/mask/roto_shape.h", "engine/pipeline/layer_kind.h", "engine/pipeline/zone_kind.h",
+      "engine/seam/seam.h", "engine/seam/seam_cost.h", "engine/synthesis/plane_amendment.h",
       "engine/temporal/temporal_mode.h", "engine/media/image_files.h"}},
     {"app/project/codec", {"engine/core", "engine/media/atomic_file.h", "app/project"}},
-    // 5: what the command line and the editor share
+    // 5: shared by the command line and the editor
     {"app/base", {"engine/core", "engine/color", "engine/media", "app/project"}},
     {"app/exchange", {"engine", "texture_db", "app/project", "app/base"}},
     {"app/shot", {"engine", "texture_db", "app/project", "app/base", "app/exchange"}},
@@ -148,8 +148,8 @@ TEST(Floors, EveryIncludePointsDownwards) {
 
 // ---- reading ----------------------------------------------------------------------------------
 
-// Everything that is read goes through engine/core/input_file.h. Libraries that open files by name
-// are called only where the file was checked: `guard` stands in the same file.
+// All reading goes through engine/core/input_file.h. Libraries that open files by name are called
+// only where the file was checked: `guard` occurs in the same file.
 const std::vector<ReadRule> kReadRules{
     {"std::ifstream", "", {}},
     {"std::fstream", "", {}},
@@ -187,7 +187,7 @@ TEST(Reading, CheckerJudgesAsMeant) {
     EXPECT_EQ(check("ui/a.cpp", "const int f = ::open(path, O_RDONLY);\n").size(), 1u);
     EXPECT_THAT(check("engine/core/input_file.cpp", "::open(path, O_RDONLY);\n"),
                 testing::IsEmpty());
-    // Methods and other functions of the name are not meant, nor are comments.
+    // Ignores methods, other functions of the same name, and comments.
     EXPECT_THAT(check("ui/a.cpp", "auto l = Library::open(path);\n// std::ifstream would wait\n"),
                 testing::IsEmpty());
     EXPECT_EQ(check("engine/media/a.cpp", "auto i = OIIO::ImageInput::open(path);\n").size(), 1u);
@@ -199,7 +199,7 @@ TEST(Reading, CheckerJudgesAsMeant) {
 // ---- the tables ------------------------------------------------------------------------------
 
 TEST(FloorTable, HasNoCycle) {
-    // Repeatedly takes away a folder that uses only what was taken away before.
+    // Repeatedly removes folders whose dependencies are all removed.
     const auto covers = [](std::string_view folder, std::string_view used) {
         return folder == used || folder.starts_with(std::string(used) + "/") ||
                used.starts_with(std::string(folder) + "/");
@@ -251,7 +251,7 @@ TEST_P(Checker, JudgesAsMeant) {
     EXPECT_THAT(broken[0], testing::HasSubstr(std::string(GetParam().says)));
 }
 
-// Its place in the list and the file that it is about.
+// Its index in the list and its file.
 std::string name_of_case(const testing::TestParamInfo<Case>& info) {
     std::string name = std::to_string(info.index) + "_";
     for (const char c : info.param.path)

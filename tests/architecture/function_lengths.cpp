@@ -10,7 +10,7 @@ bool is_word(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-// The end of what begins at `at` and is ended by `end`; the text's end where it is not ended.
+// The end of the text from `at` to `end`; the end of the text if it is not closed.
 std::size_t past(std::string_view text, std::size_t at, std::string_view end) {
     const std::size_t found = text.find(end, at);
     return found == std::string_view::npos ? text.size() : found + end.size();
@@ -23,7 +23,7 @@ std::size_t past_literal(std::string_view text, std::size_t at) {
     return std::min(at + 1, text.size());
 }
 
-// R"tag( … )tag"; `at` is at the quote.
+// A raw string R"tag( … )tag"; `at` is the position of the quote.
 std::size_t past_raw_literal(std::string_view text, std::size_t at) {
     const std::size_t open = std::min(text.find('(', at), text.size());
     return past(text, open, ")" + std::string(text.substr(at + 1, open - at - 1)) + "\"");
@@ -35,7 +35,7 @@ std::size_t past_directive(std::string_view text, std::size_t at) {
     return std::min(at, text.size());
 }
 
-// Where the comment, literal or preprocessor line that begins at `at` ends; `at` where none does.
+// The end of the comment, literal or preprocessor line at `at`; `at` if there is none.
 std::size_t past_skipped(std::string_view text, std::size_t at) {
     const std::string_view rest = text.substr(at);
     const char before = at > 0 ? text[at - 1] : '\n';
@@ -43,7 +43,7 @@ std::size_t past_skipped(std::string_view text, std::size_t at) {
     if (rest.starts_with("/*")) return past(text, at + 2, "*/");
     if (rest[0] == '"' && before == 'R') return past_raw_literal(text, at);
     if (rest[0] == '"') return past_literal(text, at);
-    // 1'000 is no literal.
+    // The quote in 1'000 does not begin a literal.
     if (rest[0] == '\'' && !is_word(before)) return past_literal(text, at);
     if (rest[0] == '#') {
         const std::size_t line = text.find_last_of('\n', at);
@@ -54,7 +54,7 @@ std::size_t past_skipped(std::string_view text, std::size_t at) {
     return at;
 }
 
-// The same text with blanks for all that is skipped; lines stay.
+// The text with skipped parts blanked; line numbers stay.
 std::string code_of(std::string_view text) {
     std::string out(text);
     for (std::size_t at = 0; at < text.size();) {
@@ -78,7 +78,7 @@ bool has_word(std::string_view head, std::string_view word) {
     return false;
 }
 
-// The head of a declaration without the parameters of its templates.
+// The beginning of a declaration without template parameters.
 std::string_view past_templates(std::string_view head) {
     while (head.starts_with("template")) {
         std::size_t at = std::min(head.find('<'), head.size());
@@ -93,7 +93,7 @@ std::string_view past_templates(std::string_view head) {
     return head;
 }
 
-// The same without what stands in (…) and […].
+// The same without the contents of (…) and […].
 std::string flat(std::string_view declaration) {
     const std::string_view head = past_templates(declaration);
     std::string out;
@@ -109,7 +109,7 @@ std::string flat(std::string_view declaration) {
     return out;
 }
 
-// What a brace opens whose declaration so far is `head`.
+// The kind of block that a brace opens after the declaration `head`.
 Brace brace_after(std::string_view head) {
     const std::string text = flat(head);
     const std::size_t last = text.find_last_not_of(" \t\n");
@@ -124,7 +124,7 @@ Brace brace_after(std::string_view head) {
     if (parameters == std::string::npos) return type ? Brace::kScope : Brace::kVariable;
     if (type && text.find_first_of(":", 0) != std::string::npos && text[last] != ')')
         return Brace::kScope;
-    // A list of initialisers: its braces stand behind a name, the body's behind ')' or '}'.
+    // A member initialiser list: its braces follow a name; the body's brace follows ')' or '}'.
     const std::size_t colon = text.find(':', parameters);
     const bool initialisers = colon != std::string::npos && text.compare(colon, 2, "::") != 0;
     if (initialisers && (is_word(text[last]) || text[last] == '>')) return Brace::kPart;
@@ -165,7 +165,7 @@ std::vector<FunctionLength> function_lengths(std::string_view source) {
             current.lines = line - current.line + 1;
             if (open.back() == Brace::kFunction || open.back() == Brace::kVariable)
                 out.push_back(current);
-            // A variable ends at its semicolon, an initialiser belongs to the head of its function.
+            // A variable ends at its semicolon; an initialiser belongs to its function.
             head = open.back() == Brace::kPart ? head + "}" : std::string();
             open.pop_back();
             continue;

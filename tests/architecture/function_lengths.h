@@ -1,5 +1,5 @@
 #pragma once
-// The functions of a C++ source and how long they are, by counting braces.
+// Finds the functions of a C++ source and their lengths by counting braces.
 
 #include <string>
 #include <string_view>
@@ -8,15 +8,15 @@
 namespace weft::architecture {
 
 struct FunctionLength {
-    std::string name;  ///< As it stands before the parameters: "Session::act", "operator==".
-    int line = 0;      ///< Where its declaration begins, from 1.
-    int lines = 0;     ///< Up to its closing brace, both included.
+    std::string name;  ///< Name before the parameters: "Session::act", "operator==".
+    int line = 0;      ///< Line of its declaration, from 1.
+    int lines = 0;     ///< Number of lines up to its closing brace, inclusive.
 };
 
-/// The functions that are defined in `source` outside of other functions, in the order in which
-/// they end. Comments, literals and preprocessor lines are skipped. A lambda counts for the
-/// function around it; one that initialises a variable outside of any function counts by the
-/// variable's name. Never throws; of text that is not C++ it finds nothing useful.
+/// The functions defined in `source` outside other functions, in order of their ends. Comments,
+/// literals and preprocessor lines are skipped. A lambda counts as part of its function; one that
+/// initialises a global variable counts under the variable's name. Never throws; the result for
+/// text that is not C++ is meaningless.
 [[nodiscard]] std::vector<FunctionLength> function_lengths(std::string_view source);
 
 }  // namespace weft::architecture

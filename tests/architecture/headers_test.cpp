@@ -1,4 +1,4 @@
-// Every header of the app's rooms has a test that includes it.
+// Every header of app/ must be included by a test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 struct Untested {
     std::string_view path, why;
 };
-// Headers that tests reach through another one only.
+// Headers that tests include only through another header.
 const std::vector<Untested> kThroughOthers{
     {"app/measure/light_measure.h", "tests/cli: weft measure"},
     {"app/measure/measure_job.h", "tests/cli: weft measure"},

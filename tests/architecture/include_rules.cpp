@@ -13,7 +13,7 @@ struct Include {
     int line = 0;
 };
 
-/// The include of one line of source, if it is one.
+/// The include in a line of source, if any.
 std::optional<Include> include_of(std::string_view line) {
     const auto skip_blanks = [&] {
         line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
@@ -46,7 +46,7 @@ std::vector<Include> includes_of(std::string_view contents) {
     return out;
 }
 
-/// Is `path` the file or inside the folder `place`?
+/// Returns true if `path` is the file or folder `place`, or inside it.
 bool lies_in(std::string_view path, std::string_view place) {
     return path == place ||
            (path.starts_with(place) && path.size() > place.size() && path[place.size()] == '/');
@@ -57,7 +57,7 @@ bool lies_in_any(std::string_view path, const std::vector<std::string_view>& pla
                        [&](std::string_view place) { return lies_in(path, place); });
 }
 
-/// The most specific entry, so that a single file can have a floor of its own.
+/// Returns the most specific entry, so that a single file can have its own floor.
 const Floor* floor_of(std::string_view path, std::span<const Floor> floors) {
     const Floor* best = nullptr;
     for (const Floor& floor : floors)
@@ -73,7 +73,7 @@ bool is_header(std::string_view path) {
 std::string check_own(std::string_view path, const Include& include, const Floor& floor,
                       std::span<const Floor> floors) {
     const Floor* named = floor_of(include.name, floors);
-    // A folder inside of this one that has a floor of its own is another one.
+    // A subfolder with a floor of its own is excluded.
     if (named == &floor || lies_in_any(include.name, floor.may_use)) return {};
     if (!named)
         return "\"" + std::string(include.name) +
@@ -89,7 +89,7 @@ std::string check_library(std::string_view path, const Include& include,
             std::any_of(library.includes.begin(), library.includes.end(),
                         [&](std::string_view begin) { return include.name.starts_with(begin); });
         if (!matches) continue;
-        // A header that is named as a place of its own is an exception that somebody decided on.
+        // A header listed by itself is a deliberate exception.
         const bool named =
             std::find(library.places.begin(), library.places.end(), path) != library.places.end();
         if (!lies_in_any(path, library.places))
@@ -135,7 +135,7 @@ std::vector<std::string> broken_reads(std::string_view path, std::string_view co
         for (const ReadRule& rule : rules) {
             const std::size_t at = line.find(rule.call);
             if (at == std::string_view::npos) continue;
-            // "Library::open(" is a function of ours; "::open(" is the system's.
+            // "Library::open(" is Weft's function; "::open(" is the system's.
             const bool qualified = at > 0 && rule.call.starts_with("::") &&
                                    (std::isalnum(static_cast<unsigned char>(line[at - 1])) != 0 ||
                                     line[at - 1] == '_');

@@ -1,5 +1,5 @@
 #pragma once
-// The rules on includes (docs/ARCHITECTURE.md), as a checker that works on text.
+// Checks the include rules (docs/ARCHITECTURE.md) on text.
 
 #include <span>
 #include <string>
@@ -8,37 +8,37 @@
 
 namespace weft::architecture {
 
-/// A folder of ours and all that it may include besides itself: folders, or single headers.
+/// A folder and everything it may include besides itself: folders or single headers.
 struct Floor {
     std::string_view folder;
     std::vector<std::string_view> may_use;
 };
 
-/// A library, by the beginnings of its includes, and the only places that may include it.
+/// A library, given by prefixes of its includes, and the only places that may include it.
 struct Library {
     std::string_view name;
-    std::vector<std::string_view> includes;  ///< "opencv2/"; beginnings of what stands in <…>.
+    std::vector<std::string_view> includes;  ///< "opencv2/": prefixes of the text in <…>.
     std::vector<std::string_view> places;    ///< Folders or single files.
-    bool in_headers = false;                 ///< Also in headers, not only in sources.
+    bool in_headers = false;                 ///< Allowed in headers too.
 };
 
-/// What `contents`, the text of the file `path` (relative to the root), breaks; one line each.
+/// The violations in `contents`, the text of the file `path` (relative to the root), one per line.
 [[nodiscard]] std::vector<std::string> broken_rules(std::string_view path,
                                                     std::string_view contents,
                                                     std::span<const Floor> floors,
                                                     std::span<const Library> libraries);
 
-/// A way of opening files, and where it may stand.
+/// A function that opens files, and where it is allowed.
 struct ReadRule {
     std::string_view call;
-    std::string_view guard;  ///< Allowed where this stands in the same file; empty: nowhere.
+    std::string_view guard;  ///< Allowed if this occurs in the same file; empty: never.
     struct Exception {
         std::string_view file, reason;
     };
     std::vector<Exception> exceptions;
 };
 
-/// The lines of `contents` that open a file in another way; comments do not count.
+/// The lines of `contents` that open files in another way; comments are ignored.
 [[nodiscard]] std::vector<std::string> broken_reads(std::string_view path,
                                                     std::string_view contents,
                                                     std::span<const ReadRule> rules);

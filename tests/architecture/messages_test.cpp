@@ -1,5 +1,5 @@
-// Messages name settings by key (engine/core/setting.h), and each front end says them in its own
-// terms: no flag stands in a string of the engine, the library, the session or the panels.
+// Messages name settings by key (engine/core/setting.h), and each front end inserts its own terms.
+// No string of the engine, the library, the session or the panels may contain a flag.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,15 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files that write command lines of programs, and the tables that flags come from.
+// Files that write command lines, and the tables that define the flags.
 const std::vector<std::string> kAllowed{
-    "app/exchange/schemas.cpp",  // what --json prints, for the schema's readers
-    "app/main.cpp",              // the command line of the editor
+    "app/exchange/schemas.cpp",  // describe the output of --json
+    "app/main.cpp",              // parses the editor's command line
     "app/project/project_parameters.cpp",
     "app/project/region_parameters.cpp",
-    "app/render/farm_engines.cpp",      // a farm's scripts
-    "app/session/child_jobs.cpp",       // the render's own process
-    "texture_db/sources/packages.cpp",  // apt-cache
+    "app/render/farm_engines.cpp",      // writes a farm's scripts
+    "app/session/child_jobs.cpp",       // starts `weft render`
+    "texture_db/sources/packages.cpp",  // runs apt-cache
 };
 
 std::vector<std::string> flags_in(const std::string& text) {

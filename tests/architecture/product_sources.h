@@ -1,5 +1,5 @@
 #pragma once
-// The sources of the product, as the checks on them read them.
+// The product's source files, for tests that check them.
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ struct SourceFile {
 
 /// C++ and CUDA below app, bench, engine, gpu, texture_db and ui; by path.
 [[nodiscard]] std::vector<SourceFile> product_sources();
-/// The same below other folders of the root.
+/// The same below other folders.
 [[nodiscard]] std::vector<SourceFile> sources_below(const std::vector<std::string>& folders);
 
 }  // namespace weft::architecture

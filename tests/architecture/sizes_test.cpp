@@ -1,5 +1,5 @@
-// How long functions and files may be. What is longer stands here with the reason, and goes from
-// here when it is short again.
+// Length limits of functions and files. Longer ones are listed here with a reason, and removed once
+// they are short enough.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr int kRoomLines = 4500;
 
 struct LongFunction {
     std::string_view path, name;
-    int at_most = 0;  ///< Lines that it may have.
+    int at_most = 0;  ///< Allowed number of lines.
 };
 struct Exception {
     std::string_view why;
@@ -72,7 +72,7 @@ const std::vector<Exception> kLongFunctions{
       {"ui/inspector.cpp", "region_list", 100},
       {"ui/inspector_light.cpp", "light_inspector", 80},
       {"ui/inspector_mask.cpp", "mask_inspector", 110},
-      {"ui/inspector_mask.cpp", "matte_source_card", 70},
+      {"ui/inspector_mask.cpp", "matte_source_card", 65},
       {"ui/inspector_motion.cpp", "motion_inspector", 95},
       {"ui/inspector_parts.cpp", "lamps_controls", 70},
       {"ui/inspector_texture.cpp", "texture_inspector", 90},

@@ -1,5 +1,5 @@
-// Every file is written through engine/media/atomic_file.h, which asks the WriteRule. No other
-// source opens a file for writing, but those listed here with their reason.
+// Every file is written through engine/media/atomic_file.h, which applies the WriteRule. No other
+// source opens files for writing, except those listed here with a reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ const std::vector<Exception> kAllowed{
      "a whole folder of the cache, to a name that is free"},
 };
 
-// A file without any of the words is not searched: std::regex takes its time.
+// Skips files without these words, because std::regex is slow.
 struct Pattern {
     std::string call;
     std::vector<std::string> words;
@@ -75,7 +75,7 @@ const std::vector<Pattern>& patterns() {
     return list;
 }
 
-// Comments out, so that a sentence about a call is no call.
+// Removes comments, so that text about a call is not taken for a call.
 std::string code_of(const std::string& text) {
     std::string out;
     std::istringstream lines(text);

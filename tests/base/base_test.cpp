@@ -1,4 +1,4 @@
-// What the rooms of the app share: names of roots, pictures for the screen, folders, the clock.
+// app/base: path maps, screen images, folder lists, the frame clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(PathMap, ARootEndsAtASlashAndTheFirstThatFitsCounts) {
+TEST(PathMap, RootsMatchWholeFoldersAndTheFirstMatchWins) {
     EXPECT_FALSE(parse_root_map("/a"));
     EXPECT_FALSE(parse_root_map("=/a"));
     EXPECT_EQ(parse_root_map("/a=").error().code, ErrorCode::kUsage);
@@ -33,7 +33,7 @@ TEST(PathMap, ARootEndsAtASlashAndTheFirstThatFitsCounts) {
     EXPECT_EQ(mapped.output.path, "/project/out/####.png");
 }
 
-TEST(Picture, HalfsKeepWhatTheyCanHold) {
+TEST(Picture, HalfsRoundTripWithinTheirPrecision) {
     for (const float value : {0.0f, 1.0f, -2.5f, 0.333251953125f, 65504.0f, 5.9604645e-8f})
         EXPECT_EQ(half_to_float(float_to_half(value)), value);
     EXPECT_EQ(half_to_float(float_to_half(1e9f)), 65504.0f);
@@ -64,7 +64,7 @@ TEST(Picture, ShrinksByMeansUnderALongestSide) {
     EXPECT_EQ(small.pixel(9, 2)[0], 200);
 }
 
-TEST(FrameClock, CountsAPartAcrossItsEntriesAndNothingWhileItIsOff) {
+TEST(FrameClock, SumsRepeatedPartsAndIsFreeWhenOff) {
     FrameClock clock(true);
     clock.begin();
     clock.enter("panels");
@@ -84,7 +84,7 @@ TEST(FrameClock, CountsAPartAcrossItsEntriesAndNothingWhileItIsOff) {
     EXPECT_TRUE(off.parts().empty());
 }
 
-TEST(Background, GivesBackWhatTheWorkGave) {
+TEST(Background, ReturnsTheResultOfTheWork) {
     EXPECT_EQ(in_background([] { return 42; }).get(), 42);
 }
 

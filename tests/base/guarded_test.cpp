@@ -1,4 +1,4 @@
-// A shared value and its lock.
+// Tests of Guarded.
 #include "app/base/guarded.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace weft::test {
 namespace {
 
-TEST(Guarded, OneThreadAtATimeGetsAtTheValue) {
+TEST(Guarded, OneThreadAtATimeAccessesTheValue) {
     Guarded<int> count;
     *count.lock() = 0;
     std::vector<std::thread> threads;
@@ -39,7 +39,7 @@ TEST(Guarded, TryingDoesNotWait) {
     EXPECT_EQ(free->size(), 1u);
 }
 
-TEST(Guarded, AConditionMayBeWaitedFor) {
+TEST(Guarded, WorksWithAConditionVariable) {
     Guarded<bool> ready;
     *ready.lock() = false;
     std::condition_variable wake;

@@ -1,4 +1,4 @@
-// The newest question wins, one in flight is not asked again, and nobody waits.
+// The newest request wins, a pending one is not repeated, and callers never wait.
 #include "app/base/latest_worker.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using Words = LatestWorker<std::string, std::string>;
 
-// Until `done`, or a minute is over.
+// Waits until `done`, at most a minute.
 template <class Done>
 bool wait(Done&& done) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
@@ -24,7 +24,7 @@ bool wait(Done&& done) {
     return true;
 }
 
-// Work that stands still until it is let go.
+// Work that blocks until it is released.
 struct Held {
     std::atomic<bool> begun = false, go = false, cancelled = false;
     std::atomic<int> runs = 0;
@@ -65,8 +65,8 @@ TEST(LatestWorker, AnswersAndKeepsTheAnswer) {
     EXPECT_EQ(runs, 1);
 }
 
-// Frames drawn while the work runs ask again; that must not make the work run again.
-TEST(LatestWorker, AKeyInFlightIsNotAskedAgain) {
+// Repeats the request during the work, as drawing does; the work must not run again.
+TEST(LatestWorker, APendingRequestIsNotRepeated) {
     Words worker;
     Held held;
     (void)worker.ask("key", held.work("answer"));
@@ -78,7 +78,7 @@ TEST(LatestWorker, AKeyInFlightIsNotAskedAgain) {
     }
     held.go = true;
     ASSERT_TRUE(wait([&] { return worker.ask("key", held.work("answer")) != nullptr; }));
-    // Whatever was posted behind it would have run by the time that this is answered.
+    // Any job posted after it would have run before this answer.
     ASSERT_TRUE(wait([&] {
         return worker.ask("next", [](const CancelToken&) { return say("next"); }) != nullptr;
     }));
@@ -86,7 +86,7 @@ TEST(LatestWorker, AKeyInFlightIsNotAskedAgain) {
     EXPECT_FALSE(held.cancelled);
 }
 
-TEST(LatestWorker, OnlyTheNewestOfThoseThatWaitIsAnswered) {
+TEST(LatestWorker, OnlyTheNewestWaitingRequestIsAnswered) {
     Words worker;
     Held first;
     std::vector<std::string> ran;
@@ -107,7 +107,7 @@ TEST(LatestWorker, OnlyTheNewestOfThoseThatWaitIsAnswered) {
     EXPECT_EQ(worker.try_read("first"), nullptr) << "it was replaced";
 }
 
-TEST(LatestWorker, WhatGaveUpIsAskedAgain) {
+TEST(LatestWorker, ARequestWithoutAnAnswerCanBeRepeated) {
     Words worker;
     std::atomic<int> runs = 0;
     const auto second_time = [&](const CancelToken&) {
@@ -115,7 +115,7 @@ TEST(LatestWorker, WhatGaveUpIsAskedAgain) {
     };
     ASSERT_TRUE(wait([&] { return worker.ask("key", second_time) != nullptr; }));
     EXPECT_EQ(runs, 2);
-    // And so is a question that gave up because another one came, when it is asked anew.
+    // A request that was abandoned for a newer one can be repeated.
     Held held;
     (void)worker.ask("held", held.work("held", true));
     ASSERT_TRUE(wait([&] { return held.begun.load(); }));
@@ -126,7 +126,7 @@ TEST(LatestWorker, WhatGaveUpIsAskedAgain) {
     EXPECT_EQ(held.runs, 2);
 }
 
-TEST(LatestWorker, TellsOfEachAnswer) {
+TEST(LatestWorker, ReportsEachAnswer) {
     std::atomic<int> arrived = 0;
     Words worker([&] { ++arrived; });
     for (const char* word : {"a", "b", "c"})
@@ -135,7 +135,7 @@ TEST(LatestWorker, TellsOfEachAnswer) {
     EXPECT_TRUE(wait([&] { return arrived == 3; }));
 }
 
-TEST(LatestWorker, EndsWithoutDoingWhatWaits) {
+TEST(LatestWorker, DropsTheWaitingRequestOnDestruction) {
     Held held;
     std::atomic<bool> ran = false;
     {
@@ -151,7 +151,7 @@ TEST(LatestWorker, EndsWithoutDoingWhatWaits) {
     EXPECT_FALSE(ran) << "dropped, or told at once that nobody waits";
 }
 
-TEST(LatestWorker, ManyThreadsMayAsk) {
+TEST(LatestWorker, AcceptsRequestsOfManyThreads) {
     Words worker;
     std::latch all(4);
     std::vector<std::thread> askers;
@@ -173,7 +173,7 @@ TEST(LatestWorker, ManyThreadsMayAsk) {
     }));
 }
 
-TEST(Published, GivesTheNewest) {
+TEST(Published, ReturnsTheNewest) {
     Published<int> number(1);
     EXPECT_EQ(*number.get(), 1);
     number.put(2);

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// Stripes of two widths at an angle, with a colour that follows the place.
+// Oblique stripes of two widths whose colour depends on the position.
 ImageU8x3 stripes(Size size) {
     ImageU8x3 out(size);
     for (int y = 0; y < size.height; ++y) {
@@ -56,7 +56,7 @@ TEST(PatchMatch, LooksLikeTheSampleEverywhere) {
     options.size = {93, 71};
     const ImageU8x3 made = patch_match_texture(sample, options);
     EXPECT_EQ(made.size(), options.size);
-    // A picture of the sample's pixels in random places is some hundred times as strange.
+    // For comparison: shuffled sample pixels score some hundred times worse.
     EXPECT_LT(strangeness(made, sample), 120.0);
 }
 

@@ -34,7 +34,7 @@ Matte box(int x0, int y0, int x1, int y1) {
 TEST(PoissonClone, KeepsGradientsAndTakesThePlatesLevel) {
     const ImageU8x3 texture = waves();
     const ImageU8x3 out = poisson_clone(flat(180), texture, box(12, 10, 52, 40));
-    // Over a period of the waves: the texture's contrast, around the plate's level.
+    // Over one period: the texture's contrast at the plate's level.
     int least = 255, largest = 0;
     for (int x = 20; x < 45; ++x) {
         least = std::min<int>(least, out.at(x, 25, 0));

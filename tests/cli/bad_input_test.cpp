@@ -1,5 +1,5 @@
-// What artists get wrong, one test each: one clear line that says what, where and what to do, the
-// exit code, and nothing half written.
+// User errors, one test each: one clear line (what, where, what to do), the exit code, and no
+// partial files.
 #include "tests/cli/cli_fixture.h"
 
 namespace weft::test {
@@ -18,7 +18,7 @@ TEST_F(BadInput, MissingFrameInTheMiddle) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
-TEST_F(BadInput, FramesThatThePlateHasNot) {
+TEST_F(BadInput, FramesMissingInThePlate) {
     make_shot(3);
     expect_failure(run_replace({"--frames", "2-9"}), 4, {"frames/####.png", "4-9", "1-3"});
     EXPECT_THAT(names("out"), IsEmpty());
@@ -71,7 +71,7 @@ TEST_F(BadInput, MatteMissingForAFrame) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
-// Leaving the frame out does not help where the surface is followed through it.
+// Excluding the frame does not help if the surface must be tracked through it.
 TEST_F(BadInput, MatteGapBetweenTheReferenceAndTheFrames) {
     make_shot(6);
     fs::remove(folder_ / "masks/0003.png");
@@ -131,7 +131,7 @@ TEST_F(BadInput, MatteEmptyOnTheFirstFramesMovesTheReference) {
     const auto by_default = contents("out");
     expect_success(run_replace({"--reference-frame", "3", "-o", "given/####.png"}));
     EXPECT_EQ(contents("given"), by_default);
-    // A part of the shot has the same reference.
+    // A part of the shot uses the same reference.
     expect_success(run_replace({"--frames", "4", "-o", "part/####.png"}));
     EXPECT_EQ(contents("part").at("0004.png"), by_default.at("0004.png"));
 }
@@ -151,7 +151,7 @@ TEST_F(BadInput, MatteEmptyOnTheGivenReferenceFrameNamesABetterOne) {
     EXPECT_EQ(run({"diff", "frames/####.png", "out/####.png", "--frames", "1"}).exit, 0);
 }
 
-TEST_F(BadInput, ReferenceFrameThatThePlateHasNot) {
+TEST_F(BadInput, ReferenceFrameMissingInThePlate) {
     make_shot(4, 1001);
     expect_failure(run_replace({"--reference-frame", "99"}), 4,
                    {"reference frame 99 is not in the plate (1001-1004)", "--reference-frame"});
@@ -179,8 +179,8 @@ TEST_F(BadInput, AGapInThePlateNamesTheSideToRender) {
     expect_failure(run_replace(), 4, {"no frame 3", "render only frames 1-2"});
 }
 
-// Frame numbers near the ends of an int, far apart, and negative ones: no time and no memory by the
-// size of the numbers.
+// Frame numbers at the limits of int, far apart, and negative: time and memory must not depend on
+// them.
 TEST_F(BadInput, FrameNumbersBeyondTheRange) {
     make_shot(2);
     for (const char* number : {"2147483647", "-2147483648", "100000001", "99999999999999999999"}) {
@@ -198,7 +198,7 @@ TEST_F(BadInput, FrameNumbersBeyondTheRange) {
 }
 
 TEST_F(BadInput, FrameNumbersFarApart) {
-    make_shot(2, 99999999);  // up to the very last number
+    make_shot(2, 99999999);  // up to the largest number
     expect_success(run_replace());
     EXPECT_EQ(names("out"), (Words{"100000000.png", "99999999.png"}));
     for (const char* folder : {"frames/0001.png", "masks/0001.png"})
@@ -241,7 +241,7 @@ TEST_F(BadInput, ConstantColourSampleWarnsAndWorks) {
             ASSERT_FLOAT_EQ(plane.rgb.row(y)[x], 102.0f / 255.0f);
 }
 
-TEST_F(BadInput, SampleThatIsNoPicture) {
+TEST_F(BadInput, SampleThatIsNotAnImage) {
     make_shot(2);
     put("words.png", "these are words");
     expect_failure(run_replace({"--plane", "words.png"}), 3, {"words.png"});

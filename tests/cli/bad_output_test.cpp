@@ -1,4 +1,4 @@
-// Output that cannot be written: known before the work where possible, and never half a file.
+// Output that cannot be written: detected before the work if possible, and never a partial file.
 #include <unistd.h>
 
 #include "tests/cli/cli_fixture.h"
@@ -30,7 +30,7 @@ TEST_F(BadOutput, FolderWithoutPermission) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
-// A limit on the size of a file stands for a full disk: the system refuses the write half way.
+// A file size limit simulates a full disk: writes fail half way.
 class FullDisk : public CliTest, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(FullDisk, LeavesNoPartOfAFrame) {
@@ -63,7 +63,7 @@ TEST_F(BadOutput, FullDiskForTheMovieAndTheCache) {
     expect_failure(movie, 6, {"review.mkv"});
     EXPECT_FALSE(fs::exists(folder_ / "review.mkv"));
     options_.largest_file_bytes = 64;
-    // Without its progress, which goes to a file here and would meet the limit too.
+    // Without progress, which also goes to a file and would hit the limit.
     const Outcome cache =
         run_replace({"-o", "new/####.png", "--cache", "cache", "--progress", "none"});
     EXPECT_EQ(cache.exit, 6) << cache.err;
@@ -88,7 +88,7 @@ TEST_F(BadOutput, StandardOutputThatIsFull) {
 TEST_F(BadOutput, InputsAreNeverOverwritten) {
     make_shot(2);
     const auto frames = contents("frames"), masks = contents("masks");
-    // By another path than the plate's own.
+    // Through another path to the plate.
     expect_failure(run_replace({"-o", "./tmp/../frames/####.png", "--overwrite"}), 2, {"input"});
     expect_failure(run_replace({"-o", "./masks/####.png", "--overwrite"}), 2, {"input"});
     expect_failure(run({"matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png", "-o",

@@ -1,6 +1,5 @@
-// A shot out of a renderer, from the Cryptomatte pick to the exported EXR, without a painted matte:
-// exact coordinates and light give what the renderer gives when the wall itself has the new
-// picture.
+// A rendered shot from the Cryptomatte pick to the exported EXR without painted mattes: with exact
+// coordinates and light, the result equals a render with the new texture.
 #include <cstdlib>
 
 #include <cmath>
@@ -17,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// Without edges finer than a renderer's pixel filter, which is wider than ours: like a photograph.
+// Without detail finer than a renderer's pixel filter, which is wider than Weft's.
 ImageF3 smooth_picture(std::uint64_t seed) {
     constexpr int kSide = 512, kScale = 8;
     const ImageF3 coarse = pattern_picture({kSide / kScale + 2, kSide / kScale + 2}, seed);
@@ -125,7 +124,7 @@ TEST_F(BlenderShot, FromThePickToTheExportedFrames) {
         std::printf("frame %d: %.2f levels off, %.2f before\n", frame, off / count, moved / count);
         EXPECT_LE(off / count, 2.0) << frame;
         EXPECT_GT(moved / count, 10.0) << frame;
-        // The other passes went through.
+        // The other passes are unchanged.
         EXPECT_EQ(read_image(in("out" + name), "shot.DiffCol").value().rgb,
                   read_image(in("cg" + name), "shot.DiffCol").value().rgb);
         EXPECT_FALSE(list_cryptomatte(in("out" + name)).value().empty());

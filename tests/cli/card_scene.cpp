@@ -7,7 +7,7 @@
 namespace weft::test {
 namespace {
 
-// Uniform in [0, 1) by place, constant over cells of `cell` pixels.
+// Uniform in [0, 1) by position, constant over cells of `cell` pixels.
 double cell_noise(std::uint64_t seed, int x, int y, int cell) {
     Rng rng(seed, static_cast<std::uint64_t>(x / cell), static_cast<std::uint64_t>(y / cell),
             static_cast<std::uint64_t>(cell));

@@ -1,5 +1,5 @@
 #pragma once
-// A small shot whose motion is known.
+// A small shot with known motion.
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A small shot in a folder of its own, and the program run on it.
+// A small shot in a temporary folder, and the program run on it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using Words = std::vector<std::string>;
 #define WEFT_NEEDS_MOVIES() \
     if (movie_library().empty()) GTEST_SKIP() << "this build has no movies"
 
-/// `words` and `more`, whose options replace those of the same name (but --matte, which repeats).
+/// Joins `words` and `more`; options in `more` replace those of the same name, except --matte.
 Words with_options(Words words, const Words& more);
 
 /// The shot: frames/####.png, masks/####.png, tile.png (a plane), sample.png (96×96).
@@ -59,9 +59,9 @@ class CliTest : public ::testing::Test {
     ProcessOptions options_;
 };
 
-/// `text` is one line of our own that holds all `parts`.
+/// Expects `text` to be one line of Weft that contains all `parts`.
 void expect_one_line(const std::string& text, const Words& parts);
-/// The run failed with `exit` and said so in one line with all `parts`.
+/// Expects the run to fail with `exit` and one line that contains all `parts`.
 void expect_failure(const Outcome& outcome, int exit, const Words& parts);
 void expect_success(const Outcome& outcome);
 

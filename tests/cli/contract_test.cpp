@@ -1,4 +1,4 @@
-// What scripts and farms rely on: streams, progress, frame numbers, existing files, signals.
+// The contract with scripts and farms: streams, progress, frame numbers, existing files, signals.
 #include <nlohmann/json.hpp>
 
 #include <csignal>
@@ -72,7 +72,7 @@ TEST_F(Contract, JsonPutsOneObjectOnStdoutAndProgressOnStderr) {
     EXPECT_THAT(outcome.err, HasSubstr("frame 2 2/2"));
 }
 
-TEST_F(Contract, ADryRunSaysWhatItWouldTakeAndWritesNothing) {
+TEST_F(Contract, ADryRunPrintsAnEstimateAndWritesNothing) {
     make_shot(2);
     const Outcome outcome = run_replace({"--dry-run", "--threads", "2"});
     expect_success(outcome);
@@ -97,7 +97,7 @@ TEST_F(Contract, FrameNumbersInAreFrameNumbersOut) {
     EXPECT_EQ(names("b"), (Words{"f.-001.png", "f.-003.png", "f.001.png"}));
     expect_success(run_replace({"--frames", "2,-3", "-o", "c/%02d.png"}));
     EXPECT_EQ(names("c"), (Words{"-03.png", "02.png"}));
-    // A frame is the same whichever others are rendered with it.
+    // A frame does not depend on the other frames of the run.
     EXPECT_EQ(bytes("b/f.-003.png"), bytes("c/-03.png"));
 }
 
@@ -112,7 +112,7 @@ TEST_F(Contract, ExistingFramesAreRefusedReplacedOrKept) {
                    {"out/0001.png", "--overwrite", "--skip-existing"});
     EXPECT_EQ(contents("out"), whole);
 
-    // What Weft never rendered is not replaced.
+    // Frames of other programs are not replaced.
     const std::string fourth = bytes("out/0004.png");
     put_picture("out/0004.png", pattern_picture({16, 16}, 1));
     expect_failure(run_replace({"--skip-existing"}), 2, {"out/0004.png", "--overwrite"});
@@ -140,7 +140,7 @@ TEST_F(Contract, ExistingMovieStopsTheRunBeforeItsFirstFrame) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
-// A plane grown for every frame keeps the program busy long enough to be stopped half way.
+// Synthesizing a plane for every frame keeps the program busy long enough to be stopped.
 class Stopped : public CliTest {
   protected:
     Words slow(const Words& more) const {
@@ -170,7 +170,7 @@ TEST_F(Stopped, TerminatedRunLeavesWholeFramesAndResumesToTheSameBytes) {
         EXPECT_EQ(hash, whole.at(name)) << name;
 }
 
-TEST_F(Stopped, InterruptedRunSaysSoByItsExitCode) {
+TEST_F(Stopped, AnInterruptedRunHasItsExitCode) {
     WEFT_NEEDS_MOVIES();
     make_shot(16);
     options_.signal_when = folder_ / "out/0001.png";
@@ -183,7 +183,7 @@ TEST_F(Stopped, InterruptedRunSaysSoByItsExitCode) {
         EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
-TEST_F(Contract, MissingBackendIsAnErrorThatListsWhatThereIs) {
+TEST_F(Contract, AMissingBackendListsTheAvailableOnes) {
     make_shot(2);
     const Outcome outcome = run_replace({"--backend", "cuda"});
     if (outcome.exit == 0) GTEST_SKIP() << "there is a CUDA device here";

@@ -1,4 +1,4 @@
-// The same bytes whatever instructions our own loops and the libraries choose.
+// The same bytes for all instruction sets of Weft and the libraries.
 #include "tests/cli/cli_fixture.h"
 
 namespace weft::test {
@@ -6,8 +6,8 @@ namespace {
 
 class Dispatch : public CliTest {
   protected:
-    // Motion, a grown texture that is turned, light, grain and focus: all that computes with
-    // floats.
+    // Motion, a rotated synthesized texture, light, grain and defocus: everything that computes
+    // with floats.
     std::map<std::string, std::string> rendered_with(const std::string& variable,
                                                      const std::string& value) {
         options_.environment[variable] = value;
@@ -21,7 +21,7 @@ class Dispatch : public CliTest {
     int runs_ = 0;
 };
 
-TEST_F(Dispatch, OfInstructionsDoesNotShow) {
+TEST_F(Dispatch, InstructionSetsGiveTheSameBytes) {
     make_shot(3, 1, ".exr", PixelDepth::kFloat);
     const auto plain = rendered_with("UNSET", "");
     ASSERT_EQ(plain.size(), 3u);

@@ -1,4 +1,4 @@
-// A shot cut into a farm's tasks; looks and collected projects.
+// A shot split into farm tasks; looks and collected projects.
 #include <sys/stat.h>
 
 #include <fstream>
@@ -21,7 +21,7 @@ class Farm : public CliTest {
         CliTest::SetUp();
         WEFT_NEEDS_MOVIES();
     }
-    // A shot with a grown texture, estimated motion and a movie.
+    // A shot with a synthesized texture, estimated motion and a movie.
     void make_project() {
         make_shot(7);
         expect_success(run({"new", "shot.weft", "--plate", "frames/####.png", "-o", "out/####.png",
@@ -50,7 +50,7 @@ TEST_F(Farm, TasksGiveTheBytesOfOneMachine) {
         stages.push_back(stage["name"]);
     EXPECT_EQ(stages, (Words{"motion", "analyse", "planes", "frames", "encode"}));
     for (const Json& stage : job["stages"]) {
-        // Backwards, and the first one twice, as a farm may.
+        // In reverse order, and the first one twice, as a farm may run them.
         const int count = static_cast<int>(stage["frames"].size());
         for (int k = count - 1; k >= 0; --k)
             ASSERT_EQ(task(stage["name"], k), 0) << stage["name"] << k;
@@ -66,7 +66,7 @@ TEST_F(Farm, TasksGiveTheBytesOfOneMachine) {
     EXPECT_EQ(task("paint", 0), 2);
 }
 
-// Frames of one job have one set of settings, whatever becomes of the project meanwhile.
+// All frames of a job have the same settings, even if the project changes.
 TEST_F(Farm, TasksRenderTheProjectThatWasSubmitted) {
     make_project();
     expect_success(run({"render", "shot.weft", "--no-cache", "--backend", "cpu"}));
@@ -159,7 +159,7 @@ TEST_F(Farm, AnotherJobsFolderIsLeftAlone) {
     EXPECT_EQ(Json::parse(bytes("farm/job.json"))["existing"], "resume");
     expect_success(run({"submit", "shot.weft", "--to", "slurm", "-o", "farm", "--overwrite"}));
     EXPECT_EQ(Json::parse(bytes("farm/job.json"))["existing"], "overwrite");
-    // A file of that name that is no job is not gone on with.
+    // A file of that name that is not a job is not replaced.
     fs::create_directory(folder_ / "mine");
     put("mine/job.json", "{}");
     expect_failure(run({"submit", "shot.weft", "--to", "slurm", "-o", "mine", "--resume"}), 2,
@@ -220,7 +220,7 @@ TEST_F(Farm, OpenJdTemplatesHaveTheFormOfTheSpecification) {
                 HasSubstr("openjd_fail: "));
 }
 
-// The schema allows 1024 tasks a step.
+// The schema allows 1024 tasks per step.
 TEST_F(Farm, OpenJdRefusesMoreTasksThanTheSchemaAllows) {
     make_project();
     Json shot = Json::parse(bytes("shot.weft"));
@@ -233,7 +233,7 @@ TEST_F(Farm, OpenJdRefusesMoreTasksThanTheSchemaAllows) {
     EXPECT_EQ(openjd_violations(Json::parse(bytes("farm_2/template.json"))), Words());
 }
 
-TEST_F(Farm, NoScriptHoldsAName) {
+TEST_F(Farm, ScriptsContainNoNames) {
     make_project();
     fs::rename(folder_ / "shot.weft", folder_ / "x'; touch hacked; '.weft");
     for (const std::string engine : {"slurm", "openjd", "flamenco", "deadline", "opencue"}) {
@@ -261,7 +261,7 @@ TEST_F(Farm, RootsAreMapped) {
     EXPECT_EQ(run({"render", "shot.weft", "--map", "/nowhere"}).exit, 2);
 }
 
-TEST_F(Farm, ALookGoesFromShotToShot) {
+TEST_F(Farm, ALookIsAppliedToAnotherShot) {
     make_project();
     expect_success(run({"region", "set", "shot.weft", "card", "--rotate", "33", "--light-strength",
                         "0.25", "--temporal", "paper"}));
@@ -288,7 +288,7 @@ TEST_F(Farm, ALookGoesFromShotToShot) {
 TEST_F(Farm, ACollectedProjectRendersTheSameElsewhere) {
     make_project();
     expect_success(run({"render", "shot.weft"}));
-    // A path that leads out of the folder must not lead the copy out of its own.
+    // A path with ".." must not lead the copy out of the folder.
     std::string text = bytes("shot.weft");
     text.replace(text.find("\"sample.png\""), 12,
                  "\"../" + folder_.filename().string() + "/sample.png\"");
@@ -306,14 +306,14 @@ TEST_F(Farm, ACollectedProjectRendersTheSameElsewhere) {
     EXPECT_EQ(run({"collect", "shot.weft", "kept/here"}).exit, 2);
 }
 
-TEST_F(Farm, VersionAndDoctorSayWhatIsThere) {
+TEST_F(Farm, VersionAndDoctorListWhatIsAvailable) {
     EXPECT_THAT(run({"--version"}).out, HasSubstr("backends: cpu"));
     const Outcome doctor = run({"doctor", "--json"});
     expect_success(doctor);
     bool cuda = false;
     for (const Json& finding : Json::parse(doctor.out)["findings"])
         cuda = cuda || (finding["what"] == "backend cuda" && finding["available"]);
-    // What this machine lacks is not called "ok", and has its reason.
+    // Missing parts are not "ok" and have a reason.
     const std::string told = run({"doctor"}).out;
     EXPECT_THAT(told, HasSubstr(cuda ? "ok   backend cuda: "
                                      : "--   backend cuda: not available: CUDA cannot be used"));

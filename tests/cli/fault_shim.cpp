@@ -1,7 +1,7 @@
-// Loaded before the C library (LD_PRELOAD): the disk that fails. WEFT_FAULT is "CALL N KIND PART":
-// from the N-th CALL (write, read, fsync, rename) on a file whose path holds PART on, every call
-// fails with KIND (ENOSPC, EIO), or is cut short (short: half of the bytes), or takes 2 ms (slow),
-// or only the N-th one does with "once" behind it.
+// Fault injection by LD_PRELOAD. WEFT_FAULT is "CALL N KIND PART [once]": from the N-th CALL
+// (write, read, fsync, rename) on a file whose path contains PART, every call fails with KIND
+// (ENOSPC, EIO), transfers only half of the bytes (short) or takes 2 ms (slow). With "once", only
+// the N-th call.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ struct Plan {
     }
 };
 
-// Whether this call of `name` on `path` is one that fails.
+// Returns true if this call of `name` on `path` must fail.
 bool strikes(const char* name, const char* path) {
     static const Plan plan;
     static std::atomic<long> count{0};
@@ -37,7 +37,7 @@ const char* kind() {
     return plan.kind;
 }
 
-// False when the descriptor has no path.
+// Returns false if the descriptor has no path.
 bool path_of(int file, char (&path)[PATH_MAX]) {
     char link[64];
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
@@ -58,7 +58,7 @@ bool strikes_in(const char* name, int folder, const char* file) {
     return strikes(name, whole);
 }
 
-// False when the call is to go on.
+// Returns false if the call proceeds normally.
 bool fail_or_wait() {
     if (std::strcmp(kind(), "slow") == 0) {
         usleep(2000);

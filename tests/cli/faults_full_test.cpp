@@ -1,5 +1,5 @@
-// A disk that fails at any call: no frame is ever half there, older ones stay, and once the disk
-// works again the run is resumed to the bytes of an undisturbed one.
+// A disk that fails at any call: no frame is ever partial, older frames stay, and a resumed run
+// gives the bytes of an undisturbed one.
 #include "engine/media/image_files.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/support/places.h"
@@ -15,7 +15,7 @@ struct Fault {
 
 class Faults : public CliTest, public ::testing::WithParamInterface<Fault> {};
 
-TEST_P(Faults, AtAnyCallLoseNothing) {
+TEST_P(Faults, LoseNothingAtAnyCall) {
     make_shot(4);
     const Words shot = replace({"--threads", "2"});
     expect_success(run(with_options(shot, {"-o", "whole/####.png"})));
@@ -29,7 +29,7 @@ TEST_P(Faults, AtAnyCallLoseNothing) {
         with.environment["LD_PRELOAD"] = fault_shim();
         with.environment["WEFT_FAULT"] = call + " " + std::to_string(n) + " " + kind + " " + part;
         const Outcome hit = run_weft(shot, with);
-        // A full cache is a warning: the analysis goes elsewhere.
+        // A full cache gives a warning: the analysis goes elsewhere.
         const bool full_cache = kind == "ENOSPC" && part == "/cache/";
         const bool harmless = kind == "short" || kind == "slow" || full_cache;
         if (full_cache) {
@@ -39,7 +39,7 @@ TEST_P(Faults, AtAnyCallLoseNothing) {
             ++failed;
             EXPECT_FALSE(harmless) << hit.err;
             EXPECT_TRUE(hit.exit == 1 || hit.exit == 3 || hit.exit == 6) << hit.exit << hit.err;
-            // Libraries may have said something of their own before.
+            // Libraries may have printed messages before.
             const std::size_t last = hit.err.rfind("weft: ");
             ASSERT_NE(last, std::string::npos) << hit.err;
             expect_one_line(hit.err.substr(last), {});

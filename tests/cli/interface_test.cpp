@@ -1,5 +1,5 @@
-// What holds for every command and every option, taken from the program's own command line, so that
-// a new one cannot be forgotten.
+// Rules for every command and option, taken from the program's own command line, so that new ones
+// are covered.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
@@ -30,7 +30,7 @@ struct CommandLine {
     CommandLine() {
         add_commands(app, result, [](const EditArguments&) -> Expected<int> { return 0; });
     }
-    // What usage_error() says of words that cannot be parsed.
+    // The message of usage_error() for words that cannot be parsed.
     Error refuse(const Words& words) {
         std::vector<std::string> all{"weft"};
         all.insert(all.end(), words.begin(), words.end());
@@ -123,15 +123,15 @@ TEST_P(EveryCommand, AnswersAnErrorWithOneObject) {
 INSTANTIATE_TEST_SUITE_P(Interface, EveryCommand, ::testing::ValuesIn(every_command()),
                          [](const auto& command) { return joined(command.param, "_"); });
 
-// No word of the libraries in what is said about a value.
-TEST(Interface, ValuesAreRefusedInOurWords) {
+// Value errors contain no text of the libraries.
+TEST(Interface, ValueErrorsAreInWeftsOwnWords) {
     int refused = 0;
     for (const Words& path : every_command()) {
         const CommandLine names;
         for (const std::string& option : long_names(find(names.app, path))) {
             for (const char* value : {"abc", "-1e99", "99999999999999999999"}) {
                 Words words = path;
-                // Without what is required, and with an option that is not there, nothing runs.
+                // Missing required options, or unknown ones, run nothing.
                 words.insert(words.end(), {option + "=" + value, "--no-such-option"});
                 const Error error = CommandLine().refuse(words);
                 SCOPED_TRACE(joined(words, " ") + ": " + error.text());
@@ -154,7 +154,7 @@ struct Slip {
 
 class Slips : public ::testing::TestWithParam<Slip> {};
 
-TEST_P(Slips, AreSaidInAWholeSentence) {
+TEST_P(Slips, AreReportedInAFullSentence) {
     const Error error = CommandLine().refuse(GetParam().words);
     EXPECT_EQ(error.text(), GetParam().said);
     EXPECT_EQ(error_json(error)["error"].value("field", ""), GetParam().field);
@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
              "--words needs --save-search. Give both or neither.",
              "--words"}));
 
-// `word` stands in `text`, and not as the beginning of a longer option.
+// `word` occurs in `text`, not as the beginning of a longer option.
 bool mentions(const std::string& text, const std::string& word) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
         const char after = at + word.size() < text.size() ? text[at + word.size()] : ' ';
@@ -258,7 +258,7 @@ TEST(Interface, TheManualPageIsThatOfTheProgram) {
         << "weft man > packaging/linux/weft.1";
 }
 
-// The completion as bash runs it, for the words of a command line of which the last is unfinished.
+// Runs the completion as bash does; the last word is unfinished.
 class Completion : public CliTest {
   protected:
     std::set<std::string> complete(const Words& words) const {

@@ -1,4 +1,4 @@
-// A render that is killed at any moment and resumed gives the bytes of one that never was.
+// A render killed at any moment and resumed gives the bytes of an uninterrupted one.
 #include <chrono>
 #include <cstdlib>
 
@@ -42,7 +42,7 @@ TEST_F(Kills, AtRandomMomentsAreResumedToTheSameBytes) {
     const int kills = given ? std::atoi(given) : 200;
     Rng rng(2026);
     int killed = 0, rounds = 0;
-    // Some runs end before their signal; they do not count.
+    // Runs that end before their signal are not counted.
     while (killed < kills && rounds < 3 * kills) {
         ++rounds;
         fs::remove_all(folder_ / "out");
@@ -51,7 +51,7 @@ TEST_F(Kills, AtRandomMomentsAreResumedToTheSameBytes) {
         Words more{"--resume"};
         if (rounds % 3 == 0) more.push_back("--no-cache");
         options_.signal = SIGKILL;
-        // A second and a third blow on the resumed run.
+        // Kills the resumed run again, twice.
         for (int blow = 0; blow < 1 + rounds % 3; ++blow) {
             options_.signal_after = std::chrono::microseconds(
                 1 + static_cast<long>(rng.uniform() * static_cast<double>(whole_us)));

@@ -1,5 +1,5 @@
-// The table of libraries (packaging/libraries.json) holds what is linked, and the page, the package
-// and the program say what it says.
+// packaging/libraries.json lists what is linked; docs/LICENCES.md, the package and the program
+// agree with it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -161,7 +161,7 @@ TEST_F(LicencesOf, TheProgramNameTheLibrariesOfThisBuild) {
     EXPECT_THAT(
         run({"doctor"}).out,
         HasSubstr("movies: " + (movie_library().empty() ? "not in this build" : movie_library())));
-    // The owner's choice stands in one place and comes from there.
+    // The owner's choice is set in one place.
     const std::string licence = all["licence"];
     EXPECT_FALSE(licence.empty());
     EXPECT_THAT(words, HasSubstr("Licence of Weft: " + licence));

@@ -1,4 +1,4 @@
-// 3840×2160: what a render holds does not grow with the shot.
+// 3840×2160: the memory of a render does not grow with the shot.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class Memory : public CliTest {
   protected:
-    // Eight different plates that pan, there and back; the rest are links to them.
+    // Eight different panning plates, forwards and backwards; the rest are links to them.
     void make_4k(int count) {
         constexpr Size kSize{3840, 2160};
         constexpr int kPictures = 8, kPan_px = 5;
@@ -52,7 +52,7 @@ class Memory : public CliTest {
     }
 };
 
-TEST_F(Memory, AHundredFramesNeedWhatTwentyNeed) {
+TEST_F(Memory, DoesNotGrowWithTheNumberOfFrames) {
     make_4k(100);
     const double twenty = peak_bytes("1-20", "draft"), hundred = peak_bytes("1-100", "draft");
     std::printf("draft: 20 frames %.0f MB, 100 frames %.0f MB\n", twenty / 1e6, hundred / 1e6);
@@ -63,7 +63,7 @@ TEST_F(Memory, AHundredFramesNeedWhatTwentyNeed) {
     EXPECT_LT(best, 3e9);
 }
 
-TEST_F(Memory, AJobKeepsToTheMemoryThatItIsGiven) {
+TEST_F(Memory, AJobRespectsItsLimit) {
     make_4k(8);
     const double kept = peak_bytes("1-8", "final", "4", "2G");
     std::printf("final, 8 frames, four threads, --memory 2G: %.0f MB\n", kept / 1e6);

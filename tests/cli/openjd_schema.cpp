@@ -52,7 +52,7 @@ class Checker {
         return value;
     }
 
-    // Every {{…}} names something that is there.
+    // Every {{…}} names an existing value.
     void format_string(const Json& json, const std::string& where, const Names& known) {
         const std::string value = json.is_string() ? json.get<std::string>() : "";
         expect(json.is_string(), where, "is no text");
@@ -116,7 +116,7 @@ class Checker {
         if (step.contains("dependencies")) {
             list(step["dependencies"], name + " dependencies", 10000);
             for (const Json& dependency : step["dependencies"]) {
-                // Earlier steps only, so there is no circle.
+                // Depends on earlier steps only, so there are no cycles.
                 if (object(dependency, name + " dependency", {"dependsOn"}, {}))
                     expect(before.contains(dependency["dependsOn"]), name, "depends on no step");
             }

@@ -1,7 +1,6 @@
 #pragma once
-// What the published schema of Open Job Description's job templates, revision 2023-09, says of what
-// Weft's templates may hold (github.com/OpenJobDescription/openjd-specifications, "2023-09 Template
-// Schemas").
+// The rules of Open Job Description's job template schema, revision 2023-09, for what Weft's
+// templates use (github.com/OpenJobDescription/openjd-specifications, "2023-09 Template Schemas").
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace weft::test {
 
-/// What the template does against the schema, each as "where: what"; empty where it keeps to it.
+/// The violations of the schema, each as "where: what"; empty if there are none.
 std::vector<std::string> openjd_violations(const nlohmann::json& job);
 
 }  // namespace weft::test

@@ -1,4 +1,4 @@
-// What stands in the files: the plate outside the matte bit for bit, NaN, values above 1.
+// File contents: the plate outside the matte bit for bit, NaN, values above 1.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -23,7 +23,7 @@ void PrintTo(const Format& format, std::ostream* out) {
     *out << format.extension << " depth " << static_cast<int>(format.depth);
 }
 
-// Values that use the whole depth, so that a loss of a few bits shows.
+// Values that use the full depth, so that losing a few bits is detected.
 void refine(ImageF3& plate, PixelDepth depth) {
     for (std::size_t i = 0; i < plate.size_bytes() / sizeof(float); ++i) {
         float& v = plate.data()[i];
@@ -45,7 +45,7 @@ std::int64_t differing(const ImageF3& a, const ImageF3& b, const Matte& matte, b
 
 class OutsideTheMatte : public CliTest, public ::testing::WithParamInterface<Format> {};
 
-TEST_P(OutsideTheMatte, NotABitOfThePlateChanges) {
+TEST_P(OutsideTheMatte, ThePlateIsUnchanged) {
     const Format format = GetParam();
     const std::string extension = format.extension;
     make_shot(3, 1, extension, format.depth,
@@ -74,7 +74,7 @@ class NonFinite : public CliTest {
     void make_damaged_shot() {
         make_shot(3, 1, ".exr", PixelDepth::kFloat, [](int frame, ImageF3& plate) {
             if (frame != 2) return;
-            plate.at(5, 6, 1) = std::bit_cast<float>(0x7fc12345u);  // a NaN with a message
+            plate.at(5, 6, 1) = std::bit_cast<float>(0x7fc12345u);  // a NaN with a payload
             plate.at(150, 100, 0) = -kInfinity;
             for (int x = 60; x < 64; ++x)
                 plate.at(x, 50, 2) = kInfinity;
@@ -121,7 +121,7 @@ TEST_F(NonFinite, DoesNotDisturbTheRestOfTheSurface) {
     make_shot(3, 1, ".exr", PixelDepth::kFloat);
     expect_success(render({"--overwrite"}));
     const PlateFrame sound = picture("out/0002.exr");
-    // Motion and light are estimates; a few lost pixels may move them a little, not break them.
+    // Motion and light are estimates: a few invalid pixels may change them slightly.
     double worst = 0;
     for (int y = 30; y < 80; ++y)
         for (int x = 36; x < 108; ++x)
@@ -156,7 +156,7 @@ TEST_F(CliTest, SceneLinearValuesAboveOneSurvive) {
     EXPECT_GT(inside, 3.0f);
 }
 
-// A patch of sun on the card, a hundred times as bright as the rest of it.
+// A sunlit patch on the card, a hundred times brighter than the rest.
 TEST_F(CliTest, SceneLinearLightUpTo100IsNeitherClippedNorTinted) {
     constexpr int kSunFrom = 44;  // px from the card's left side
     make_shot(3, 1, ".exr", PixelDepth::kHalf, [](int frame, ImageF3& plate) {

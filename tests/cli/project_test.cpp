@@ -1,4 +1,4 @@
-// The same through a project file.
+// The same checks with a project file.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.h"
@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// A project in a folder of its own, so that its relative paths are not the shell's.
+// A project in its own folder, so that its relative paths differ from the shell's.
 class ProjectFile : public CliTest {
   protected:
     void make_project(int frames) {
@@ -40,7 +40,7 @@ TEST_F(ProjectFile, GivesTheSameBytesAsReplace) {
     EXPECT_EQ(contents("project").size(), 3u);
     EXPECT_EQ(contents("project"), contents("out"));
 
-    // What is given for one run does not change the file, and means the shell's folder.
+    // Options of a run do not change the file, and their paths are relative to the shell's folder.
     const std::string before = bytes(kProject);
     expect_success(run({"render", kProject, "--frames", "2", "-o", "look/####.png"}));
     EXPECT_EQ(names("look"), (Words{"0002.png"}));
@@ -76,7 +76,7 @@ TEST_F(ProjectFile, SettingsAndActionsChangeIt) {
     EXPECT_THAT(valid.err, IsEmpty());
 }
 
-TEST_F(ProjectFile, AFlagCanBeTakenBack) {
+TEST_F(ProjectFile, AFlagCanBeTurnedOff) {
     make_project(1);
     add_card();
     const auto enabled = [&] {

@@ -1,5 +1,5 @@
-// Files that are no files, that never end, or that are another's: every command ends at once with
-// one line.
+// Inputs that are not regular files, that never end, or that belong to others: every command ends
+// at once with one line.
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class Reading : public CliTest {
   protected:
     void SetUp() override {
         CliTest::SetUp();
-        // A command that waits or reads for ever is ended, and the test fails by its exit code.
+        // A command that blocks is killed, and the test fails by its exit code.
         options_.signal_after = std::chrono::seconds(20);
         options_.signal = 9;
         ASSERT_EQ(mkfifo(in("pipe").c_str(), 0600), 0);
@@ -52,7 +52,7 @@ std::string line_of(const Words& words) {
     return out;
 }
 
-TEST_F(Reading, WhateverIsNoFileIsRefusedAtOnce) {
+TEST_F(Reading, NonRegularFilesAreRefusedAtOnce) {
     make_project();
     const std::pair<const char*, const char*> cases[]{{"/dev/zero", "a device, not a file"},
                                                       {"pipe", "a named pipe, not a file"},
@@ -80,7 +80,7 @@ TEST_F(Reading, ActionsMayComeFromAPipe) {
     expect_one_line(bytes("said"), {"standard input"});
 }
 
-TEST_F(Reading, PicturesTooAreFilesOnly) {
+TEST_F(Reading, ImagesMustBeRegularFiles) {
     make_shot(2);
     for (const Words& texture : {Words{"--plane", "pipe"}, Words{"--texture", "pipe"}}) {
         SCOPED_TRACE(line_of(texture));

@@ -1,4 +1,4 @@
-// --resume, --memory, and the recipe that frames carry and 'weft verify' proves.
+// --resume, --memory, and the recipe in frames that 'weft verify' checks.
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 
 class Resume : public CliTest {
   protected:
-    // Writes a frame again with one text of its recipe changed.
+    // Rewrites a frame with one value of its recipe changed.
     void change_recipe(const std::string& name, const std::string& key, const std::string& text) {
         auto texts = read_recipe_metadata(in(name));
         ASSERT_FALSE(texts["weft:settings"].empty());
@@ -45,7 +45,7 @@ TEST_F(Resume, KeepsFramesOfTheSameSettingsAndRendersTheOthersAgain) {
     for (int k = 0; k < 4; ++k)
         EXPECT_EQ(frames[k].value("skipped", false), k == 0 || k == 2) << k;
 
-    // A change of the settings is a change of every frame.
+    // A change of settings affects every frame.
     const Outcome changed = run_replace({"--rotate", "20", "--resume", "--json"});
     expect_success(changed);
     EXPECT_FALSE(Json::parse(changed.out)["frames"][0].value("skipped", false));
@@ -114,7 +114,7 @@ TEST_F(Resume, VerifyProvesARenderAndFindsWhatChanged) {
     expect_failure(run({"verify", "rubbish.json"}), 3, {"rubbish.json", "weft.recipe/1"});
 }
 
-// As a fresh delivery of the plate would, in the middle of a run.
+// Like a new delivery of the plate during a run.
 TEST_F(Resume, AnInputThatIsReplacedDuringTheRunIsAnError) {
     make_shot(12);
     put_picture("new.png", pattern_picture({160, 120}, 9));
@@ -156,7 +156,7 @@ TEST_F(Resume, FoldersOfKilledRunsAreRemoved) {
     EXPECT_EQ(names("out").size(), 6u);
 }
 
-// A step of this plate takes longer than the two seconds that there are.
+// A step with this plate takes longer than the allowed two seconds.
 TEST_F(Resume, TerminatesInTimeInTheMiddleOfAStep) {
     const Size size{3000, 2000};
     const ImageF3 plate = pattern_picture(size, 9);
@@ -172,7 +172,7 @@ TEST_F(Resume, TerminatesInTimeInTheMiddleOfAStep) {
              "-o", "out/#.png", "--threads", "1", "--no-cache", "--backend", "cpu"});
     const auto after = std::chrono::steady_clock::now() - start - options_.signal_after;
     EXPECT_EQ(outcome.exit, 143) << outcome.err;
-    // What watches the program slows down its end, too.
+    // Sanitizers slow down the exit too.
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
     EXPECT_LT(after, std::chrono::milliseconds(6000));
 #else

@@ -1,5 +1,5 @@
-// The command line's side of messages: every setting is an option that exists, and flags of old
-// names are read but not shown.
+// Settings in messages on the command line: every setting is an existing option; old flag names are
+// accepted but hidden.
 #include "app/cli/setting_flags.h"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ TEST(SettingFlags, AreOptionsAndCommandsOfTheProgram) {
     }
 }
 
-TEST(SettingFlags, CarryTheirValues) {
+TEST(SettingFlags, IncludeTheirValues) {
     EXPECT_EQ(setting_flag({setting::kReferenceFrame, "1012"}), "--reference-frame 1012");
     EXPECT_EQ(setting_flag({setting::kTrustFolder, "/proj"}), "'weft trust /proj'");
     EXPECT_EQ(setting_flag({"placement.scale"}), "--scale");
@@ -54,7 +54,7 @@ TEST(SettingFlags, CarryTheirValues) {
 
 class OldFlags : public CliTest {};
 
-TEST_F(OldFlags, AreReadAndNotShown) {
+TEST_F(OldFlags, AreAcceptedAndHidden) {
     const std::string help = run({"region", "set", "--help"}).out;
     int old_flags = 0;
     for (const auto& parameter : region_parameters()) {
@@ -75,7 +75,7 @@ TEST_F(OldFlags, AreReadAndNotShown) {
     const Region& region = *project->regions.front();
     EXPECT_EQ(region.finish.focus, 0.5);
     EXPECT_EQ(region.light.form, LightForm::kDetail);
-    EXPECT_EQ(region.matte->carry, CarryDirection::kForward);
+    EXPECT_EQ(region.matte->propagate_direction, PropagationDirection::kForward);
 }
 
 }  // namespace

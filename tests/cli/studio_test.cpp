@@ -1,4 +1,4 @@
-// What a studio's files ask for: layers, versions, gaps, burn-in, cuts.
+// Studio features: layers, versions, gaps, burn-in, cuts.
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -29,7 +29,7 @@ class Studio : public CliTest {
     }
 };
 
-TEST_F(Studio, LayersGiveTheOutputAgain) {
+TEST_F(Studio, LayersReproduceTheOutput) {
     make_shot(3, 1, ".exr", PixelDepth::kHalf);
     // A soft matte, so that there are edges to correct.
     for (int step = 0; step < 3; ++step) {
@@ -117,7 +117,7 @@ TEST_F(Studio, MissingFramesAreHeldBlackOrSkipped) {
     EXPECT_EQ(picture("late/0007.png").rgb, picture("late/0005.png").rgb);
 }
 
-TEST_F(Studio, ACutIsWarnedOf) {
+TEST_F(Studio, ACutGivesAWarning) {
     make_shot(8, 1, ".png", PixelDepth::kU8, [](int frame, ImageF3& plate) {
         if (frame < 5) return;
         for (int y = 0; y < plate.height(); ++y)
@@ -132,7 +132,7 @@ TEST_F(Studio, ACutIsWarnedOf) {
     EXPECT_THAT(run_replace().err, Not(HasSubstr("new scene")));
 }
 
-TEST_F(Studio, BurnInWritesIntoTheMovieAlone) {
+TEST_F(Studio, BurnInAffectsTheMovieOnly) {
     WEFT_NEEDS_MOVIES();
     make_shot(2);
     expect_success(run_replace({"-o", "a_v012.####.png", "--movie", "plain.mkv"}));

@@ -30,7 +30,7 @@ TEST_F(StudyCommand, PrintsOneObjectAndWritesTheReport) {
     EXPECT_EQ(names("study/frames/paper-1").size(), 3u);
 }
 
-TEST_F(StudyCommand, NamesAMethodThatIsNotThere) {
+TEST_F(StudyCommand, NamesAnUnknownMethod) {
     expect_failure(run({"study", "--plate", in("frames/####.png"), "--matte", in("masks/####.png"),
                         "--plane", in("tile.png"), "--methods", "magic", "-o", in("study")}),
                    2, {"magic", "poisson"});

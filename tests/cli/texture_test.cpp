@@ -1,4 +1,4 @@
-// Textures of a library in renders and projects: kept, credited, refused.
+// Library textures in renders and projects: copied, credited, refused.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.h"
@@ -62,12 +62,12 @@ TEST_F(LibraryTexture, UnderAnExcludedLicenceIsRefused) {
                    {"GPL-2+", "Ada", "GPL"});
     EXPECT_THAT(names("out"), IsEmpty());
     expect_success(run(replace_with_texture({"--exclude-licences", "CC-BY-SA"})));
-    // A picture of which nothing is known, where that is excluded.
+    // An image of unknown licence, where that is excluded.
     expect_failure(run_replace({"--exclude-licences", "unknown", "-o", "other/####.png"}), 7,
                    {"unknown licence", "tile.png"});
 }
 
-TEST_F(LibraryTexture, IsKeptBesideTheProjectWhichNeedsNoLibraryThen) {
+TEST_F(LibraryTexture, IsCopiedBesideTheProject) {
     make_project();
     expect_success(add_region());
     EXPECT_THAT(names("shots/shot_textures"),
@@ -87,7 +87,7 @@ TEST_F(LibraryTexture, IsKeptBesideTheProjectWhichNeedsNoLibraryThen) {
                    7, {"GPL-2+"});
 }
 
-TEST_F(LibraryTexture, ComesWithSetAndApplyToo) {
+TEST_F(LibraryTexture, IsCopiedBySetAndApplyToo) {
     make_project();
     expect_success(run({"region", "add", kProject, "--name", "card", "--matte", "../masks/####.png",
                         "--texture", "../sample.png"}));
@@ -128,7 +128,7 @@ TEST_F(LibraryTexture, IsMarkedAndKept) {
                                "4", "--db", "lib.db", "--json"});
     EXPECT_EQ(Json::parse(found.out)["total"], 1);
 
-    // One id that is not there: the others stay as they were.
+    // With one unknown id, the others are unchanged.
     expect_failure(
         run({"texture", "mark", id_, "ffffffffffff", "--no-favourite", "--db", "lib.db"}), 3,
         {"ffffffffffff"});
@@ -141,10 +141,10 @@ TEST_F(LibraryTexture, IsMarkedAndKept) {
     EXPECT_TRUE(Json::parse(kept.out)["searches"].empty());
 }
 
-TEST_F(LibraryTexture, IsComparedWithAPlateOnlyWhereMaterialsWereLearned) {
+TEST_F(LibraryTexture, NeedsATrainedDescriptorToCompare) {
     const Outcome found = run({"texture", "similar", "frames/0001.png", "--rectangle", "8,8,64,64",
                                "--db", "lib.db", "--json"});
-    // Of one material nothing is learned by which to compare, and that is said.
+    // One material is not enough to train the descriptor, and the message says so.
     EXPECT_EQ(found.exit, 0);
     EXPECT_TRUE(Json::parse(found.out)["results"].empty());
     EXPECT_THAT(found.err, HasSubstr("weft texture train"));

@@ -30,7 +30,7 @@ TEST_F(Tools, ThePublishedSchemasAreThoseOfTheProgram) {
     }
 }
 
-TEST_F(Tools, PartsOfAPlaneWithoutEndFitTogether) {
+TEST_F(Tools, PartsOfAnUnboundedPlaneFitTogether) {
     expect_success(run({"synth", "sample.png", "-o", "a.png", "--endless", "--size", "150x120",
                         "--at", "-70,100", "--refine", "0"}));
     expect_success(run({"synth", "sample.png", "-o", "b.png", "--endless", "--size", "130x90",
@@ -115,7 +115,7 @@ TEST_F(Tools, MeasureJsonHasItsKeys) {
     EXPECT_EQ(json["frames"], 3);
     EXPECT_EQ(json["per_frame"].size(), 3u);
     EXPECT_EQ(json["outside_differing_px"], 0);
-    // The card and its matte move by whole pixels, so the source itself is perfectly steady.
+    // The card and its matte move by whole pixels, so the source has no flicker.
     EXPECT_LT(json["matte_chatter_px"]["mean"].get<double>(), 0.01);
     EXPECT_LT(json["source_tde"]["mean"].get<double>(), 0.5);
 
@@ -175,7 +175,7 @@ TEST_F(Tools, MeasureComparesLightWithAPassAndTheResultWithATruth) {
     // Lit by the pass itself: nothing but rounding.
     EXPECT_LT(json["truth"]["inside"]["largest"].get<double>(), 1.0);
     EXPECT_LT(json["truth"]["brightness_error"].get<double>(), 0.01);
-    // The estimate sees through the pattern, roughly.
+    // The estimate separates the pattern from the light, roughly.
     EXPECT_GT(json["light"]["correlation"]["least"].get<double>(), 0.8);
     EXPECT_EQ(json["light"]["per_frame"].size(), 3u);
     EXPECT_GT(json["light"]["true_deviation_levels"]["mean"].get<double>(), 5);
@@ -190,7 +190,7 @@ TEST_F(Tools, MeasureComparesLightWithAPassAndTheResultWithATruth) {
     EXPECT_EQ(missing.exit, 4);
 }
 
-TEST_F(Tools, DiffSaysWhereSequencesDiffer) {
+TEST_F(Tools, DiffReportsWhereSequencesDiffer) {
     make_shot(3);
     fs::copy(folder_ / "frames", folder_ / "copy");
     const Outcome same = run({"diff", "frames/####.png", "copy/####.png"});
@@ -222,7 +222,7 @@ TEST_F(Tools, AFrozenMatteIsKeptAndPropagatedFrom) {
         return run(words);
     };
     expect_success(propagate({}, "first/####.png"));
-    // Frozen at frame 3 is the matte of frame 1, which the walk would never find there.
+    // Frame 3 is frozen with the matte of frame 1, which propagation would never give.
     fs::create_directories(folder_ / "final");
     fs::copy_file(folder_ / "masks/0001.png", folder_ / "final/0003.png");
     expect_success(propagate({"--matte-frozen", "3", "--matte-frozen-files", "final/####.png"},
@@ -258,7 +258,7 @@ TEST_F(Tools, MattePrintsAConfidenceForEachFrame) {
                    2, {"mattes/0001.png", "--overwrite"});
 }
 
-TEST_F(Tools, MoviesGoOutAndComeIn) {
+TEST_F(Tools, MoviesAreWrittenAndRead) {
     WEFT_NEEDS_MOVIES();
     make_shot(3, 12);
     expect_success(run_replace({"--movie", "review.mkv"}));

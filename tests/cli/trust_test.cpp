@@ -1,4 +1,4 @@
-// A project from elsewhere writes nothing outside of its folder until that is trusted.
+// An untrusted project must not write outside its folder.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.h"
@@ -12,7 +12,7 @@ using ::testing::IsEmpty;
 
 class Trust : public CliTest {
   protected:
-    // A project that somebody sent: it lies in inbox/ and writes to `output`.
+    // A received project: it is in inbox/ and writes to `output`.
     void receive(const std::string& output, const std::string& movie = {}) {
         if (!fs::exists(folder_ / "frames")) make_shot(2);
         fs::create_directories(folder_ / "inbox");
@@ -36,14 +36,14 @@ class Trust : public CliTest {
     }
 };
 
-TEST_F(Trust, AProjectWritesBelowItsOwnFolder) {
+TEST_F(Trust, AProjectWritesInsideItsOwnFolder) {
     receive("out/####.png");
     expect_success(run({"render", "inbox/shot.weft"}));
     EXPECT_EQ(names("inbox/out").size(), 2u);
     EXPECT_FALSE(fs::exists(folder_ / "home/.config/weft"));
 }
 
-TEST_F(Trust, OutsideOfItItIsRefusedUntilTrusted) {
+TEST_F(Trust, WritingOutsideIsRefusedUntilTrusted) {
     receive(in("elsewhere/####.png"));
     expect_refused({"render", "inbox/shot.weft"});
     expect_refused({"render", "inbox/shot.weft", "--dry-run"});
@@ -58,7 +58,7 @@ TEST_F(Trust, OutsideOfItItIsRefusedUntilTrusted) {
     expect_refused({"render", "inbox/shot.weft"});
 }
 
-TEST_F(Trust, ByOtherWaysOutToo) {
+TEST_F(Trust, OtherPathsOutAreRefusedToo) {
     receive("../elsewhere/####.png");
     expect_refused({"render", "inbox/shot.weft"});
     receive("out/####.png", "../elsewhere/review.mkv");
@@ -70,11 +70,11 @@ TEST_F(Trust, ByOtherWaysOutToo) {
     EXPECT_THAT(names("target"), IsEmpty());
 }
 
-TEST_F(Trust, WhatTheUserNamesIsAllowed) {
+TEST_F(Trust, OutputsNamedByTheUserAreAllowed) {
     receive(in("elsewhere/####.png"));
     expect_success(run({"render", "inbox/shot.weft", "-o", "mine/####.png"}));
     EXPECT_EQ(names("mine").size(), 2u);
-    // The same place, but said by the user.
+    // The same place, but given by the user.
     expect_success(run({"render", "inbox/shot.weft", "-o", in("elsewhere/####.png")}));
     expect_success(run({"render", "inbox/shot.weft", "--trust", "--overwrite"}));
     expect_success(
@@ -85,7 +85,7 @@ TEST_F(Trust, WhatTheUserNamesIsAllowed) {
         run({"submit", "inbox/shot.weft", "--to", "slurm", "-o", "farm", "--trust", "--resume"}));
 }
 
-TEST_F(Trust, WhatWasMadeHereIsTrustedWhereItIs) {
+TEST_F(Trust, ProjectsCreatedHereAreTrusted) {
     make_shot(2);
     fs::create_directories(folder_ / "work/below");
     expect_success(run({"new", "work/shot.weft", "--plate", "../frames/####.png", "-o",
@@ -95,18 +95,18 @@ TEST_F(Trust, WhatWasMadeHereIsTrustedWhereItIs) {
     expect_success(run({"render", "work/shot.weft"}));
     const Json list = Json::parse(run({"trust", "--list", "--json"}).out);
     EXPECT_EQ(list["folders"], Json::array({{{"path", in("work")}, {"below", false}}}));
-    // What lies below it was not.
+    // Its subfolders were not trusted.
     std::string text = bytes("work/shot.weft");
     text.replace(text.find("../renders"), 10, "../../renders");
     put("work/below/shot.weft", text);
     expect_failure(run({"render", "work/below/shot.weft"}), 7, {"weft trust " + in("work/below")});
     expect_success(run({"trust", "work"}));
     EXPECT_EQ(run({"trust", "--list"}).out, in("work") + "  with all folders below\n");
-    // Trusted now; another fault of it is said.
+    // Now trusted; another error is reported.
     EXPECT_NE(run({"render", "work/below/shot.weft", "--overwrite"}).exit, 7);
 }
 
-TEST_F(Trust, ListsThatAreNoneTrustNothing) {
+TEST_F(Trust, DamagedListsTrustNothing) {
     receive(in("elsewhere/####.png"));
     for (const std::string rubbish :
          {"", "{", "[]", R"({"schema":"weft.trusted/1","folders":[1,{"path":2},{"path":"/"}]})",

@@ -39,7 +39,7 @@ std::string read_all(const std::filesystem::path& path) {
     _exit(127);
 }
 
-// The test's own environment with some names set anew.
+// The test's environment with some variables replaced.
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& changes) {
     std::vector<std::string> all;
     for (char** entry = environ; *entry; ++entry) {

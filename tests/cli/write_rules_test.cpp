@@ -1,5 +1,5 @@
-// One rule for every file that a command writes: never over an input, never over another file
-// without --overwrite, never through a link, never outside of --output-root.
+// The write rules for every command: never over an input, never over another file without
+// --overwrite, never through a link, never outside --output-root.
 #include <nlohmann/json.hpp>
 
 #include "engine/media/image_files.h"
@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 
 class WriteRules : public CliTest {
   protected:
-    // Everything that lies in the shot's folder but `but`, by its bytes.
+    // All files in the shot's folder except `but`, by their bytes.
     std::map<std::string, std::string> all_but(const std::vector<std::string>& but) const {
         std::map<std::string, std::string> out;
         for (auto at = fs::recursive_directory_iterator(folder_);
@@ -86,7 +86,7 @@ TEST_F(WriteRules, TexturesAndPassesAreInputsToo) {
     EXPECT_EQ(all_but({"out"}), before);
 }
 
-TEST_F(WriteRules, AFileThatExistsWantsOverwrite) {
+TEST_F(WriteRules, ExistingFilesNeedOverwrite) {
     WEFT_NEEDS_MOVIES();
     make_project();
     put("r.json", "notes");
@@ -112,7 +112,7 @@ TEST_F(WriteRules, AFileThatExistsWantsOverwrite) {
     EXPECT_EQ(bytes("tile.png"), tile);
 }
 
-TEST_F(WriteRules, ARunThatGoesOnReplacesItsOwnReportOnly) {
+TEST_F(WriteRules, AResumedRunReplacesItsOwnReportOnly) {
     make_project();
     const Words first{"render", "shot.weft", "--report", "r.json", "--recipe", "a/b/recipe.json"};
     expect_success(run(first));
@@ -128,7 +128,7 @@ TEST_F(WriteRules, ARunThatGoesOnReplacesItsOwnReportOnly) {
     }
 }
 
-TEST_F(WriteRules, ARunThatGoesOnReplacesItsOwnMovieOnly) {
+TEST_F(WriteRules, AResumedRunReplacesItsOwnMovieOnly) {
     WEFT_NEEDS_MOVIES();
     make_shot(2);
     expect_success(run_replace({"--movie", "a.mp4"}));
@@ -140,7 +140,7 @@ TEST_F(WriteRules, ARunThatGoesOnReplacesItsOwnMovieOnly) {
     EXPECT_EQ(bytes("a.mp4"), "notes");
 }
 
-TEST_F(WriteRules, ResumeRefusesFramesThatWeftNeverMade) {
+TEST_F(WriteRules, ResumeRefusesFramesOfOtherPrograms) {
     make_shot(2);
     fs::create_directories(folder_ / "out");
     put_picture("out/0002.png", pattern_picture({64, 48}, 3));
@@ -151,7 +151,7 @@ TEST_F(WriteRules, ResumeRefusesFramesThatWeftNeverMade) {
     }
     expect_success(run_replace({"--overwrite"}));
     const auto frames = contents("out");
-    // Other settings of Weft's own are no reason to stop.
+    // Weft's files with other settings do not stop the run.
     expect_success(run_replace({"--resume", "--rotate", "5"}));
     EXPECT_NE(contents("out"), frames);
 }
@@ -195,7 +195,7 @@ TEST_F(WriteRules, TwoOutputsAreNeverOneFile) {
     EXPECT_THAT(names("out"), IsEmpty());
 }
 
-TEST_F(WriteRules, LayersInTheFilesOfTheFramesGoIntoThem) {
+TEST_F(WriteRules, LayersWithTheFramesPatternGoIntoTheFrames) {
     make_shot(2);
     expect_success(run_replace({"-o", "apart/####.exr", "--layers", "all"}));
     expect_success(run_replace(

@@ -63,12 +63,12 @@ TEST_F(ChildProcess, OutputAndErrorsMayGoToADescriptor) {
     ::close(ends[0]);
 }
 
-TEST_F(ChildProcess, TellsHowItEnded) {
+TEST_F(ChildProcess, ReportsHowItEnded) {
     EXPECT_EQ(run({"sh", "-c", "exit 3"}, {}), 3);
     EXPECT_EQ(run({"sh", "-c", "kill -TERM $$"}, {}), 128 + SIGTERM);
 }
 
-TEST_F(ChildProcess, ItsGroupIsItsOwnWhenThatIsAsked) {
+TEST_F(ChildProcess, CanHaveItsOwnProcessGroup) {
     ProcessOptions options;
     for (const bool own : {false, true}) {
         options.own_group = own;

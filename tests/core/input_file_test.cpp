@@ -71,7 +71,7 @@ TEST_F(InputFileTest, RefusesWhateverIsNoFile) {
     expect_refused(in("missing"), "no such file");
     expect_refused(put("a", "") + "/b", "no such file");
     expect_refused(in("dangling"), "no such file");
-    expect_refused(in("round"), "circle");
+    expect_refused(in("round"), "loop");
     ::close(socket);
 }
 

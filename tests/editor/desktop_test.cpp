@@ -1,4 +1,4 @@
-// The real window on a real (virtual) screen, by mouse and keyboard alone.
+// The real window on a virtual screen, driven by mouse and keyboard only.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,5 +1,5 @@
-// Killed at random moments while painting, saving and rendering: what was finished is there, and
-// no file is damaged.
+// The editor is killed at random moments while painting, saving and rendering: finished work
+// survives, and no file is damaged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -160,7 +160,7 @@ int killed_later(const Sandbox& sandbox, pid_t pid) {
     return finished;
 }
 
-TEST(Kill, WhilePaintingEveryFinishedStrokeSurvives) {
+TEST(Kill, FinishedStrokesSurviveWhilePainting) {
     for (int round = 0; round < WEFT_KILL_ROUNDS; ++round) {
         const Sandbox sandbox;
         make_shot(sandbox);
@@ -171,7 +171,7 @@ TEST(Kill, WhilePaintingEveryFinishedStrokeSurvives) {
     }
 }
 
-TEST(Kill, WhileSavingTheProjectIsTheOldOneOrTheNewOne) {
+TEST(Kill, TheProjectIsOldOrNewWhileSaving) {
     for (int round = 0; round < WEFT_KILL_ROUNDS; ++round) {
         const Sandbox sandbox;
         make_shot(sandbox);
@@ -188,7 +188,7 @@ TEST(Kill, WhileSavingTheProjectIsTheOldOneOrTheNewOne) {
 }
 
 // The render is a process of its own: it goes on, or dies at the same moment as the editor.
-TEST(Kill, WhileRenderingFramesAreWholeAndStrokesAreThere) {
+TEST(Kill, FramesAreWholeWhileRendering) {
     for (int round = 0; round < WEFT_KILL_ROUNDS; ++round) {
         const Sandbox sandbox;
         make_shot(sandbox);

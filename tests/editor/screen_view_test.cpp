@@ -1,5 +1,4 @@
-// The views of an OpenColorIO config in the viewer: what stands on the screen is what OpenColorIO's
-// own processor on the CPU makes of the plate.
+// OpenColorIO views in the viewer: the screen must match OpenColorIO's CPU processor.
 #include <gtest/gtest.h>
 
 #include <algorithm>

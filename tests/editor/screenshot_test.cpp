@@ -113,7 +113,7 @@ std::vector<Vec2i> tiles_that_differ(const ImageF3& a, const ImageF3& b, const R
     return out;
 }
 
-TEST(ScreenshotTiles, AWordThatGoesMissingIsSeen) {
+TEST(ScreenshotTiles, AMissingWordIsDetected) {
     ImageF3 before(320, 180, 0.12f);
     ImageF3 now = before;
     // Six letters of 2×3 in the middle of a dark panel.
@@ -138,18 +138,19 @@ struct Page {
     const char* workspace;
     Recti ignored;  ///< Of the golden picture: what depends on the machine.
 };
-// In Texture the heading says how far the search for suggestions is. In Motion the path of the
+// In Mask the path of the matte files begins with the folder of the sources. In Texture the heading
+// says how far the search for suggestions is. In Motion the path of the
 // demo's motion passes begins with the folder of the sources; in Jobs the output lies in the
 // sandbox, whose name is drawn.
-const Page kPages[] = {{"mask", "Mask", {}},
+const Page kPages[] = {{"mask", "Mask", {272, 104, 320, 112}},
                        {"texture", "Texture", {168, 92, 320, 104}},
                        {"motion", "Motion", {272, 136, 320, 152}},
                        {"light", "Seams & Light", {}},
                        {"review", "Review", {}},
                        {"jobs", "Jobs", {24, 56, 112, 72}}};
 
-// Compares with pictures that somebody has looked at. With WEFT_UPDATE_GOLDEN in the environment
-// they are written anew.
+// Compares with reviewed golden pictures. With WEFT_UPDATE_GOLDEN in the environment they are
+// written instead.
 void expect_golden(const std::string& picture_path, const std::string& name,
                    const Recti& ignored = {}) {
     const auto picture = read_image(picture_path);
@@ -193,13 +194,13 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
                       page.ignored);
 }
 
-// The analysis is paused from the first frame on, so that what is seen does not depend on the machine.
-TEST(Screenshots, EveryWorkspaceLooksAsItDid) {
+// The analysis is paused from the first frame on, so that what is seen does not depend on the
+// machine.
+TEST(Screenshots, EveryWorkspaceMatchesItsGoldenPicture) {
     const Sandbox sandbox;
     expect_golden_pages(
         sandbox, {"edit", "--demo", "--paused"},
-        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"}, {"wait": 1.5})",
-        "");
+        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"}, {"wait": 1.5})", "");
 }
 
 void write_plates(const Sandbox& sandbox) {
@@ -213,14 +214,14 @@ void write_plates(const Sandbox& sandbox) {
         ASSERT_TRUE(write_image(sandbox.in(std::string("shot/") + name), frame, {}, {}));
 }
 
-TEST(Screenshots, AnEmptyShotSaysWhatToDoInEveryWorkspace) {
+TEST(Screenshots, AnEmptyShotMatchesItsGoldenPictures) {
     const Sandbox sandbox;
     write_plates(sandbox);
     expect_golden_pages(sandbox, {"edit", sandbox.in("shot")}, R"({"wait_for": "cached"})",
                         "empty_");
 }
 
-TEST(Screenshots, AFailingShotSaysWhyInEveryWorkspace) {
+TEST(Screenshots, AFailingShotMatchesItsGoldenPictures) {
     const Sandbox sandbox;
     write_plates(sandbox);
     // Absolute, so that the messages are the same in every sandbox.
@@ -266,7 +267,7 @@ void write_moving_shot(const Sandbox& sandbox) {
 }
 
 // Rendered and measured: graphs, heat strips and the worst frames with their pictures.
-TEST(Screenshots, AMeasuredRenderLooksAsItDid) {
+TEST(Screenshots, AMeasuredRenderMatchesItsGoldenPicture) {
     const Sandbox sandbox;
     write_moving_shot(sandbox);
     std::ofstream(sandbox.in("script.json"))
@@ -284,7 +285,7 @@ TEST(Screenshots, AMeasuredRenderLooksAsItDid) {
     expect_golden(sandbox.in("measured.png"), "review_measured");
 }
 
-TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
+TEST(Screenshots, TheWelcomeScreenMatchesItsGoldenPicture) {
     const Sandbox sandbox;
     const std::string out = sandbox.in("welcome.png");
     const Finished done = run(sandbox, {"edit", "--screenshot", out, "--size", "1280x720"});
@@ -293,7 +294,7 @@ TEST(Screenshots, TheWelcomeScreenLooksAsItDid) {
     expect_golden(out, "welcome");
 }
 
-TEST(Screenshots, AScriptThatFailsSaysWhichStep) {
+TEST(Screenshots, AFailingScriptNamesItsStep) {
     const Sandbox sandbox;
     std::ofstream(sandbox.in("script.json"))
         << "[{\"wait\": 0.1}, {\"click\": \"No such button\"}]";

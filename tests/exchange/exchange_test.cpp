@@ -48,7 +48,7 @@ class Exchange : public ::testing::Test {
     fs::path folder_;
 };
 
-TEST_F(Exchange, ALookCarriesTheTextureAndLeavesTheMatte) {
+TEST_F(Exchange, ALookHasTheTextureAndNotTheMatte) {
     Project from = shot("wall");
     from.regions[0] = from.regions[0].with([](Region& r) { r.placement.scale = 2.5; });
     ASSERT_TRUE(save_look(in("a.weftlook"), from, "wall", WriteRule::own()));
@@ -72,7 +72,7 @@ TEST_F(Exchange, ALookCarriesTheTextureAndLeavesTheMatte) {
               ErrorCode::kUnreadable);
 }
 
-TEST_F(Exchange, CryptomatteObjectsComeFromThePlateWhereNothingElseIsSaid) {
+TEST_F(Exchange, CryptomatteObjectsComeFromThePlateByDefault) {
     Region region;
     MatteSource matte;
     matte.select.crypto = {"hero"};
@@ -121,7 +121,7 @@ TEST_F(Exchange, ACollectedProjectNeedsNothingFromOutside) {
     EXPECT_FALSE(collect_project(gone, "shot", in("again"), "", {}, {}, {}));
 }
 
-TEST_F(Exchange, InputsAreFencedOffUnderAnyName) {
+TEST_F(Exchange, InputsAreProtectedUnderAnyName) {
     for (const char* name : {"plate.png", "matte.png", "tile.png"})
         std::ofstream(in(name)) << name;
     fs::create_symlink(folder_ / "plate.png", folder_ / "alias.png");

@@ -67,7 +67,7 @@ TEST(BackgroundPlate, TellsTheShapeFromWhatItStoodBefore) {
     BackgroundPlate plate(scene.frame(0), distance_of(scene.matte(0)));
     for (int t = 1; t <= 12; ++t) {  // the disc moves by 28 px, the camera stands
         plate.move(ImageF2(scene.size));
-        if (t < 12) plate.learn(scene.frame(t), distance_of(scene.matte(t)));
+        if (t < 12) plate.update(scene.frame(t), distance_of(scene.matte(t)));
     }
     // Expected where it was long ago: right at neither edge.
     const ImageF1 expected = distance_of(scene.matte(6));

@@ -145,7 +145,7 @@ TEST(SoftAlpha, LeavesACrispMatteAsItIs) {
 }
 
 // Walks eight frames from a painted matte with and without the keyframe's soft edge.
-TEST(SoftAlpha, IsCarriedFromThePaintedFrame) {
+TEST(SoftAlpha, IsPropagatedFromThePaintedFrame) {
     const Head head;
     const Matte painted = head.matte(0);
     Matte hard = painted;

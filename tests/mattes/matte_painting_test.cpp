@@ -1,4 +1,4 @@
-// A stroke costs what it touches, not what the matte is large.
+// The cost of a stroke depends on what it touches, not on the size of the matte.
 #include "app/mattes/matte_painting.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ Matte patterned(Size size) {
 
 const std::vector<Vec2> kWay{{40, 50}, {90, 60}, {200, 300}, {500, 320}};
 
-TEST(MattePainting, NoWholeMatteIsCopiedInTheThreadOfThePen) {
+TEST(MattePainting, TheCallingThreadCopiesNoLargeMatte) {
     const Size size{12000, 8000};
     auto before = std::make_shared<const Matte>(size, std::uint8_t{3});
     const double start = thread_ms();
@@ -57,7 +57,7 @@ TEST(MattePainting, NoWholeMatteIsCopiedInTheThreadOfThePen) {
         painting.move_to(at, 1);
     const double painted = thread_ms() - begun;
     EXPECT_LT(painted, copying / 4) << "copying takes " << copying << " ms";
-    // The points that the pen was faster with are there in the end.
+    // Points that arrived before the copy was ready are painted in the end.
     const auto done = painting.end();
     ASSERT_TRUE(done);
     for (const Vec2 at : kWay)
@@ -66,7 +66,7 @@ TEST(MattePainting, NoWholeMatteIsCopiedInTheThreadOfThePen) {
     EXPECT_EQ(before->at(40, 50), 3) << "the history keeps it";
 }
 
-TEST(MattePainting, IsWhatAStrokeOfTheSamePointsGives) {
+TEST(MattePainting, EqualsAStrokeThroughTheSamePoints) {
     for (const Size size : {Size{700, 500}, Size{300, 400}}) {
         const auto before = std::make_shared<const Matte>(patterned(size));
         for (const bool prepared : {true, false}) {

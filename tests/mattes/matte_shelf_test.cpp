@@ -1,4 +1,4 @@
-// Mattes are read once, however often they are asked for.
+// Repeated requests read a matte once.
 #include "app/mattes/matte_shelf.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ bool wait(const std::function<bool()>& done) {
 }
 
 // Every frame that is drawn asks, also while the matte is being read.
-TEST(MatteShelf, AMatteThatIsBeingReadIsNotReadAgain) {
+TEST(MatteShelf, APendingMatteIsNotReadAgain) {
     MatteShelf shelf;
     std::atomic<int> reads = 0;
     std::atomic<bool> go = false;
@@ -45,7 +45,7 @@ TEST(MatteShelf, AMatteThatIsBeingReadIsNotReadAgain) {
     EXPECT_EQ(shelf.get("matte", read)->at(2, 1), 9);
 }
 
-TEST(MatteShelf, WhatIsNotOnTheDiskStaysInMemory) {
+TEST(MatteShelf, UnwrittenMattesStayInMemory) {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("weft_mattes_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);

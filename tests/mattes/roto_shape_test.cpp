@@ -29,7 +29,7 @@ TEST(RotoShape, FillsItsInsideAndFallsOffOverTheFeather) {
     EXPECT_EQ(thin.at(20, 12), 0) << "two points have no inside";
 }
 
-TEST(RotoShape, GoesFromOneToTheOtherPointByPoint) {
+TEST(RotoShape, InterpolatesPointByPoint) {
     EXPECT_EQ(between(square(0), square(10), 0), square(0));
     EXPECT_EQ(between(square(0), square(10), 0.5f).points[1].at, Vec2(25, 10));
     RotoShape triangle = square(10);

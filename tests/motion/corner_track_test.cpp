@@ -94,9 +94,9 @@ TEST(CornerTrack, SaysWhatIsWrong) {
         EXPECT_FALSE(track) << text;
         return track ? std::string() : track.error().message;
     };
-    EXPECT_NE(message("1001 10 20 110 20 110 80 10").find("line 1 is not a frame"),
+    EXPECT_NE(message("1001 10 20 110 20 110 80 10").find("Line 1 is not a frame"),
               std::string::npos);
-    EXPECT_NE(message("1.5 10 20 110 20 110 80 10 80").find("line 1 is not a frame"),
+    EXPECT_NE(message("1.5 10 20 110 20 110 80 10 80").find("Line 1 is not a frame"),
               std::string::npos);
     EXPECT_NE(message("7 10 20 110 80 110 20 10 80").find("frame 7"), std::string::npos);
     EXPECT_NE(message("7 0 0 9 0 9 9 0 9\n7 0 0 9 0 9 9 0 9").find("7"), std::string::npos);

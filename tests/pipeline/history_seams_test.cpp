@@ -80,7 +80,7 @@ TEST(ReleaseSeam, IsTheSameForAPartOfTheShot) {
         EXPECT_EQ(part[0].after[k], all[0].after[k]) << k;
 }
 
-TEST(ReleaseSeam, WalkedBackwardsItIsTheSameTheOtherWayRound) {
+TEST(ReleaseSeam, IsMirroredWhenWalkedBackwards) {
     const auto seams = Release(1, 8, true).seams(10, 1, 10);
     ASSERT_EQ(seams.size(), 1u);
     EXPECT_GT(shown_after(seams[0], 8), 0.8f) << "stretched where it was let go";

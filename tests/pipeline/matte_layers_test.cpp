@@ -1,4 +1,4 @@
-// Painted holdouts, and mattes that are carried one way or between two frames.
+// Painted holdouts, and propagation in one direction or within a range.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -42,7 +42,7 @@ bool any(const Matte& matte) {
                        [](std::uint8_t v) { return v > 0; });
 }
 
-TEST(PaintedHoldouts, AreCarriedAndCutOut) {
+TEST(PaintedHoldouts, ArePropagatedAndCutOut) {
     const PaintedDisc shot;
     const ShotPlan plan = make_plan(painted_region({4, 5, 6}));
     MemoryAnalysisStore store;
@@ -74,7 +74,7 @@ TEST(PaintedHoldouts, HaveAKeyOfTheirOwnInTheStore) {
 }
 
 struct Way {
-    CarryDirection direction;
+    PropagationDirection direction;
     int first, last;
     std::vector<int> filled;
 };
@@ -85,10 +85,10 @@ TEST(MatteReach, BeyondItThereIsNoMatte) {
         shot.keys[{0, key}] = box_matte(kRegionBox);
     const int none = std::numeric_limits<int>::min(), all = std::numeric_limits<int>::max();
     const std::vector<Way> ways{
-        {CarryDirection::kForward, none, all, {4, 5, 6, 7, 8, 9, 10}},
-        {CarryDirection::kBackward, none, all, {1, 2, 3, 4, 5, 6, 7}},
-        {CarryDirection::kBoth, 3, 5, {3, 4, 5, 7}},
-        {CarryDirection::kForward, 8, 9, {4, 7, 8, 9}},
+        {PropagationDirection::kForward, none, all, {4, 5, 6, 7, 8, 9, 10}},
+        {PropagationDirection::kBackward, none, all, {1, 2, 3, 4, 5, 6, 7}},
+        {PropagationDirection::kBoth, 3, 5, {3, 4, 5, 7}},
+        {PropagationDirection::kForward, 8, 9, {4, 7, 8, 9}},
     };
     for (const Way& way : ways) {
         RegionPlan region = make_region(flat_texture({1, 0, 0}));
@@ -109,11 +109,11 @@ TEST(MatteReach, BeyondItThereIsNoMatte) {
 }
 
 TEST(MatteReach, OneWayTheMatteComesFromOneSideOnly) {
-    // The key of frame 8 is elsewhere; forwards, frame 7 knows nothing of it.
+    // The keyframe of frame 8 is not used: forwards, frame 7 does not depend on it.
     MemoryShot shot = make_wall();
     shot.keys[{0, 3}] = box_matte({20, 16, 60, 96});
     shot.keys[{0, 8}] = box_matte({100, 16, 150, 96});
-    const auto matte_of_7 = [&](CarryDirection direction) {
+    const auto matte_of_7 = [&](PropagationDirection direction) {
         RegionPlan region = make_region(flat_texture({1, 0, 0}));
         region.matte_keys = {3, 8};
         region.matte_reach.direction = direction;
@@ -122,8 +122,8 @@ TEST(MatteReach, OneWayTheMatteComesFromOneSideOnly) {
         expect_ok(propagate_mattes({shot, plan, {}, [](int, double) {}}, store));
         return stored_matte(store, 7, 0);
     };
-    const Matte forward = matte_of_7(CarryDirection::kForward);
-    const Matte backward = matte_of_7(CarryDirection::kBackward);
+    const Matte forward = matte_of_7(PropagationDirection::kForward);
+    const Matte backward = matte_of_7(PropagationDirection::kBackward);
     EXPECT_GT(forward.at(45, 50), 200);
     EXPECT_LT(forward.at(125, 50), 50);
     EXPECT_LT(backward.at(45, 50), 50);

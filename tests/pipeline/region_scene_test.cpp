@@ -70,7 +70,7 @@ TEST(RegionScene, SettingsReachTheSynthesis) {
     EXPECT_TRUE(standard.align);
 }
 
-TEST(RegionScene, WhatIsKeptIsInThePlaneThatIsRendered) {
+TEST(RegionScene, LockedPatchesAreInTheRenderedPlane) {
     const MemoryShot shot = make_wall();
     ShotPlan plan = make_plan(make_region(sample_texture()), 1, 2);
     plan.keep_planes = true;

@@ -32,12 +32,13 @@ std::vector<Edit> every_edit() {
             SetMatteKeyframe{{7, {}}, 40, "b.png"},
             RemoveMatteKeyframe{{7, {}}, 1},
             SetHoldouts{{7, {}}, {painted}},
+            SetZones{{7, {}}, {{ZoneKind::kLight, 0.5, {}, painted, {}}}},
             SetTexture{{7, {}}, region.texture},
             SetCorrection{{7, {}}, 12, {{{1, 2}, {3, 4.5}}}},
             SetAmendments{{7, {}}, {{PlaneAmendment::Kind::kAgain, 3, {{1, 2, 40, 5, 6, 0, 0}}}}}};
 }
 
-TEST(Edits, OtherSamplesDropWhatWasKept) {
+TEST(Edits, ChangingSamplesClearsAmendments) {
     const Project before = test::full_project();
     ASSERT_FALSE(before.regions[0]->amendments->empty());
     TextureSource texture = before.regions[0]->texture;
@@ -111,7 +112,7 @@ TEST(Edits, UnchangedPartsAreShared) {
     EXPECT_EQ(after->regions[0]->matte.identity(), before.regions[0]->matte.identity());
 }
 
-TEST(Edits, IdsAreNeverGivenTwice) {
+TEST(Edits, IdsAreNeverReused) {
     Project project;
     for (const char* name : {"a", "b"}) {
         Region region;
@@ -153,7 +154,7 @@ TEST(Edits, NoTwoRegionsGetTheSameName) {
     EXPECT_TRUE(apply_edit(project, SetRegionParameter{b, "placement.scale", 2.0}));
 }
 
-TEST(Edits, RegionsMoveToThePlaceThatIsNamed) {
+TEST(Edits, RegionsMoveToTheGivenIndex) {
     Project project;
     for (const char* name : {"a", "b", "c"}) {
         Region region;
@@ -225,7 +226,7 @@ TEST(ActionFile, BothFormsAreRead) {
     EXPECT_EQ(wrapped->at(0), expected);
 }
 
-TEST(ActionFile, SlipsAreRefusedWithTheirPlace) {
+TEST(ActionFile, MistakesAreReportedWithTheirPlace) {
     const auto says = [](const char* text) {
         const auto edits = edits_from_json(text);
         return edits ? std::string("read") : edits.error().text();

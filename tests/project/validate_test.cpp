@@ -110,7 +110,7 @@ TEST(Validate, CornersMustBeConvexAndInOrder) {
     EXPECT_TRUE(validate(both).empty());  // the scale acts inside the perspective
 }
 
-TEST(Validate, FindsValuesThatPassedNoTable) {
+TEST(Validate, FindsValuesSetWithoutTheTable) {
     expect_one(good_project([](Region& r) { r.placement.scale = -1; }),
                "E regions[0] 'wall': placement.scale", "0.001 to 1000");
     Project seed = good_project();

@@ -28,7 +28,7 @@ TEST_F(Cancel, BeforeTheFirstFrame) {
     EXPECT_THAT(contents("out"), IsEmpty());
 }
 
-TEST_F(Cancel, AnywhereAndResumed) {
+TEST_F(Cancel, AtAnyPointAndResumed) {
     ASSERT_TRUE(run_job(spec("whole"), {}, {}));
     const auto whole = contents("whole");
     ASSERT_EQ(whole.size(), static_cast<std::size_t>(kFrames));
@@ -83,7 +83,7 @@ TEST_F(Cancel, BetweenTwoReferences) {
 }
 
 // The analysis of a part of the shot is no hindrance for the whole.
-TEST_F(Cancel, AnAnalysisOfAPartIsCompleted) {
+TEST_F(Cancel, APartialAnalysisIsCompleted) {
     ASSERT_TRUE(run_job(spec("whole"), {}, {}));
     for (const char* frames : {"1-2", "4", "1-6"}) {
         JobSpec job = spec("parts");

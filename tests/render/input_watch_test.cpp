@@ -34,7 +34,7 @@ class Watch : public ShotTest {
     InputWatch watch_;
 };
 
-TEST_F(Watch, OtherBytesAreFoundWhateverTheTimeSays) {
+TEST_F(Watch, ChangedBytesAreFoundWhateverTheTime) {
     for (const char* name : {"same", "longer", "same_size", "same_time", "renamed", "gone"}) {
         put(name, "first");
         watch_.before_read(in(name));
@@ -63,7 +63,7 @@ TEST_F(Watch, TheSameBytesAreTheSameFile) {
     EXPECT_THAT(watch_.changed(), IsEmpty());
 }
 
-TEST_F(Watch, AFileThatWasReliedOnMustBeTheOneThatIsRead) {
+TEST_F(Watch, TheFileReadMustBeTheOneReliedOn) {
     put("replaced", "first");
     put("never_read", "first");
     put("kept", "first");
@@ -76,7 +76,7 @@ TEST_F(Watch, AFileThatWasReliedOnMustBeTheOneThatIsRead) {
     EXPECT_THAT(watch_.changed(), ElementsAre(in("replaced")));
 }
 
-TEST_F(Watch, WhatIsNoFileIsNotWatched) {
+TEST_F(Watch, NonRegularFilesAreNotWatched) {
     ASSERT_EQ(mkfifo(in("pipe").c_str(), 0600), 0);
     for (const char* name : {"pipe", "frames", "missing"})
         watch_.before_read(in(name));
@@ -85,7 +85,7 @@ TEST_F(Watch, WhatIsNoFileIsNotWatched) {
 }
 
 // One frame is replaced as soon as the first one is rendered.
-TEST_F(Watch, ARunSaysWhichInputWasReplaced) {
+TEST_F(Watch, ARunNamesTheReplacedInput) {
     for (const char* name : {"frames/0002.png", "masks/0004.png", "tile.png"}) {
         SCOPED_TRACE(name);
         const std::string path = in(name);

@@ -18,12 +18,12 @@ FrameResult frame(int number) {
     return result;
 }
 
-TEST(JobWarnings, NothingToSayOfAPlainJob) {
+TEST(JobWarnings, NoneForAPlainJob) {
     EXPECT_THAT(warnings_of({frame(1), frame(2)}), IsEmpty());
     EXPECT_THAT(warnings_of({}), IsEmpty());
 }
 
-TEST(JobWarnings, NaNIsToldByFrameAndCount) {
+TEST(JobWarnings, NaNIsReportedByFrameAndCount) {
     std::vector<FrameResult> frames{frame(7), frame(8), frame(9)};
     frames[0].nonfinite = 1;
     frames[2].nonfinite = 12;
@@ -34,7 +34,7 @@ TEST(JobWarnings, NaNIsToldByFrameAndCount) {
                                   Not(HasSubstr("frame 8")))));
 }
 
-TEST(JobWarnings, ALongListIsCut) {
+TEST(JobWarnings, ALongListIsShortened) {
     std::vector<FrameResult> frames;
     for (int k = 0; k < 1000; ++k) {
         frames.push_back(frame(k));
@@ -46,7 +46,7 @@ TEST(JobWarnings, ALongListIsCut) {
     EXPECT_LT(warnings[0].size(), 400u);
 }
 
-TEST(JobWarnings, FramesThatNoMatteReaches) {
+TEST(JobWarnings, FramesWithAnEmptyMatte) {
     std::vector<FrameResult> frames{frame(1), frame(2), frame(3), frame(5)};
     for (const std::size_t k : {0, 1, 3})
         frames[k].untouched = true;

@@ -22,7 +22,7 @@ ShotPlan three_regions() {
     return plan;
 }
 
-TEST(PlanesAhead, AreThoseThatAreMadeInPlace) {
+TEST(PlanesAhead, EqualPlanesMadeInPlace) {
     const ShotPlan plan = three_regions();
     PlanesAhead ahead(plan, kShotSize, {}, nullptr);
     auto grown = ahead.take(0);
@@ -43,7 +43,7 @@ TEST(PlanesAhead, AreThoseThatAreMadeInPlace) {
     EXPECT_FALSE(*paper) << "this mode makes one for every frame";
 }
 
-TEST(PlanesAhead, ManyAreGrownSideBySideWithTheSameBytes) {
+TEST(PlanesAhead, ManyInParallelHaveTheSameBytes) {
     ShotPlan plan = make_plan(make_region(sample_texture()));
     for (std::uint64_t key = 2; key <= 9; ++key) {
         plan.regions.push_back(plan.regions.front());
@@ -63,7 +63,7 @@ TEST(PlanesAhead, ManyAreGrownSideBySideWithTheSameBytes) {
     set_thread_count(0);
 }
 
-TEST(PlanesAhead, AnErrorIsToldWhereItsRegionIsTaken) {
+TEST(PlanesAhead, AnErrorIsReturnedForItsRegion) {
     const ShotPlan plan = three_regions();
     PlanesAhead ahead(plan, kShotSize, {}, nullptr);
     const auto tiny = ahead.take(1);
@@ -73,7 +73,7 @@ TEST(PlanesAhead, AnErrorIsToldWhereItsRegionIsTaken) {
     EXPECT_EQ(tiny.error().text(), in_place.error().text());
 }
 
-TEST(PlanesAhead, StopWhenTheyAreCancelledOrUnwanted) {
+TEST(PlanesAhead, StopWhenCancelledOrDestroyed) {
     const ShotPlan plan = three_regions();
     { const PlanesAhead unwanted(plan, kShotSize, {}, nullptr); }
     const CancelToken cancel;

@@ -72,7 +72,7 @@ TEST_F(ReferenceTest, TheDefaultLeavesOutEmptyFramesAndIsTheSameForEveryPart) {
     EXPECT_EQ(contents("part").at("0005.png"), contents("out").at("0005.png"));
 }
 
-TEST_F(ReferenceTest, AGoodFirstFrameIsKeptWithoutAWord) {
+TEST_F(ReferenceTest, AGoodFirstFrameIsKeptSilently) {
     const auto shot = open_shot(spec("out").project);
     ASSERT_TRUE(shot) << shot.error().text();
     EXPECT_EQ((*shot)->references[0].frame, 1);
@@ -91,7 +91,7 @@ TEST_F(ReferenceTest, AGivenFrameWithAnEmptyMatteNamesABetterOne) {
                                HasSubstr("place the texture there (reference_frames 2)."))));
 }
 
-TEST_F(ReferenceTest, AFrameThatThePlateHasNotIsNamedWithWhatItHas) {
+TEST_F(ReferenceTest, AMissingFrameIsNamedWithTheFramesOfThePlate) {
     JobSpec job = spec("out");
     place_on(job, 99);
     EXPECT_THAT(error_of(job, ErrorCode::kMissingFrames),

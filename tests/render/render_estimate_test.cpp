@@ -57,8 +57,8 @@ TEST(RenderEstimate, TheAnalysisReachesToReferencesAndPaintedMattes) {
     EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
 }
 
-TEST(RenderEstimate, LearnsFromWhatARenderTook) {
-    // Foreseen 100 s, took 25: four times as fast; half of that in one step.
+TEST(RenderEstimate, IsCalibratedByMeasuredTime) {
+    // Estimated 100 s, took 25 s: four times as fast; half of the correction in one step.
     const double once = calibrated_speed(1, 100, 25);
     EXPECT_NEAR(once, 2, 1e-9);
     EXPECT_NEAR(calibrated_speed(once, 50, 25), 2 * 1.41421, 1e-4);

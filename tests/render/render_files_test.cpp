@@ -106,7 +106,7 @@ TEST_F(RenderFiles, AVersionGoesUpOnlyWhereThereIsOne) {
     EXPECT_EQ(version_up(project).error().code, ErrorCode::kUsage);
 }
 
-TEST_F(RenderFiles, FramesThatAreThereAreRefusedUnlessToldOtherwise) {
+TEST_F(RenderFiles, ExistingFramesAreRefusedByDefault) {
     const auto pattern = SequencePattern::parse(in("frames/####.png"));
     const auto keep = [&](ExistingFrames existing) {
         return frames_to_keep(*pattern, {2, 3, 40}, Card::kPlate, existing, {});
@@ -136,7 +136,7 @@ TEST_F(RenderFiles, AFarmJobSaysWhatEachTaskRuns) {
         EXPECT_FALSE(engine_files(engine, {"shot", "/a/job.json", stages}).empty());
 }
 
-TEST_F(RenderFiles, TheSettingsHashIsOfWhatDecidesAboutPixels) {
+TEST_F(RenderFiles, TheSettingsHashCoversWhatAffectsPixels) {
     JobSpec job = spec("out");
     const auto hash = [&] { return settings_hash(**open_shot(job.project)); };
     const std::string before = hash();

@@ -1,4 +1,4 @@
-// What the editor keeps between sessions and after a crash.
+// Settings between sessions, and recovery after a crash.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ class EditorFiles : public ::testing::Test {
     fs::path folder_;
 };
 
-TEST_F(EditorFiles, SettingsComeBack) {
+TEST_F(EditorFiles, SettingsRoundTrip) {
     const std::string path = (folder_ / "a" / "editor.json").string();
     EXPECT_EQ(load_editor_settings(path), EditorSettings{});
     EditorSettings settings;

@@ -1,4 +1,4 @@
-// What a render is asked to be, and what is said when it ends.
+// Render requests, and reports of finished jobs.
 #include "app/session/job_desk.h"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ TEST(RenderRequest, TakesTheActionsOutputAndFrames) {
     action.frames = "3-5";
     action.layers = {LayerKind::kPatch};
     action.skip_existing = true;
-    action.foreseen_s = 12;
+    action.estimated_s = 12;
     const auto request = render_request(action, project(), {1, 2, 3, 4, 5, 6});
     ASSERT_TRUE(request);
     EXPECT_THAT(request->frames, ElementsAre(3, 4, 5));
@@ -42,7 +42,7 @@ TEST(RenderRequest, TakesTheActionsOutputAndFrames) {
     EXPECT_EQ(request->project.output.movie, "") << "the action says none";
     EXPECT_EQ(request->project.output.layers_path, "");
     EXPECT_THAT(request->project.output.layers, ElementsAre(LayerKind::kPatch));
-    EXPECT_EQ(request->foreseen_s, 0) << "nobody knows what is there already";
+    EXPECT_EQ(request->estimated_s, 0) << "nobody knows what is there already";
 }
 
 TEST(RenderRequest, TakesAllFramesWhereNoneAreNamed) {
@@ -56,12 +56,12 @@ TEST(RenderRequest, TakesAllFramesWhereNoneAreNamed) {
     EXPECT_FALSE(render_request(action, Project{}, {7, 8}));
 }
 
-TEST(JobDesk, TellsOnceThatAJobEnded) {
+TEST(JobDesk, ReportsTheEndOfAJobOnce) {
     const fs::path folder =
         fs::temp_directory_path() / ("weft_job_desk_" + std::to_string(getpid()));
     {
         JobDesk desk("/bin/false", folder.string());
-        EXPECT_TRUE(desk.look().empty());
+        EXPECT_TRUE(desk.poll().empty());
         SubmitJob action;
         action.output = (folder / "out" / "####.png").string();
         const auto request = render_request(action, project(), {1, 2});
@@ -70,16 +70,16 @@ TEST(JobDesk, TellsOnceThatAJobEnded) {
         std::vector<JobDesk::Ended> ended;
         const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
         while (ended.empty() && std::chrono::steady_clock::now() < end) {
-            ended = desk.look();
+            ended = desk.poll();
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         ASSERT_EQ(ended.size(), 1u);
         EXPECT_TRUE(ended[0].failed);
         EXPECT_EQ(ended[0].label, request->label);
-        EXPECT_TRUE(desk.look().empty()) << "it was said";
+        EXPECT_TRUE(desk.poll().empty()) << "it was said";
         ASSERT_EQ(desk.jobs().size(), 1u);
         desk.command({desk.jobs()[0].id, JobCommand::kRemove});
-        EXPECT_TRUE(desk.look().empty());
+        EXPECT_TRUE(desk.poll().empty());
         EXPECT_TRUE(desk.jobs().empty());
     }
     fs::remove_all(folder);

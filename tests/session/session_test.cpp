@@ -1,4 +1,4 @@
-// The session by its actions alone: what its parts give when they work together.
+// The session driven by actions only.
 #include "app/session/session.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ class SessionByActions : public ::testing::Test {
   protected:
     void SetUp() override {
         keep_thread_priority();
-        keep_libraries_steady();
+        make_libraries_deterministic();
         folder_ = fs::temp_directory_path() / ("weft_session_" + std::to_string(getpid()));
         fs::create_directories(folder_ / "frames");
         for (int k = 0; k < 4; ++k) {
@@ -116,8 +116,8 @@ TEST_F(SessionByActions, AStrokeIsShownKeptAndUndone) {
     EXPECT_TRUE(region().matte->keyframes.empty());
 }
 
-// The preview takes a stroke from memory: it waits for no disk, and not for one that is broken.
-TEST_F(SessionByActions, AStrokeIsPreviewedThoughItCannotBeWritten) {
+// The preview uses a stroke from memory, even if the disk fails.
+TEST_F(SessionByActions, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder_ / "state");
     std::ofstream(folder_ / "state" / "unsaved") << "in the place of the folder";
     open();
@@ -204,7 +204,7 @@ TEST_F(SessionByActions, PlaysStepsAndStops) {
     EXPECT_EQ(view().frame, 1);
 }
 
-TEST_F(SessionByActions, ARenderThatFailsIsTold) {
+TEST_F(SessionByActions, AFailedRenderIsReported) {
     open();
     paint();
     act(ApplyTexture{in("tile.png"), 0});

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-TEST(WhereToCorrect, NamesAFrameOnceForWhatIsWorst) {
+TEST(WhereToCorrect, ListsAFrameOnceForItsWorstProblem) {
     std::vector<int> frames;
     std::vector<FrameMarks> marks(40);
     for (int k = 0; k < 40; ++k) {

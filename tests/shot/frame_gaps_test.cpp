@@ -17,7 +17,7 @@ std::vector<std::pair<int, int>> gaps(const std::vector<int>& present, FrameSpan
     return out;
 }
 
-TEST(FrameGaps, AreTheRunsThatAreMissing) {
+TEST(FrameGaps, AreTheMissingRuns) {
     EXPECT_THAT(gaps({1, 2, 3}, {1, 3}), ElementsAre());
     EXPECT_THAT(gaps({1, 2, 5, 7}, {1, 7}), ElementsAre(std::pair(3, 4), std::pair(6, 6)));
     EXPECT_THAT(gaps({2, 3}, {0, 5}), ElementsAre(std::pair(0, 1), std::pair(4, 5)));
@@ -42,7 +42,7 @@ TEST(FrameGaps, RunAroundAFrame) {
     EXPECT_GT(run_with(present, 5).first, run_with(present, 5).last);
 }
 
-TEST(FrameGaps, TextIsCut) {
+TEST(FrameGaps, TextIsShortened) {
     EXPECT_EQ(gaps_text({{3, 3}}), "frame 3");
     EXPECT_EQ(gaps_text({{3, 4}, {9, 9}}), "frames 3-4,9");
     std::vector<FrameSpan> many;

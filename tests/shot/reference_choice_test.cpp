@@ -1,4 +1,4 @@
-// Which frame becomes the reference when none is given: on made mattes, on the demo's and on clips.
+// The default reference frame on synthetic mattes, the demo and clips.
 #include "app/shot/reference_choice.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr Size kSize{64, 48};
 
-// A plate of which only the numbers and the size count.
+// A plate of which only frame numbers and size matter.
 class Numbers final : public FrameReader {
   public:
     explicit Numbers(int count, Size size = kSize, int first = 1) : size_(size) {
@@ -130,7 +130,7 @@ TEST_F(ReferenceChoiceTest, OnePaintedFrameIsTheReferenceAndOfSeveralTheFirstGoo
     EXPECT_EQ(chosen(painted, Numbers(12)), 5);
 }
 
-TEST_F(ReferenceChoiceTest, EmptyEverywhereIsTheFirstFrameAndSaysSo) {
+TEST_F(ReferenceChoiceTest, EmptyEverywhereKeepsTheFirstFrameAndIsReported) {
     for (int frame = 1; frame <= 300; ++frame)
         put(frame, Matte(kSize));
     const auto choice = choose_reference(region(), Numbers(300), nullptr);
@@ -150,10 +150,10 @@ TEST_F(ReferenceChoiceTest, AFileThatCannotBeReadIsNoReference) {
     EXPECT_FALSE(shows_nothing(region(), Numbers(3), 1, nullptr));
 }
 
-TEST_F(ReferenceChoiceTest, MattesThatWereLookedAtAreNotReadAgain) {
+TEST_F(ReferenceChoiceTest, ExaminedMattesAreNotReadAgain) {
     for (int frame = 1; frame <= 8; ++frame)
         put(frame, frame < 4 ? Matte(kSize) : box(20, 20));
-    VisibilityMemory memory;
+    VisibilityCache memory;
     ASSERT_EQ(choose_reference(region(), Numbers(8), &memory)->frame, 4);
     // Other bytes under the same size and time: a matte that was read again would show nothing.
     const auto time = fs::last_write_time(file(4));
@@ -170,16 +170,16 @@ TEST_F(ReferenceChoiceTest, ALongShotIsJudgedByAFewFrames) {
     put(1, box(20, 20));
     for (int frame = 2; frame <= 1000; ++frame)
         fs::create_hard_link(file(1), file(frame));
-    VisibilityMemory memory;
+    VisibilityCache memory;
     EXPECT_EQ(choose_reference(region(), Numbers(1000), &memory)->frame, 1);
     EXPECT_EQ(memory.size(), 9u);
 }
 
-TEST_F(ReferenceChoiceTest, ALongShotWhoseMattesAreEmptyIsLookedThroughInSteps) {
+TEST_F(ReferenceChoiceTest, ALongShotOfEmptyMattesIsSampledInSteps) {
     put(1, Matte(kSize));
     for (int frame = 2; frame <= 1000; ++frame)
         fs::create_hard_link(file(1), file(frame));
-    VisibilityMemory memory;
+    VisibilityCache memory;
     EXPECT_FALSE(choose_reference(region(), Numbers(1000), &memory)->shown);
     EXPECT_GT(memory.size(), 250u);
     EXPECT_LT(memory.size(), 430u);  // 9 + 33 + 129 + 257, less those looked at twice

@@ -22,7 +22,7 @@ MatteSource painted_on(std::initializer_list<int> frames) {
 TEST(RegionProjection, PaintedHoldoutsKeepTheirOrderAmongThePainted) {
     MatteSource matte = painted_on({7, 3});
     matte.steadiness = 0.25;
-    matte.carry_to = 20;
+    matte.propagate_to = 20;
     MatteSource files;
     files.files = "holdout.####.png";
     RegionPlan plan;

@@ -45,7 +45,7 @@ bool same_in(const TexturePlane& a, const TexturePlane& b, const Recti& rect) {
 
 constexpr Recti kPlace{60, 50, 110, 95};
 
-TEST(Amendments, KeepingWhatIsThereChangesNothing) {
+TEST(Amendments, LockingEverythingChangesNothing) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
     PlaneOptions o = sized();
     const TexturePlane before = grow(sample, o);
@@ -53,7 +53,7 @@ TEST(Amendments, KeepingWhatIsThereChangesNothing) {
     EXPECT_EQ(grow(sample, o).pixels, before.pixels);
 }
 
-TEST(Amendments, AKeptPlaceStaysWhenTheRestIsGrownAnew) {
+TEST(Amendments, ALockedPatchStaysWhenTheRestIsRegenerated) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
     PlaneOptions o = sized();
     const TexturePlane before = grow(sample, o);
@@ -76,7 +76,7 @@ TEST(Amendments, AKeptPlaceStaysWhenTheRestIsGrownAnew) {
         }
 }
 
-TEST(Amendments, MadeAgainAPlaceIsDifferentAndTheRestIsNot) {
+TEST(Amendments, RegeneratingChangesThatPlaceOnly) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
     PlaneOptions o = sized();
     const TexturePlane before = grow(sample, o);
@@ -91,7 +91,7 @@ TEST(Amendments, MadeAgainAPlaceIsDifferentAndTheRestIsNot) {
     EXPECT_FALSE(same_in(grow(sample, o), first, kPlace)) << "another seed, another result";
 }
 
-TEST(Amendments, WhatIsKeptIsNotMadeAgain) {
+TEST(Amendments, LockedTexelsAreNotRegenerated) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
     PlaneOptions o = sized();
     const TexturePlane before = grow(sample, o);

@@ -269,7 +269,7 @@ TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
 
 // A plane that turns away until it is a third as wide: the texture is let go once, and what it was
 // is carried beside it, on the surface, for the seam to choose from.
-TEST(SurfaceWalker, LetsAStretchedTextureGoAndCarriesWhatItWas) {
+TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
     const WaveTexture plane(7);
     const auto width_at = [](int t) { return std::pow(0.92f, static_cast<float>(t)); };
     const auto luma_at = [&](int t) {

@@ -52,13 +52,13 @@ TEST(ImageTextModel, PutsPicturesAndWordsIntoOneSpace) {
     ASSERT_TRUE(model) << model.error().text();
     EXPECT_EQ(model->name(), "tiny");
     EXPECT_EQ(model->dimensions(), 3);
-    const auto red = model->see(plain(220, 20, 20));
+    const auto red = model->encode_image(plain(220, 20, 20));
     ASSERT_TRUE(red) << red.error().text();
     EXPECT_GT((*red)[0], 0);
     EXPECT_LT((*red)[1], 0);
     EXPECT_NEAR((*red)[0] * (*red)[0] + (*red)[1] * (*red)[1] + (*red)[2] * (*red)[2], 1, 1e-5);
-    EXPECT_TRUE(model->read("velvet").empty());
-    EXPECT_EQ(model->read("Crimsons velvet"), model->read("crimson"));
+    EXPECT_TRUE(model->encode_text("velvet").empty());
+    EXPECT_EQ(model->encode_text("Crimsons velvet"), model->encode_text("crimson"));
     const std::vector<float> likely = model->likelihoods(*red, {"grass", "stone", "velvet"});
     EXPECT_NEAR(likely[0] + likely[1], 1, 1e-5);
     EXPECT_GT(likely[1], 0.95f);
@@ -112,13 +112,13 @@ TEST(ImageTextModel, IsAskedBySearchesOfALibraryThatNamesIt) {
     const auto red = library->thumbnail(found->hits[0].id);
     ASSERT_TRUE(red);
     EXPECT_GT(red->at(0, 0, 0), 200);
-    EXPECT_THAT(found->hits[0].reasons, testing::Contains("looks like it to tiny"));
+    EXPECT_THAT(found->hits[0].reasons, testing::Contains("matches according to tiny"));
 
     query.text = "zorblax";  // a word of the model alone
-    const auto by_sight = library->search(query);
-    ASSERT_TRUE(by_sight);
-    ASSERT_EQ(by_sight->total, 1);
-    EXPECT_EQ(by_sight->hits[0].id, found->hits[0].id);
+    const auto by_image = library->search(query);
+    ASSERT_TRUE(by_image);
+    ASSERT_EQ(by_image->total, 1);
+    EXPECT_EQ(by_image->hits[0].id, found->hits[0].id);
 
     // Another connection names another one: the first goes over to it.
     const std::string other = model_in(scratch.at("other"), R"({"name": "other",

@@ -127,12 +127,12 @@ TEST(Recommend, WishesAreMet) {
         return sum / 8;
     };
     const double plain = mean(TextureAttribute::kBrightness);
-    request.wish.brighter = 1;
+    request.adjust.brighter = 1;
     EXPECT_GT(mean(TextureAttribute::kBrightness), plain + 0.05);
-    request.wish = {};
-    request.wish.rougher = -1;
+    request.adjust = {};
+    request.adjust.rougher = -1;
     const double smooth = mean(TextureAttribute::kRoughness);
-    request.wish.rougher = 1;
+    request.adjust.rougher = 1;
     EXPECT_GT(mean(TextureAttribute::kRoughness), smooth);
 }
 

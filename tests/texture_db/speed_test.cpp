@@ -147,8 +147,8 @@ TEST(Speed, OfTwoHundredThousandDescriptors) {
                             texture_features(middle_sample(plate.view().crop({0, 0, 96, 96}))));
                         look->descriptors.emplace_back(d.begin(), d.end());
                     }
-                    const RegionJudge judge(index, &model, request, region, *look);
-                    suggested = suggest_for(index, request, region, *look, judge);
+                    const RegionScorer scorer(index, &model, request, region, *look);
+                    suggested = suggest_for(index, request, region, *look, scorer);
                 }));
     EXPECT_EQ(suggested.suggestions.size(), 12u);
     set_thread_count(0);

@@ -1,4 +1,4 @@
-// What the drawer asks for in every frame is worked out once.
+// Requests that the drawer repeats in every frame are answered once.
 #include "app/textures/texture_shelf.h"
 
 #include <gtest/gtest.h>
@@ -68,34 +68,34 @@ class TextureShelfTest : public ::testing::Test {
         fs::remove_all(folder_);
     }
 
-    // Without a pause: a question is asked again while it is worked on.
+    // Without a pause, so that the request is repeated while it is pending.
     static bool wait(const std::function<bool()>& done) {
         const auto end = Clock::now() + std::chrono::minutes(2);
         while (!done())
             if (Clock::now() > end) return false;
         return true;
     }
-    // Nothing arrives any more.
+    // Nothing changes any more.
     static bool settle() {
-        auto seen = shelf_->arrivals();
+        auto seen = shelf_->changes();
         auto since = Clock::now();
         return wait([&] {
-            if (shelf_->arrivals() != seen || !shelf_->activity().empty()) {
-                seen = shelf_->arrivals();
+            if (shelf_->changes() != seen || !shelf_->activity().empty()) {
+                seen = shelf_->changes();
                 since = Clock::now();
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
             return Clock::now() - since > std::chrono::milliseconds(300);
         });
     }
-    // How much arrives when `asked` is asked without a pause until it has its answer.
+    // Number of changes while `asked` is requested repeatedly until it is answered.
     static std::uint64_t arrivals_of(const std::function<bool()>& asked) {
-        const std::uint64_t before = shelf_->arrivals();
+        const std::uint64_t before = shelf_->changes();
         EXPECT_TRUE(wait(asked));
         EXPECT_TRUE(settle());
-        return shelf_->arrivals() - before;
+        return shelf_->changes() - before;
     }
-    static SurfaceToSuit surface() {
+    static SurfaceQuery surface() {
         ImageU8x3 plate(192, 144, 110);
         for (int y = 40; y < 120; ++y)
             for (int x = 40; x < 120; ++x)
@@ -111,8 +111,8 @@ class TextureShelfTest : public ::testing::Test {
     static inline std::unique_ptr<TextureShelf> shelf_;
 };
 
-TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
-    const SurfaceToSuit wall = surface();
+TEST_F(TextureShelfTest, RepeatedRequestsRankARegionOnce) {
+    const SurfaceQuery wall = surface();
     EXPECT_EQ(arrivals_of([&] {
                   shelf_->suggest_for("wall", wall);
                   return shelf_->suggested("wall");
@@ -122,8 +122,8 @@ TEST_F(TextureShelfTest, ASurfaceIsRankedOnceHoweverOftenItIsAskedFor) {
     EXPECT_TRUE(shelf_->suggestions("another").empty());
 }
 
-TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
-    const SurfaceToSuit wall = surface();
+TEST_F(TextureShelfTest, RepeatedRequestsRankASetOnce) {
+    const SurfaceQuery wall = surface();
     Matte right(192, 144);
     for (int y = 40; y < 120; ++y)
         std::fill_n(right.row(y) + 130, 50, std::uint8_t{255});
@@ -138,14 +138,14 @@ TEST_F(TextureShelfTest, RegionsTogetherAreLookedAtOnce) {
     EXPECT_FALSE(shelf_->together("both")->empty());
 }
 
-TEST_F(TextureShelfTest, AQuestionIsSearchedOnce) {
-    TextureQuestion stone;
+TEST_F(TextureShelfTest, RepeatedRequestsSearchOnce) {
+    TextureQuery stone;
     stone.words = "stone";
     EXPECT_EQ(arrivals_of([&] { return shelf_->search(stone) != nullptr; }), 1u);
     EXPECT_GE(shelf_->search(stone)->paths.size(), 12u);
 }
 
-TEST_F(TextureShelfTest, WhatIsLikeAPictureIsLookedForOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsFindSimilarTexturesOnce) {
     const PicturePtr plate = surface().plate;
     EXPECT_EQ(arrivals_of([&] {
                   shelf_->find_similar("here", plate, {40, 40, 120, 120});
@@ -154,13 +154,13 @@ TEST_F(TextureShelfTest, WhatIsLikeAPictureIsLookedForOnce) {
               1u);
 }
 
-TEST_F(TextureShelfTest, AThumbnailIsMadeOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsMakeAThumbnailOnce) {
     const std::string path = (folder_ / "large.png").string();
     ASSERT_TRUE(write_image(path, ImageF3(1600, 1200, 0.5f), {}, {.depth = PixelDepth::kU8}));
     EXPECT_EQ(arrivals_of([&] { return shelf_->thumbnail(path, 128) != nullptr; }), 1u);
 }
 
-TEST_F(TextureShelfTest, DetailsAreLookedUpOnce) {
+TEST_F(TextureShelfTest, RepeatedRequestsLookUpDetailsOnce) {
     const TextureCard card = shelf_->cards()->front();
     EXPECT_EQ(arrivals_of([&] { return !shelf_->details(card).author.empty(); }), 1u);
 }

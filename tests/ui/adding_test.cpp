@@ -1,4 +1,4 @@
-// Textures of one's own, from a folder into the library, by the window alone.
+// Importing a folder of textures into the library through the window.
 #include <cmath>
 
 #include "engine/media/frame_writer.h"
@@ -58,13 +58,13 @@ class Adding : public SessionTest {
     std::string path_;
 };
 
-TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
+TEST_F(Adding, ImagesAreImportedWithAuthorAndLicence) {
     open_with_a_library();
     shell->state().adding.author = "Ada";
     shell->state().adding.licence = "CC-BY-4.0";
     ASSERT_TRUE(robot->click("Add textures/Add"));
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
-    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("of 1 picture."));
+    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("from 1 image."));
     TextureCard added;
     ASSERT_TRUE(wait([&] {
         for (const TextureCard& card : *shell->textures().cards())
@@ -78,17 +78,17 @@ TEST_F(Adding, PicturesComeIntoTheLibraryWithAuthorAndLicence) {
     ASSERT_TRUE(robot->click("Add textures/Close"));
     robot->frames(2);
     EXPECT_FALSE(shell->state().adding.open);
-    // Once more: nothing new, and it is said.
-    shell->textures().bring_in({(folder / "mine").string(), "Ada", "CC-BY-4.0", false});
+    // Importing again adds nothing, and the outcome says so.
+    shell->textures().import_folder({(folder / "mine").string(), "Ada", "CC-BY-4.0", false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
-    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("was in already"));
-    shell->textures().bring_in({(folder / "gone").string(), {}, {}, false});
+    EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("was skipped: already imported"));
+    shell->textures().import_folder({(folder / "gone").string(), {}, {}, false});
     ASSERT_TRUE(wait([&] { return !shell->textures().importing().running; }));
     EXPECT_TRUE(shell->textures().importing().failed);
     EXPECT_THAT(shell->textures().importing().outcome, HasSubstr("gone"));
 }
 
-TEST_F(Adding, AFolderCanAlsoOnlyBeShown) {
+TEST_F(Adding, AFolderCanBeBrowsedWithoutImport) {
     open_with_a_library();
     ASSERT_TRUE(robot->click("Add textures/Browse folder only"));
     robot->frames(2);

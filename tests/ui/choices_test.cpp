@@ -1,7 +1,7 @@
-// What an artist keeps, corrects, picks and sends out: what the panels emit.
+// Locking, correcting, picking and exporting: the actions that the panels emit.
 #include "app/mattes/paint.h"
 #include "app/session/where_to_correct.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "tests/ui/canvas_fixture.h"
 #include "ui/pen.h"
 
@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// A plane of 64 × 48 texels made of two pieces that meet at x = 20.
+// A plane of 64 × 48 texels with two patches that meet at x = 20.
 std::shared_ptr<const Provenance> two_pieces() {
     auto plane = std::make_shared<PlaneMap>();
     plane->source = Image<std::int32_t, 2>(64, 48);
@@ -35,12 +35,12 @@ class Choices : public CanvasTest {
   protected:
     void show_pieces() {
         auto picture = std::make_shared<OverlayPicture>();
-        picture->kind = Overlay::kPieces;
+        picture->kind = Overlay::kSourceMap;
         picture->frame = 1003;
         picture->id = next_picture_id();
         picture->value = picture->where = Matte(320, 180, 255);
         picture->provenance = two_pieces();
-        view.overlay = Overlay::kPieces;
+        view.overlay = Overlay::kSourceMap;
         view.overlay_picture = picture;
     }
     [[nodiscard]] static int texels(const PlaneAmendment& amendment) {
@@ -55,7 +55,7 @@ class Choices : public CanvasTest {
     }
 };
 
-TEST_F(Choices, AClickKeepsThePieceUpToItsSeams) {
+TEST_F(Choices, AClickLocksThePatch) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
     click_at(on(10.5f, 10.5f));
@@ -69,9 +69,9 @@ TEST_F(Choices, AClickKeepsThePieceUpToItsSeams) {
     EXPECT_EQ(kept.runs[3], (TexelRun{0, 3, 20, 5, 3, 0, 0}));
 }
 
-TEST_F(Choices, AltLetsGoOfItAgain) {
+TEST_F(Choices, AltDeselects) {
     show_pieces();
-    set_amendments({*piece_at(*two_pieces(), {10.5f, 10.5f})});
+    set_amendments({*patch_at(*two_pieces(), {10.5f, 10.5f})});
     go("Seams & Light", Tool::kKeep);
     robot->hold("Alt", true);
     click_at(on(40.5f, 10.5f));
@@ -83,7 +83,7 @@ TEST_F(Choices, AltLetsGoOfItAgain) {
     EXPECT_THAT(set[0].amendments, IsEmpty());
 }
 
-TEST_F(Choices, TheSamePlaceMadeAgainIsAnotherTry) {
+TEST_F(Choices, RegeneratingAgainUsesAnotherSeed) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
     ASSERT_TRUE(robot->click("Keep/Regenerate"));
@@ -105,28 +105,28 @@ TEST_F(Choices, TheSamePlaceMadeAgainIsAnotherTry) {
     EXPECT_EQ(set[0].amendments[0].seed, seed + 1);
 }
 
-TEST_F(Choices, ADragKeepsWhatLiesInTheRectangle) {
+TEST_F(Choices, ADragLocksARectangle) {
     show_pieces();
     go("Seams & Light", Tool::kKeep);
     robot->stroke({on(12, 8), on(20, 14), on(28, 18)});
     const auto set = edits<SetAmendments>();
     ASSERT_THAT(set, SizeIs(1));
-    // 16 × 10 texels, of either piece.
+    // 16 × 10 texels of both patches.
     EXPECT_NEAR(texels(set[0].amendments[0]), 160, 30);
     EXPECT_GT(set[0].amendments[0].runs.size(), 10u);
 }
 
-TEST_F(Choices, TheToolShowsThePieces) {
+TEST_F(Choices, TheToolShowsTheSourceMap) {
     go("Seams & Light", Tool::kKeep);
     robot->frames(1);
     ASSERT_FALSE(emitted<ShowOverlay>().empty());
-    EXPECT_EQ(emitted<ShowOverlay>().back().overlay, Overlay::kPieces);
+    EXPECT_EQ(emitted<ShowOverlay>().back().overlay, Overlay::kSourceMap);
 }
 
-TEST_F(Choices, ThePiecesGoWithTheTool) {
+TEST_F(Choices, TheSourceMapIsHiddenWithTheTool) {
     go("Seams & Light", Tool::kKeep);
     robot->frames(1);
-    view.overlay = Overlay::kPieces;
+    view.overlay = Overlay::kSourceMap;
     shell->state().tool = Tool::kPan;
     clear();
     robot->frames(2);
@@ -134,7 +134,7 @@ TEST_F(Choices, ThePiecesGoWithTheTool) {
     EXPECT_EQ(emitted<ShowOverlay>().front().overlay, Overlay::kNone);
 }
 
-TEST_F(Choices, APictureOfOnesOwnIsLookedFor) {
+TEST_F(Choices, SimilarTexturesToAnImageFileAreFound) {
     go("Texture", Tool::kPan);
     ASSERT_TRUE(robot->click("Materials/Find by picture…"));
     robot->frames(1);
@@ -186,7 +186,7 @@ TEST_F(Choices, LayersAreChosenForAJob) {
         << "PNG frames cannot hold them";
 }
 
-TEST_F(Choices, APenPressesTheBrush) {
+TEST_F(Choices, PenPressureControlsTheBrush) {
     go("Mask", Tool::kBrush);
     shell->state().pen_pressure = 0.4f;
     robot->stroke({on(100, 80), on(110, 90)});
@@ -201,7 +201,7 @@ TEST_F(Choices, APenPressesTheBrush) {
     EXPECT_FLOAT_EQ(emitted<BeginStroke>()[0].pressure, 1.0f);
 }
 
-TEST_F(Choices, ACryptomatteIsPickedOnTheCanvas) {
+TEST_F(Choices, ACryptomatteObjectIsPickedInTheViewer) {
     go("Mask", Tool::kCrypto);
     click_at(on(50.5f, 60.5f));
     robot->hold("Alt", true);
@@ -211,7 +211,7 @@ TEST_F(Choices, ACryptomatteIsPickedOnTheCanvas) {
                 ElementsAre(PickCryptomatte{{50, 60}, false}, PickCryptomatte{{50, 60}, true}));
 }
 
-TEST(PenPressure, ChangesTheSizeTheOpacityOrNothing) {
+TEST(PenPressure, ControlsSizeOrOpacityOrNothing) {
     const auto dab = [](bool size, bool opacity) {
         Matte matte(64, 64);
         Brush brush;
@@ -230,7 +230,7 @@ TEST(PenPressure, ChangesTheSizeTheOpacityOrNothing) {
     EXPECT_NEAR(faint.second, 128, 2);
 }
 
-TEST(PenDevices, TellsThePressureOfWhatIsAPen) {
+TEST(PenDevices, ReportPressureOfPensOnly) {
     PenDevices pens;
     EXPECT_FALSE(pens.pressure());
     pens.report(9, {{2, 500}});
@@ -251,7 +251,7 @@ TEST(PenDevices, TellsThePressureOfWhatIsAPen) {
     EXPECT_FALSE(pens.pressure()) << "a range of nothing";
 }
 
-TEST(WhereToCorrect, NamesTheFrameThatIsWorstAndWhy) {
+TEST(WhereToCorrect, NamesTheWorstFrameAndItsProblem) {
     std::vector<int> frames;
     std::vector<FrameMarks> marks(40);
     for (int k = 0; k < 40; ++k) {

@@ -1,4 +1,4 @@
-// Nothing that happens between two frames is lost, and everything happens where it happened.
+// No event between two frames is lost, and each keeps its position.
 #include "ui/input_queue.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST_F(Queue, AChordKeepsItsModifier) {
     EXPECT_FALSE(ImGui::IsKeyDown('S'));
 }
 
-TEST_F(Queue, AClickHappensWhereTheMouseWas) {
+TEST_F(Queue, AClickKeepsItsPosition) {
     queue.move({10, 20});
     queue.button(0, true, 1.0);
     queue.button(0, false, 1.05);
@@ -86,7 +86,7 @@ TEST_F(Queue, AClickHappensWhereTheMouseWas) {
     EXPECT_EQ(io->MousePos.x, 200);
 }
 
-TEST_F(Queue, ADoubleClickIsOneByTheClockOfTheHand) {
+TEST_F(Queue, ADoubleClickIsTimedByItsEvents) {
     queue.move({10, 20});
     for (const double at : {1.0, 1.15}) {
         queue.button(0, true, at);
@@ -98,7 +98,7 @@ TEST_F(Queue, ADoubleClickIsOneByTheClockOfTheHand) {
         twice += ImGui::IsMouseDoubleClicked(0) ? 1 : 0;
     }
     EXPECT_EQ(twice, 1);
-    // Slow clicks are none, however few frames there were.
+    // Slow clicks are not a double click, however few frames there were.
     for (const double at : {5.0, 6.0}) {
         queue.button(0, true, at);
         queue.button(0, false, at + 0.05);
@@ -137,12 +137,12 @@ TEST_F(Queue, TextComesBeforeTheKeyThatEndsIt) {
     EXPECT_TRUE(ImGui::IsKeyDown(kEnter));
 }
 
-TEST_F(Queue, LosingTheKeyboardLetsGo) {
+TEST_F(Queue, LosingFocusReleasesAllKeys) {
     queue.key('S', true);
     queue.button(0, true, 1);
     frame();
     frame();
-    queue.let_go();
+    queue.release_all();
     for (int k = 0; k < 3; ++k)
         frame();
     EXPECT_FALSE(ImGui::IsKeyDown('S'));

@@ -75,7 +75,7 @@ TEST(ThemeTokens, HeatGrowsLighterAllTheWay) {
                   luminance(heat_color(static_cast<float>(k - 1) / 64)) - 1e-4f);
 }
 
-TEST(Canvas, ThereAndBack) {
+TEST(Canvas, CoordinatesRoundTrip) {
     const ViewMap map{{100, 50}, {900, 650}, {320, 180}, 2.5f};
     const Vec2 p = map.to_plate(map.to_screen({12.25f, 99.5f}));
     EXPECT_NEAR(p.x, 12.25f, 1e-3);

@@ -1,4 +1,4 @@
-// What is in front of a surface, painted by hand, and which way mattes are carried.
+// Painted holdouts, and the direction of matte propagation.
 #include "app/mattes/matte_layer.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
@@ -49,7 +49,7 @@ TEST_F(PaintedLayers, AHoldoutIsPaintedLikeAMatteAndCutOutOfTheResult) {
     EXPECT_GT(written->at(50, 30), 200);
     EXPECT_EQ(written->at(20, 30), 0);
 
-    // It is carried to the other frames and the texture does not cover it there.
+    // It is propagated to the other frames and cut out of the texture there.
     session->act(SetPreviewQuality{Quality::kDraft});
     session->act(ApplyTexture{(folder / "tile.png").string(), region().id});
     session->act(GoToFrame{3});
@@ -65,7 +65,7 @@ TEST_F(PaintedLayers, AHoldoutIsPaintedLikeAMatteAndCutOutOfTheResult) {
             covered += v.holdouts[0].pixels.at(x, y) > 127 ? 1 : 0;
     EXPECT_GT(covered, 50);
 
-    // Undo takes the layer away again.
+    // Undo removes the layer.
     for (int k = 0; k < 2; ++k) {
         robot->key("Ctrl+Z");
         robot->frames(2);
@@ -97,19 +97,19 @@ TEST_F(PaintedLayers, DirectionAndRangeAreChosenInTheInspector) {
     open();
     ASSERT_TRUE(robot->click("Propagation/Forwards"));
     robot->frames(2);
-    EXPECT_EQ(region().matte->carry, CarryDirection::kForward);
+    EXPECT_EQ(region().matte->propagate_direction, PropagationDirection::kForward);
     session->act(MarkRange{2, 3});
     robot->frames(2);
     ASSERT_TRUE(robot->click("Propagation/Marked range"));
     robot->frames(2);
-    EXPECT_EQ(region().matte->carry_from, 2);
-    EXPECT_EQ(region().matte->carry_to, 3);
+    EXPECT_EQ(region().matte->propagate_from, 2);
+    EXPECT_EQ(region().matte->propagate_to, 3);
     ASSERT_TRUE(robot->click("Propagation/Whole shot"));
     robot->frames(2);
-    EXPECT_FALSE(region().matte->carry_from || region().matte->carry_to);
+    EXPECT_FALSE(region().matte->propagate_from || region().matte->propagate_to);
     robot->key("Ctrl+Z");
     robot->frames(2);
-    EXPECT_EQ(region().matte->carry_to, 3);
+    EXPECT_EQ(region().matte->propagate_to, 3);
 }
 
 TEST_F(PaintedLayers, ALightZoneIsPaintedAndItsValueChanges) {

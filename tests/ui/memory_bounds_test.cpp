@@ -1,4 +1,4 @@
-// What the editor keeps of a long shot of large frames stays within its budgets.
+// The editor's memory for a long shot of large frames stays within its bounds.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -41,7 +41,7 @@ class LongPlate final : public FrameReader {
 
 bool wait(const std::function<bool()>& done) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    // Not asked again once it was so: an attempt that succeeded may fail the next time.
+    // Not repeated once true, because a later attempt may fail.
     while (!done()) {
         if (std::chrono::steady_clock::now() > end) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -64,7 +64,7 @@ TEST(MemoryBounds, PlayingALongShotKeepsNoMoreThanItsBudget) {
             if (player.try_read(from, reading)) most = std::max(most, reading.bytes);
             return reading.frame == from && reading.picture && reading.bytes >= 3 * kFrame;
         })) << "the frame that is looked at comes";
-        // What is looked at next is decoded ahead, and goes on within the budget.
+        // The next frames are decoded ahead, within the bound.
         for (int k = 0; k < 200; ++k) {
             if (player.try_read(from, reading)) most = std::max(most, reading.bytes);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));

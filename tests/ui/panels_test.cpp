@@ -1,4 +1,4 @@
-// The panels on made views: what they emit, and that no state breaks them.
+// The panels on prepared views: the actions that they emit, and all states.
 #include <cmath>
 
 #include "tests/ui/ui_harness.h"
@@ -10,7 +10,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-TEST_F(PanelTest, ASliderTriesWhileItIsDraggedAndEditsOnce) {
+TEST_F(PanelTest, ADraggedSliderPreviewsAndEditsOnce) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     clear();
@@ -107,7 +107,7 @@ TEST_F(PanelTest, TheWheelZoomsAboutTheMouse) {
     EXPECT_NEAR(after.to_plate(at).y, under.y, 0.05);
 }
 
-TEST_F(PanelTest, KeysStandForTheirCommands) {
+TEST_F(PanelTest, KeysRunTheirCommands) {
     robot->frames(2);
     clear();
     robot->key("Right");
@@ -133,7 +133,7 @@ TEST_F(PanelTest, ThePaletteRunsWhatIsTyped) {
     EXPECT_FALSE(shell->state().palette_open);
 }
 
-TEST_F(PanelTest, NothingIsDoneWhileATextIsTyped) {
+TEST_F(PanelTest, ShortcutsAreOffWhileTyping) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     ASSERT_TRUE(robot->click("Search textures"));
@@ -143,7 +143,7 @@ TEST_F(PanelTest, NothingIsDoneWhileATextIsTyped) {
     EXPECT_THAT(actions, IsEmpty());
 }
 
-TEST_F(PanelTest, UnsavedWorkAsksBeforeItIsLeft) {
+TEST_F(PanelTest, ClosingWithUnsavedChangesAsks) {
     view.modified = true;
     robot->frames(2);
     robot->key("Ctrl+W");
@@ -247,7 +247,7 @@ TEST(Theme, StatesAreLegibleBesideThePictureAndOnPanels) {
     }
 }
 
-TEST_F(PanelTest, TheScreensViewsAreOfferedAndOneIsChosen) {
+TEST_F(PanelTest, ViewTransformsAreListedAndSelectable) {
     view.screens = {{"monitor", "Film"}, {"monitor", "Raw"}, {"projector", "Film"}};
     robot->frames(3);
     ASSERT_TRUE(robot->click("View/Screen"));
@@ -272,7 +272,7 @@ TEST_F(PanelTest, TheScreensViewsAreOfferedAndOneIsChosen) {
     EXPECT_EQ(pictures.pictures.back().display.screen, nullptr);
 }
 
-TEST_F(PanelTest, ThePlatesSpaceIsOneOfTheConfigs) {
+TEST_F(PanelTest, ThePlatesColourSpaceCanBeOneOfTheConfig) {
     view.color_spaces = {"raw", "ACEScg"};
     shell->state().shot_open = true;
     robot->frames(3);
@@ -286,7 +286,7 @@ TEST_F(PanelTest, ThePlatesSpaceIsOneOfTheConfigs) {
     EXPECT_EQ(std::get<std::string>(set->value), "ACEScg");
 }
 
-TEST_F(PanelTest, LeavingWaitsForTheSaveAndStaysWhenItFails) {
+TEST_F(PanelTest, ClosingWaitsForTheSaveAndIsCancelledIfItFails) {
     view.modified = true;
     shell->ask_to_leave();
     robot->frames(2);

@@ -1,7 +1,7 @@
-// What the preview shows at full size is what a render writes, byte for byte: with what is kept by
-// hand, pins, and a placement that changes over time.
+// The full-size preview equals a render byte for byte, with locked patches, pins and an animated
+// placement.
 #include "app/render/render_job.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
 
@@ -78,7 +78,7 @@ class PreviewBytes : public SessionTest {
             }
         }
     }
-    // How many pixels of a frame differ from what they were.
+    // Number of pixels of a frame that differ from before.
     static int changed(const ImageU8x3& a, const ImageU8x3& b) {
         int count = 0;
         for (int y = 0; y < a.height(); ++y)
@@ -88,15 +88,15 @@ class PreviewBytes : public SessionTest {
     }
 };
 
-TEST_F(PreviewBytes, WithAPieceAndASeamKeptByHand) {
+TEST_F(PreviewBytes, EqualARenderWithALockedPatchAndSeam) {
     open_with_region();
-    session->act(ShowOverlay{Overlay::kPieces});
+    session->act(ShowOverlay{Overlay::kSourceMap});
     ASSERT_TRUE(wait([&] {
         const auto& over = session->view().overlay_picture;
         return over && over->provenance && over->provenance->plane;
     }));
     const auto from = session->view().overlay_picture->provenance;
-    const auto piece = piece_at(*from, {45.5f, 33.5f});
+    const auto piece = patch_at(*from, {45.5f, 33.5f});
     const auto seam = seam_at(*from, {60.5f, 30.5f});
     auto again = places_in(*from, {26, 20}, {36, 30});
     ASSERT_TRUE(piece && seam && again);
@@ -108,7 +108,7 @@ TEST_F(PreviewBytes, WithAPieceAndASeamKeptByHand) {
     expect_same_bytes("kept and made again");
 }
 
-TEST_F(PreviewBytes, WithPinsAndAPlacementThatChanges) {
+TEST_F(PreviewBytes, EqualARenderWithPinsAndAnAnimatedPlacement) {
     open_with_region();
     const ImageU8x3 before = shown(3);
     session->act(

@@ -1,4 +1,4 @@
-// What the strips below the ruler say of neighbouring frames, on pictures with known answers.
+// Measurements of the strips below the ruler on pictures with known answers.
 #include "app/preview/preview_flicker.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ FramePair steady_pair() {
     return pair;
 }
 
-TEST(PreviewFlicker, WhatMovesWithThePlateIsSteady) {
+TEST(PreviewFlicker, ATextureThatMovesWithThePlateIsStable) {
     const Steadiness found = measure_steadiness(steady_pair());
     EXPECT_GE(found.flicker, 0);
     EXPECT_LT(found.flicker, 1);
@@ -54,27 +54,27 @@ TEST(PreviewFlicker, AFlashIsMeasuredInLevelsAndThePlateIsNot) {
     EXPECT_LT(found.flicker_plate, 1);
 }
 
-TEST(PreviewFlicker, WhatTheMotionMissesIsNotTakenForFlicker) {
+TEST(PreviewFlicker, MotionErrorIsNotCountedAsFlicker) {
     FramePair pair = steady_pair();
-    // The plate moves by two pixels, the texture is carried by three: along the plate's motion it
-    // changes, as it does when carried so.
+    // The plate moves by two pixels and the texture by three: along the plate's motion the texture
+    // changes.
     pair.now.result = waves(3);
-    EXPECT_LT(measure_steadiness(pair).flicker_carried, 0);
+    EXPECT_LT(measure_steadiness(pair).flicker_floor, 0);
     pair.before_from_now = FlowField(kSize);
     for (int y = 0; y < kSize.height; ++y)
         for (int x = 0; x < kSize.width; ++x)
             pair.before_from_now.d.at(x, y, 0) = -3;
     const Steadiness carried = measure_steadiness(pair);
     EXPECT_GT(carried.flicker, 5);
-    EXPECT_NEAR(carried.flicker_carried, carried.flicker, 0.2f);
-    // A flash is not carried.
+    EXPECT_NEAR(carried.flicker_floor, carried.flicker, 0.2f);
+    // A flash is not explained by motion.
     pair.now.result = waves(3, 30.0f / 255);
     const Steadiness flash = measure_steadiness(pair);
-    EXPECT_NEAR(flash.flicker_carried, carried.flicker_carried, 1e-4f);
-    EXPECT_GT(flash.flicker, flash.flicker_carried + 15);
+    EXPECT_NEAR(flash.flicker_floor, carried.flicker_floor, 1e-4f);
+    EXPECT_GT(flash.flicker, flash.flicker_floor + 15);
 }
 
-TEST(PreviewFlicker, AMatteLeftBehindAndSeamsThatCrawlAreToldInPlatePixels) {
+TEST(PreviewFlicker, ChatterAndCrawlingSeamsAreInPlatePixels) {
     FramePair pair = steady_pair();
     pair.now.matte = box(6);
     pair.plate_scale = 4;
@@ -91,7 +91,7 @@ TEST(PreviewFlicker, AMatteLeftBehindAndSeamsThatCrawlAreToldInPlatePixels) {
     // Four pixels on two sides of a box of 80 × 60, four plate pixels each.
     EXPECT_NEAR(found.chatter, 4.0f * 4 * 60 / 140, 1.2f);
     EXPECT_NEAR(found.seam_motion, 6 * 4 / 2, 0.5f);
-    // Carried along with them, they stay on the texture.
+    // Moved along with it, the seams stay on the texture.
     pair.now.matte = pair.before.matte = Matte(kSize, 255);
     pair.before_from_now = FlowField(kSize);
     for (int y = 0; y < kSize.height; ++y)

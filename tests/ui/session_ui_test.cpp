@@ -1,4 +1,4 @@
-// The whole way from the hand to the document, without a window.
+// From user input to the document, without a window.
 #include <algorithm>
 #include <fstream>
 #include <thread>
@@ -52,8 +52,8 @@ TEST_F(EditorSession, AStrokeBecomesAKeyframeWithItsFile) {
     EXPECT_EQ(written->at(2, 2), 0);
 }
 
-// The preview takes it from memory: it waits for no disk, and not for one that is broken.
-TEST_F(EditorSession, AStrokeIsPreviewedThoughItCannotBeWritten) {
+// The preview uses the stroke from memory, even if the disk fails.
+TEST_F(EditorSession, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder / "state");
     std::ofstream(folder / "state" / "unsaved") << "in the place of the folder";
     open();
@@ -135,7 +135,7 @@ TEST_F(EditorSession, OneStrokeIsOneStepOfTheHistory) {
     EXPECT_EQ(matte().keyframes.at(1).path, first);
 }
 
-TEST_F(EditorSession, AltTakesAwayFromTheMatte) {
+TEST_F(EditorSession, AltSubtractsFromTheMatte) {
     open();
     paint();
     robot->hold("Alt", true);
@@ -177,7 +177,7 @@ TEST_F(EditorSession, SavingMakesPathsRelativeAndOpensAgain) {
     EXPECT_EQ(project(), before);
 }
 
-TEST_F(EditorSession, WhatWasPaintedIsRecoveredAfterACrash) {
+TEST_F(EditorSession, PaintingIsRecoveredAfterACrash) {
     open();
     paint();
     session->flush();
@@ -186,7 +186,7 @@ TEST_F(EditorSession, WhatWasPaintedIsRecoveredAfterACrash) {
     for (const auto& entry : fs::directory_iterator(recovery))
         snapshot = entry.path();
     ASSERT_FALSE(snapshot.empty());
-    // As if another process, long gone, had left it.
+    // As if a process that has ended had left it.
     fs::copy_file(snapshot, recovery / "recovery-999999999.weft");
     const MatteSource painted = matte();
     restart_session();
@@ -200,7 +200,7 @@ TEST_F(EditorSession, WhatWasPaintedIsRecoveredAfterACrash) {
     EXPECT_FALSE(fs::exists(recovery / "recovery-999999999.weft"));
 }
 
-TEST_F(EditorSession, AMissingFrameIsSaidAndTheOthersPlay) {
+TEST_F(EditorSession, AMissingFrameIsReportedAndTheOthersPlay) {
     std::ofstream(folder / "frames" / "0003.png") << "no picture";
     open();
     robot->key("Right");
@@ -237,7 +237,7 @@ TEST_F(EditorSession, ThePreviewShowsTheResultAndNeverAWrongOne) {
     EXPECT_THAT(shown, testing::Each(testing::IsNull()));
 }
 
-TEST_F(EditorSession, AProjectFromElsewhereWritesOutsideOfItsFolderOnceItIsTrusted) {
+TEST_F(EditorSession, AnUntrustedProjectWritesInsideItsFolderOnly) {
     open();
     paint();
     session->act(ApplyTexture{(folder / "tile.png").string(), 0});
@@ -251,7 +251,7 @@ TEST_F(EditorSession, AProjectFromElsewhereWritesOutsideOfItsFolderOnceItIsTrust
     }()}});
     session->act(SaveAs{path});
     ASSERT_TRUE(wait([&] { return !session->view().saving; }));
-    // What was made here is trusted; what came from somebody is not.
+    // Projects created here are trusted; received ones are not.
     EXPECT_FALSE(session->view().trust);
     EXPECT_TRUE(TrustList((folder / "trusted.json").string()).trusts(path));
     fs::remove(folder / "trusted.json");
@@ -267,7 +267,7 @@ TEST_F(EditorSession, AProjectFromElsewhereWritesOutsideOfItsFolderOnceItIsTrust
     EXPECT_TRUE(session->view().jobs.empty());
     ASSERT_FALSE(session->view().notices.empty());
     EXPECT_THAT(session->view().notices.back().text, HasSubstr(outside));
-    // The user's own choice of a place is no matter of trust.
+    // An output chosen by the user needs no trust.
     session->act(SubmitJob{"1-2", (folder / "chosen" / "####.png").string(), "", false, false});
     ASSERT_TRUE(wait([&] { return session->view().jobs.size() == 1; }));
     ASSERT_TRUE(session->view().trust);

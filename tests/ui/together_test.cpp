@@ -1,4 +1,4 @@
-// Textures for all regions at once: asked for, looked through, kept in part, taken.
+// Texture sets for all regions: requesting, browsing, keeping textures, applying.
 #include <cmath>
 
 #include "tests/ui/ui_harness.h"
@@ -66,7 +66,7 @@ class Together : public SessionTest {
     std::string library_path_;
 };
 
-TEST_F(Together, ASetIsTakenInOneStepAndPartOfItKept) {
+TEST_F(Together, ASetIsAppliedInOneStepAndTexturesCanBeKept) {
     make_library();
     open_two_regions();
     ASSERT_TRUE(offered());
@@ -98,11 +98,11 @@ TEST_F(Together, ASetIsTakenInOneStepAndPartOfItKept) {
     EXPECT_EQ(texture(1), "");
 }
 
-TEST_F(Together, OneRegionAloneIsToldWhatIsMissing) {
+TEST_F(Together, OneRegionIsNotEnough) {
     make_library();
     open_two_regions();
     ASSERT_TRUE(offered());
-    // On another frame, before the mattes are carried there, nothing is offered for two.
+    // On another frame, before the mattes are propagated, no set of two is offered.
     session->act(
         DoEdit{SetRegionParameter{{session->view().project.regions[1]->id, {}}, "enabled", false}});
     robot->frames(3);

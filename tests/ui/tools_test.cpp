@@ -120,7 +120,7 @@ TEST_F(Tools, ALampIsDraggedOnThePicture) {
     EXPECT_EQ(numbers[2], 40);
 }
 
-TEST_F(Tools, ALampIsAddedAndTakenAway) {
+TEST_F(Tools, ALampIsAddedAndRemoved) {
     change([](Region& r) { r.light.source = LightSource::kPainted; });
     go("Seams & Light", Tool::kPan);
     ASSERT_TRUE(robot->click("+ Lamp"));
@@ -240,7 +240,7 @@ TEST(RotoShapes, CoverTheirInsideAndFallOff) {
     EXPECT_EQ(matte.at(12, 40), 0);  // no feather on that side
 }
 
-TEST(RotoShapes, MeetHalfway) {
+TEST(RotoShapes, InterpolateAtTheMidpoint) {
     RotoShape a;
     for (int k = 0; k < 3; ++k) {
         const auto f = static_cast<float>(k);

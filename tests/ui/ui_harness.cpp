@@ -180,7 +180,7 @@ SessionView huge_view() {
 
 void SessionTest::SetUp() {
     keep_thread_priority();
-    keep_libraries_steady();  // as the program does before all else
+    make_libraries_deterministic();  // as the program does before all else
     std::string name = (fs::temp_directory_path() / "weft_ui_XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder = name;

@@ -1,6 +1,6 @@
-// Values over time, smaller pictures of a shot, and where a pixel comes from.
+// Animated values, proxies of a shot, and provenance.
 #include "app/preview/proxy_shot.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "app/textures/provenance.h"
 #include "tests/ui/ui_harness.h"
 #include "ui/view_map.h"
@@ -88,20 +88,20 @@ TEST(Provenance, PatchesAreNumberedInTheOrderOfTheRows) {
     EXPECT_EQ(patch.at(7, 7), 2);
 }
 
-TEST(Provenance, TwoHistoriesShareAPixelAsTheSeamSays) {
+TEST(Provenance, TheSeamDecidesBetweenTwoTracks) {
     Provenance from;
     from.ref_from_cur = LatticeField({32, 32}, 8);
     from.plane = two_patches();
     from.frame = 5;
-    from.two = TwoHistories{1, 9, 0.25f, {}};
+    from.two = TwoTracks{1, 9, 0.25f, {}};
     auto found = from.at({1.5f, 1.5f});
     ASSERT_THAT(found.histories, SizeIs(2));
     EXPECT_EQ(found.histories[0].frame, 1);
     EXPECT_FLOAT_EQ(found.histories[0].weight, 0.75f);
     EXPECT_EQ(found.histories[1].frame, 9);
     EXPECT_FLOAT_EQ(found.histories[1].weight, 0.25f);
-    // With a seam, what shows is where the history on this side of it has been.
-    TwoHistories::Seam seam;
+    // With a seam, each side shows its own track.
+    TwoTracks::Seam seam;
     seam.before = LatticeField({32, 32}, 8);
     seam.after = LatticeField({32, 32}, 8);
     for (int j = 0; j < seam.after.nodes().height(); ++j)
@@ -123,13 +123,13 @@ TEST(Provenance, TwoHistoriesShareAPixelAsTheSeamSays) {
     EXPECT_EQ(found.in_sample->x, 106);
 }
 
-TEST(Provenance, ThePapersModeCarriesWhatIsNotFresh) {
+TEST(Provenance, ThePaperModeTracksWhatIsNotFresh) {
     Provenance from;
     from.ref_from_cur = LatticeField({32, 32}, 8);
     from.temporal = TemporalMode::kPaper;
     from.fresh = 0.25f;
     from.frame = 5;
-    from.history_frame = 9;
+    from.track_frame = 9;
     auto found = from.at({1.5f, 1.5f});
     ASSERT_THAT(found.histories, SizeIs(1));
     EXPECT_EQ(found.histories[0].frame, 6);
@@ -149,15 +149,15 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     from->plane = plane;
     from->texture = "brick.png";
     from->texture_id = "0123456789ab";
-    from->reference_frame = from->history_frame = 1001;
+    from->reference_frame = from->track_frame = 1001;
     from->frame = 1003;
     auto over = std::make_shared<OverlayPicture>();
-    over->kind = Overlay::kPieces;
+    over->kind = Overlay::kSourceMap;
     over->frame = 1003;
     over->value = Matte(view.plate.size);
     over->where = Matte(view.plate.size, 255);
     over->provenance = from;
-    view.overlay = Overlay::kPieces;
+    view.overlay = Overlay::kSourceMap;
     view.overlay_picture = over;
     robot->frames(3);
     const DrawnItem* canvas = robot->find("Viewer/Canvas");
@@ -176,13 +176,13 @@ TEST_F(PanelTest, ThePixelUnderTheMouseIsReadOut) {
     robot->frames(2);
     ASSERT_THAT(viewer.provenance, SizeIs(6));
     EXPECT_EQ(viewer.provenance[3], "Seam 1|2, difference 12");
-    // Beside the surface there is nothing to say.
+    // Outside the surface there is no provenance.
     robot->move({canvas->min.x + 2, canvas->min.y + 2});
     robot->frames(2);
     EXPECT_THAT(viewer.provenance, SizeIs(0));
 }
 
-TEST_F(PanelTest, AKeyIsSetOnThisFrameAndTakenAway) {
+TEST_F(PanelTest, AKeyframeIsSetAndRemoved) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     clear();
@@ -240,7 +240,7 @@ TEST_F(PanelTest, CornersInPerspectiveAreDraggedOnTheCanvas) {
     EXPECT_NEAR(numbers[0], 80, 0.01);
 }
 
-TEST_F(PanelTest, ALineSaysHowLargeTheBricksAre) {
+TEST_F(PanelTest, AReferenceLineSetsTheScale) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Texture"));
     ASSERT_TRUE(robot->click("Scale by reference line"));

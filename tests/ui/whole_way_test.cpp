@@ -1,11 +1,11 @@
-// Keeping, layers, originals and Cryptomattes on a real session: from the action to the document
-// and the picture.
+// Locked patches, layers, originals and Cryptomattes in a real session: from the action to the
+// document and the picture.
 #include <OpenImageIO/imageio.h>
 
 #include <bit>
 
 #include "app/textures/larger_original.h"
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
@@ -40,7 +40,7 @@ class WholeWay : public SessionTest {
             [&] { return session->view().result_current && !session->view().stages.approximate; });
     }
     std::shared_ptr<const Provenance> provenance() {
-        session->act(ShowOverlay{Overlay::kPieces});
+        session->act(ShowOverlay{Overlay::kSourceMap});
         if (!wait([&] {
                 const auto& over = session->view().overlay_picture;
                 return over && over->provenance && over->provenance->plane;
@@ -49,7 +49,7 @@ class WholeWay : public SessionTest {
         return session->view().overlay_picture->provenance;
     }
     [[nodiscard]] const Region& region() const { return *session->view().project.regions.back(); }
-    // What the plane shows in a run, by its map.
+    // The sample pixels that the plane shows in a run, from its map.
     static bool shows(const PlaneMap& plane, const PlaneAmendment& kept) {
         for (const TexelRun& run : kept.runs) {
             for (int k = 0; k < run.count; ++k) {
@@ -62,31 +62,31 @@ class WholeWay : public SessionTest {
     }
 };
 
-TEST_F(WholeWay, FramesTellHowSteadyTheyAreAsThePreviewFills) {
+TEST_F(WholeWay, StabilityIsMeasuredAsThePreviewFills) {
     open();
     paint_and_texture();
     const auto known = [&] {
         int count = 0;
         for (const FrameMarks& mark : session->view().marks)
-            count += mark.flicker >= 0 && mark.flicker_plate >= 0 && mark.flicker_carried >= 0 &&
+            count += mark.flicker >= 0 && mark.flicker_plate >= 0 && mark.flicker_floor >= 0 &&
                      mark.chatter >= 0;
         return count;
     };
     // Every frame but the first has one before it.
     ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
     EXPECT_LT(session->view().marks[0].flicker, 0);
-    // Another light is another picture: nothing is known of it until it is rendered.
+    // Another light changes the picture: its measures are unknown until it is rendered.
     session->act(DoEdit{SetRegionParameter{{region().id, {}}, "light.strength", 0.25}});
     ASSERT_TRUE(wait([&] { return known() < 3; })) << known();
     ASSERT_TRUE(wait([&] { return known() == 3; })) << known();
 }
 
-TEST_F(WholeWay, AKeptPieceStaysWhenTheVariationChanges) {
+TEST_F(WholeWay, ALockedPatchStaysWhenTheSeedChanges) {
     open();
     paint_and_texture();
     const auto before = provenance();
     ASSERT_TRUE(before);
-    const auto piece = piece_at(*before, {45.5f, 33.5f});
+    const auto piece = patch_at(*before, {45.5f, 33.5f});
     ASSERT_TRUE(piece);
     const std::vector<int> frames = session->view().plate.frames;
     session->act(DoEdit{SetAmendments{{region().id, {}}, {*piece}}});
@@ -103,7 +103,7 @@ TEST_F(WholeWay, AKeptPieceStaysWhenTheVariationChanges) {
     EXPECT_NE(after->provenance->plane->source, before->plane->source) << "the rest is new";
     EXPECT_FALSE(after->marked.empty());
     EXPECT_EQ(after->marked.at(45, 33), 255);
-    // Without it the piece goes.
+    // Without it the patch changes.
     robot->key("Ctrl+Z");
     robot->key("Ctrl+Z");
     session->act(DoEdit{SetProjectParameter{"settings.seed", std::int64_t{5}}});
@@ -137,7 +137,7 @@ TEST_F(WholeWay, LayersForCompositingAreShownInPlaceOfTheResult) {
     EXPECT_FALSE(session->view().layer);
 }
 
-TEST_F(WholeWay, DriftStretchAndSeamsAreFoundWhileOneWorks) {
+TEST_F(WholeWay, DriftStretchAndSeamsAreMeasuredInTheBackground) {
     open();
     paint_and_texture();
     ASSERT_TRUE(wait([&] {
@@ -152,7 +152,7 @@ TEST_F(WholeWay, DriftStretchAndSeamsAreFoundWhileOneWorks) {
     }
 }
 
-TEST_F(WholeWay, TheLargerOriginalTakesTheSamplesPlace) {
+TEST_F(WholeWay, TheLargerOriginalReplacesTheSample) {
     // A photograph of 384 px, of which the sample is the upper left half at half its size.
     const std::string path = (folder / "library.wtl").string();
     std::string id;
@@ -219,7 +219,7 @@ TEST_F(WholeWay, TheLargerOriginalTakesTheSamplesPlace) {
     EXPECT_DOUBLE_EQ(region().placement.scale, 3.0) << "one step of the history";
 }
 
-TEST_F(WholeWay, ACryptomattesObjectIsPickedAndTakenAwayAgain) {
+TEST_F(WholeWay, ACryptomatteObjectIsAddedAndRemoved) {
     std::filesystem::create_directory(folder / "cg");
     for (int frame = 1; frame <= 2; ++frame) {
         OIIO::ImageSpec spec(96, 64, 7, OIIO::TypeFloat);
@@ -261,7 +261,7 @@ TEST_F(WholeWay, ACryptomattesObjectIsPickedAndTakenAwayAgain) {
     EXPECT_EQ(region().matte->select.crypto, "Wall,Ball");
 }
 
-TEST_F(WholeWay, WithoutACryptomatteThePickSaysSo) {
+TEST_F(WholeWay, PickingWithoutACryptomatteIsReported) {
     open();
     robot->key("Ctrl+Shift+N");
     robot->frames(2);

@@ -10,8 +10,8 @@
 namespace weft {
 namespace {
 
-// All but what the artist keeps (favourites, collections, …), which nothing writes into a library
-// that others start from.
+// All tables but the artist's own (favourites, collections, …), which are empty in libraries that
+// are made for copying.
 constexpr const char* kCopy = R"sql(
 INSERT INTO main.picture SELECT * FROM other.picture;
 INSERT INTO main.sample SELECT * FROM other.sample;
@@ -23,8 +23,7 @@ INSERT INTO main.sample_text(rowid, name, material, tags, category)
     SELECT rowid, name, material, tags, category FROM other.sample_text;
 )sql";
 
-// The other file is attached for as long as this lives. It is only read, also where its folder
-// cannot be written.
+// Attaches the other file for its lifetime, read-only, also if its folder is not writable.
 class Attached {
   public:
     static Expected<std::unique_ptr<Attached>> open(Database& database, const std::string& path) {

@@ -1,5 +1,5 @@
 #pragma once
-// One library's content taken over by another.
+// Copies the content of one library into another.
 
 #include <string>
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kWait_ms = 10'000;
 
-// Of a write that fails SQLite does not always say why: the disk is full, or a quota or the largest
-// size of a file is reached.
+// For a failed write SQLite does not always give the reason: the disk is full, or a quota or the
+// limit of a file's size is reached.
 bool is_full(int code) {
     switch (code) {
         case SQLITE_IOERR_WRITE:
@@ -163,21 +163,21 @@ Expected<std::unique_ptr<Database>> Database::open(const std::string& path, bool
         fs::create_directories(fs::path(path).parent_path(), error);
         if (error) {
             return fail(ErrorCode::kUnreadable, "The folder of the texture library " + path +
-                                                    " cannot be made: " + error.message() + ".");
+                                                    " cannot be created: " + error.message() + ".");
         }
     }
     sqlite3* handle = nullptr;
     const int flags = (read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE) |
                       (create && !read_only ? SQLITE_OPEN_CREATE : 0) | SQLITE_OPEN_NOMUTEX |
                       SQLITE_OPEN_URI;
-    // A name that only looks like an address is a name.
+    // A name that only looks like a URI is a file name.
     const std::string name = path.starts_with("file:") ? "./" + path : path;
     const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
     std::unique_ptr<Database> database(new Database(path, handle));
     if (code != SQLITE_OK) return tl::unexpected(database->error(code));
     sqlite3_extended_result_codes(handle, 1);
     sqlite3_busy_timeout(handle, kWait_ms);
-    // A picture's text must not be able to make the file's own schema do anything.
+    // Text in a picture must not be able to make the file's own schema run code.
     sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     return database;
@@ -237,7 +237,7 @@ Expected<Transaction> Transaction::begin(Database& database) {
 
 Transaction::~Transaction() {
     if (!database_) return;
-    // After a full disk SQLite has rolled back by itself; then this says so and changes nothing.
+    // After a full disk SQLite has already rolled back; then this fails without effect.
     (void)database_->execute("ROLLBACK");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Internal: SQLite as values. One connection, statements that close themselves, errors in words.
+// Internal: a value interface to SQLite: one connection, statements that close themselves, errors
+// with messages.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace weft {
 
 class Database;
 
-/// A prepared statement, taken from the connection's store and given back when it goes.
+/// A prepared statement from the connection's cache; returned to it on destruction.
 class Query {
   public:
     Query(Query&& other) noexcept;
@@ -55,7 +56,7 @@ class Query {
     int bound_ = 0;
 };
 
-/// Not thread-safe: the owner locks.
+/// Not thread-safe: the owner must lock.
 class Database {
   public:
     /// Errors: Unreadable (no database, damaged, not writable), NoSpace.
@@ -85,7 +86,7 @@ class Database {
     std::unordered_map<sqlite3_stmt*, std::string> sql_of_;
 };
 
-/// BEGIN IMMEDIATE … COMMIT; rolled back when it goes without commit().
+/// BEGIN IMMEDIATE … COMMIT; rolls back on destruction without commit().
 class Transaction {
   public:
     [[nodiscard]] static Expected<Transaction> begin(Database& database);

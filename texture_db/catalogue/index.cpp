@@ -73,8 +73,8 @@ Expected<SampleIndex> load_index(Database& database) {
     SampleIndex index;
     WEFT_TRY(count, database.number("SELECT count(*) FROM sample"));
     index.samples.reserve(static_cast<std::size_t>(count));
-    // One row after the other by key: the tables are clustered by it, so this is three scans side
-    // by side.
+    // Rows in the order of their key: the tables are clustered by it, so this is three parallel
+    // scans.
     WEFT_TRY(rows, database.query("SELECT s.key, s.id, s.name, s.source, s.material, s.package, "
                                   "s.licence, s.category, s.origin, s.synthesis, s.added, "
                                   "s.measured, d.data FROM sample s LEFT JOIN descriptor d ON "
@@ -129,7 +129,7 @@ std::vector<float> SampleIndex::squared_distances(std::span<const float> descrip
             continue;
         }
         const float *d = descriptors_.data() + i * stride_, *q = asked.data();
-        // Sums side by side let the compiler use vector instructions without reordering.
+        // Separate sums let the compiler use vector instructions without reordering.
         std::array<float, kLanes> sum{};
         for (std::size_t k = 0; k < stride_; k += kLanes) {
             for (std::size_t j = 0; j < kLanes; ++j) {
@@ -149,8 +149,8 @@ std::vector<Neighbour> lowest(std::span<const float> squared, int count) {
     const auto nearer = [](const Neighbour& a, const Neighbour& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.sample < b.sample;
     };
-    // Of many, few are kept at any time: whenever twice as many as wanted have come together, the
-    // farther half goes.
+    // Keeps few of many: whenever twice as many as wanted have been collected, the farther half is
+    // dropped.
     float limit = SampleIndex::kFar;
     for (std::size_t i = 0; i < squared.size(); ++i) {
         if (squared[i] >= limit) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the catalogue in memory, as columns that a search walks through. No pixels.
+// Internal: the catalogue in memory, as columns for searching. No pixels.
 
 #include <array>
 #include <cstdint>
@@ -42,7 +42,7 @@ struct IndexedSample {
     int colour = 0;  ///< Word of the mean colour, in `colours`.
 };
 
-/// What the recommender asks of every sample, side by side in memory.
+/// What the recommender needs of every sample, contiguous in memory.
 struct SampleLook {
     LabColor mean;
     float chroma = 0, hue_deg = 0;  ///< Of `mean`.
@@ -58,16 +58,16 @@ struct SampleIndex {
     std::vector<SampleLook> looks;  ///< One a sample.
     int descriptor_size = 0;
 
-    /// Takes a sample in, last. One without a descriptor of the others' size has none. `colour`
-    /// and the look are worked out here.
+    /// Appends a sample. A descriptor of another size than the others' is ignored. Computes
+    /// `colour` and the look.
     void add(IndexedSample sample, std::span<const float> descriptor);
     /// Empty for a sample that has none.
     [[nodiscard]] std::span<const float> descriptor(std::size_t i) const {
         if (!described_[i]) return {};
         return {descriptors_.data() + i * stride_, static_cast<std::size_t>(descriptor_size)};
     }
-    /// The squared Euclidean distance of every sample, kFar where it has no descriptor; empty where
-    /// the descriptor is of another size.
+    /// The squared Euclidean distance of every sample, kFar for one without a descriptor; empty if
+    /// `descriptor` has another size.
     [[nodiscard]] std::vector<float> squared_distances(std::span<const float> descriptor) const;
     /// Position of a row's key, or -1.
     [[nodiscard]] std::ptrdiff_t find_key(std::int64_t key) const;
@@ -90,8 +90,8 @@ struct Neighbour {
 /// The `count` lowest of squared distances that are not kFar, as distances, nearest first, ties to
 /// the lower position.
 [[nodiscard]] std::vector<Neighbour> lowest(std::span<const float> squared, int count);
-/// The `count` nearest by Euclidean distance, nearest first, ties to the lower position. Samples
-/// without a descriptor are left out.
+/// The `count` nearest by Euclidean distance, nearest first, ties to the lower position. Ignores
+/// samples without a descriptor.
 [[nodiscard]] std::vector<Neighbour> nearest(const SampleIndex& index,
                                              std::span<const float> descriptor, int count);
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kBatch = 256;
 
-// Features of samples that an earlier version of weft took in, from their pixels; a batch at a
-// time, so that what is done stays done.
+// Recomputes features that an earlier version stored, from the pixels; a batch at a time, so that
+// finished work stays.
 Status renew_features(Database& database, const CancelToken& cancel, const ProgressFn& progress) {
     const std::string old =
         "FROM pixels p LEFT JOIN features f ON f.sample = p.sample AND "
@@ -22,7 +22,7 @@ Status renew_features(Database& database, const CancelToken& cancel, const Progr
     std::int64_t done = 0, after = -1;
     while (done < total) {
         if (cancel.cancelled())
-            return fail(static_cast<ErrorCode>(cancel.reason()), "Learning was stopped.");
+            return fail(static_cast<ErrorCode>(cancel.reason()), "Training was stopped.");
         WEFT_TRY(batch, pixels_behind(database, old, after, kBatch));
         if (batch.empty()) break;
         std::vector<std::vector<float>> features(batch.size());  // empty: the pixels are damaged
@@ -74,7 +74,7 @@ Status train_descriptor(Database& database, const CancelToken& cancel, const Pro
     WEFT_TRY(model, learn_descriptor(data));
     if (progress) progress({"learn", 1, 2, 0, 0});
     if (cancel.cancelled())
-        return fail(static_cast<ErrorCode>(cancel.reason()), "Learning was stopped.");
+        return fail(static_cast<ErrorCode>(cancel.reason()), "Training was stopped.");
     std::vector<std::vector<float>> descriptors(keys.size());
     parallel_for(keys.size(),
                  [&](std::size_t i) { descriptors[i] = model.describe(data.features[i]); });

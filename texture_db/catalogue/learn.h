@@ -1,5 +1,5 @@
 #pragma once
-// Learning the descriptor from the samples' materials.
+// Trains the descriptor on the samples' materials.
 
 #include "engine/core/cancel.h"
 #include "engine/core/error.h"

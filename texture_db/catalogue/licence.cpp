@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-// "gpl-2+" is of the family "gpl": the name, then a version. "cc-by-sa-3.0" is not of "cc-by".
+// "gpl-2+" belongs to the family "gpl": the name, then a version. "cc-by-sa-3.0" is not in "cc-by".
 bool in_family(const std::string& licence, const std::string& family) {
     if (licence == family) return true;
     if (!licence.starts_with(family)) return false;
@@ -90,7 +90,7 @@ bool licence_excluded(std::string_view licence, const std::vector<std::string>& 
     if (excluded.empty()) return false;
     std::string text = lower_case(licence);
     std::replace(text.begin(), text.end(), ',', ' ');
-    // "A or B": one that is allowed is enough.
+    // "A or B": one allowed licence is enough.
     const auto alternatives = split_at(text, " or ");
     return std::all_of(alternatives.begin(), alternatives.end(), [&](const std::string& choice) {
         const auto together = split_at(choice, " and ");

@@ -1,5 +1,5 @@
 #pragma once
-// Licences of textures: which family one belongs to, and whether a project may use it.
+// Licences of textures: their families, and whether a project may use them.
 
 #include <string>
 #include <string_view>
@@ -21,16 +21,16 @@ struct TextureCredit {
 /// "GPL, CC-BY-SA" as a list.
 [[nodiscard]] std::vector<std::string> licence_list(std::string_view text);
 
-/// Whether `licence` falls under an excluded name: equal without regard to case, or of that family
-/// ("GPL" covers "GPL-2+" and "GPL-3" but not "LGPL-2.1"; "CC-BY-SA" covers "CC-BY-SA-3.0";
+/// Returns true if `licence` matches an excluded name: equal without regard to case, or of that
+/// family ("GPL" covers "GPL-2+" and "GPL-3" but not "LGPL-2.1"; "CC-BY-SA" covers "CC-BY-SA-3.0";
 /// "CC-BY" does not cover "CC-BY-SA"; "copyleft", "attribution", "non-commercial" and "unknown" are
-/// families too). A licence "A or B" is excluded only when both are; "A and B" when either is.
+/// families too). "A or B" is excluded only if both are; "A and B" if either is.
 [[nodiscard]] bool licence_excluded(std::string_view licence,
                                     const std::vector<std::string>& excluded);
 
-/// A slip in a policy would let through what it was to stop. Errors: Usage, listing the licences
-/// and families that are known, when `excluded` has a name that is neither one of them nor one of
-/// `own`, the licences that textures here are under.
+/// Rejects misspelt names, because a policy with one would let excluded textures through. Errors:
+/// Usage, listing the known licences and families, if `excluded` has a name that is neither one of
+/// them nor one of `own`, the licences of the textures here.
 [[nodiscard]] Status check_licence_names(const std::vector<std::string>& excluded,
                                          const std::vector<std::string>& own);
 

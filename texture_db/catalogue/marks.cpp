@@ -67,7 +67,7 @@ Status set_tags(Database& database, const std::string& id, const std::vector<std
 Status mark_used(Database& database, const std::string& id) {
     WEFT_TRY(transaction, Transaction::begin(database));
     {
-        // A counter, not the clock: two uses in one second keep their order.
+        // A counter instead of the clock, so that two uses in one second keep their order.
         WEFT_TRY(insert, database.query("INSERT OR REPLACE INTO recent VALUES(?, (SELECT "
                                         "ifnull(max(used), 0) + 1 FROM recent))"));
         WEFT_CHECK_OK(insert.bind(id).run());

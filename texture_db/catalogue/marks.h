@@ -1,6 +1,6 @@
 #pragma once
-// What the artist keeps in a library's file: favourites, ratings, what was used last, collections,
-// saved searches. Ids are full ones; the caller holds the library's lock.
+// The artist's own data in a library's file: favourites, ratings, recently used textures,
+// collections, saved searches. Ids are full; the caller holds the library's lock.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ class Database;
 
 struct SavedSearch {
     std::string name;
-    std::string text;  ///< The words; further conditions are kept as JSON in the file.
+    std::string text;  ///< The words; the other conditions are stored as JSON.
     SearchQuery query;
 };
 

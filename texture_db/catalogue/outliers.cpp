@@ -17,7 +17,7 @@ constexpr int kAsked = 80;               // nearest samples searched for voters 
 constexpr float kNeeded = 0.20f;         // share of the voters that must agree
 constexpr float kNeededGuessed = 0.40f;  // if only the folder named the material
 
-// Materials that people confuse count as one.
+// Easily confused materials count as one.
 std::string group_of(const std::string& material) {
     static const std::map<std::string, std::string> kGroups{
         {"cobblestone", "stone"}, {"rust", "metal"},      {"dirt", "sand"},

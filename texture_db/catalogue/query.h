@@ -1,5 +1,5 @@
 #pragma once
-// What can be asked of a texture library, and what it answers.
+// Queries to a texture library, and their results.
 
 #include <array>
 #include <cstdint>
@@ -58,7 +58,7 @@ struct SearchQuery {
     bool favourites_only = false;
     int min_rating = 0;
     TextureSort sort = TextureSort::kRelevance;
-    bool descending = false;  ///< Turns the sort round.
+    bool descending = false;  ///< Reverses the order.
     int offset = 0;
     int limit = 60;  ///< Hits of one page; 0: none, counts and facets only.
     bool facets = true;
@@ -83,7 +83,7 @@ struct SearchResult {
     /// Counts over all hits, most frequent first (ties by name).
     std::vector<FacetCount> materials, origins, packages, licences, categories, colours;
     std::vector<std::string> understood;  ///< How each word was read: "timbr → timber → wood".
-    std::vector<std::string> ignored;     ///< Words that nothing in the library answers to.
+    std::vector<std::string> ignored;     ///< Words that match nothing in the library.
     double seconds = 0;
 };
 

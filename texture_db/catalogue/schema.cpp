@@ -7,8 +7,8 @@
 namespace weft {
 namespace {
 
-// Version 1: the catalogue. Pixels stand in a table of their own, so that reading the catalogue
-// does not drag them through memory. A picture is what several samples were cut from.
+// Version 1: the catalogue. Pixels have a table of their own, so that reading the catalogue does
+// not load them. A `picture` is what several samples were cut from.
 constexpr const char* kCatalogue = R"sql(
 CREATE TABLE picture(
     key INTEGER PRIMARY KEY, hash TEXT NOT NULL UNIQUE,
@@ -39,7 +39,7 @@ CREATE VIRTUAL TABLE sample_text USING fts5(name, material, tags, category,
 CREATE VIRTUAL TABLE sample_word USING fts5vocab(sample_text, 'row');
 )sql";
 
-// Version 2: what the artist keeps. By id, not by row: a sample that is removed and built again is
+// Version 2: the artist's own data. By id, not by row: a sample that is removed and built again is
 // still a favourite.
 constexpr const char* kKept = R"sql(
 CREATE TABLE favourite(id TEXT PRIMARY KEY, added INTEGER NOT NULL);
@@ -49,22 +49,22 @@ CREATE TABLE collection(name TEXT NOT NULL, id TEXT NOT NULL, PRIMARY KEY(name, 
 CREATE TABLE saved_search(name TEXT PRIMARY KEY, query TEXT NOT NULL);
 )sql";
 
-// Version 3: other features (features.h), which the descriptors of before do not fit; they are
-// learned anew.
+// Version 3: other features (features.h). Earlier descriptors do not fit them and are trained
+// again.
 constexpr const char* kForget = "DELETE FROM model; DELETE FROM descriptor;";
 
-// Version 4: what an image–text model makes of each sample (library_sight.h).
-constexpr const char* kSight = R"sql(
+// Version 4: an image–text model's vector of each sample (sample_embeddings.h).
+constexpr const char* kEmbeddings = R"sql(
 CREATE TABLE sight(sample INTEGER PRIMARY KEY REFERENCES sample(key) ON DELETE CASCADE,
     data BLOB NOT NULL);
 )sql";
 
-constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget, kSight};
+constexpr std::array<const char*, kLibrarySchema> kSteps{kCatalogue, kKept, kForget, kEmbeddings};
 
 Status upgrade(Database& database, int from) {
     for (int version = from; version < kLibrarySchema; ++version) {
         WEFT_TRY(transaction, Transaction::begin(database));
-        // Another process may have done this step while we waited for the lock.
+        // Another process may have done this step while this one waited for the lock.
         WEFT_TRY(now, database.number("PRAGMA user_version"));
         if (now > version) continue;
         WEFT_CHECK_OK(database.execute(kSteps[static_cast<std::size_t>(version)]));
@@ -103,7 +103,7 @@ Status bring_up_to_date(Database& database, bool read_only) {
             "The texture library " + database.path() +
                 " is of an older version. Open it once for writing to bring it up to date.");
     }
-    // WAL: readers go on while another process writes.
+    // WAL: readers continue while another process writes.
     WEFT_CHECK_OK(database.execute(
         "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON"));
     return upgrade(database, static_cast<int>(version));

@@ -34,7 +34,7 @@ Expected<std::int64_t> store_picture(Database& database, const PreparedPicture& 
     return found ? find.integer(0) : 0;
 }
 
-// False: it is there already.
+// False if it is already there.
 Expected<bool> store_sample(Database& database, const NewTexture& t, const PreparedTexture& p,
                             const PreparedPicture* picture_of_it) {
     const Size original = t.original ? t.original->size() : t.original_size;

@@ -1,5 +1,5 @@
 #pragma once
-// Adding samples to a library's file and taking them out.
+// Adds samples to a library's file and removes them.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ class Database;
 
 inline constexpr int kSampleSide_px = 96;
 
-/// What is put into a library for one sample. `pixels` must be 96×96.
+/// The input for one sample. `pixels` must be 96×96.
 struct NewTexture {
     ImageU8x3 pixels;
     std::string name, material, category;
@@ -28,11 +28,11 @@ struct NewTexture {
     /// Larger picture to keep in the file (as a JPEG of high quality), shared by the samples that
     /// were cut from it; or null.
     std::shared_ptr<const ImageU8x3> original;
-    Size original_size;   ///< Of the picture at `source` where it is kept by reference.
-    Recti original_crop;  ///< Where in it the sample lies.
+    Size original_size;   ///< Of the picture at `source`, if that is kept by reference.
+    Recti original_crop;  ///< The sample's place in that picture.
 };
 
-/// What is stored of a sample beside its name: computed outside of the library's lock.
+/// What is stored of a sample besides its name; computed outside the library's lock.
 struct PreparedTexture {
     std::string id;
     std::vector<std::byte> png;

@@ -1,4 +1,4 @@
-// Words for what was measured: attributes and colours.
+// Words for measured attributes and colours.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using A = TextureAttribute;
 
-// A word holds fully from `full` on and not at all from `none` on, in between in proportion.
+// A word applies fully from `full` on, not at all from `none` on, and in proportion between.
 struct AttributeWord {
     std::string_view words;  ///< The first one is used in reasons.
     A attribute;
@@ -47,7 +47,7 @@ constexpr std::array kWords{
     AttributeWord{"matte matt dusty dry", A::kGloss, 0.5f, 0.0f},
 };
 
-// Lines that run one way: seen only where there are any.
+// Direction of lines; only for samples that have lines.
 constexpr std::array<std::string_view, 3> kLines{"horizontal", "vertical", "diagonal"};
 
 struct ColourWord {
@@ -57,7 +57,7 @@ struct ColourWord {
     float l_low, l_high;
 };
 
-// Ordered: the first that fits best wins ties.
+// Ordered: the first one wins ties.
 constexpr std::array kColours{
     ColourWord{"black", "ebony jet charcoal", 0, 360, 0, 13, 0, 22},
     ColourWord{"white", "ivory snowy", 0, 360, 0, 12, 84, 101},
@@ -117,7 +117,7 @@ const AttributeWord* find_attribute(std::string_view word) {
     return nullptr;
 }
 
-// "greenish" and "reddish" are meant as the colour, only less strictly.
+// "greenish" and "reddish" mean the colour, less strictly.
 std::string_view without_ish(std::string_view word, std::string& kept) {
     if (word.size() < 6 || !word.ends_with("ish")) return word;
     kept = std::string(word.substr(0, word.size() - 3));
@@ -157,9 +157,10 @@ std::vector<std::string> attribute_words(const MeasuredTexture& measured) {
     for (const AttributeWord& w : kWords) {
         const float v = measured.attributes[w.attribute];
         const float fit = fade(v, w.none, w.full);
-        const bool plain = w.attribute == A::kGloss && w.full < w.none;  // "matte" says little
+        // "matte" is hardly informative.
+        const bool plain = w.attribute == A::kGloss && w.full < w.none;
         if (fit >= 0.8f && !plain) {
-            // The farther beyond, the more it is worth saying.
+            // The farther beyond the threshold, the more informative.
             found.emplace_back(-std::abs(v - w.none),
                                std::string(w.words.substr(0, w.words.find(' '))));
         }
@@ -199,7 +200,7 @@ float AttributeMatcher::match(const MeasuredTexture& measured) const {
             return fade(measured.attributes[a.attribute], a.none, a.full);
         }
         case Kind::kColour: {
-            // What stands out counts too, but less than what the whole is like.
+            // The accent colour counts too, but less than the mean colour.
             const ColourWord& c = kColours[index_];
             return std::max(colour_fit(c, measured.mean), 0.45f * colour_fit(c, measured.accent));
         }

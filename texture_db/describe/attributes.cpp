@@ -116,7 +116,7 @@ Repetition repetition_of(const cv::Mat& l) {
            ring[static_cast<std::size_t>(fall)] / count[static_cast<std::size_t>(fall)] > 0.35)
         ++fall;
     r.size_px = 2.0f * static_cast<float>(fall);
-    // A second peak: a local maximum outside of the first hill.
+    // A second peak: a local maximum beyond the first slope.
     float best = 0;
     for (int dy = 0; dy < kReach - 1; ++dy) {
         for (int dx = -kReach + 2; dx < kReach - 1; ++dx) {
@@ -160,7 +160,7 @@ MeasuredTexture measure_texture(ViewU8x3 srgb) {
     TextureAttributes& a = m.attributes;
     a[A::kBrightness] = unit(m.mean.l / 100);
     a[A::kSaturation] = unit(chroma / 60);
-    // Warm colours lie around the hue of 60° (orange), cold ones opposite.
+    // Warm colours lie around a hue of 60° (orange), cold ones opposite.
     const float warm = m.mean.a * 0.5f + m.mean.b * 0.866f;
     a[A::kWarmth] = unit(0.5f + warm / 60);
     a[A::kContrast] = unit(static_cast<float>(spread[0]) / 25);

@@ -1,5 +1,5 @@
 #pragma once
-// What can be measured of a texture from its pixels, in numbers that have words.
+// Attributes of a texture, measured from its pixels, that have words.
 
 #include <array>
 #include <cstddef>
@@ -57,14 +57,14 @@ struct MeasuredTexture {
 
 /// The words that fit ("rough", "dark", "striped", …), strongest first, for labels and for reasons.
 [[nodiscard]] std::vector<std::string> attribute_words(const MeasuredTexture& measured);
-/// The name of a colour as an artist would say it: "dark green", "beige", "light grey".
+/// The name of a colour as artists use it: "dark green", "beige", "light grey".
 [[nodiscard]] std::string colour_name(const LabColor& color);
 
-/// A word looked up once, to be held against many textures. Immutable.
+/// A word, looked up once, for matching many textures. Immutable.
 class AttributeMatcher {
   public:
     explicit AttributeMatcher(std::string_view word);
-    /// Whether it is an attribute word. Known: smooth, rough, coarse, fine, striped, regular,
+    /// True if it is an attribute word. Known: smooth, rough, coarse, fine, striped, regular,
     /// random, dark, bright, warm, cold, glossy, matte, horizontal, colour names and many synonyms.
     [[nodiscard]] bool known() const { return kind_ != Kind::kNone; }
     /// How well it describes a texture, 0 … 1; negative for an unknown word.

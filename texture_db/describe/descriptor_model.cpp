@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostOutputs = 40;
 constexpr double kShrinkage = 0.4;            // best of 0.1 and 0.4 on the evaluation photographs
 constexpr std::uint32_t kMagic = 0x31444c57;  // "WLD1"
-constexpr float kNowhere = 1e4f;  // the centre of a material with too few samples to have one
+constexpr float kNowhere = 1e4f;              // centre of a material with too few samples
 
 // The lower triangle L with L·Lᵀ = a, in place.
 bool cholesky(std::vector<double>& a, std::size_t n) {
@@ -113,8 +113,8 @@ Classes centres_of(const LabelledFeatures& data, const Standardised& s, std::siz
     return c;
 }
 
-// The pooled covariance inside the materials, every material with the same say up to a point (the
-// square root of its weight), shrunken towards its diagonal mean.
+// The pooled covariance within the materials, each weighted by the square root of its total weight,
+// shrunk towards its diagonal mean.
 std::vector<double> within(const LabelledFeatures& data, const Standardised& s, const Classes& c,
                            std::size_t d) {
     std::vector<double> w(d * d);
@@ -260,15 +260,16 @@ Expected<DescriptorModel> learn_descriptor(const LabelledFeatures& data) {
         ++counts[static_cast<std::size_t>(label)];
     if (std::count_if(counts.begin(), counts.end(), [](int n) { return n >= 10; }) < 2) {
         return fail(ErrorCode::kUsage,
-                    "There is too little to learn from: at least two materials of ten samples "
-                    "each are needed. Import more textures first.");
+                    "Training needs at least two materials of ten samples each. Import more "
+                    "textures first.");
     }
     const std::size_t d = data.features.front().size();
     const Standardised s = standardise(data);
     const Classes classes = centres_of(data, s, d);
     std::vector<double> l = within(data, s, classes, d);
     if (!cholesky(l, d))
-        return fail(ErrorCode::kRenderFailed, "The samples are too alike to learn from.");
+        return fail(ErrorCode::kRenderFailed,
+                    "The samples are too similar to train on. Import more varied textures.");
 
     // Between-class directions, whitened: B = L⁻¹ (c_m − c), at most as many as materials; their
     // singular vectors from the small matrix BᵀB.

@@ -1,6 +1,6 @@
 #pragma once
-// Internal: the descriptor that is learned on a library: from features to a short vector in which
-// samples of one material lie close together.
+// Internal: the descriptor that is trained on a library. It maps features to a short vector in
+// which samples of one material lie close together.
 
 #include <cstddef>
 #include <span>
@@ -11,16 +11,16 @@
 
 namespace weft {
 
-/// y = P · clamp((x − mean) / deviation, −6, 6). Immutable once made.
+/// y = P · clamp((x − mean) / deviation, −6, 6). Immutable.
 struct DescriptorModel {
     int inputs = 0, outputs = 0;
     std::vector<float> mean, deviation;  ///< inputs
     std::vector<float> projection;       ///< outputs × inputs
-    std::vector<std::string> materials;  ///< That it tells apart.
+    std::vector<std::string> materials;  ///< The materials of the training.
     std::vector<float> centres;          ///< materials × outputs
 
     [[nodiscard]] std::vector<float> describe(std::span<const float> features) const;
-    /// From a descriptor to the middle of each material; very far for one with too few samples.
+    /// From a descriptor to the centre of each material; very far for one with too few samples.
     [[nodiscard]] std::vector<float> distances_to_centres(std::span<const float> descriptor) const;
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
     [[nodiscard]] static Expected<DescriptorModel> from_bytes(std::span<const std::byte> bytes);

@@ -7,15 +7,15 @@
 
 namespace weft {
 
-/// Deviation, skewness and kurtosis of a plane, its mean before them if wanted. `width`: a multiple
-/// of 8.
+/// Standard deviation, skewness and kurtosis of a plane, preceded by its mean if wanted. `width`: a
+/// multiple of 8.
 void add_moments(std::span<const float> plane, int width, bool with_mean, std::vector<float>& out);
 
-/// Pearson's, of two planes of one size.
+/// Pearson's correlation of two planes of one size.
 [[nodiscard]] double correlation(std::span<const float> x, std::span<const float> y);
 
-/// Of a 96×96 plane: energies by scale and orientation, their unevenness over the sample, what is
-/// left of them when it is turned, and how energies of neighbouring scales go together (Portilla &
+/// Of a 96×96 plane: energies by scale and orientation, their variation over the sample, their
+/// rotation-invariant form, and how energies of neighbouring scales correlate (Portilla &
 /// Simoncelli 2000).
 void add_oriented_energies(std::span<const float> plane, std::vector<float>& out);
 

@@ -1,4 +1,4 @@
-// What a transform of the whole sample tells of it: oriented energies and repetition.
+// Features from the Fourier transform of the whole sample: oriented energies and repetition.
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@ std::span<const float> values_of(const cv::Mat& plane) {
     return {plane.ptr<float>(), plane.total()};
 }
 
-// Log-Gabor filters in the frequency domain (Field 1987): wavelengths 3, 6, 12, 24, 48 px. What a
-// coarse one lets through fits on a coarser grid, of so many samples a side.
+// Log-Gabor filters in the frequency domain (Field 1987): wavelengths 3, 6, 12, 24, 48 px. The
+// output of a coarse one fits on a coarser grid, of this many samples a side.
 constexpr std::array<int, kScales> kGrid{96, 96, 48, 24, 24};
 
 // Frequency of a row or column of a spectrum, in cycles a side.
@@ -115,7 +115,7 @@ void add_moments(std::span<const float> values, int width, bool with_mean,
     const auto middle = static_cast<float>(mean[0]), scale = static_cast<float>(1 / s);
     for (int y = 0; y < plane.rows; ++y) {
         const auto* p = plane.ptr<float>(y);
-        // Sums side by side let the compiler use vector instructions without reordering.
+        // Separate sums let the compiler use vector instructions without reordering.
         std::array<float, 8> three{}, four{};
         for (int x = 0; x + 8 <= plane.cols; x += 8) {
             for (int k = 0; k < 8; ++k) {

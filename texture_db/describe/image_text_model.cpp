@@ -47,7 +47,7 @@ Expected<std::string> contents(const std::string& folder, const std::string& fil
     return text;
 }
 
-// A name in the folder, not a path out of it.
+// True for a name in the folder, without a path.
 bool plain(const std::string& file) {
     return !file.empty() && file.find('/') == std::string::npos && file != "." && file != "..";
 }
@@ -133,9 +133,9 @@ Expected<ImageTextModel> ImageTextModel::open(const std::string& folder) {
         return unusable(folder, "OpenCV cannot read " + parts->described.image + ": " + e.err);
     }
     ImageTextModel model(std::move(parts));
-    // What length it gives is known only from a picture.
+    // The length of its vectors is known only after a picture was encoded.
     const ImageU8x3 grey(32, 32, 128);
-    auto seen = model.see(grey);
+    auto seen = model.encode_image(grey);
     if (!seen) return unusable(folder, seen.error().message);
     model.parts_->dimensions = static_cast<int>(seen->size());
     for (const auto& [word, vector] : model.parts_->words) {
@@ -146,7 +146,7 @@ Expected<ImageTextModel> ImageTextModel::open(const std::string& folder) {
     return model;
 }
 
-Expected<std::vector<float>> ImageTextModel::see(ViewU8x3 picture) {
+Expected<std::vector<float>> ImageTextModel::encode_image(ViewU8x3 picture) {
     const Description& d = parts_->described;
     const ImageU8x3 fitted = resized(picture, {d.size, d.size});
     const std::array<int, 4> shape{1, 3, d.size, d.size};
@@ -171,7 +171,7 @@ Expected<std::vector<float>> ImageTextModel::see(ViewU8x3 picture) {
     }
 }
 
-std::vector<float> ImageTextModel::read(std::string_view text) const {
+std::vector<float> ImageTextModel::encode_text(std::string_view text) const {
     std::vector<float> sum;
     for (const std::string& word : split_words(lower_case(text))) {
         auto found = parts_->words.find(word);

@@ -17,8 +17,8 @@ bool is_upper(char c) {
     return std::isupper(static_cast<unsigned char>(c)) != 0;
 }
 
-// Words that stand in file names and speak of a material there, though an artist would not type
-// them; and those that take a material's word back ("glass" in "grass").
+// Words that mean a material in file names although an artist would not type them; and words that
+// cancel a material's word inside them ("glass" in "grass").
 const std::map<std::string, std::string, std::less<>>& path_words() {
     static const auto kWords = [] {
         std::map<std::string, std::string, std::less<>> words;
@@ -57,7 +57,7 @@ const std::map<std::string, std::string, std::less<>>& path_words() {
                                              {"cloth", "fabric"}}) {
             words.insert_or_assign(word, material);
         }
-        // Too many meanings in names of files.
+        // Too ambiguous in file names.
         for (const char* word :
              {"glass", "pane",  "crystal", "window", "board",    "skin",     "hair",
               "coat",  "sheet", "ground",  "field",  "path",     "street",   "road",

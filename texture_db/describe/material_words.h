@@ -23,7 +23,7 @@ struct MaterialEntry {
 /// "bricks" → "brick", "grasses" → "grass", "leaves" → "leaf".
 [[nodiscard]] std::string singular(const std::string& word);
 
-/// The material that the words of a path speak of (file name before folders, later words before
+/// The material that the words of a path name (the file name before folders, later words before
 /// earlier ones), or empty.
 [[nodiscard]] std::string material_of_path(std::string_view path);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: finds pictures that were seen before, though scaled or compressed anew.
+// Internal: detects pictures that were added before, also if scaled or recompressed.
 
 #include <array>
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace weft {
 
-/// Remembers a small thumbnail of every picture. Not thread-safe.
+/// Stores a small thumbnail of every picture. Not thread-safe.
 class NearDuplicates {
   public:
-    /// False when a picture like this was added before: thumbnails of 16×16 correlate above 0.965
-    /// in lightness and their mean colours are within 7 levels a channel.
+    /// False if a similar picture was added before: thumbnails of 16×16 correlate above 0.965 in
+    /// lightness and their mean colours are within 7 levels per channel.
     bool add_if_new(ViewU8x3 picture);
     [[nodiscard]] bool is_known(ViewU8x3 picture) const;
     [[nodiscard]] std::size_t size() const { return marks_.size(); }

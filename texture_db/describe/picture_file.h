@@ -1,5 +1,5 @@
 #pragma once
-// A picture file as a texture library takes it.
+// Picture files for the texture library.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// A picture file as 8-bit sRGB; floating-point files are taken as linear. Refuses pictures of more
-/// than `max_pixels` by their header, before memory is asked for. Errors: Unreadable, NoSpace.
+/// A picture file as 8-bit sRGB; floating-point files are read as linear. Rejects pictures of more
+/// than `max_pixels` by their header, before memory is allocated. Errors: Unreadable, NoSpace.
 [[nodiscard]] Expected<ImageU8x3> read_picture_file(const std::string& path,
                                                     long long max_pixels = 144'000'000);
 

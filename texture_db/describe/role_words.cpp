@@ -41,7 +41,7 @@ bool holds(std::string_view words, const std::string& word) {
     return std::find(all.begin(), all.end(), word) != all.end();
 }
 
-// Marks the roles that a word stands for.
+// Marks the roles that a word names.
 bool mark(const std::string& word, RoleWeights& named) {
     bool found = false;
     for (const RoleVocabulary& entry : kVocabulary) {
@@ -71,7 +71,7 @@ bool mark_all(const std::string& words, RoleWeights& named) {
 
 RoleWeights roles_of_name(std::string_view name) {
     RoleWeights named{};
-    // A region's name, or the path of its matte: the folder says it where the file is a number.
+    // A region's name, or the path of its matte: the folder is used if the file name is a number.
     for (int part = 0; part < 2 && !name.empty(); ++part) {
         const auto slash = name.rfind('/');
         if (mark_all(words_of_name(name.substr(slash + 1)), named)) return named;

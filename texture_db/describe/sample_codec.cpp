@@ -16,7 +16,7 @@ std::uint32_t big_endian(const std::byte* p) {
            static_cast<std::uint32_t>(p[2]) << 8 | static_cast<std::uint32_t>(p[3]);
 }
 
-// A PNG says its size in its first chunk: believed only to refuse, before memory is asked for.
+// A PNG states its size in its first chunk. Used only to reject, before memory is allocated.
 bool png_too_large(std::span<const std::byte> bytes) {
     if (bytes.size() < 24 || std::memcmp(bytes.data(), "\x89PNG", 4) != 0) return false;
     const auto width = static_cast<std::int64_t>(big_endian(bytes.data() + 16));

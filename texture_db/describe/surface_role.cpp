@@ -12,7 +12,7 @@ struct MaterialRoles {
     RoleWeights roles;  // in the order of SurfaceRole
 };
 
-// By judgement: what each surface of a film set or a drawn background is usually made of.
+// By judgement: what each surface of a film set or a drawn background usually consists of.
 constexpr MaterialRoles kMaterials[]{
     //             wall  ground roof  garm. coat  prop  element
     {"asphalt", {0.05f, 1.0f, 0.20f, 0.0f, 0.0f, 0.1f, 0.0f}},
@@ -160,15 +160,15 @@ RoleWeights roles_of_place(const RegionPlace& place) {
     const float reaches_out =
         std::min((place.top + place.left + place.right + place.bottom) / 0.6f, 1.0f);
     const float large = std::min(place.area / 0.15f, 1.0f);
-    // A region along the bottom that begins below the upper third is what things stand on; one
-    // that does not come near the bottom is not.
+    // A region along the bottom that begins below the upper third is likely ground; one that does
+    // not come near the bottom is not.
     at(SurfaceRole::kGround) =
         along_bottom > 0 && place.first_row > 0.3f ? 0.7f + 3 * along_bottom : 0.6f;
     at(SurfaceRole::kWall) = 0.6f + 1.2f * large + (place.first_row < 0.3f ? reaches_out : 0);
     at(SurfaceRole::kRoof) = place.first_row < 0.4f ? 1.0f : 0.4f;
     at(SurfaceRole::kElement) = 0.3f + 0.7f * large;
     const float free_standing = (1 - reaches_out) * (1 - 0.5f * large);
-    // Limbs and folds make a broken outline; what is built has a plain one.
+    // Limbs and folds have a broken outline, buildings a plain one.
     const float broken = std::clamp((0.95f - place.solidity) / 0.25f, 0.0f, 1.0f);
     at(SurfaceRole::kWall) *= 1 - 0.7f * free_standing * broken;
     at(SurfaceRole::kProp) = 0.5f + 1.5f * free_standing * (1 - 0.6f * broken);

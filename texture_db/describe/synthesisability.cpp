@@ -48,7 +48,7 @@ float synthesisability(ViewU8x3 sample) {
     const double uneven =
         spread(means).second / contrast + 0.7 * spread(contrasts).second / contrast;
     // Joining: the best overlap of 24 px of the right side on the left one, by sliding up and down,
-    // and of the bottom on the top, against the contrast.
+    // and of the bottom on the top, relative to the contrast.
     const auto join = [&](bool vertical) {
         const cv::Mat t = vertical ? cv::Mat(lightness.t()) : lightness;
         double best = 1e9;

@@ -1,5 +1,5 @@
-// Puts the starter textures into a library: copied where they were made with the program, else made
-// now, a batch at a time; what is in stays in.
+// Adds the starter textures to a library: copied from the file that was built with the program,
+// else rendered now, a batch at a time. Textures that are already in it stay.
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kBatch = 64;
 constexpr int kOriginalSide_px = 384;
 constexpr const char* kDoneNote = "starter.done";
-// Raised when the families change: then what is missing is added.
+// Raise when the families change; missing textures are then added.
 constexpr const char* kEdition = "2:";
 
 std::string done_note(std::size_t done) {
@@ -64,14 +64,14 @@ Expected<bool> has_starter_textures(TextureLibrary& library) {
 
 Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel,
                             const ProgressFn& progress) {
-    // Families in turn, so that a library that is still being filled already has some of each.
+    // One of each family in turn, so that a partly filled library already has some of each.
     std::vector<StarterItem> items = starter_catalogue();
     std::stable_sort(items.begin(), items.end(), [](const StarterItem& a, const StarterItem& b) {
         return a.number < b.number;
     });
     const std::string ready = starter_library_file();
     WEFT_TRY(samples, library.size());
-    // A copy that cannot be read is no reason to stop: they are made then.
+    // A copy that cannot be read is not an error: the textures are rendered instead.
     if (samples == 0 && !ready.empty())
         (void)library.copy_from(ready, kDoneNote, done_note(items.size()));
     WEFT_TRY(done, done_so_far(library));

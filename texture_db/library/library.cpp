@@ -127,7 +127,7 @@ Expected<TextureInfo> TextureLibrary::info(const std::string& given) {
     info.original_size = {static_cast<int>(q.integer(10)), static_cast<int>(q.integer(11))};
     info.original_in_file = !q.is_null(12);
     if (!read_measured(q.blob(13), info.measured))
-        return fail(ErrorCode::kUnreadable, "What is known of texture " + id + " is damaged.");
+        return fail(ErrorCode::kUnreadable, "The measurements of texture " + id + " are damaged.");
     info.synthesisability = static_cast<float>(q.real(14));
     info.favourite = !q.is_null(15);
     info.rating = static_cast<int>(q.integer(16));
@@ -193,8 +193,8 @@ Expected<SearchResult> TextureLibrary::search(const SearchQuery& query) {
     const std::scoped_lock lock(state_->mutex);
     WEFT_CHECK_OK(state_->refresh());
     return search_index(
-        *state_->database, *state_->index, *state_->words, [this] { return state_->open_sight(); },
-        query);
+        *state_->database, *state_->index, *state_->words,
+        [this] { return state_->open_embeddings(); }, query);
 }
 
 Expected<std::vector<SearchHit>> TextureLibrary::similar(const std::string& given, int count) {
@@ -226,17 +226,17 @@ Expected<Recommendation> TextureLibrary::recommend(const RecommendRequest& given
     }
     RecommendRequest request = given;
     request.count = std::clamp(request.count, 1, 100);
-    if (!request.wish.like.empty()) {
-        WEFT_TRY(id, full_id(*state_->database, request.wish.like));
-        request.wish.like = id;
+    if (!request.adjust.like.empty()) {
+        WEFT_TRY(id, full_id(*state_->database, request.adjust.like));
+        request.adjust.like = id;
     }
     for (RegionRequest& region : request.regions) {
         if (region.keep.empty()) continue;
         WEFT_TRY(id, full_id(*state_->database, region.keep));
         region.keep = id;
     }
-    WEFT_TRY(sight, state_->open_sight());
-    return recommend_from(*state_->index, state_->model ? &*state_->model : nullptr, sight,
+    WEFT_TRY(embeddings, state_->open_embeddings());
+    return recommend_from(*state_->index, state_->model ? &*state_->model : nullptr, embeddings,
                           request);
 }
 
@@ -277,7 +277,7 @@ Expected<int> TextureLibrary::remove_outliers(
 }
 
 Expected<std::string> TextureLibrary::image_text_model() {
-    return note(kSightFolderNote);
+    return note(kModelFolderNote);
 }
 
 Status TextureLibrary::use_image_text_model(const std::string& folder, const CancelToken& cancel,
@@ -289,9 +289,9 @@ Status TextureLibrary::use_image_text_model(const std::string& folder, const Can
     }
     const std::scoped_lock lock(state_->mutex);
     WEFT_CHECK_OK(
-        look_at_samples(*state_->database, folder, model ? &*model : nullptr, cancel, progress));
-    state_->sight_tried = false;
-    state_->sight_model.reset();
+        encode_samples(*state_->database, folder, model ? &*model : nullptr, cancel, progress));
+    state_->embeddings_tried = false;
+    state_->embedding_model.reset();
     return {};
 }
 

@@ -35,7 +35,8 @@ struct LibraryStats {
     std::int64_t file_bytes = 0;
     int schema_version = 0;
     bool descriptor_trained = false;
-    std::int64_t descriptor_samples = 0;  ///< That the descriptor was learned on.
+    /// Number of samples that the descriptor was trained on.
+    std::int64_t descriptor_samples = 0;
 };
 
 /// A problem that `verify` found.
@@ -44,14 +45,14 @@ struct LibraryFault {
     std::string what;
 };
 
-/// All members may be called from any thread (one call at a time runs inside; calls wait for each
-/// other). Several processes may have the same file open: readers never wait for a writer, writers
-/// wait up to 10 s for each other. Errors of every member: Unreadable (damaged file, no such id),
-/// NoSpace (full disk; what was stored before stays).
+/// All members may be called from any thread; one call at a time runs, the others wait. Several
+/// processes may have the same file open: readers never wait for a writer, and writers wait up to
+/// 10 s for each other. Errors of every member: Unreadable (damaged file, no such id), NoSpace
+/// (full disk; what was stored before stays).
 class TextureLibrary {
   public:
-    /// Opens or creates a library and brings an older schema up to date. Takes well under 200 ms
-    /// for 15,000 samples: pixels stay in the file. Errors: Unreadable when it is no library, is
+    /// Opens or creates a library and upgrades an older schema. Takes well under 200 ms for 15,000
+    /// samples, because pixels stay in the file. Errors: Unreadable if it is not a library, is
     /// damaged, or was written by a newer version.
     [[nodiscard]] static Expected<std::shared_ptr<TextureLibrary>> open(
         const std::string& path, const LibraryOptions& options = {});
@@ -62,30 +63,30 @@ class TextureLibrary {
     [[nodiscard]] const std::string& path() const;
 
     // ---- reading -----------------------------------------------------------------------------
-    /// Samples in it now.
+    /// Number of samples.
     [[nodiscard]] Expected<std::int64_t> size();
-    /// Grows whenever the samples change, by this or another process: reload views then.
+    /// Grows whenever samples change, through this or another process: then reload views.
     [[nodiscard]] Expected<std::int64_t> change_count();
     /// The 96×96 pixels. About 0.3 ms.
     [[nodiscard]] Expected<ImageU8x3> thumbnail(const std::string& id);
     /// The larger picture that the sample was cut from (from the file or from its source), at most
-    /// 4096 px a side; the sample itself where there is none or the source is gone.
+    /// 4096 px a side; the sample itself if there is none or its source is missing.
     [[nodiscard]] Expected<ImageU8x3> original(const std::string& id);
-    /// `id` may be shortened to a prefix (at least 6 digits) that fits one sample only.
+    /// `id` may be a prefix (at least 6 digits) that matches one sample only.
     [[nodiscard]] Expected<TextureInfo> info(const std::string& id);
     /// Words over names, tags, materials and measured attributes; see docs/TEXTURES.md.
     [[nodiscard]] Expected<SearchResult> search(const SearchQuery& query);
-    /// Nearest in the learned descriptor, best first, the sample itself left out.
+    /// Nearest by the trained descriptor, best first, without the sample itself.
     [[nodiscard]] Expected<std::vector<SearchHit>> similar(const std::string& id, int count);
     /// The same for any picture of at least 32×32 (its middle 96×96 is used; smaller ones are
-    /// mirrored out). The first five are the nearest of each of the five likeliest materials; then
-    /// all others by distance.
+    /// extended by mirroring). The first five are the nearest of each of the five likeliest
+    /// materials, then all others by distance.
     [[nodiscard]] Expected<std::vector<SearchHit>> similar(ViewU8x3 picture, int count);
     /// Suggestions for regions of a frame. Errors: Usage for an empty matte or sizes that differ.
     [[nodiscard]] Expected<Recommendation> recommend(const RecommendRequest& request);
     [[nodiscard]] Expected<LibraryStats> stats();
-    /// Looks at every row: ids against pixels, features, text index, SQLite's own check. Reports
-    /// progress in samples. An empty list is a sound library.
+    /// Checks every row: ids against pixels, features, text index, SQLite's own check. Progress in
+    /// samples. Returns an empty list for a sound library.
     [[nodiscard]] Expected<std::vector<LibraryFault>> verify(const CancelToken& cancel = {},
                                                              const ProgressFn& progress = {});
 
@@ -94,7 +95,7 @@ class TextureLibrary {
     [[nodiscard]] Status set_rating(const std::string& id, int rating);  ///< 0 … 5.
     [[nodiscard]] Status set_material(const std::string& id, const std::string& material);
     [[nodiscard]] Status set_tags(const std::string& id, const std::vector<std::string>& tags);
-    /// Remembers that a texture was used; the last 200 are kept.
+    /// Records that a texture was used; the last 200 are kept.
     [[nodiscard]] Status mark_used(const std::string& id);
     [[nodiscard]] Expected<std::vector<std::string>> recent(int count);  ///< Ids, last first.
     [[nodiscard]] Expected<std::vector<FacetCount>> collections();
@@ -102,7 +103,7 @@ class TextureLibrary {
     [[nodiscard]] Status remove_from_collection(const std::string& name, const std::string& id);
     [[nodiscard]] Status delete_collection(const std::string& name);
     [[nodiscard]] Expected<std::vector<SavedSearch>> saved_searches();
-    /// Replaces one of the same name.
+    /// Replaces a search of the same name.
     [[nodiscard]] Status save_search(const std::string& name, const SearchQuery& query);
     [[nodiscard]] Status delete_saved_search(const std::string& name);
 
@@ -123,20 +124,21 @@ class TextureLibrary {
     [[nodiscard]] Expected<int> remove_outliers(
         const std::function<bool(const std::string& package)>& was_inspected,
         const CancelToken& cancel = {}, const ProgressFn& progress = {});
-    /// Names the image–text model (image_text_model.h) that searches and recommendations ask
-    /// beside everything else, and looks at every sample with it, unless that is done; stopped at
-    /// any point, the next call goes on. Empty: none. Errors: Unreadable, when the model cannot be
-    /// used; then the one before stays.
+    /// Sets the image–text model (image_text_model.h) that searches and recommendations use in
+    /// addition, and encodes every sample with it, unless that is done. If it is stopped, the next
+    /// call continues. Empty: no model. Errors: Unreadable if the model cannot be used; the
+    /// previous one stays.
     [[nodiscard]] Status use_image_text_model(const std::string& folder,
                                               const CancelToken& cancel = {},
                                               const ProgressFn& progress = {});
-    /// The folder of the model that is named, or empty.
+    /// The folder of the current model, or empty.
     [[nodiscard]] Expected<std::string> image_text_model();
-    /// Takes over everything that a library has, descriptor and all, into this one, which must be
-    /// empty; in one transaction. Only where its note `key` says `value`. Returns whether it did.
+    /// Copies the content of another library, with its descriptor, into this one, which must be
+    /// empty, in one transaction; only if the other's note `key` is `value`. Returns true if it
+    /// did.
     [[nodiscard]] Expected<bool> copy_from(const std::string& path, const std::string& key,
                                            const std::string& value);
-    /// Notes of a long work that can be taken up again ("import:/home/me/pictures").
+    /// Notes for resuming long operations ("import:/home/me/pictures").
     [[nodiscard]] Expected<std::string> note(const std::string& key);
     [[nodiscard]] Status set_note(const std::string& key, const std::string& value);
 
@@ -146,12 +148,13 @@ class TextureLibrary {
     std::unique_ptr<State> state_;
 };
 
-/// Fills a library with the 4,000 starter textures unless they are in it already: an empty one in
-/// under a second from share/weft/starter.db beside the program, where ./run has made that; else
-/// they are made (under a minute on two cores), and interrupted, it goes on where it stopped.
+/// Adds the 4,000 starter textures unless they are in the library. An empty library gets them in
+/// under a second from share/weft/starter.db beside the program, if ./run has built that file;
+/// otherwise they are rendered (under a minute on two cores). After an interruption the next call
+/// continues.
 [[nodiscard]] Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel = {},
                                           const ProgressFn& progress = {});
-/// Whether all of them are in.
+/// Returns true if all of them are in the library.
 [[nodiscard]] Expected<bool> has_starter_textures(TextureLibrary& library);
 
 /// A texture as a project uses it.
@@ -160,23 +163,23 @@ struct ResolvedTexture {
     ImageU8x3 original;  ///< Larger, or empty.
     TextureCredit credit;
 };
-/// Takes "db:ID" or "ID" (a prefix of 6 digits will do). `library_path` empty: the default one.
-/// Errors: Usage for a name that is none; Unreadable when there is no such texture or library.
+/// Takes "db:ID" or "ID" (at least 6 digits of it). `library_path` empty: the default one. Errors:
+/// Usage if the name is not an id; Unreadable if there is no such texture or library.
 [[nodiscard]] Expected<ResolvedTexture> resolve_texture(const std::string& library_path,
                                                         const std::string& id);
 
 /// Writes a texture as FOLDER/db_ID.png with its credit beside it (db_ID.png.credit.json), so that
-/// a project holds the pixels and opens anywhere, with or without the library. Returns the path.
-/// Errors: those of resolve_texture(); NoSpace, Unreadable for the folder.
+/// a project contains the pixels and opens without the library. Returns the path. Errors: those of
+/// resolve_texture(); NoSpace, Unreadable for the folder.
 [[nodiscard]] Expected<std::string> keep_texture(const std::string& library_path,
                                                  const std::string& id, const std::string& folder,
                                                  const WriteRule& rule = WriteRule::own());
 [[nodiscard]] Expected<std::string> keep_texture(const ResolvedTexture& texture,
                                                  const std::string& folder,
                                                  const WriteRule& rule = WriteRule::own());
-/// Where the credit of a picture stands, if it has one.
+/// The path of a picture's credit file; empty if there is none.
 [[nodiscard]] std::string texture_credit_path(const std::string& picture_path);
-/// The credit that keep_texture() wrote beside a picture, or nothing.
+/// The credit that keep_texture() wrote beside a picture, if there is one.
 [[nodiscard]] std::optional<TextureCredit> read_texture_credit(const std::string& picture_path);
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Members of TextureLibrary for what the artist keeps.
+// Members of TextureLibrary for favourites, ratings, tags and collections.
 
 #include "texture_db/library/library_state.h"
 

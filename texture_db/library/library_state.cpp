@@ -5,7 +5,8 @@
 namespace weft {
 
 Status TextureLibrary::State::refresh() {
-    // data_version tells of other connections, changes of this one's own writing.
+    // data_version detects writes by other connections; the change count detects this connection's
+    // own.
     WEFT_TRY(version, database->number("PRAGMA data_version"));
     WEFT_TRY(changes, database->number("SELECT count FROM changes"));
     if (index && version == loaded_data_version && changes == loaded_changes) return {};
@@ -23,48 +24,48 @@ Status TextureLibrary::State::refresh() {
     return {};
 }
 
-Status TextureLibrary::State::read_sight() {
-    if (sight_tried && sight_changes == loaded_changes) return {};
-    sight_tried = true;
-    sight_changes = loaded_changes;
-    sight.reset();
-    sight_fault.clear();
-    WEFT_TRY(folder, text_note(*database, kSightFolderNote));
+Status TextureLibrary::State::read_embeddings() {
+    if (embeddings_tried && embeddings_changes == loaded_changes) return {};
+    embeddings_tried = true;
+    embeddings_changes = loaded_changes;
+    embeddings.reset();
+    embedding_fault.clear();
+    WEFT_TRY(folder, text_note(*database, kModelFolderNote));
     if (folder.empty()) {
-        sight_model.reset();
+        embedding_model.reset();
         return {};
     }
-    // Another process may have named another one, or looked again with changed files.
-    WEFT_TRY(identity, text_note(*database, kSightIdentityNote));
-    if (sight_model && sight_model->identity() != identity) sight_model.reset();
-    if (!sight_model) {
+    // Another process may have set another model, or encoded again with changed files.
+    WEFT_TRY(identity, text_note(*database, kModelIdentityNote));
+    if (embedding_model && embedding_model->identity() != identity) embedding_model.reset();
+    if (!embedding_model) {
         auto opened = ImageTextModel::open(folder);
         if (!opened) {
-            sight_fault = opened.error().message;
+            embedding_fault = opened.error().message;
             return {};
         }
-        sight_model = std::move(*opened);
+        embedding_model = std::move(*opened);
     }
-    if (identity != sight_model->identity()) {
-        sight_fault =
+    if (identity != embedding_model->identity()) {
+        embedding_fault =
             "The image–text model " + folder +
             " has changed since the library was encoded with it. Encode the library again" +
             by({{setting::kUseModel, folder}}) + ".";
         return {};
     }
-    WEFT_TRY(loaded, load_sight(*database, *index, sight_model->dimensions()));
-    sight = std::move(loaded);
+    WEFT_TRY(loaded, load_embeddings(*database, *index, embedding_model->dimensions()));
+    embeddings = std::move(loaded);
     return {};
 }
 
-Expected<LibrarySight> TextureLibrary::State::open_sight() {
-    WEFT_CHECK_OK(read_sight());
-    LibrarySight out;
-    if (sight_model && sight) {
-        out.model = &*sight_model;
-        out.samples = &*sight;
+Expected<LibraryEmbeddings> TextureLibrary::State::open_embeddings() {
+    WEFT_CHECK_OK(read_embeddings());
+    LibraryEmbeddings out;
+    if (embedding_model && embeddings) {
+        out.model = &*embedding_model;
+        out.samples = &*embeddings;
     }
-    out.fault = sight_fault;
+    out.fault = embedding_fault;
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what a TextureLibrary holds.
+// Internal: the state of a TextureLibrary.
 
 #include <memory>
 #include <mutex>
@@ -11,7 +11,7 @@
 #include "texture_db/catalogue/rows.h"
 #include "texture_db/describe/descriptor_model.h"
 #include "texture_db/library/library.h"
-#include "texture_db/search/sample_sight.h"
+#include "texture_db/search/sample_embeddings.h"
 #include "texture_db/search/search.h"
 #include "texture_db/search/word_reader.h"
 
@@ -22,28 +22,28 @@ struct TextureLibrary::State {
     bool read_only = false;
     std::mutex mutex;  // guards everything below
     std::unique_ptr<Database> database;
-    // Loaded when first needed, and anew when the file has changed since.
+    // Loaded when first needed, and again after the file has changed.
     std::optional<SampleIndex> index;
     std::optional<DescriptorModel> model;
     std::optional<WordReader> words;
     std::int64_t loaded_data_version = -1, loaded_changes = -1;
 
-    // The image–text model that the library names, and what it made of the samples.
-    std::optional<ImageTextModel> sight_model;
-    std::optional<SampleSight> sight;
-    std::string sight_fault;  // why there is none though one is named
-    bool sight_tried = false;
-    std::int64_t sight_changes = -1;
+    // The library's image–text model, and its vectors of the samples.
+    std::optional<ImageTextModel> embedding_model;
+    std::optional<SampleEmbeddings> embeddings;
+    std::string embedding_fault;  // why there are none although a model is set
+    bool embeddings_tried = false;
+    std::int64_t embeddings_changes = -1;
 
-    /// Opens the model that the library names and reads what it saw, unless that is done. Call
-    /// after refresh(), with the mutex held. A model that cannot be used is no error: `sight_fault`
-    /// says why.
-    [[nodiscard]] Expected<LibrarySight> open_sight();
+    /// Opens the library's model and reads its vectors, unless that is done. Call after refresh(),
+    /// with the mutex held. A model that cannot be used is not an error; `embedding_fault` has the
+    /// reason.
+    [[nodiscard]] Expected<LibraryEmbeddings> open_embeddings();
     /// Makes index, model and words current. Call with the mutex held.
     [[nodiscard]] Status refresh();
 
   private:
-    [[nodiscard]] Status read_sight();
+    [[nodiscard]] Status read_embeddings();
 };
 
 }  // namespace weft

@@ -24,7 +24,7 @@ Status check_file(Database& database, std::vector<LibraryFault>& faults) {
     };
     WEFT_CHECK_OK(missing("sample FROM pixels", "It has no pixels."));
     WEFT_CHECK_OK(missing("sample FROM features", "It has no features."));
-    return missing("rowid FROM sample_text", "Its words cannot be found.");
+    return missing("rowid FROM sample_text", "Its words are missing from the text index.");
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ Expected<std::vector<LibraryFault>> TextureLibrary::verify(const CancelToken& ca
             if (!image) {
                 faults.push_back({rows[i].second, "Its pixels are damaged."});
             } else if (texture_id(*image) != rows[i].second) {
-                faults.push_back({rows[i].second, "Its pixels are not those it was stored with."});
+                faults.push_back({rows[i].second, "Its pixels have changed since it was stored."});
             }
         }
         if (progress && (i % 256 == 255 || i + 1 == rows.size())) {

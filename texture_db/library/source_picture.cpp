@@ -22,12 +22,12 @@ Expected<ImageU8x3> read_picture_file(const std::string& path, long long max_pix
                                                 std::to_string(max_pixels / 1'000'000) +
                                                 " megapixels). Scale it down and import it again.");
     }
-    // A header may promise more than the file can hold: no format packs a pixel into less than
-    // about a thousandth of a byte.
+    // A header may claim more than the file can hold: no format packs a pixel into less than about
+    // a thousandth of a byte.
     std::error_code ignored;
     const auto bytes = static_cast<long long>(std::filesystem::file_size(path, ignored));
     if (!ignored && pixels > 4'000'000 && bytes < pixels / 1000) {
-        return fail(ErrorCode::kUnreadable, path + " says that it has " +
+        return fail(ErrorCode::kUnreadable, path + " claims to have " +
                                                 std::to_string(pixels / 1'000'000) +
                                                 " megapixels but holds " + std::to_string(bytes) +
                                                 " bytes: it is damaged. Copy or export it again.");
@@ -66,7 +66,7 @@ Expected<ImageU8x3> read_source_picture(const TextureInfo& info) {
     WEFT_TRY(picture, read_picture_file(info.source));
     if (picture.size() != info.original_size) {
         return fail(ErrorCode::kUnreadable,
-                    info.source + " is not the picture any more that the texture was cut from.");
+                    info.source + " has changed since the texture was cut from it.");
     }
     return picture;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the larger picture that a sample was cut from, where the library holds it by reference.
+// Internal: the larger picture that a sample was cut from, if the library refers to it.
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// Procedural: made anew, larger. File: read from where it lay. Errors: Unreadable when the source
-/// is gone or has another size than it had.
+/// Procedural textures are rendered again, larger; files are read from their path. Errors:
+/// Unreadable if the source is missing or its size has changed.
 [[nodiscard]] Expected<ImageU8x3> read_source_picture(const TextureInfo& info);
 
 }  // namespace weft

@@ -15,7 +15,7 @@ float near(float difference, float width) {
     return std::exp(-difference * difference / (2 * width * width));
 }
 
-// How two textures for two regions go together: told apart, but of one world.
+// How well two textures fit two regions together: distinguishable, but of one style.
 float coherence_of(const IndexedSample& a, const IndexedSample& b) {
     const LabColor &p = a.measured.mean, &q = b.measured.mean;
     const float apart = std::clamp(std::hypot(p.l - q.l, p.a - q.a, p.b - q.b) / 22, 0.0f, 1.0f);
@@ -28,15 +28,15 @@ float coherence_of(const IndexedSample& a, const IndexedSample& b) {
     return same * (0.35f * apart + 0.35f * harmony + 0.15f * saturation + 0.15f * contrast);
 }
 
-// What the image–text model takes the region for: the mean over its squares.
-Expected<std::vector<float>> seen_materials(ImageTextModel& model, const SampleIndex& index,
-                                            ViewU8x3 plate, const RegionLook& look) {
+// Materials of the region by the image–text model: the mean over its squares.
+Expected<std::vector<float>> materials_by_model(ImageTextModel& model, const SampleIndex& index,
+                                                ViewU8x3 plate, const RegionLook& look) {
     std::vector<std::string> names;
     for (int m = 0; m < index.materials.size(); ++m)
         names.push_back(index.materials.text(m));
     std::vector<float> out(names.size());
     for (const Recti& square : look.squares) {
-        WEFT_TRY(seen, model.see(plate.crop(square)));
+        WEFT_TRY(seen, model.encode_image(plate.crop(square)));
         const std::vector<float> likely = model.likelihoods(seen, names);
         for (std::size_t m = 0; m < out.size(); ++m)
             out[m] += likely[m] / static_cast<float>(look.squares.size());
@@ -44,7 +44,7 @@ Expected<std::vector<float>> seen_materials(ImageTextModel& model, const SampleI
     return out;
 }
 
-// Beam search over the regions: the ten best beginnings are carried on.
+// Beam search over the regions, with the ten best partial scenes.
 std::vector<SceneSuggestion> together(const SampleIndex& index,
                                       const std::vector<std::vector<Suggestion>>& choices,
                                       int count) {
@@ -97,22 +97,22 @@ std::vector<SceneSuggestion> together(const SampleIndex& index,
 }  // namespace
 
 Expected<Recommendation> recommend_from(const SampleIndex& index, const DescriptorModel* model,
-                                        const LibrarySight& sight,
+                                        const LibraryEmbeddings& embeddings,
                                         const RecommendRequest& request) {
     const auto start = Clock::now();
     Recommendation out;
-    out.notice = sight.fault;
+    out.notice = embeddings.fault;
     std::vector<std::vector<Suggestion>> choices;
     for (const RegionRequest& region : request.regions) {
         WEFT_TRY(look, look_at_region(request.plate, region, model));
-        if (sight.model && sight.samples) {
-            WEFT_TRY(seen, seen_materials(*sight.model, index, request.plate, look));
+        if (embeddings.model && embeddings.samples) {
+            WEFT_TRY(seen, materials_by_model(*embeddings.model, index, request.plate, look));
             look.materials = std::move(seen);
         }
-        const RegionJudge judge(index, model, request, region, look);
-        out.regions.push_back(suggest_for(index, request, region, look, judge));
+        const RegionScorer scorer(index, model, request, region, look);
+        out.regions.push_back(suggest_for(index, request, region, look, scorer));
         if (!region.keep.empty()) {
-            choices.push_back({suggestion_kept(index, judge, index.by_id.at(region.keep))});
+            choices.push_back({suggestion_kept(index, scorer, index.by_id.at(region.keep))});
         } else {
             choices.push_back(out.regions.back().suggestions);
         }

@@ -15,11 +15,11 @@ struct RegionRequest {
     std::string name;      ///< For messages.
     ViewU8x1 matte;        ///< Coverage, of the plate's size.
     std::string keep;      ///< Id of a texture to keep for this region, or empty.
-    std::string material;  ///< A material that the artist wants, or empty.
+    std::string material;  ///< A material that the artist asks for, or empty.
 };
 
-/// What the artist wants changed about the suggestions.
-struct RecommendWish {
+/// How the artist wants the suggestions to differ.
+struct RecommendAdjustments {
     std::string like;    ///< Id: more like this one.
     float warmer = 0;    ///< −1 colder … 1 warmer.
     float brighter = 0;  ///< −1 … 1.
@@ -30,24 +30,24 @@ struct RecommendWish {
 struct RecommendRequest {
     ViewU8x3 plate;  ///< sRGB frame.
     std::vector<RegionRequest> regions;
-    RecommendWish wish;
+    RecommendAdjustments adjust;
     int count = 12;  ///< Suggestions for each region.
     std::vector<std::string> excluded_licences;
-    /// How different the suggestions are from each other: 0 the best ones, 1 as different as can
-    /// be.
+    /// How different the suggestions are from each other: 0 the best ones, 1 as different as
+    /// possible.
     float diversity = 0.35f;
 };
 
 /// The terms of a suggestion's score, each 0 … 1.
 struct ScoreTerms {
-    float material = 0;   ///< Similarity to the region's present material.
-    float use = 0;        ///< Usual for the region's role: a wall, the ground, a garment …
-    float colour = 0;     ///< Harmony with the rest of the frame.
-    float style = 0;      ///< Contrast, saturation and detail as in the rest of the frame.
-    float scale = 0;      ///< Structure fits the region's size.
-    float synthesis = 0;  ///< How well the sample synthesizes.
-    float wish = 1;       ///< How well it meets the request; 1 without one.
-    float coherence = 1;  ///< Coherence with the textures of the other regions; 1 with one region.
+    float material = 0;    ///< Similarity to the region's present material.
+    float use = 0;         ///< Usual for the region's role: a wall, the ground, a garment …
+    float colour = 0;      ///< Harmony with the rest of the frame.
+    float style = 0;       ///< Contrast, saturation and detail as in the rest of the frame.
+    float scale = 0;       ///< Structure fits the region's size.
+    float synthesis = 0;   ///< How well the sample synthesizes.
+    float adjustment = 1;  ///< How well it meets the request; 1 without one.
+    float coherence = 1;   ///< Coherence with the textures of the other regions; 1 with one region.
 };
 
 struct Suggestion {
@@ -57,7 +57,7 @@ struct Suggestion {
     std::vector<std::string> reasons;  ///< In words, the strongest first.
 };
 
-/// One way to think about the region: "Keep the material", "In harmony", "A contrast", …
+/// A group of suggestions: "Keep the material", "In harmony", "A contrast", …
 struct SuggestionScheme {
     std::string name;
     std::string why;
@@ -72,7 +72,7 @@ struct RegionSuggestions {
     std::vector<SuggestionScheme> schemes;
 };
 
-/// For all regions together: one texture for each, chosen to go with each other.
+/// For all regions together: one texture for each, chosen to fit each other.
 struct SceneSuggestion {
     float score = 0;
     std::vector<Suggestion> per_region;  ///< In the order of the request.
@@ -82,7 +82,7 @@ struct SceneSuggestion {
 struct Recommendation {
     std::vector<RegionSuggestions> regions;
     std::vector<SceneSuggestion> together;  ///< With two regions and more; best first.
-    std::string notice;  ///< What is amiss with the image–text model that the library names.
+    std::string notice;  ///< A problem with the library's image–text model, if there is one.
     double seconds = 0;
 };
 

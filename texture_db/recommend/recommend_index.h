@@ -1,5 +1,5 @@
 #pragma once
-// Internal: suggestions out of an index.
+// Internal: suggestions from an index.
 
 #include "texture_db/catalogue/index.h"
 #include "texture_db/describe/descriptor_model.h"
@@ -8,11 +8,11 @@
 
 namespace weft {
 
-/// TextureLibrary::recommend() with full ids and 1 to 100 suggestions asked for; `index` has
-/// samples, `model` may be null. Pure but for the image–text model's own state.
+/// TextureLibrary::recommend() with full ids and 1 to 100 suggestions; `index` has samples, `model`
+/// may be null. Pure, except for the image–text model's own state.
 [[nodiscard]] Expected<Recommendation> recommend_from(const SampleIndex& index,
                                                       const DescriptorModel* model,
-                                                      const LibrarySight& sight,
+                                                      const LibraryEmbeddings& embeddings,
                                                       const RecommendRequest& request);
 
 }  // namespace weft

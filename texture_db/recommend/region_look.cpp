@@ -14,13 +14,13 @@ namespace {
 constexpr int kSide = 96;
 constexpr int kPatches = 4;
 constexpr std::uint8_t kInside = 128;
-constexpr float kNeutral = 8;  // chroma below which a colour has no hue to speak of
+constexpr float kNeutral = 8;  // chroma below which a colour has no meaningful hue
 
 float hue_deg_of(const LabColor& c) {
     return std::atan2(c.b, c.a) * 180 / std::numbers::pi_v<float>;
 }
 
-// The smallest turn between two hues.
+// The smallest angle between two hues.
 float turn_deg(float a, float b) {
     const float turn = std::abs(a - b);
     return turn > 180 ? 360 - turn : turn;
@@ -47,7 +47,7 @@ Shape shape_of(ViewU8x1 matte) {
     return s;
 }
 
-// Sums of coverage from the top left, so that a square's coverage takes four lookups.
+// Sums of coverage from the top left: a square's coverage takes four lookups.
 class Coverage {
   public:
     explicit Coverage(ViewU8x1 matte)
@@ -79,7 +79,7 @@ class Coverage {
     std::vector<std::uint32_t> sums_;
 };
 
-// Squares inside the region, as large as 96 px or as the region allows, that overlap little.
+// Squares inside the region, of 96 px or as large as the region allows, with little overlap.
 std::vector<Recti> patches_of(const Shape& shape, const Coverage& coverage) {
     for (int side = kSide; side >= 16; side = side * 3 / 4) {
         std::vector<std::pair<double, Recti>> found;
@@ -105,7 +105,7 @@ std::vector<Recti> patches_of(const Shape& shape, const Coverage& coverage) {
         }
         if (!chosen.empty()) return chosen;
     }
-    // Thinner than 16 px everywhere: whatever is round its middle.
+    // Thinner than 16 px everywhere: its whole box.
     return {shape.box};
 }
 
@@ -211,17 +211,17 @@ float ColourHarmony::with(float chroma, float hue_deg) const {
     if (weight_ <= 0) return 0.7f;
     float sum = 0;
     for (const Other& other : others_) {
-        // Two strong colours must agree in hue; the weaker one of them is, the less it matters.
+        // Two strong colours must agree in hue; the weaker either is, the less it matters.
         const float matters = std::min({chroma, other.chroma, 30.0f}) / 30.0f;
         const bool neutral = chroma < kNeutral || other.chroma < kNeutral;
         const float turn = neutral ? 0.0f : turn_deg(hue_deg, other.hue_deg);
         const float apart = turn - 180;
-        // The two bells do not overlap: the nearer one is the larger.
+        // The two bells do not overlap, so the nearer one is the larger.
         const float fit = turn < 95 ? std::exp(-turn * turn / (2 * 24 * 24))
                                     : 0.85f * std::exp(-apart * apart / (2 * 22 * 22));
         sum += other.weight * (0.85f * (1 - matters) + fit * matters);
     }
-    // Louder than anything around it is seldom wanted.
+    // A colour much stronger than its surroundings is seldom wanted.
     const float loud = std::max(0.0f, chroma - 1.3f * loudest_) / 40;
     return std::clamp(sum / weight_ - loud, 0.0f, 1.0f);
 }

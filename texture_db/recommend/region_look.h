@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what a region of a frame and its surroundings look like, for the recommender.
+// Internal: the appearance of a region of a frame and of its surroundings, for the recommender.
 
 #include <vector>
 
@@ -16,14 +16,15 @@ struct WeightedColor {
 };
 
 struct RegionLook {
-    MeasuredTexture inside;                       ///< Mean over samples of the region.
-    std::vector<Recti> squares;                   ///< Of the plate, that stand for the region.
-    std::vector<std::vector<float>> descriptors;  ///< Of those samples; empty without a model.
-    /// What an image–text model takes the region for, by material of the index; empty without one.
+    MeasuredTexture inside;  ///< Mean over samples of the region.
+    /// Squares of the plate that represent the region.
+    std::vector<Recti> squares;
+    std::vector<std::vector<float>> descriptors;  ///< Of those squares; empty without a model.
+    /// Likelihoods by the image–text model, by material of the index; empty without one.
     std::vector<float> materials;
     RegionPlace place;
     float area_px = 0;
-    float short_side_px = 0;                  ///< Of a square of the region's typical width.
+    float short_side_px = 0;                  ///< Side of a square of the region's typical width.
     std::vector<WeightedColor> surroundings;  ///< Main colours of the rest of the frame.
     float rest_contrast = 0, rest_saturation = 0, rest_roughness = 0;
 };
@@ -32,7 +33,7 @@ struct RegionLook {
 [[nodiscard]] Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionRequest& region,
                                                   const DescriptorModel* model);
 
-/// How well colours go with those of the rest of a frame, after the harmonic templates of Matsuda
+/// How well colours go with those of the rest of a frame, by the harmonic templates of Matsuda
 /// (Cohen-Or et al. 2006): neighbouring hues and complements harmonise, neutral colours go with
 /// all. Immutable.
 class ColourHarmony {
@@ -49,7 +50,7 @@ class ColourHarmony {
     std::vector<Other> others_;
     float weight_ = 0, loudest_ = 0;
 };
-/// Smallest turn between two hues, degrees; 0 when either is neutral.
+/// Smallest angle between two hues, degrees; 0 if either is neutral.
 [[nodiscard]] float hue_difference_deg(const LabColor& a, const LabColor& b);
 
 }  // namespace weft

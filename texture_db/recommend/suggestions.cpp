@@ -7,10 +7,10 @@
 namespace weft {
 namespace {
 
-// From these the diverse ones are taken: the best of a scheme, and the best of every material.
+// The pool for diverse suggestions: the best of a scheme, and the best of every material.
 constexpr std::size_t kPool = 120, kOfMaterial = 6;
 
-// How much each part counts in a scheme.
+// The weight of each term in a scheme.
 struct Weights {
     const char* name;
     const char* why;
@@ -27,40 +27,40 @@ constexpr Weights kSchemes[]{
     {"Another material", "something else that would look at home here", -1.0f, 1.8f, 1.6f, 0.8f,
      0.8f},
 };
-constexpr float kUnlikely = 0.1f;    // a role less likely than that gets no place
-constexpr float kLikely = 0.5f;      // from here on the region's role is spoken of
-constexpr float kGrowsWell = 0.55f;  // part of synthesis from which it is no matter
+constexpr float kUnlikely = 0.1f;    // a less likely role gets no place
+constexpr float kLikely = 0.5f;      // from here on the role is named
+constexpr float kGrowsWell = 0.55f;  // synthesis above this is good enough
 constexpr std::size_t kKeep = 0, kContrast = 3, kOther = 4;
 
-float score_of(const SuitedSample& c, const Weights& w) {
+float score_of(const ScoredSample& c, const Weights& w) {
     const ScoreTerms& p = c.parts;
     const float material =
         w.material >= 0 ? w.material * p.material : -w.material * (1 - p.material);
     const float sum = material + w.colour * p.colour + w.style * p.style + w.scale * p.scale +
                       w.synthesis * std::min(p.synthesis / kGrowsWell, 1.0f);
     const float weight = std::abs(w.material) + w.colour + w.style + w.scale + w.synthesis;
-    // A wish is a demand, and what cannot be seen at this size or does not grow is no use.
-    // How it grows decides only where it grows badly: else whatever is drawn evenly would win
-    // everywhere.
+    // Requests are strict, and a sample that is invisible at this size or does not synthesize is
+    // useless. Synthesis only counts where it is bad; otherwise evenly drawn textures would always
+    // win.
     const float grows = std::min(p.synthesis / kGrowsWell, 1.0f);
-    return sum / weight * p.wish * (0.25f + 0.75f * p.use) * (0.35f + 0.65f * p.scale) *
+    return sum / weight * p.adjustment * (0.25f + 0.75f * p.use) * (0.35f + 0.65f * p.scale) *
            (0.5f + 0.5f * grows) * p.coherence;
 }
 
-std::vector<std::string> reasons_of(const SampleIndex& index, const RegionJudge& judge,
-                                    const SuitedSample& c) {
+std::vector<std::string> reasons_of(const SampleIndex& index, const RegionScorer& scorer,
+                                    const ScoredSample& c) {
     const std::string& material = index.materials.text(index.looks[c.sample].material);
     std::vector<std::pair<float, std::string>> found;
-    const float vote = judge.vote_of(c.sample);
-    if (vote > 0.6f)
-        found.emplace_back(vote, "is " + material + ", which the region looks like now");
+    const float likelihood = scorer.material_likelihood(c.sample);
+    if (likelihood > 0.6f)
+        found.emplace_back(likelihood, "is " + material + ", which the region looks like now");
     else if (c.parts.material > 0.5f)
         found.emplace_back(c.parts.material, "its surface is much like the region's");
     else if (c.parts.material < 0.15f)
         found.emplace_back(0.3f, "a different material: " + material);
-    if (judge.likely_role() >= kLikely &&
-        judge.serves(c.sample, static_cast<std::size_t>(judge.role())))
-        found.emplace_back(0.55f, "usual for " + std::string(role_name(judge.role())));
+    if (scorer.likely_role() >= kLikely &&
+        scorer.serves(c.sample, static_cast<std::size_t>(scorer.role())))
+        found.emplace_back(0.55f, "usual for " + std::string(role_name(scorer.role())));
     const std::string colour = colour_name(index.looks[c.sample].mean);
     if (c.parts.colour > 0.75f)
         found.emplace_back(c.parts.colour, colour + " goes with the colours around it");
@@ -75,7 +75,8 @@ std::vector<std::string> reasons_of(const SampleIndex& index, const RegionJudge&
     if (c.parts.synthesis > 0.7f)
         found.emplace_back(0.6f * c.parts.synthesis, "synthesizes without visible seams");
     if (c.parts.synthesis < 0.35f) found.emplace_back(0.3f, "uneven: may show repeats");
-    if (c.parts.wish < 1 && c.parts.wish > 0.6f) found.emplace_back(1, "meets your wish");
+    if (c.parts.adjustment < 1 && c.parts.adjustment > 0.6f)
+        found.emplace_back(1, "meets the request");
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::string> out;
@@ -84,42 +85,43 @@ std::vector<std::string> reasons_of(const SampleIndex& index, const RegionJudge&
     return out;
 }
 
-Suggestion suggestion_of(const SampleIndex& index, const RegionJudge& judge, const SuitedSample& c,
-                         float score) {
+Suggestion suggestion_of(const SampleIndex& index, const RegionScorer& scorer,
+                         const ScoredSample& c, float score) {
     const IndexedSample& s = index.samples[c.sample];
     return {s.id,  s.name,  index.materials.text(s.material),
-            score, c.parts, reasons_of(index, judge, c)};
+            score, c.parts, reasons_of(index, scorer, c)};
 }
 
-std::string seen_as(const SampleIndex& index, const RegionJudge& judge, const RegionLook& look) {
+std::string seen_as(const SampleIndex& index, const RegionScorer& scorer, const RegionLook& look) {
     std::string out;
-    const std::vector<float>& votes = judge.votes();
-    if (!votes.empty() && !look.descriptors.empty()) {
-        const auto best = std::max_element(votes.begin(), votes.end()) - votes.begin();
+    const std::vector<float>& likelihoods = scorer.material_likelihoods();
+    if (!likelihoods.empty() && !look.descriptors.empty()) {
+        const auto best =
+            std::max_element(likelihoods.begin(), likelihoods.end()) - likelihoods.begin();
         out = index.materials.text(static_cast<int>(best)) + ", ";
     }
     out += colour_name(look.inside.mean);
     const auto words = attribute_words(look.inside);
     for (std::size_t i = 0; i < std::min<std::size_t>(2, words.size()); ++i)
         out += ", " + words[i];
-    if (judge.likely_role() >= kLikely) out += "; " + std::string(role_name(judge.role()));
+    if (scorer.likely_role() >= kLikely) out += "; " + std::string(role_name(scorer.role()));
     return out;
 }
 
 struct Scored {
     float score = 0;
-    const SuitedSample* candidate = nullptr;
+    const ScoredSample* candidate = nullptr;
 };
 
 // The best of a scheme, best first, ties by id.
-std::vector<Scored> best_of(const SampleIndex& index, const RegionJudge& judge,
-                            const std::vector<SuitedSample>& candidates, std::size_t scheme) {
+std::vector<Scored> best_of(const SampleIndex& index, const RegionScorer& scorer,
+                            const std::vector<ScoredSample>& candidates, std::size_t scheme) {
     std::vector<Scored> pool;
     pool.reserve(candidates.size());
-    for (const SuitedSample& c : candidates) {
+    for (const ScoredSample& c : candidates) {
         float score = score_of(c, kSchemes[scheme]);
         if (scheme == kContrast) score *= 0.25f + 0.75f * c.stands_out;
-        if (scheme == kOther && judge.vote_of(c.sample) > 0.5f) score *= 0.3f;
+        if (scheme == kOther && scorer.material_likelihood(c.sample) > 0.5f) score *= 0.3f;
         pool.push_back({score, &c});
     }
     const auto better = [&](const Scored& a, const Scored& b) {
@@ -144,15 +146,15 @@ std::vector<Scored> best_of(const SampleIndex& index, const RegionJudge& judge,
     return pool;
 }
 
-// Gives places to what the region may be, in proportion to how likely it is that (Sainte-Laguë
-// 1910): what it is, is not sure, so no reading of it takes all places.
+// Distributes places over the region's possible roles in proportion to their likelihood
+// (Sainte-Laguë 1910). The role is uncertain, so no role takes all places.
 class Places {
   public:
     explicit Places(const RoleWeights& likely) : likely_(likely) {
         for (float& l : likely_)
             l = l < kUnlikely ? 0 : l;
     }
-    // The role whose turn it is.
+    // The role that gets the next place.
     [[nodiscard]] std::size_t next() const {
         std::size_t best = 0;
         for (std::size_t r = 1; r < likely_.size(); ++r) {
@@ -167,9 +169,9 @@ class Places {
     RoleWeights likely_, given_{};
 };
 
-// Maximal marginal relevance (Carbonell & Goldstein 1998) among what serves as the role whose turn
-// it is; among all without `places`.
-std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionJudge& judge, int count,
+// Maximal marginal relevance (Carbonell & Goldstein 1998) among the samples of the role that gets
+// the next place; among all without `places`.
+std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionScorer& scorer, int count,
                             float diversity, std::optional<Places> places) {
     std::vector<Scored> out;
     std::vector<float> likest(pool.size(), 0);
@@ -180,7 +182,7 @@ std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionJudge& 
             std::size_t best = pool.size();
             float best_value = -1e9f;
             for (std::size_t i = 0; i < pool.size(); ++i) {
-                if (taken[i] || (!all && !judge.serves(pool[i].candidate->sample, role))) continue;
+                if (taken[i] || (!all && !scorer.serves(pool[i].candidate->sample, role))) continue;
                 const float value = (1 - diversity) * pool[i].score - diversity * likest[i];
                 if (value > best_value) {
                     best_value = value;
@@ -196,29 +198,29 @@ std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionJudge& 
         out.push_back(pool[best]);
         for (std::size_t i = 0; i < pool.size(); ++i) {
             if (!taken[i])
-                likest[i] = std::max(likest[i], judge.likeness(pool[i].candidate->sample,
-                                                               pool[best].candidate->sample));
+                likest[i] = std::max(likest[i], scorer.likeness(pool[i].candidate->sample,
+                                                                pool[best].candidate->sample));
         }
     }
     return out;
 }
 
-// The best of all schemes in turn, each texture once and each for the role whose turn it is.
-std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionJudge& judge,
+// The best of all schemes in turn, each texture once, each for the role that gets the next place.
+std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionScorer& scorer,
                                     const std::vector<SuggestionScheme>& schemes, int count) {
     std::vector<Suggestion> out;
-    Places places(judge.roles());
+    Places places(scorer.roles());
     const auto take = [&](const SuggestionScheme& scheme, std::optional<std::size_t> role) {
         for (const Suggestion& s : scheme.suggestions) {
             const bool there = std::any_of(out.begin(), out.end(),
                                            [&](const Suggestion& o) { return o.id == s.id; });
-            if (there || (role && !judge.serves(index.by_id.at(s.id), *role))) continue;
+            if (there || (role && !scorer.serves(index.by_id.at(s.id), *role))) continue;
             out.push_back(s);
             return true;
         }
         return false;
     };
-    int idle = 0;  // schemes in a row that had nothing
+    int idle = 0;  // consecutive schemes without a suggestion
     for (std::size_t turn = 0;
          static_cast<int>(out.size()) < count && idle < static_cast<int>(schemes.size()); ++turn) {
         const SuggestionScheme& scheme = schemes[turn % schemes.size()];
@@ -234,29 +236,30 @@ std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionJudge&
 
 RegionSuggestions suggest_for(const SampleIndex& index, const RecommendRequest& request,
                               const RegionRequest& region, const RegionLook& look,
-                              const RegionJudge& judge) {
+                              const RegionScorer& scorer) {
     RegionSuggestions out;
     out.region = region.name;
-    out.seen_as = seen_as(index, judge, look);
-    const std::vector<SuitedSample> candidates = judge.judge_all();
+    out.seen_as = seen_as(index, scorer, look);
+    const std::vector<ScoredSample> candidates = scorer.score_all();
     const float diversity = std::clamp(request.diversity, 0.0f, 1.0f);
     for (std::size_t s = 0; s < std::size(kSchemes); ++s) {
         SuggestionScheme scheme{kSchemes[s].name, kSchemes[s].why, {}};
-        const auto pool = best_of(index, judge, candidates, s);
+        const auto pool = best_of(index, scorer, candidates, s);
         const bool mixed = s != kKeep && diversity > 0;
-        const auto places = mixed ? std::optional(Places(judge.roles())) : std::nullopt;
-        for (const Scored& one : diverse(pool, judge, request.count, diversity, places))
-            scheme.suggestions.push_back(suggestion_of(index, judge, *one.candidate, one.score));
+        const auto places = mixed ? std::optional(Places(scorer.roles())) : std::nullopt;
+        for (const Scored& one : diverse(pool, scorer, request.count, diversity, places))
+            scheme.suggestions.push_back(suggestion_of(index, scorer, *one.candidate, one.score));
         if (!scheme.suggestions.empty()) out.schemes.push_back(std::move(scheme));
     }
-    out.suggestions = best_of_all(index, judge, out.schemes, request.count);
+    out.suggestions = best_of_all(index, scorer, out.schemes, request.count);
     return out;
 }
 
-Suggestion suggestion_kept(const SampleIndex& index, const RegionJudge& judge, std::size_t sample) {
-    const SuitedSample c = judge.judge(sample);
-    Suggestion s = suggestion_of(index, judge, c, score_of(c, kSchemes[1]));
-    s.reasons.insert(s.reasons.begin(), "kept, as you wished");
+Suggestion suggestion_kept(const SampleIndex& index, const RegionScorer& scorer,
+                           std::size_t sample) {
+    const ScoredSample c = scorer.score(sample);
+    Suggestion s = suggestion_of(index, scorer, c, score_of(c, kSchemes[1]));
+    s.reasons.insert(s.reasons.begin(), "kept as requested");
     return s;
 }
 

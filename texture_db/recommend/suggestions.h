@@ -1,7 +1,7 @@
 #pragma once
-// Internal: out of all samples that a region was judged for, the few that are shown.
+// Internal: selects the few samples to show, from all samples scored for a region.
 
-#include "texture_db/recommend/suitability.h"
+#include "texture_db/recommend/region_scorer.h"
 
 namespace weft {
 
@@ -9,10 +9,10 @@ namespace weft {
 [[nodiscard]] RegionSuggestions suggest_for(const SampleIndex& index,
                                             const RecommendRequest& request,
                                             const RegionRequest& region, const RegionLook& look,
-                                            const RegionJudge& judge);
+                                            const RegionScorer& scorer);
 
-/// A texture that the artist keeps, with its parts and reasons.
-[[nodiscard]] Suggestion suggestion_kept(const SampleIndex& index, const RegionJudge& judge,
+/// The suggestion for a texture that the artist keeps, with its terms and reasons.
+[[nodiscard]] Suggestion suggestion_kept(const SampleIndex& index, const RegionScorer& scorer,
                                          std::size_t sample);
 
 }  // namespace weft

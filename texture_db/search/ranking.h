@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the order in which a library's samples are shown for a picture.
+// Internal: the order of a library's samples for a picture.
 
 #include <span>
 #include <vector>
@@ -9,24 +9,25 @@
 
 namespace weft {
 
-/// By material of the index: the least of what its samples are away, a sample's own distance and
-/// seven tenths of that of its material's middle; very far for one that the model does not know.
+/// By material of the index: the least distance of its samples, where a sample's distance is its
+/// own plus 0.7 times that of its material's centre; very far for a material that the model does
+/// not know.
 [[nodiscard]] std::vector<float> material_distances(const SampleIndex& index,
                                                     const DescriptorModel& model,
                                                     std::span<const float> descriptor);
 
-/// By a sample's own distance and seven tenths of that of its material's middle. The first five are
-/// of five materials, the nearest of each, since what a picture shows is not sure; then all others.
-/// Distances as they were compared.
+/// Ordered by a sample's own distance plus 0.7 times that of its material's centre. The first five
+/// are the nearest of five materials, because the picture's material is uncertain; then all others.
+/// `distance` is the compared value.
 [[nodiscard]] std::vector<Neighbour> rank_for_picture(const SampleIndex& index,
                                                       const DescriptorModel& model,
                                                       std::span<const float> descriptor,
                                                       std::size_t count);
 
-/// The nearest to a sample of the index, best first, the sample itself left out.
+/// The nearest to a sample of the index, best first, without the sample itself.
 [[nodiscard]] std::vector<SearchHit> similar_to_sample(const SampleIndex& index, std::size_t sample,
                                                        int count);
-/// The samples for a picture's features, as rank_for_picture() orders them.
+/// The samples for a picture's features, in the order of rank_for_picture().
 [[nodiscard]] std::vector<SearchHit> similar_to_picture(const SampleIndex& index,
                                                         const DescriptorModel& model,
                                                         std::span<const float> features, int count);

@@ -13,14 +13,14 @@ namespace weft {
 namespace {
 
 constexpr float kNameHit = 0.8f;
-constexpr float kLeast = 0.05f;  // of every word, for a hit
+constexpr float kLeast = 0.05f;  // least score of every word, for a hit
 
 struct Scored {
     std::size_t sample = 0;
     float score = 1;
 };
 
-// A word and which samples' names and tags it stands in.
+// A word, and the samples whose names and tags contain it.
 struct TermHits {
     ReadTerm term;
     std::vector<std::int64_t> keys;  // ascending
@@ -37,7 +37,7 @@ struct TermHits {
 
 Expected<std::vector<std::int64_t>> find_text(Database& database, const std::string& word) {
     std::vector<std::int64_t> keys;
-    // Quoted: nothing in it can be read as FTS5 syntax. One and many are the same word.
+    // Quoted, so that no part of it is FTS5 syntax. Singular and plural are the same word.
     std::string letters;
     for (const char c : word) {
         letters += c;
@@ -104,14 +104,14 @@ class Filter {
     std::vector<bool> materials_, packages_, categories_, licences_;
 };
 
-// How surely the image–text model sees the words in a sample: 0 … 1 from its likeness in standard
-// deviations. Where likeness spreads normally, 2 % of a library lie above kSeen.
+// How certainly the image–text model finds the words in a sample: 0 … 1 from its similarity in
+// standard deviations. With normally distributed similarities, 2 % of a library lie above kSeen.
 constexpr float kSeen = 2;
-float seen_in(float deviations) {
+float certainty_of(float deviations) {
     return 1 / (1 + std::exp(-2 * (deviations - kSeen)));
 }
 
-// `seen` is empty, or what the image–text model thinks of each sample.
+// `seen` is empty, or the image–text model's score of each sample.
 std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
                               const std::vector<TermHits>& terms, bool all_words,
                               const std::vector<float>& seen) {
@@ -128,16 +128,16 @@ std::vector<Scored> score_all(const SampleIndex& index, const Filter& filter,
             sum += std::max(v, 0.0f);
         }
         if (terms.empty()) {
-            // With what the model thinks: of words that the library itself does not know.
+            // The model's score counts for words that the library itself does not know.
             if (seen.empty())
                 out.push_back({i, 1});
             else if (seen[i] > kSeen)
-                out.push_back({i, seen_in(seen[i])});
+                out.push_back({i, certainty_of(seen[i])});
         } else if (all_words && every) {
             const float words = std::pow(product, 1.0f / static_cast<float>(terms.size()));
-            out.push_back({i, seen.empty() ? words : 0.7f * words + 0.3f * seen_in(seen[i])});
+            out.push_back({i, seen.empty() ? words : 0.7f * words + 0.3f * certainty_of(seen[i])});
         } else if (all_words && !seen.empty() && seen[i] > kSeen) {
-            out.push_back({i, 0.6f * seen_in(seen[i])});
+            out.push_back({i, 0.6f * certainty_of(seen[i])});
         } else if (!all_words && sum > 0.5f) {
             out.push_back({i, 0.9f * sum / static_cast<float>(terms.size())});
         }
@@ -151,8 +151,8 @@ float hue_turn(const LabColor& c) {
     return turn < 0 ? turn + 1 : turn;
 }
 
-// Each order ends in the id, which is as good as random: samples of one photograph do not stand in
-// a row.
+// Each order ends with the id, which is practically random, so that samples of one photograph are
+// not shown side by side.
 void sort_hits(std::vector<Scored>& hits, const SampleIndex& index, TextureSort sort, bool down) {
     const auto before = [&](const Scored& x, const Scored& y) {
         const IndexedSample &a = index.samples[x.sample], &b = index.samples[y.sample];
@@ -160,7 +160,8 @@ void sort_hits(std::vector<Scored>& hits, const SampleIndex& index, TextureSort 
         int order = 0;
         switch (sort) {
             case TextureSort::kRelevance:
-                // In steps, so that among equals what is loved and what grows well comes first.
+                // In steps, so that favourites and samples that synthesize well come first among
+                // equals.
                 order = by(std::lround(-y.score * 50), std::lround(-x.score * 50));
                 order = order != 0 ? -order : 0;
                 if (order == 0) order = by(b.rating + 2 * b.favourite, a.rating + 2 * a.favourite);
@@ -252,7 +253,7 @@ std::vector<std::string> reasons_of(const std::vector<TermHits>& terms, const Sa
     return out;
 }
 
-// What the words of a query mean in this library; tells in `out` how they were understood.
+// What the words of a query mean in this library; `out` gets the explanation.
 Expected<std::vector<TermHits>> read_terms(Database& database, const SampleIndex& index,
                                            const WordReader& words, const SearchQuery& query,
                                            SearchResult& out) {
@@ -277,7 +278,7 @@ Expected<std::vector<TermHits>> read_terms(Database& database, const SampleIndex
     return terms;
 }
 
-// The ids of a collection; none for an empty name.
+// The ids of a collection; empty without a name.
 Expected<std::set<std::string>> members_of(Database& database, const std::string& collection) {
     std::set<std::string> members;
     if (collection.empty()) return members;
@@ -293,22 +294,24 @@ Expected<std::set<std::string>> members_of(Database& database, const std::string
 }  // namespace
 
 Expected<SearchResult> search_index(Database& database, const SampleIndex& index,
-                                    const WordReader& words, const OpenSight& open_sight,
+                                    const WordReader& words, const OpenEmbeddings& open_embeddings,
                                     const SearchQuery& query) {
     const auto start = Clock::now();
     SearchResult out;
     WEFT_TRY(terms, read_terms(database, index, words, query, out));
     WEFT_TRY(members, members_of(database, query.collection));
     const Filter filter(query, index, std::move(members));
-    // Words alone that nobody understands find nothing, rather than everything.
+    // A query of unknown words only finds nothing instead of everything.
     const bool nothing = terms.empty() && !out.ignored.empty();
     std::vector<float> seen;
-    LibrarySight sight;
+    LibraryEmbeddings embeddings;
     if (!terms.empty() || nothing) {
-        WEFT_TRY(opened, open_sight());
-        sight = opened;
-        if (sight.samples) seen = likeness_to_words(*sight.samples, sight.model->read(query.text));
-        if (!sight.fault.empty()) out.understood.push_back(sight.fault);
+        WEFT_TRY(opened, open_embeddings());
+        embeddings = opened;
+        if (embeddings.samples)
+            seen =
+                similarity_to_words(*embeddings.samples, embeddings.model->encode_text(query.text));
+        if (!embeddings.fault.empty()) out.understood.push_back(embeddings.fault);
     }
     std::vector<Scored> hits = nothing && seen.empty()
                                    ? std::vector<Scored>()
@@ -316,7 +319,7 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
     if (hits.empty() && terms.size() > 1) {
         hits = score_all(index, filter, terms, false, {});
         if (!hits.empty())
-            out.understood.push_back("no texture fits every word: the nearest are shown");
+            out.understood.push_back("no texture matches every word: the nearest are shown");
     }
     out.total = static_cast<int>(hits.size());
     if (query.facets) count_facets(hits, index, out);
@@ -328,7 +331,7 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
         const IndexedSample& s = index.samples[hits[i].sample];
         std::vector<std::string> reasons = reasons_of(terms, index, s);
         if (!seen.empty() && seen[hits[i].sample] > kSeen)
-            reasons.push_back("looks like it to " + sight.model->name());
+            reasons.push_back("matches according to " + embeddings.model->name());
         out.hits.push_back(
             {s.id, s.name, index.materials.text(s.material), hits[i].score, std::move(reasons)});
     }

@@ -6,10 +6,10 @@
 namespace weft {
 namespace {
 
-// How much the distance to the middle of a sample's material counts beside that to the sample
-// itself. A material is known better by its middle than by whichever of its samples comes near.
+// Weight of the distance to the centre of a sample's material against that to the sample itself. A
+// material's centre is more reliable than whichever of its samples happens to be near.
 constexpr float kMiddle = 0.7f;
-// What is drawn by procedure is less like a photograph than its numbers say. Tried from 0 to 8.
+// Procedural textures resemble photographs less than their features suggest. Tried from 0 to 8.
 constexpr float kDrawn = 3;
 constexpr std::size_t kFirst = 5;
 
@@ -22,7 +22,7 @@ SearchHit hit_of(const SampleIndex& index, std::size_t i, float distance) {
             {"looks alike"}};
 }
 
-// Every sample with its own distance and that of its material's middle.
+// Every sample with its own distance plus that of its material's centre.
 std::vector<Neighbour> judged(const SampleIndex& index, const DescriptorModel& model,
                               std::span<const float> descriptor) {
     const std::vector<float> middle = model.distances_to_centres(descriptor);

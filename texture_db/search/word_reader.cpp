@@ -23,7 +23,7 @@ bool is_filler(const std::string& word) {
     return std::find(kFillers.begin(), kFillers.end(), word) != kFillers.end();
 }
 
-// Two words that mean one thing together, and materials that an adjective points to.
+// Phrases of two words with one meaning, and materials that an adjective implies.
 struct Phrase {
     const char* words;
     const char* material;
@@ -63,8 +63,8 @@ constexpr Phrase kHints[]{
     {"veined", "marble", 0.9f},
 };
 
-// Optimal string alignment (Damerau 1964; Levenshtein 1966): changes, losses, gains and swaps of
-// neighbours; gives up above `most`.
+// Optimal string alignment (Damerau 1964; Levenshtein 1966): substitutions, deletions, insertions
+// and swaps of neighbours; stops above `most`.
 int edit_distance(std::string_view a, std::string_view b, int most) {
     const int n = static_cast<int>(a.size()), m = static_cast<int>(b.size());
     if (std::abs(n - m) > most) return most + 1;
@@ -149,7 +149,7 @@ std::string WordReader::corrected(const std::string& word) const {
         if (candidate.size() < 3) return;
         int distance = edit_distance(word, candidate, most);
         if (distance > most) return;
-        // A wrong first letter is rare, and so are two mistakes in a short word.
+        // A wrong first letter is rare, as are two mistakes in a short word.
         if (candidate[0] != word[0]) ++distance;
         if (distance > most) return;
         if (distance < best_distance || (distance == best_distance && count > best_count)) {

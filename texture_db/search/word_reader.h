@@ -1,6 +1,6 @@
 #pragma once
-// Internal: reads what an artist types. A word may be a material, a synonym of one, a hypernym of
-// several, an attribute or colour, or any word of the catalogue; misspellings are forgiven.
+// Internal: interprets an artist's query. A word may be a material, a synonym of one, a hypernym of
+// several, an attribute or colour, or any word of the catalogue; spelling mistakes are corrected.
 
 #include <map>
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace weft {
 
-/// How one word (or two that belong together: "rusty iron", "dark green") is understood.
+/// The meaning of one word (or of two that belong together: "rusty iron", "dark green").
 struct ReadTerm {
     std::string typed, word;                 ///< As typed; as corrected.
-    std::map<std::string, float> materials;  ///< That it means, with weight 0 … 1.
-    std::vector<std::string> attributes;     ///< That must be seen in the pixels.
+    std::map<std::string, float> materials;  ///< Materials that it means, with weights 0 … 1.
+    std::vector<std::string> attributes;     ///< Attributes that the pixels must have.
     std::string text;                        ///< Word to find in names and tags, or empty.
     bool negated = false;                    ///< "not mossy", "-mossy".
     std::string explanation;  ///< "timbr → timber → wood"; empty: nothing to explain.
@@ -24,9 +24,10 @@ struct ReadTerm {
 
 class WordReader {
   public:
-    /// Takes the words of the catalogue. WordNet is read where it is installed.
+    /// Collects the words of the catalogue. Reads WordNet if it is installed. Errors: those of the
+    /// file.
     [[nodiscard]] static Expected<WordReader> load(Database& database, const SampleIndex& index);
-    /// The terms of a query; what cannot be understood at all goes to `ignored`.
+    /// The terms of a query; words without any meaning go to `ignored`.
     [[nodiscard]] std::vector<ReadTerm> read(std::string_view text,
                                              std::vector<std::string>& ignored) const;
 

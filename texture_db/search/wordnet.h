@@ -1,5 +1,5 @@
 #pragma once
-// Internal: the noun files of WordNet 3 (Fellbaum 1998), read where they lie, word by word.
+// Internal: the noun files of WordNet 3 (Fellbaum 1998), read in place, word by word.
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ struct RelatedWord {
 /// Not thread-safe.
 class WordNet {
   public:
-    /// Nothing where the database (Debian: wordnet-base) is not installed.
+    /// Empty if the database (Debian: wordnet-base) is not installed.
     [[nodiscard]] static std::optional<WordNet> open(
         const std::string& folder = "/usr/share/wordnet");
     /// Synonyms and hypernyms of a noun's first senses, nearest first; empty for an unknown word.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kBatch = 16;
-// Measured: a sample of 96×96 with its share of the original, and the starter library.
+// Measured: a 96×96 sample with its share of the original, and the starter library.
 constexpr std::int64_t kSamples_bytes = 700ll << 20;
 constexpr double kMinutesPerGigabyte = 4;
 
@@ -37,7 +37,7 @@ Error stopped(const CancelToken& cancel) {
             {}};
 }
 
-// One build at work.
+// One run of a build.
 class Builder {
   public:
     Builder(TextureLibrary& library, const BuildOptions& options, const CancelToken& cancel,
@@ -54,7 +54,7 @@ class Builder {
         fs::create_directories(work_, error);
         if (error) {
             return fail(ErrorCode::kUnreadable,
-                        "The folder " + work_ + " cannot be made: " + error.message() + ".");
+                        "The folder " + work_ + " cannot be created: " + error.message() + ".");
         }
         WEFT_CHECK_OK(check_space());
         if (options_.starter) WEFT_CHECK_OK(add_starter_textures(library_, cancel_, progress_));
@@ -92,7 +92,7 @@ class Builder {
                         by({{setting::kPackages}}) + ".");
     }
 
-    // Thumbnails of what earlier runs stored, so that duplicates of it are known.
+    // Thumbnails of what earlier runs stored, so that duplicates of it are detected.
     Status remember_known() {
         SearchQuery all;
         all.origins = {TextureOrigin::kPackage};
@@ -176,7 +176,7 @@ class Builder {
         std::vector<NewTexture> samples;
         for (PhotoSamples& photo : done) {
             if (!photo.fault.empty()) {
-                // Reasons with a path in them are all "cannot be read" to the count.
+                // Reasons that contain a path are all counted as "cannot be read".
                 ++refused_[photo.fault.size() < 60 ? photo.fault : "cannot be read"];
                 continue;
             }
@@ -227,7 +227,7 @@ Expected<BuildEstimate> estimate_build(const BuildOptions& options) {
         }
         out.packages.push_back({name, info->version, info->download_bytes, true, ""});
         out.download_bytes += info->download_bytes;
-        // One package at a time is unpacked, and its pictures beside it; then both are removed.
+        // One package at a time is unpacked, with its pictures beside it; then both are removed.
         const std::int64_t mine = info->download_bytes + 2 * info->unpacked_bytes;
         unpacked = options.keep_downloads ? unpacked + mine : std::max(unpacked, mine);
     }

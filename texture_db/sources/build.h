@@ -1,5 +1,5 @@
 #pragma once
-// Builds the full library on the user's machine out of Debian packages.
+// Builds the full library on the user's machine from Debian packages.
 
 #include <cstdint>
 #include <string>
@@ -34,23 +34,23 @@ struct BuildEstimate {
     std::int64_t download_bytes = 0, disk_bytes = 0, free_bytes = 0;
     double minutes = 0;  ///< Without the download.
 };
-/// What a build will take. Errors: none of a package alone; those of the folder.
+/// What a build will need. Errors: those of the folder; a package's own fault is in its entry.
 [[nodiscard]] Expected<BuildEstimate> estimate_build(const BuildOptions& options);
 
 struct BuildReport {
     int pictures = 0, samples = 0;
-    int not_named = 0;     ///< Pictures whose names speak of no material.
-    int looked_wrong = 0;  ///< Pictures that a person has seen to show none.
-    int duplicates = 0;    ///< Pictures and samples seen before.
-    int outliers = 0;      ///< Samples that look like another material than their name says.
-    std::vector<std::pair<std::string, int>> refused;  ///< Why, and how many pictures.
-    std::vector<std::string> unreachable;              ///< Packages that could not be had.
+    int not_named = 0;     ///< Pictures whose names contain no material.
+    int looked_wrong = 0;  ///< Pictures that a person found to show no material.
+    int duplicates = 0;    ///< Pictures and samples added before.
+    int outliers = 0;      ///< Samples that look like another material than their name.
+    std::vector<std::pair<std::string, int>> refused;  ///< Reason, and number of pictures.
+    std::vector<std::string> unreachable;              ///< Packages that could not be downloaded.
     double seconds = 0;
 };
 
-/// Downloads, unpacks, chooses, adds and learns. Interrupted at any point, the next call goes on.
-/// A package that cannot be reached is reported and left for the next time. Errors: NoSpace before
-/// anything is downloaded when the disk is too small; those of the library; cancellation.
+/// Downloads, unpacks, selects, adds and trains. After an interruption the next call continues. A
+/// package that cannot be reached is reported and tried again next time. Errors: NoSpace, before
+/// anything is downloaded, if the disk is too small; those of the library; cancellation.
 [[nodiscard]] Expected<BuildReport> build_library(TextureLibrary& library,
                                                   const BuildOptions& options,
                                                   const CancelToken& cancel = {},

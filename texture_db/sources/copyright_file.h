@@ -1,5 +1,5 @@
 #pragma once
-// Internal: who made a file of a Debian package and under which licence, out of its copyright file.
+// Internal: author and licence of a file in a Debian package, from its copyright file.
 
 #include <string>
 #include <string_view>
@@ -11,13 +11,13 @@ struct FileLicence {
     std::string author, licence;
 };
 
-/// The machine-readable format (DEP 5); of free text, the licence that it names and the first
+/// Reads the machine-readable format (DEP 5); of free text, the licence that it names and the first
 /// holder.
 class CopyrightFile {
   public:
     [[nodiscard]] static CopyrightFile parse(std::string_view text);
-    /// The last paragraph whose patterns fit `path`. A pattern also fits a file of which it names
-    /// the end of the path: packages rearrange folders. "unknown" where nothing fits.
+    /// The last paragraph whose patterns match `path`. A pattern also matches the end of a path,
+    /// because packages rearrange folders. "unknown" if nothing matches.
     [[nodiscard]] FileLicence of(std::string_view path) const;
 
   private:

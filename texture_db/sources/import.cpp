@@ -22,7 +22,7 @@ struct Found {
     std::string file, category;
 };
 
-// Changes whenever the file may have: so that an unchanged one need not be read again.
+// Changes whenever the file may have changed, so that an unchanged file is not read again.
 std::string stamp_of(const std::string& file) {
     struct stat s {};
     if (::stat(file.c_str(), &s) != 0) return "?";
@@ -88,7 +88,7 @@ bool is_other_map(const std::string& file_name) {
     const auto among = [](const std::vector<std::string>& list, const std::string& word) {
         return std::find(list.begin(), list.end(), word) != list.end();
     };
-    // "NormalGL" comes apart into "normal gl"; resolutions (1K, 2k, 4k) stand anywhere.
+    // "NormalGL" is split into "normal gl"; resolutions (1K, 2k, 4k) may stand anywhere.
     std::erase_if(words, [](const std::string& w) {
         return w == "k" || w.find_first_not_of("0123456789") == std::string::npos || w == "jpg" ||
                w == "png";

@@ -43,7 +43,7 @@ CopyrightFile read_copyright(const std::string& unpacked, const std::string& pac
     return CopyrightFile::parse(text);
 }
 
-// The last two folders and the name: what stands before them is the same for a whole package.
+// The last two folders and the name; the folders before them are the same for a whole package.
 std::string telling_part(const std::string& path) {
     std::size_t at = path.size();
     for (int parts = 0; parts < 2 && at != std::string::npos && at > 0; ++parts)
@@ -56,9 +56,9 @@ class Collector {
     Collector(std::string package, CopyrightFile copyright)
         : package_(std::move(package)), copyright_(std::move(copyright)) {}
 
-    /// The material, or empty: not to be taken.
+    /// The material, or empty if the picture is not wanted.
     [[nodiscard]] std::string wanted(const std::string& source) {
-        if (!is_picture(source) || names_a_thing(source) ||
+        if (!is_picture(source) || names_an_object(source) ||
             is_other_map(fs::path(source).filename().string()))
             return {};
         std::string material = material_of_path(telling_part(source));
@@ -82,7 +82,7 @@ class Collector {
         photo.author = licence.author;
         photo.licence = licence.licence;
         photo.keep_original = true;
-        // A material that only the folder names is a guess, where nobody has looked.
+        // A material that only the folder names is a guess unless the package was inspected.
         if (!was_inspected(package_) &&
             material_of_path(fs::path(source).filename().string()).empty())
             photo.tags.push_back("guessed");
@@ -121,8 +121,8 @@ Status take_archive(const std::string& archive, const std::string& extracted,
 
 }  // namespace
 
-bool names_a_thing(const std::string& path) {
-    static const std::set<std::string> kThings{
+bool names_an_object(const std::string& path) {
+    static const std::set<std::string> kObjects{
         "sign",    "signs",    "logo",     "text",    "poster",   "banner",     "flag",
         "menu",    "icon",     "icons",    "gui",     "font",     "fonts",      "door",
         "doors",   "window",   "windows",  "screen",  "monitor",  "skybox",     "skies",
@@ -146,7 +146,7 @@ bool names_a_thing(const std::string& path) {
         "truck",   "boat",     "bus"};
     const std::string words = words_of_name(telling_part(path));
     for (const std::string& word : split_words(words)) {
-        if (kThings.contains(word)) return true;
+        if (kObjects.contains(word)) return true;
     }
     return false;
 }

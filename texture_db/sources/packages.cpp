@@ -155,7 +155,7 @@ Status unpack_package(const std::string& deb, const std::string& folder,
     fs::create_directories(folder, error);
     if (error) {
         return fail(ErrorCode::kUnreadable,
-                    "The folder " + folder + " cannot be made: " + error.message() + ".");
+                    "The folder " + folder + " cannot be created: " + error.message() + ".");
     }
     WEFT_TRY(output, run_program({"dpkg-deb", "-x", deb, folder}, {}, cancel));
     (void)output;

@@ -29,7 +29,7 @@ PhotoSamples samples_of(const Photo& photo, const ChoiceRules& rules) {
         const double scale = static_cast<double>(full.width) / out.picture.width();
         const auto tiles = choose_samples(out.picture, rules);
         if (tiles.empty()) {
-            out.fault = "no part of it is sharp and even enough";
+            out.fault = "no part is sharp and even enough";
             return out;
         }
         std::shared_ptr<const ImageU8x3> original;

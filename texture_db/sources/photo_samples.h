@@ -1,5 +1,5 @@
 #pragma once
-// Internal: one picture becomes samples. Shared by import and build.
+// Internal: cuts samples from one picture. Shared by import and build.
 
 #include <memory>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// A picture and what is known of it.
+/// A picture and its metadata.
 struct Photo {
     std::string file;  ///< To read from.
     TextureOrigin origin = TextureOrigin::kFile;
@@ -20,17 +20,18 @@ struct Photo {
     bool keep_original = false;
 };
 
-/// A decoded picture on its way. `fault` says why there are no samples.
+/// A decoded picture with its samples. `fault`: why there are none.
 struct PhotoSamples {
     std::string fault;
     ImageU8x3 picture;  ///< At the samples' scale.
     std::vector<NewTexture> samples;
 };
 
-/// Reads, chooses and cuts. Never fails: what is wrong stands in `fault`. Thread-safe.
+/// Reads, selects and cuts. Never fails: `fault` has the reason. Thread-safe.
 [[nodiscard]] PhotoSamples samples_of(const Photo& photo, const ChoiceRules& rules);
 
-/// Files below a folder that have a picture's extension, sorted; a file is itself.
+/// Picture files below a folder, by extension, sorted; for a file, the file itself. Errors:
+/// Unreadable.
 [[nodiscard]] Expected<std::vector<std::string>> pictures_below(const std::string& path);
 
 }  // namespace weft

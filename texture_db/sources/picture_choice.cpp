@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 constexpr int kSide = 96;
-// Above it, half of 69 samples that were looked at held two materials, a thing or a stain.
+// Above it, half of 69 inspected samples showed two materials, an object or a stain.
 constexpr float kMostColourUnevenness = 0.65f;
 
 float luma(const std::uint8_t* p) {
@@ -45,7 +45,7 @@ BlockLook look_at(ViewU8x3 image, const Recti& r) {
             static_cast<float>(detail / std::max(inner, 1))};
 }
 
-// Share of 8×8 blocks that are one colour: logos, atlases, drawings.
+// Share of 8×8 blocks of one colour: logos, atlases, drawings.
 float flat_share(ViewU8x3 image) {
     int flat = 0, all = 0;
     for (int y = 0; y + 8 <= image.height(); y += 8) {
@@ -57,8 +57,8 @@ float flat_share(ViewU8x3 image) {
     return static_cast<float>(flat) / static_cast<float>(std::max(all, 1));
 }
 
-// A frame: the outermost ring differs from the ring further in much more than neighbouring rings
-// do.
+// True for a frame: the outermost ring differs from the ring further in much more than neighbouring
+// rings do.
 bool has_border(ViewU8x3 image) {
     const auto ring = [&](int inset) {
         std::array<double, 3> sum{};
@@ -87,7 +87,7 @@ struct Square {
     float badness = 0;
 };
 
-// How uneven a square is: the parts' means and contrasts against the whole's contrast.
+// How uneven a square is: the parts' means and contrasts relative to the whole's contrast.
 float unevenness(ViewU8x3 image, const Recti& r, float contrast) {
     std::array<BlockLook, 9> parts;
     for (int j = 0; j < 3; ++j) {
@@ -108,8 +108,8 @@ float unevenness(ViewU8x3 image, const Recti& r, float contrast) {
     return std::sqrt(means) / (contrast + 3) + 0.8f * std::sqrt(deviations) / (deviation + 3);
 }
 
-// How far the colours of a square's nine parts lie apart, against the spread of colour inside them:
-// grass that becomes a path, something else that reaches in.
+// How far the colours of a square's nine parts lie apart, relative to the spread of colour inside
+// them: grass that becomes a path, another object at the edge.
 float colour_unevenness(ViewU8x3 image, const Recti& r) {
     // Red against green, and both against blue.
     std::array<std::array<double, 2>, 9> sums{}, squares{};
@@ -141,7 +141,7 @@ float colour_unevenness(ViewU8x3 image, const Recti& r) {
     return static_cast<float>(std::sqrt(apart) / (5 + std::sqrt(inside)));
 }
 
-// Letters and drawings: places without any grain, some of them black and some white.
+// True for letters and drawings: places without any grain, some of them black and some white.
 bool is_drawn(ViewU8x3 image, const Recti& r) {
     int black = 0, white = 0;
     for (int y = r.y0 + 1; y + 1 < r.y1; ++y) {

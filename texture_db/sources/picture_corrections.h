@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what people saw in pictures whose names mislead.
+// Internal: manual corrections for pictures whose names mislead.
 
 #include <optional>
 #include <string>
@@ -10,11 +10,11 @@ namespace weft {
 /// The lines of pictures_looked_at.tsv.
 [[nodiscard]] std::string_view pictures_looked_at();
 
-/// The material that a picture of a package shows, "-" when it shows none; nothing where its name
-/// was found right, or nobody has looked. Thread-safe.
+/// The material of a package's picture, "-" if it shows none. Empty if its name was found right, or
+/// nobody has inspected it. Thread-safe.
 [[nodiscard]] std::optional<std::string> corrected_material(const std::string& package,
                                                             const std::string& source);
-/// Whether a package's pictures were all looked at.
+/// Returns true if all pictures of a package were inspected.
 [[nodiscard]] bool was_inspected(const std::string& package);
 
 }  // namespace weft

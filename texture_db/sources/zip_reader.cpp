@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-// No picture of a texture library is larger, and none packs better than this.
+// No picture of a texture library is larger or compresses better than this.
 constexpr std::uint64_t kLargest_bytes = 512ull << 20;
 constexpr std::uint64_t kSteepestRatio = 1100;  // deflate's own limit is about 1032
 constexpr std::uint64_t kMostEntries = 1'000'000;
@@ -40,8 +40,8 @@ Error open_error(const std::string& path, zip_error_t* error) {
     return damaged_archive(path, zip_error_strerror(error));
 }
 
-// libzip makes room for as many entries as a zip64 archive says it has, before it reads any: 100
-// bytes could ask for all memory. So every record that libzip may find in the file's end is asked
+// libzip allocates room for as many entries as a zip64 archive claims, before it reads any: 100
+// bytes could request all memory. So every record that libzip may find at the file's end is checked
 // first.
 Status check_counts(const InputFile& file, const std::string& path) {
     constexpr std::uint64_t kTail_bytes = 65535 + 22 + 20;  // a comment, the two last records
@@ -65,7 +65,7 @@ Status check_counts(const InputFile& file, const std::string& path) {
                 return tl::unexpected(damaged_archive(path, "it has more than a million entries"));
             if (count > room)
                 return tl::unexpected(
-                    damaged_archive(path, "it counts more entries than it has room for"));
+                    damaged_archive(path, "it claims more entries than it can hold"));
         }
     }
     return {};
@@ -89,7 +89,7 @@ bool is_trusted(const zip_stat_t& s) {
         ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
     if ((s.valid & kNeeded) != kNeeded) return false;
     const bool known = s.comp_method == ZIP_CM_STORE || s.comp_method == ZIP_CM_DEFLATE;
-    // The size first: a zip64 entry may claim so much that the product would overflow.
+    // Checks the size first: a zip64 entry may claim so much that the product would overflow.
     const bool bomb = s.size > kLargest_bytes || s.size / kSteepestRatio > s.comp_size + 64;
     return known && !bomb && s.encryption_method == ZIP_EM_NONE;
 }
@@ -112,7 +112,7 @@ bool is_safe_path(const std::string& path) {
     return true;
 }
 
-// What libzip reads from: our own file, which is known to be a regular one.
+// The source for libzip: an InputFile, which is known to be a regular file.
 struct ZipReader::Source {
     InputFile file;
     std::uint64_t position = 0;
@@ -181,7 +181,7 @@ void ZipReader::Close::operator()(zip* archive) const {
 
 Expected<ZipReader> ZipReader::open(const std::string& path) {
     WEFT_TRY(file, InputFile::open(path, "The archive"));
-    // libzip takes an empty file for an empty archive.
+    // libzip reads an empty file as an empty archive.
     if (file.bytes() == 0) return tl::unexpected(damaged_archive(path, "it is empty"));
     WEFT_CHECK_OK(check_counts(file, path));
     ZipReader out;
@@ -202,7 +202,7 @@ Expected<ZipReader> ZipReader::open(const std::string& path) {
     for (zip_int64_t i = 0; i < count; ++i) {
         const auto index = static_cast<zip_uint64_t>(i);
         zip_stat_t s;
-        // Names as they are: what is no UTF-8 is not translated.
+        // Names without translation, also if they are not UTF-8.
         if (zip_stat_index(out.archive_.get(), index, ZIP_FL_ENC_RAW, &s) != 0 || !s.name)
             return tl::unexpected(damaged_archive(path, "its table of contents is damaged"));
         const std::string name = s.name;

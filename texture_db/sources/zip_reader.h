@@ -1,5 +1,5 @@
 #pragma once
-// Internal: reads zip files (and .pk3, which are zip files) without trusting them.
+// Internal: reads untrusted zip files (and .pk3, which are zip files).
 
 #include <cstdint>
 #include <memory>
@@ -28,10 +28,10 @@ class ZipReader {
     [[nodiscard]] static Expected<ZipReader> open(const std::string& path);
     /// Plain files with safe paths.
     [[nodiscard]] const std::vector<ZipEntry>& entries() const { return entries_; }
-    /// Paths of the other entries: they would climb out of the folder, are too large, encrypted or
-    /// packed by another method than deflate.
+    /// Paths of the other entries: they lead out of the folder, are too large, encrypted or
+    /// compressed by another method than deflate.
     [[nodiscard]] const std::vector<std::string>& refused() const { return refused_; }
-    /// Errors: Unreadable (damaged, wrong checksum, of another size than it says), NoSpace.
+    /// Errors: Unreadable (damaged, wrong checksum, wrong size), NoSpace.
     [[nodiscard]] Expected<std::string> read(const ZipEntry& entry);
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: one function a family. Each draws its parameters from the dice and fills the surface.
+// Internal: one function per family. Each draws its parameters from the dice and fills the surface.
 
 #include "texture_db/starter/relief.h"
 

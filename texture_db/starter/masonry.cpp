@@ -1,4 +1,4 @@
-// Brick, tiles, stone walls and cobblestones: pieces laid beside each other.
+// Brick, tiles, stone walls and cobblestones: units laid side by side.
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 namespace weft::starter {
 namespace {
 
-// How far inside a rounded rectangle: positive inside, in the units of the sides.
+// Distance from the border of a rounded rectangle, positive inside, in the units of the sides.
 float inside_rectangle(float u, float v, float w, float h, float round) {
     const float qx = std::abs(u - 0.5f) * w - w * 0.5f + round,
                 qy = std::abs(v - 0.5f) * h - h * 0.5f + round;

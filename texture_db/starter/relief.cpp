@@ -72,7 +72,7 @@ ImageU8x3 Relief::photograph(const Light& light, std::uint32_t seed) const {
     const float elevation = light.elevation_deg * 0.01745329f;
     const float lx = std::cos(elevation) * std::cos(azimuth);
     const float ly = -std::cos(elevation) * std::sin(azimuth), lz = std::sin(elevation);
-    // Half way between the light and the eye, which looks straight down.
+    // Half way between the light and the viewer, who looks straight down.
     const float hn = 1 / std::sqrt(lx * lx + ly * ly + (lz + 1) * (lz + 1));
     const float hx = lx * hn, hy = ly * hn, hz = (lz + 1) * hn;
     const auto side = static_cast<std::size_t>(fine_);

@@ -1,5 +1,5 @@
 #pragma once
-// Internal: a surface with height, colour and shine, lit and photographed.
+// Internal: a surface with height, colour and shine, rendered under a light.
 
 #include <functional>
 #include <string>
@@ -19,9 +19,9 @@ struct Texel {
 
 /// How a surface is lit.
 struct Light {
-    float azimuth_deg = 125;  ///< Where it comes from: 90 top, 180 left.
+    float azimuth_deg = 125;  ///< Direction that the light comes from: 90 top, 180 left.
     float elevation_deg = 45;
-    float relief = 1;        ///< Heights are multiplied by it.
+    float relief = 1;        ///< Factor on the heights.
     float occlusion = 0.6f;  ///< How dark hollows get.
     float gloss = 30;        ///< Exponent of the highlight.
     float highlight = 0.5f;
@@ -29,8 +29,8 @@ struct Light {
     float grain = 0.008f;  ///< Of the camera.
 };
 
-/// A square of surface, twice as fine as its picture, with a border so that hollows and strands at
-/// the edges are right.
+/// A square of surface at twice the picture's resolution, with a border so that hollows and strands
+/// at the edges are right.
 class Relief {
   public:
     explicit Relief(int side_px);
@@ -64,7 +64,7 @@ class Relief {
     std::vector<Texel> texels_;
 };
 
-/// A hair, blade or straw: a bent stroke that lies over what is there.
+/// A hair, blade or straw: a bent stroke drawn over what is below.
 struct Strand {
     float x = 0, y = 0;           ///< Root, sample pixels.
     float angle = 0;              ///< Radians, 0 to the right, downwards positive.
@@ -82,7 +82,7 @@ void draw(Relief& relief, const Strand& strand);
 void scatter(const Relief& relief, float spacing, float reach,
              const std::function<void(int, int)>& make);
 
-/// What a family gives besides the surface.
+/// A family's result besides the surface.
 struct Label {
     std::string name;
     std::vector<std::string> tags;

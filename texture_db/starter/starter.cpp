@@ -15,7 +15,7 @@ struct FamilyEntry {
     int count;
 };
 
-// What photographs hardly give is made most of.
+// More variants for materials of which few photographs exist.
 constexpr FamilyEntry kFamilies[]{
     {"weave", "fabric", starter::weave, 240},
     {"knit", "knit", starter::knit, 190},

@@ -1,6 +1,5 @@
 #pragma once
-// Internal: the starter textures, made by procedure. Every one is a pure function of its family and
-// its number.
+// Internal: the procedural starter textures. Each is a pure function of its family and its number.
 
 #include <string>
 #include <string_view>
@@ -11,7 +10,7 @@
 
 namespace weft {
 
-/// One starter texture, not yet made.
+/// One starter texture, before it is rendered.
 struct StarterItem {
     std::string_view family;  ///< "weave"
     int number = 0;

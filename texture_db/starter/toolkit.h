@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what every procedural family is made with: dice, noise, cells, colours.
+// Internal: building blocks of the procedural families: dice, noise, cells, colours.
 
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ constexpr Rgb rgb(std::uint32_t hex) {
 /// Turns the hue by `turns`, scales the saturation and the brightness.
 [[nodiscard]] Rgb shifted(Rgb c, float turns, float saturation, float brightness);
 
-/// The choices of one texture, in order.
+/// The random choices of one texture, in order.
 class Dice {
   public:
     Dice(std::uint64_t family, std::uint64_t number) : rng_(0x57454654, family, number) {}
@@ -49,7 +49,7 @@ class Dice {
     T pick(const T (&choices)[N]) {
         return choices[static_cast<std::size_t>(whole(0, static_cast<int>(N) - 1))];
     }
-    /// One of the colours, a little off.
+    /// One of the colours, varied a little.
     template <std::size_t N>
     Rgb color(const std::uint32_t (&choices)[N], float variety = 1) {
         return shifted(rgb(pick(choices)), uniform(-0.018f, 0.018f) * variety,
@@ -105,7 +105,7 @@ struct Cells {
 };
 [[nodiscard]] Cells cells(float x, float y, float jitter, std::uint32_t seed);
 
-/// Where on a plane of pieces of 1 × 1 (bricks, shingles) a place lies.
+/// A position on a plane of 1 × 1 units (bricks, shingles).
 struct Piece {
     int column = 0, row = 0;
     float u = 0, v = 0;  ///< 0 … 1 inside.

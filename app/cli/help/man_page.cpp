@@ -45,7 +45,7 @@ weft submit shot.weft \-\-to slurm \-o farm \-\-run
 .fi
 )";
 
-// A hyphen that is one in a terminal, and no control line by accident.
+// Escapes hyphens and leading control characters.
 std::string troff(const std::string& text) {
     std::string out;
     for (const char c : text) {

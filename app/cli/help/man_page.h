@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// The manual page of the whole command line, in troff: every command with every option. `app` is
-/// what add_commands() filled.
+/// Returns the manual page of the whole command line in troff: every command with every option.
+/// `app` comes from add_commands().
 [[nodiscard]] std::string man_page(const CLI::App& app);
 
 }  // namespace weft

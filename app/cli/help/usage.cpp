@@ -29,7 +29,7 @@ bool is_flag(const CLI::Option& option) {
     return option.get_type_size() == 0 || option.get_expected_max() == 0;
 }
 
-// The option whose name stands in CLI11's text as a word.
+// The option whose name occurs as a word in CLI11's message.
 const CLI::Option* named_in(const CLI::App& command, const std::string& text) {
     const CLI::Option* found = nullptr;
     const auto is_part = [](char c) {
@@ -57,7 +57,7 @@ std::string missing_text(const CLI::App& command) {
     return "An argument is missing";
 }
 
-// A word that no option and no argument takes.
+// Message for a word that no option or argument accepts.
 std::string extra_text(const CLI::App& app, const std::string& command) {
     const std::vector<std::string> left = app.remaining(true);
     const std::string first = left.empty() ? std::string() : left.front();
@@ -66,7 +66,7 @@ std::string extra_text(const CLI::App& app, const std::string& command) {
     return fmt::format("{} does not take the argument '{}'", command, first);
 }
 
-// CLI11's "--name: what our own check said".
+// CLI11's "--name: message of our check".
 std::string checked_text(const std::string& text) {
     const std::size_t at = text.find(": ");
     if (at == std::string::npos) return text;
@@ -74,7 +74,7 @@ std::string checked_text(const std::string& text) {
     return name + (said.starts_with("must ") ? " " : ": ") + said;
 }
 
-// CLI11 keeps the options that exclude each other in a set of pointers: the order is not fixed.
+// CLI11 stores mutually exclusive options in a set of pointers, so their order varies; sort them.
 std::string contradiction_text(const std::string& text) {
     static constexpr std::string_view kVerb = " excludes ";
     const std::size_t at = text.find(kVerb);
@@ -141,7 +141,7 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error, int argc) {
     if (argc < 2) {
         what = "No command was given." + help;
     } else if (!names.empty()) {
-        // A group: the word after it should have been one of its commands.
+        // A command group: the next word should name one of its commands.
         const std::vector<std::string> left = app.remaining(true);
         const auto word = std::find_if(left.begin(), left.end(),
                                        [](const std::string& w) { return !w.starts_with("-"); });

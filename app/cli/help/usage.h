@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a command line, in our own words.
+// Usage errors in Weft's own words.
 
 #include <CLI/CLI.hpp>
 
@@ -7,14 +7,13 @@
 
 namespace weft {
 
-/// The error of kind Usage for what CLI11 refused among `argc` words. `app` is the one that parsed
-/// them.
+/// Converts a parse error of CLI11 to an error of kind Usage. `app` parsed the `argc` words.
 [[nodiscard]] Error usage_error(const CLI::App& app, const CLI::ParseError& error, int argc);
 
-/// Gives the app and all its subcommands our form of --help.
+/// Sets Weft's format of --help on the app and all subcommands.
 void use_our_help(CLI::App& app);
 
-/// "weft region add" where that is what was asked for, else "weft".
+/// The command that was given, such as "weft region add"; otherwise "weft".
 [[nodiscard]] std::string command_of(const CLI::App& app);
 
 }  // namespace weft

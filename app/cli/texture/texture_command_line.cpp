@@ -1,4 +1,4 @@
-// How the arguments of weft texture are written.
+// Arguments of weft texture.
 
 #include <memory>
 
@@ -169,12 +169,13 @@ void add_recommend(CLI::App& group, CommandResult& result) {
         ->delimiter(',');
     command->add_option("--material", o->materials, "For each matte: the material, or -")
         ->delimiter(',');
-    command->add_option("--like", o->wish.like, "More like this sample")->type_name("ID");
+    command->add_option("--like", o->adjust.like, "More like this sample")->type_name("ID");
     const auto range = number(-1.0, 1.0);
-    command->add_option("--warmer", o->wish.warmer, "-1 colder … 1 warmer")->check(range);
-    command->add_option("--brighter", o->wish.brighter, "-1 darker … 1 brighter")->check(range);
-    command->add_option("--rougher", o->wish.rougher, "-1 smoother … 1 rougher")->check(range);
-    command->add_option("--larger", o->wish.larger, "-1 finer … 1 larger structure")->check(range);
+    command->add_option("--warmer", o->adjust.warmer, "-1 colder … 1 warmer")->check(range);
+    command->add_option("--brighter", o->adjust.brighter, "-1 darker … 1 brighter")->check(range);
+    command->add_option("--rougher", o->adjust.rougher, "-1 smoother … 1 rougher")->check(range);
+    command->add_option("--larger", o->adjust.larger, "-1 finer … 1 larger structure")
+        ->check(range);
     command->add_option("--count", o->count, "Suggestions for each region [12]")
         ->transform(whole_number(1, 100));
     command->add_option("--diversity", o->diversity, "0 the best … 1 the most different [0.35]")
@@ -248,17 +249,17 @@ void add_rest(CLI::App& group, CommandResult& result) {
     on_run(*add_texture_subcommand(group, "train", "Train the descriptor on the library", train),
            result, [=] { return texture_train_command(*train); });
 
-    const auto sight = std::make_shared<TextureCommandOptions>();
+    const auto model_common = std::make_shared<TextureCommandOptions>();
     const auto model = std::make_shared<TextureModelOptions>();
     command = add_texture_subcommand(
-        group, "model", "Set the image-text model for searches and recommendations", sight);
+        group, "model", "Set the image-text model for searches and recommendations", model_common);
     command
         ->add_option("folder", model->folder,
                      "Folder with model.json; default: print the current one")
         ->type_name("PATH");
     command->add_flag("--none", model->none, "Use no model");
     command->footer("Example:\n  weft texture model ~/models/clip");
-    on_run(*command, result, [=] { return texture_model_command(*sight, *model); });
+    on_run(*command, result, [=] { return texture_model_command(*model_common, *model); });
 
     add_evaluate(group, result);
 

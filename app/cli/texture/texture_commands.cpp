@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// With --json the log stays short.
+// No progress with --json, to keep the log short.
 ProgressFn plain_progress() {
     if (json_output()) return {};
     return [](const ProgressEvent& e) {
@@ -151,7 +151,7 @@ CommandResult texture_import_command(const TextureCommandOptions& common,
         add(part, all);
     };
     if (watch) {
-        // Whoever watches a folder wants to see each arrival; the sum comes at the end.
+        // While watching, print each import at once; the total comes at the end.
         WEFT_CHECK_OK(
             watch_folder(*library, paths[0], options, cancel, [&](const ImportReport& part) {
                 note(part);
@@ -165,7 +165,7 @@ CommandResult texture_import_command(const TextureCommandOptions& common,
     if (!stats.descriptor_trained && stats.samples > 50) {
         const Status learned = library->train_descriptor(cancel);
         if (!learned && learned.error().code != ErrorCode::kUsage)
-            return tl::unexpected(learned.error());  // too few: another time
+            return tl::unexpected(learned.error());  // too few samples yet
     }
     return Answer{to_json(all), import_text(all)};
 }
@@ -354,7 +354,7 @@ CommandResult texture_model_command(const TextureCommandOptions& common,
         return fail(ErrorCode::kUsage, "--none contradicts a folder. Give one of the two.");
     WEFT_TRY(library, open_texture_library(common, false));
     if (o.none || !o.folder.empty()) {
-        // A library is opened from anywhere: the folder is noted as it is found from anywhere.
+        // Absolute, since the library may be opened from any folder.
         const std::string folder = o.none ? "" : absolute_path(o.folder);
         WEFT_CHECK_OK(library->use_image_text_model(folder, cancel_on_signals(), plain_progress()));
     }

@@ -13,7 +13,7 @@
 
 namespace weft {
 
-/// What every `weft texture` subcommand takes.
+/// Options of every `weft texture` subcommand.
 struct TextureCommandOptions {
     std::string db;  ///< Empty: the default library.
     int threads = 0;
@@ -26,41 +26,41 @@ struct TextureSearchOptions {
 };
 
 struct TextureSimilarOptions {
-    std::string what;       ///< Id, or a picture.
-    std::string rectangle;  ///< "x,y,width,height" of the picture; empty: its middle.
+    std::string what;       ///< Id, or an image.
+    std::string rectangle;  ///< "x,y,width,height" in the image; empty: its centre.
     int count = 20;
 };
 
 struct TextureRecommendOptions {
     std::string plate;
-    std::string project;               ///< Instead of plate and mattes: a project and …
-    std::vector<std::string> regions;  ///< … its regions by name or id; empty: all.
+    std::string project;               ///< A project, instead of plate and mattes.
+    std::vector<std::string> regions;  ///< Regions of the project by name or id; empty: all.
     int frame = -1;                    ///< Number of the plate's frame; -1: the first.
     std::vector<std::string> mattes;
-    std::vector<std::string> keeps;      ///< One for each matte, "-" for none.
-    std::vector<std::string> materials;  ///< Likewise.
-    RecommendWish wish;
+    std::vector<std::string> keeps;      ///< Texture to keep for each matte, "-" for none.
+    std::vector<std::string> materials;  ///< Material for each matte, "-" for none.
+    RecommendAdjustments adjust;
     int count = 12;
     float diversity = 0.35f;
     std::vector<std::string> excluded_licences;
-    std::string sheet;  ///< Picture of the suggestions to write.
+    std::string sheet;  ///< Contact sheet of the suggestions; empty: none.
     WriteFlags write;
 };
 
 struct TextureModelOptions {
-    std::string folder;  ///< Empty: say which is named.
+    std::string folder;  ///< Empty: print the current one.
     bool none = false;
 };
 
 struct TextureExportOptions {
     std::vector<std::string> ids;
-    std::string text;    ///< Instead of ids: what a search finds.
-    std::string output;  ///< Folder, or a picture with sheet.
+    std::string text;    ///< Search words, instead of ids.
+    std::string output;  ///< Folder; with `sheet`, an image.
     bool sheet = false, originals = false;
     WriteFlags write;
     int count = 100;
     int columns = 20;
-    std::uint64_t seed = 0;  ///< Other than 0: a random choice.
+    std::uint64_t seed = 0;  ///< 0: no random choice.
     std::vector<std::string> origins;
 };
 

@@ -13,8 +13,8 @@ std::string texture_library_path(const TextureCommandOptions& common) {
     return common.db.empty() ? default_library_path() : common.db;
 }
 
-// Reading commands do not make a library where there is none, but for the default one, which is
-// filled with the starter textures at first use.
+// Commands that only read do not create a library, except the default one, which is filled with the
+// starter textures on first use.
 Expected<std::shared_ptr<TextureLibrary>> open_texture_library(const TextureCommandOptions& common,
                                                                bool create) {
     set_thread_count(common.threads);

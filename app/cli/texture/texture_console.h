@@ -1,5 +1,5 @@
 #pragma once
-// Internal: what the files of `weft texture` have in common.
+// Internal: helpers shared by the files of `weft texture`.
 
 #include <memory>
 #include <string>
@@ -13,17 +13,17 @@ class App;
 
 namespace weft {
 
-/// A subcommand of `weft texture` with --db and --threads.
+/// Adds a subcommand of `weft texture` with --db and --threads.
 CLI::App* add_texture_subcommand(CLI::App& group, const std::string& name, const std::string& help,
                                  const std::shared_ptr<TextureCommandOptions>& common);
-/// Adds `mark` and `kept`.
+/// Adds the commands `mark` and `kept`.
 void add_texture_keeping(CLI::App& group, CommandResult& result);
 /// --db, or the user's own.
 [[nodiscard]] std::string texture_library_path(const TextureCommandOptions& common);
-/// Opened as --db and --threads say. `create`: also where there is none yet.
+/// Opens the library given by --db with --threads. `create`: creates it if it does not exist.
 [[nodiscard]] Expected<std::shared_ptr<TextureLibrary>> open_texture_library(
     const TextureCommandOptions& common, bool create);
-/// Errors: Usage for a licence that neither Weft nor the library knows.
+/// Errors: Usage for a licence that is known to neither Weft nor the library.
 [[nodiscard]] Status check_exclusions(TextureLibrary& library,
                                       const std::vector<std::string>& excluded);
 /// One line of a list of samples.

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Scores are read by people too: four digits.
+// Rounds scores to four digits for readability.
 double number(float v) {
     return std::round(static_cast<double>(v) * 1e4) / 1e4;
 }
@@ -51,7 +51,7 @@ Json suggestion_json(const Suggestion& s) {
               {"style", number(p.style)},
               {"scale", number(p.scale)},
               {"synthesis", number(p.synthesis)},
-              {"wish", number(p.wish)},
+              {"wish", number(p.adjustment)},
               {"coherence", number(p.coherence)}}}};
 }
 

@@ -21,7 +21,7 @@ namespace weft {
 [[nodiscard]] nlohmann::ordered_json to_json(const BuildEstimate& estimate);
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LibraryFault>& faults);
 [[nodiscard]] nlohmann::ordered_json to_json(const EvaluationReport& report);
-/// The credits of exported samples: one object a file.
+/// The credits of exported samples: one object per file.
 [[nodiscard]] nlohmann::ordered_json credits_json(
     const std::vector<std::pair<std::string, TextureInfo>>& files);
 

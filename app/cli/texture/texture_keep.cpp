@@ -1,4 +1,4 @@
-// weft texture mark and weft texture kept: what the artist keeps of a library.
+// weft texture mark and weft texture kept: favourites, ratings, collections and saved searches.
 
 #include <memory>
 #include <optional>
@@ -42,7 +42,7 @@ Status mark_one(TextureLibrary& library, const std::string& id, const MarkOption
     return {};
 }
 
-// All ids are looked up before the first is changed.
+// Looks up all ids before changing the first sample, so an unknown id changes nothing.
 CommandResult mark(const TextureCommandOptions& common, const MarkOptions& o) {
     if (o.empty())
         return fail(ErrorCode::kUsage,

@@ -19,7 +19,7 @@ struct Scene {
     ImageU8x3 plate;
     std::vector<std::string> names;
     std::vector<Matte> mattes;
-    std::vector<std::string> excluded;  ///< Licences, by the project.
+    std::vector<std::string> excluded;  ///< Licences that the project excludes.
 };
 
 Expected<ImageU8x3> shown_frame(const FrameReader& plate, int frame) {
@@ -40,16 +40,18 @@ Expected<Scene> scene_of_files(const TextureRecommendOptions& o) {
     return scene;
 }
 
-// A frame on which the artist has said where the region is.
+// A frame with a matte for the region: a keyframe if it is painted.
 Expected<int> frame_of(const Region& region, const FrameReader& plate) {
     const std::vector<int>& frames = plate.frames();
-    const auto there = [&](int f) { return std::binary_search(frames.begin(), frames.end(), f); };
+    const auto in_plate = [&](int f) {
+        return std::binary_search(frames.begin(), frames.end(), f);
+    };
     for (const int frame : region.reference_frames)
-        if (there(frame) &&
+        if (in_plate(frame) &&
             (region.matte->keyframes.empty() || region.matte->keyframes.contains(frame)))
             return frame;
     for (const auto& [frame, key] : region.matte->keyframes)
-        if (there(frame)) return frame;
+        if (in_plate(frame)) return frame;
     return frames.front();
 }
 
@@ -118,7 +120,7 @@ CommandResult texture_recommend_command(const TextureCommandOptions& common,
     for (std::size_t i = 0; i < scene.mattes.size(); ++i)
         request.regions.push_back(
             {scene.names[i], scene.mattes[i].view(), given(o.keeps, i), given(o.materials, i)});
-    request.wish = o.wish;
+    request.adjust = o.adjust;
     request.count = o.count;
     request.diversity = o.diversity;
     request.excluded_licences = o.excluded_licences;

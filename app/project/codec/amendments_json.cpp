@@ -1,5 +1,5 @@
-// Kept places of a texture, to and from JSON: {"kind": "keep", "runs": [[x, y, count, from_x,
-// from_y, sample, orientation], …]}; the last two may be left out where they are 0.
+// Locked and regenerated patches to and from JSON: {"kind": "keep", "runs": [[x, y, count, from_x,
+// from_y, sample, orientation], …]}; the last two are optional and default to 0.
 #include <fmt/format.h>
 
 #include "app/project/codec/json_codec.h"

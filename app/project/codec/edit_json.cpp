@@ -1,4 +1,4 @@
-// One reader and one writer an edit, found by its name.
+// A reader and a writer for each edit, found by its name.
 #include "app/project/codec/edit_json.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ using namespace json_codec;
 constexpr std::int64_t kMaxFrame = kMaxFrameNumber;
 constexpr std::int64_t kMaxIndex = 1'000'000;
 
-// ---- fields that several edits have ----------------------------------------------------------
+// ---- fields shared by several edits -----------------------------------------------------------
 
 Expected<RegionRef> read_region_ref(ObjectReader& object) {
     const Json* json = object.take("region");
@@ -45,7 +45,8 @@ Expected<ParameterValue> read_parameter_value(ObjectReader& object) {
     return read_value(*json, object.path_of("value"));
 }
 
-// ---- one pair for each edit ------------------------------------------------------------------
+// ---- a reader and a writer for each edit
+// ---------------------------------------------------------
 
 Status read(ObjectReader& object, SetPlate& edit) {
     WEFT_TRY(json, required(object, "plate"));
@@ -246,7 +247,7 @@ void write(OrderedJson& object, const SetCorrection& edit) {
 
 // ---- by name ---------------------------------------------------------------------------------
 
-/// In the order of the variant.
+/// In the order of the alternatives of Edit.
 constexpr std::array<std::string_view, std::variant_size_v<Edit>> kNames{
     "set_plate",     "set_output",         "set_project_parameter", "add_region",
     "remove_region", "move_region",        "rename_region",         "set_region_parameter",

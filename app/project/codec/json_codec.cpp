@@ -9,13 +9,14 @@
 namespace weft::json_codec {
 namespace {
 
-/// Thrown out of the parser's callback and caught in parse(): nothing else stops it early.
+/// Thrown from the parser's callback and caught in parse(), as the parser cannot be stopped
+/// otherwise.
 struct Refused {
     std::string message;
 };
 
-/// Watches the parser: nesting depth, and keys that stand twice in one object, of which one would
-/// silently win.
+/// Checks nesting depth and duplicate keys while parsing; of duplicate keys the parser would
+/// silently keep one.
 class ParseGuard {
   public:
     bool operator()(int depth, nlohmann::json::parse_event_t event, Json& parsed) {
@@ -39,7 +40,8 @@ class ParseGuard {
     std::vector<std::set<std::string>> keys_;
 };
 
-/// Where the parser stopped. What stands there is not quoted: the file may be another's.
+/// Line and column of the parser's position. The text there is not quoted, as the file may belong
+/// to another user.
 std::string place_of(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
     const std::size_t start = before.rfind('\n');
@@ -135,7 +137,7 @@ Expected<std::int64_t> ObjectReader::integer(std::string_view key, std::int64_t 
                                              std::int64_t high) {
     const Json* json = take(key);
     if (!json) return fail_at(path_of(key), "This key is missing");
-    // Compared as double first: a number outside of 64 bits must not wrap round into the range.
+    // Compared as double first, so that a number beyond 64 bits does not wrap into the range.
     const bool fits = json->is_number_integer() &&
                       json->get<double>() >= static_cast<double>(low) &&
                       json->get<double>() <= static_cast<double>(high);
@@ -172,7 +174,8 @@ Expected<ParameterValue> read_value(const Json& value, const std::string& path) 
         case Json::value_t::number_integer:
             return ParameterValue(value.get<std::int64_t>());
         case Json::value_t::number_unsigned: {
-            // Beyond 63 bits it is beyond every range too; as a double it says so without wrapping.
+            // Numbers beyond 63 bits exceed every range; as a double they fail the range check
+            // without wrapping.
             const auto number = value.get<std::uint64_t>();
             if (number > static_cast<std::uint64_t>(INT64_MAX))
                 return ParameterValue(static_cast<double>(number));

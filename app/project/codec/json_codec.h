@@ -1,6 +1,6 @@
 #pragma once
-// Between JSON values and the document. Internal to this folder, and the only header of the project
-// that names the JSON library.
+// Converts between JSON values and the document. Internal to this folder; no other header of
+// app/project names the JSON library.
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,40 +15,41 @@
 
 namespace weft::json_codec {
 
-using Json = nlohmann::json;                 // keys sorted: unknown keys come back in a fixed order
-using OrderedJson = nlohmann::ordered_json;  // keys as written: files read from top to bottom
+using Json = nlohmann::json;  // sorted keys: unknown keys are written in a fixed order
+using OrderedJson = nlohmann::ordered_json;  // keys in writing order, for readable files
 
-/// Errors: Unreadable with line and column, or the reason.
+/// Parses JSON text. Errors: Unreadable with line and column, or the reason.
 [[nodiscard]] Expected<Json> parse(std::string_view text);
 
-/// Two spaces of indent, a line break at the end; the same value gives the same bytes everywhere.
-/// Errors: Usage when a text is not UTF-8 (a path may be any bytes; JSON may not).
+/// Formats with an indent of two spaces and a final line break; equal values give equal bytes on
+/// every machine. Errors: Usage when a string is not UTF-8 (paths may be any bytes, JSON may not).
 [[nodiscard]] Expected<std::string> to_text(const OrderedJson& value);
 
-/// "regions[0].placement.scale: …"; an empty path means the whole document.
+/// An error that begins with its place: "regions[0].placement.scale: …"; an empty path means the
+/// whole document.
 [[nodiscard]] tl::unexpected<Error> fail_at(const std::string& path, std::string message);
 [[nodiscard]] std::string_view type_of(const Json& value);
 
-/// One JSON object being read; remembers which keys were asked for. Refers to the object: must not
+/// Reads one JSON object and records which keys were read. Refers to the object and must not
 /// outlive it.
 class ObjectReader {
   public:
     /// Errors: Unreadable when `value` is not an object.
     [[nodiscard]] static Expected<ObjectReader> open(const Json& value, std::string path);
 
-    /// The value of a key, or null when there is none.
+    /// Returns the value of a key; null if there is none.
     [[nodiscard]] const Json* take(std::string_view key);
     [[nodiscard]] std::string path_of(std::string_view key) const;
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// The keys that were not read.
+    /// Returns the keys that were not read.
     [[nodiscard]] Extras rest() const;
-    /// Errors: Unreadable when a key was not read: for formats in which a misspelt key is an error.
+    /// Errors: Unreadable when a key was not read; for formats in which unknown keys are errors.
     [[nodiscard]] Status expect_no_rest() const;
 
     /// An integer in [low, high]. Errors: Unreadable, also when the key is missing.
     [[nodiscard]] Expected<std::int64_t> integer(std::string_view key, std::int64_t low,
                                                  std::int64_t high);
-    /// A text. Errors: Unreadable, also when the key is missing.
+    /// A string. Errors: Unreadable, also when the key is missing.
     [[nodiscard]] Expected<std::string> text(std::string_view key);
 
   private:
@@ -64,9 +65,9 @@ void write_extras(OrderedJson& object, const Extras& extra);
 
 /// Errors: Unreadable with the path.
 [[nodiscard]] Expected<ParameterValue> read_value(const Json& value, const std::string& path);
-// Keys over time, [{"frame": 1, "value": [x, y]}] (a single number without brackets), and lamps,
-// [{"kind": "point", "keys": […]}], as app/project/codec/keyed_json.cpp has them. Errors:
-// Unreadable with the path.
+// Keys over time, [{"frame": 1, "value": [x, y]}] (a single number needs no brackets), and lamps,
+// [{"kind": "point", "keys": […]}] (app/project/codec/keyed_json.cpp). Errors: Unreadable with the
+// path.
 [[nodiscard]] Expected<ParameterValue> read_keys(const Json& value, const std::string& path);
 [[nodiscard]] Expected<ParameterValue> read_lamps(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_keys(const KeyedNumbers& keyed);
@@ -74,11 +75,11 @@ void write_extras(OrderedJson& object, const Extras& extra);
 // Roto shapes: {"points": [[x, y, in x, in y, out x, out y, feather], …]}, plate pixels.
 [[nodiscard]] Expected<RotoShape> read_shape(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_shape(const RotoShape& shape);
-/// An empty text or list, or an unset value.
+/// Returns true for an empty string or list, or an unset value.
 [[nodiscard]] bool is_nothing(const ParameterValue& value);
 [[nodiscard]] OrderedJson write_value(const ParameterInfo& info, const ParameterValue& value);
 
-/// Reads the table's entries of one group out of the object; missing keys keep what `owner` has.
+/// Reads the table's entries of one group; missing keys leave the values of `owner` unchanged.
 template <class Owner>
 [[nodiscard]] Status read_parameters(ObjectReader& object, std::span<const Parameter<Owner>> table,
                                      std::string_view group, Owner& owner) {
@@ -94,8 +95,8 @@ template <class Owner>
     return {};
 }
 
-/// Writes them all, so that a later change of a default alters no shot; only nothing (an empty text
-/// or list, an unset value) is left out where nothing is the default.
+/// Writes all entries, so that changing a default later alters no project. Only empty strings,
+/// empty lists and unset values are omitted where they are the default.
 template <class Owner>
 void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> table,
                       std::string_view group, const Owner& owner) {
@@ -113,15 +114,16 @@ void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> tab
 [[nodiscard]] Expected<std::vector<MatteSource>> read_holdouts(const Json& json,
                                                                const std::string& path);
 [[nodiscard]] Expected<std::vector<Zone>> read_zones(const Json& json, const std::string& path);
-/// At least one pin. Errors: Unreadable with the path.
+/// Reads at least one pin. Errors: Unreadable with the path.
 [[nodiscard]] Expected<std::vector<CorrectionPin>> read_pins(const Json& json,
                                                              const std::string& path);
 [[nodiscard]] OrderedJson write_pins(const std::vector<CorrectionPin>& pins);
-/// Of the current schema version. Errors: Unreadable with the path; two regions of one id.
+/// Reads a document of the current schema version. Errors: Unreadable with the path, or when two
+/// regions have one id.
 [[nodiscard]] Expected<Project> read_project(const Json& json);
 [[nodiscard]] OrderedJson write_project(const Project& project);
 [[nodiscard]] Expected<Region> read_region(const Json& json, const std::string& path);
-/// One group ("texture", "placement", …) into a region; ("plate", "output", …) into a project.
+/// Reads one group into a region ("texture", "placement", …) or a project ("plate", "output", …).
 [[nodiscard]] Status read_group(const Json& json, const std::string& path, std::string_view group,
                                 Region& region);
 [[nodiscard]] Status read_group(const Json& json, const std::string& path, std::string_view group,
@@ -139,9 +141,9 @@ void write_parameters(OrderedJson& object, std::span<const Parameter<Owner>> tab
 
 // ---- schema versions -------------------------------------------------------------------------
 
-/// Brings a document of any older version to the current one (schema_upgrade.cpp). Errors:
-/// Unreadable for a newer version, another kind of file, or a document that its own version does
-/// not allow.
+/// Upgrades a document of any older version to the current one (schema_upgrade.cpp). Errors:
+/// Unreadable for a newer version, another kind of file, or a document that is invalid in its own
+/// version.
 [[nodiscard]] Status upgrade_to_current(Json& document);
 
 }  // namespace weft::json_codec

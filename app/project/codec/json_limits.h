@@ -1,5 +1,5 @@
 #pragma once
-// What a project or action file may be at most; more is refused before it can do harm. Internal.
+// Limits of project and action files, checked while parsing to stop hostile input early. Internal.
 
 #include <cstddef>
 
@@ -7,6 +7,6 @@ namespace weft {
 
 inline constexpr std::size_t kMaxJsonBytes = std::size_t{32} << 20;
 inline constexpr int kMaxJsonDepth = 32;
-inline constexpr std::size_t kMaxJsonKeys = 4096;  ///< Of one object; lists have no such limit.
+inline constexpr std::size_t kMaxJsonKeys = 4096;  ///< Keys of one object; lists have no limit.
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Keyed numbers and lamps, to and from JSON. docs/FORMATS.md describes the result.
+// Keyed numbers and lamps to and from JSON, as described in docs/FORMATS.md.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The parts of the document, to and from JSON. docs/FORMATS.md describes the result.
+// Parts of the document to and from JSON, as described in docs/FORMATS.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 
-/// A nested object of a region or a project, by the member that holds it.
+/// A nested object of a region or project, with the member that holds it.
 template <class Owner>
 struct Group {
     std::string_view name;

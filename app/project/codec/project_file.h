@@ -9,28 +9,28 @@
 
 namespace weft {
 
-/// Reads a project file; paths stay as they are written in it. Errors: Unreadable (missing, no
-/// permission, not a project, of a newer version), with the path. Thread-safe.
+/// Reads a project file; paths are not resolved. Errors: Unreadable with the path (missing, no
+/// permission, not a project, or a newer version). Thread-safe.
 [[nodiscard]] Expected<Project> load_project(const std::string& path);
 
-/// Writes it whole or not at all (temporary name, fsync, rename). Errors: NoSpace, Unreadable
-/// (folder missing or not writable), Usage (a name that is not UTF-8, the rule), with the path.
+/// Writes a project file atomically (temporary name, fsync, rename). Errors, with the path:
+/// NoSpace; Unreadable (folder missing or not writable); Usage (a name that is not UTF-8, or the
+/// write rule).
 [[nodiscard]] Status save_project(const std::string& path, const Project& project,
                                   const WriteRule& rule);
 
-/// For the project that the user opened and changes: replaced, through the link that it was opened
-/// by.
+/// The write rule for the project that the user opened: it is replaced, also through a symbolic
+/// link.
 [[nodiscard]] WriteRule in_place();
 
-/// The folder against which a project file's relative paths are resolved: its own; "" for the
-/// current one.
+/// The folder that a project file's relative paths refer to: its own; "" for the current folder.
 [[nodiscard]] std::string project_dir(const std::string& project_path);
 
-/// `path` as it is when absolute or empty, else inside `dir` (not normalised, so that ".." behind a
-/// symbolic link means what the system means by it).
+/// Returns `path` if it is absolute or empty, otherwise `path` inside `dir`. It is not normalised,
+/// so that ".." behind a symbolic link means the same as for the system.
 [[nodiscard]] std::string resolve_path(const std::string& dir, const std::string& path);
 
-/// The project with every path resolved: what a job works with. Never to be saved.
+/// Returns the project with all paths resolved, for jobs. Do not save it.
 [[nodiscard]] Project resolve_paths(const Project& project, const std::string& dir);
 
 }  // namespace weft

@@ -1,7 +1,7 @@
 #pragma once
-// The project file (.weft): versioned JSON. Keys of a newer minor form that this version does not
-// know survive a load and a save, at every level; an older version is upgraded on reading; a newer
-// one is refused. The same project gives the same bytes on every machine.
+// The project file (.weft): versioned JSON. Unknown keys of a newer minor version survive loading
+// and saving at every level. Older versions are upgraded on reading; newer ones are refused. Equal
+// projects give equal bytes on every machine.
 
 #include <string>
 #include <string_view>
@@ -15,8 +15,8 @@ inline constexpr std::string_view kProjectSchemaName = "weft.project";
 inline constexpr int kProjectSchemaVersion = 2;
 
 /// Reads a project from JSON text. Hostile input (wrong types, numbers out of range, deep nesting,
-/// repeated keys or ids, 100 MB) is an error, never a crash. Errors: Unreadable; the message begins
-/// with the place ("regions[0].placement.scale: …"). Thread-safe.
+/// repeated keys or ids, 100 MB) gives an error, never a crash. Errors: Unreadable; the message
+/// begins with the place ("regions[0].placement.scale: …"). Thread-safe.
 [[nodiscard]] Expected<Project> project_from_json(std::string_view text);
 
 /// Errors: Usage when a name or path is not UTF-8. Thread-safe.

@@ -1,5 +1,5 @@
-// Schema versions of the project file, oldest first. Each step brings a document of version n to
-// n + 1 and knows nothing of later ones; keys that a step does not know stay where they are.
+// Upgrades of the project file's schema, oldest first. Each step converts version n to n + 1, knows
+// no later version, and leaves unknown keys in place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Status upgrade_matte_0(Json& matte, const std::string& path) {
     return {};
 }
 
-/// Version 0: "light" is plate, none or the path of an illumination picture.
+/// Version 0: "light" is "plate", "none" or the path of an illumination image.
 void upgrade_light_0(Json& light) {
     if (!light.is_string()) return;
     const bool named = light == "plate" || light == "none";
@@ -86,8 +86,8 @@ Status upgrade_region_0(Json& region, const std::string& path) {
     return {};
 }
 
-/// 0 → 1. Version 0 was written before the first release: "plate" and "output" are plain paths, and
-/// a region holds all of its settings side by side, as the command line's flags do.
+/// 0 → 1. Version 0 predates the first release: "plate" and "output" are plain paths, and a region
+/// holds all settings at one level, like the command-line flags.
 Status upgrade_from_0(Json& document) {
     for (const char* key : {"plate", "output"})
         if (const auto found = document.find(key); found != document.end() && found->is_string())
@@ -103,7 +103,7 @@ Status upgrade_from_0(Json& document) {
     return {};
 }
 
-/// Version 1 wrote keys, lamps and layers as the command line's text.
+/// Version 1 stored keys, lamps and layers as command-line text.
 template <class Parse>
 Status upgrade_text_1(Json& region, const char* group, const char* key, const std::string& path,
                       Parse parse) {
@@ -123,7 +123,7 @@ Expected<Json> keys_from_1(const std::string& text, std::size_t count) {
     return Json(write_keys(keyed));
 }
 
-/// Version 1 took any strength and limited it when it rendered.
+/// Version 1 accepted any strength and clamped it when rendering.
 Expected<Json> strength_keys_from_1(const std::string& text) {
     WEFT_TRY(keyed, parse_keyed_numbers(text));
     for (auto& [frame, numbers] : keyed.keys)
@@ -169,7 +169,7 @@ Status upgrade_from_1(Json& document) {
 }
 
 using Upgrade = Status (*)(Json&);
-/// kUpgrades[n] brings version n to n + 1.
+/// kUpgrades[n] upgrades version n to n + 1.
 constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1};
 
 /// The n of "weft.project/n".

@@ -1,4 +1,4 @@
-// Roto shapes, to and from JSON. docs/FORMATS.md describes the result.
+// Roto shapes to and from JSON, as described in docs/FORMATS.md.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "texture_db/search/sample_sight.h"
+#include "texture_db/search/sample_embeddings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,19 @@ namespace {
 
 constexpr std::size_t kBatch = 64;
 
-// Looks at the next samples that were not yet looked at; returns how many. `after` is the last of
+// Encodes the next samples that have no vector yet; returns how many. `after` becomes the last of
 // them.
-Expected<std::int64_t> see_batch(Database& database, ImageTextModel& model,
-                                 const std::string& unseen, std::int64_t& after) {
+Expected<std::int64_t> encode_batch(Database& database, ImageTextModel& model,
+                                    const std::string& unseen, std::int64_t& after) {
     WEFT_TRY(batch, pixels_behind(database, unseen, after, kBatch));
-    // The network takes its time: others may write meanwhile.
+    // The network is slow, so other processes may write meanwhile.
     std::vector<std::pair<std::int64_t, std::vector<std::int8_t>>> vectors;
     for (const auto& [key, png] : batch) {
         after = key;
         const auto pixels = decode_picture(png);
-        if (!pixels) continue;  // damaged: verify tells of it
-        WEFT_TRY(seen, model.see(*pixels));
-        vectors.emplace_back(key, bytes_of_sight(seen));
+        if (!pixels) continue;  // damaged: verify reports it
+        WEFT_TRY(seen, model.encode_image(*pixels));
+        vectors.emplace_back(key, embedding_bytes(seen));
     }
     WEFT_TRY(transaction, Transaction::begin(database));
     {
@@ -40,15 +40,16 @@ Expected<std::int64_t> see_batch(Database& database, ImageTextModel& model,
 
 }  // namespace
 
-std::vector<std::int8_t> bytes_of_sight(std::span<const float> unit) {
+std::vector<std::int8_t> embedding_bytes(std::span<const float> unit) {
     std::vector<std::int8_t> out;
     for (const float x : unit)
         out.push_back(static_cast<std::int8_t>(std::lround(127 * std::clamp(x, -1.0f, 1.0f))));
     return out;
 }
 
-Expected<SampleSight> load_sight(Database& database, const SampleIndex& index, int dimensions) {
-    SampleSight out;
+Expected<SampleEmbeddings> load_embeddings(Database& database, const SampleIndex& index,
+                                           int dimensions) {
+    SampleEmbeddings out;
     out.dimensions = dimensions;
     const auto width = static_cast<std::size_t>(dimensions);
     out.vectors.resize(index.samples.size() * width);
@@ -63,14 +64,15 @@ Expected<SampleSight> load_sight(Database& database, const SampleIndex& index, i
     }
 }
 
-std::vector<float> likeness_to_words(const SampleSight& sight, std::span<const float> words) {
-    const auto width = static_cast<std::size_t>(sight.dimensions);
+std::vector<float> similarity_to_words(const SampleEmbeddings& embeddings,
+                                       std::span<const float> words) {
+    const auto width = static_cast<std::size_t>(embeddings.dimensions);
     if (words.size() != width || width == 0) return {};
-    const std::size_t count = sight.vectors.size() / width;
+    const std::size_t count = embeddings.vectors.size() / width;
     std::vector<float> out(count);
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::int8_t* v = sight.vectors.data() + i * width;
+        const std::int8_t* v = embeddings.vectors.data() + i * width;
         float dot = 0;
         for (std::size_t k = 0; k < width; ++k)
             dot += static_cast<float>(v[k]) * words[k];
@@ -86,17 +88,17 @@ std::vector<float> likeness_to_words(const SampleSight& sight, std::span<const f
     return out;
 }
 
-Status look_at_samples(Database& database, const std::string& folder, ImageTextModel* model,
-                       const CancelToken& cancel, const ProgressFn& progress) {
+Status encode_samples(Database& database, const std::string& folder, ImageTextModel* model,
+                      const CancelToken& cancel, const ProgressFn& progress) {
     const std::string identity = model ? model->identity() : "";
-    WEFT_TRY(before, text_note(database, kSightIdentityNote));
+    WEFT_TRY(before, text_note(database, kModelIdentityNote));
     if (identity != before) {
         WEFT_TRY(transaction, Transaction::begin(database));
         WEFT_CHECK_OK(database.execute("DELETE FROM sight"));
-        WEFT_CHECK_OK(set_text_note(database, kSightIdentityNote, identity));
+        WEFT_CHECK_OK(set_text_note(database, kModelIdentityNote, identity));
         WEFT_CHECK_OK(transaction.commit());
     }
-    WEFT_CHECK_OK(set_text_note(database, kSightFolderNote, folder));
+    WEFT_CHECK_OK(set_text_note(database, kModelFolderNote, folder));
     const std::string unseen =
         "FROM pixels p LEFT JOIN sight s ON s.sample = p.sample WHERE "
         "s.sample IS NULL";
@@ -109,7 +111,7 @@ Status look_at_samples(Database& database, const std::string& folder, ImageTextM
         if (cancel.cancelled())
             return fail(static_cast<ErrorCode>(cancel.reason()),
                         "Encoding the library was stopped. Run the command again to continue.");
-        WEFT_TRY(seen, see_batch(database, *model, unseen, after));
+        WEFT_TRY(seen, encode_batch(database, *model, unseen, after));
         if (seen == 0) break;
         done += seen;
         if (progress) progress({"look", done, total, 0, 0});

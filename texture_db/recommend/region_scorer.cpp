@@ -1,4 +1,4 @@
-#include "texture_db/recommend/suitability.h"
+#include "texture_db/recommend/region_scorer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,12 @@ namespace {
 using A = TextureAttribute;
 
 constexpr int kNeighbours = 9;
-// What the patches look like says less than where the region lies: a photograph's grey feathers
-// are as near to marble as to fur.
-constexpr float kSeenCounts = 0.4f, kLeastSeen = 0.08f;
-constexpr float kNameless =
-    0.04f;                       // what is left of a role that the region's name does not speak of
-constexpr float kServes = 0.7f;  // share of the best from which a material simply serves
-constexpr float kBeliefWidth = 2.0f;  // of distances between descriptors
+// The appearance of the patches counts less than the region's position: a photograph's grey
+// feathers are as near to marble as to fur.
+constexpr float kAppearanceWeight = 0.4f, kLeastAppearance = 0.08f;
+constexpr float kNameless = 0.04f;  // the weight of roles that the region's name does not name
+constexpr float kServes = 0.7f;     // share of the best from which a material counts fully
+constexpr float kLikelihoodWidth = 2.0f;  // of distances between descriptors
 
 // exp(−d²/2w²), the exponent alone: products of several take one exp.
 float away(float difference, float width) {
@@ -35,12 +34,13 @@ float ramp(float v) {
 
 float scale_fit(const SampleLook& sample, const RegionLook& look) {
     const float repeats = look.short_side_px / sample.structure_px;
-    // Fewer than three of its structures do not read as the texture; above sixty it is noise.
+    // Fewer than three of its structures do not read as the texture; above sixty it looks like
+    // noise.
     const float enough = std::clamp((repeats - 1) / 3, 0.0f, 1.0f);
     return repeats > 60 ? enough * near(std::log2(repeats / 60), 1.2f) : enough;
 }
 
-// The geometric mean of three likenesses.
+// The geometric mean of three similarities.
 float style_fit(const SampleLook& sample, const RegionLook& look) {
     return std::exp(-(away(sample.contrast - std::min(look.rest_contrast, 0.8f), 0.35f) +
                       away(sample.saturation - look.rest_saturation, 0.25f) +
@@ -48,7 +48,8 @@ float style_fit(const SampleLook& sample, const RegionLook& look) {
                     3);
 }
 
-float wish_fit(const RecommendWish& w, const TextureAttributes& base, const TextureAttributes& a) {
+float adjustment_fit(const RecommendAdjustments& w, const TextureAttributes& base,
+                     const TextureAttributes& a) {
     float fit = 1;
     const auto apply = [&](float wanted, A attribute, float reach) {
         if (wanted != 0)
@@ -70,26 +71,26 @@ float distance(std::span<const float> x, std::span<const float> y) {
 
 }  // namespace
 
-RegionJudge::RegionJudge(const SampleIndex& index, const DescriptorModel* model,
-                         const RecommendRequest& request, const RegionRequest& region,
-                         const RegionLook& look)
+RegionScorer::RegionScorer(const SampleIndex& index, const DescriptorModel* model,
+                           const RecommendRequest& request, const RegionRequest& region,
+                           const RegionLook& look)
     : index_(index),
       request_(request),
       region_(region),
       look_(look),
       harmony_(look.surroundings),
-      votes_(static_cast<std::size_t>(index.materials.size())),
+      likelihoods_(static_cast<std::size_t>(index.materials.size())),
       squared_(index.samples.size(), SampleIndex::kFar) {
-    const auto like = index.by_id.find(request.wish.like);
+    const auto like = index.by_id.find(request.adjust.like);
     like_ = like == index.by_id.end() ? index.samples.size() : like->second;
-    if (model != nullptr) vote(*model);
+    if (model != nullptr) find_materials(*model);
     find_role();
 }
 
-// Which materials the region looks like: for each of its patches every material is as likely as
-// its nearest sample and its middle are near (ranking.h), and the patches are averaged.
-void RegionJudge::vote(const DescriptorModel& model) {
-    std::vector<float> near_ones, belief(votes_.size());
+// The materials that the region looks like: for each patch a material is as likely as its nearest
+// sample and its centre are near (ranking.h); the patches are averaged.
+void RegionScorer::find_materials(const DescriptorModel& model) {
+    std::vector<float> near_ones, belief(likelihoods_.size());
     for (const auto& descriptor : look_.descriptors) {
         const std::vector<float> squared = index_.squared_distances(descriptor);
         for (std::size_t i = 0; i < squared.size(); ++i)
@@ -100,41 +101,42 @@ void RegionJudge::vote(const DescriptorModel& model) {
         const float least = *std::min_element(away.begin(), away.end());
         float sum = 0;
         for (std::size_t m = 0; m < away.size(); ++m)
-            sum += belief[m] = std::exp(-(away[m] - least) / kBeliefWidth);
+            sum += belief[m] = std::exp(-(away[m] - least) / kLikelihoodWidth);
         for (std::size_t m = 0; m < away.size(); ++m)
-            votes_[m] += belief[m] / sum;
+            likelihoods_[m] += belief[m] / sum;
     }
     if (!near_ones.empty()) {
         std::sort(near_ones.begin(), near_ones.end());
         typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
     }
-    scale_votes();
-    // A model that has read of the world is believed as much as the library's own eye.
+    scale_materials();
+    // An image–text model has the same weight as the library's own descriptor.
     for (std::size_t m = 0; m < look_.materials.size(); ++m)
-        votes_[m] += look_.materials[m];
-    scale_votes();
+        likelihoods_[m] += look_.materials[m];
+    scale_materials();
 }
 
-void RegionJudge::scale_votes() {
-    const float most = votes_.empty() ? 0 : *std::max_element(votes_.begin(), votes_.end());
-    for (float& v : votes_)
+void RegionScorer::scale_materials() {
+    const float most =
+        likelihoods_.empty() ? 0 : *std::max_element(likelihoods_.begin(), likelihoods_.end());
+    for (float& v : likelihoods_)
         v = most > 0 ? v / most : 0;
 }
 
-// What the region is in the picture, from what it looks like and where it lies; and how well each
-// material serves as that.
-void RegionJudge::find_role() {
+// The region's role in the picture, from its appearance and its position; and how usual each
+// material is for that role.
+void RegionScorer::find_role() {
     for (int m = 0; m < index_.materials.size(); ++m)
         materials_.push_back(roles_of_material(index_.materials.text(m)));
     role_ = roles_of_place(look_.place);
     float seen = 0;
-    for (const float v : votes_)
+    for (const float v : likelihoods_)
         seen += v;
     for (std::size_t r = 0; seen > 0 && r < kSurfaceRoles; ++r) {
         float usual = 0;
         for (std::size_t m = 0; m < materials_.size(); ++m)
-            usual += votes_[m] * materials_[m][r];
-        role_[r] *= std::pow(std::max(usual / seen, kLeastSeen), kSeenCounts);
+            usual += likelihoods_[m] * materials_[m][r];
+        role_[r] *= std::pow(std::max(usual / seen, kLeastAppearance), kAppearanceWeight);
     }
     const RoleWeights named = roles_of_name(region_.name);
     for (std::size_t r = 0; r < kSurfaceRoles; ++r)
@@ -143,7 +145,7 @@ void RegionJudge::find_role() {
     for (float& r : role_)
         r = sum > 0 ? r / sum : 1.0f / kSurfaceRoles;
     for (const RoleWeights& material : materials_) {
-        // What serves as everything speaks for nothing.
+        // A material that is usual for every role is no evidence.
         float use = 0;
         for (std::size_t r = 0; r < kSurfaceRoles; ++r)
             use += role_[r] * material[r] * material[r];
@@ -154,29 +156,29 @@ void RegionJudge::find_role() {
         u = best > 0 ? std::min(u / (kServes * best), 1.0f) : 1;
 }
 
-SurfaceRole RegionJudge::role() const {
+SurfaceRole RegionScorer::role() const {
     return static_cast<SurfaceRole>(std::max_element(role_.begin(), role_.end()) - role_.begin());
 }
 
-SuitedSample RegionJudge::judge(std::size_t i) const {
+ScoredSample RegionScorer::score(std::size_t i) const {
     const SampleLook& s = index_.looks[i];
-    SuitedSample c;
+    ScoredSample c;
     c.sample = static_cast<std::uint32_t>(i);
     const float beyond = std::max(0.0f, std::sqrt(squared_[i]) - typical_) / typical_;
-    c.parts.material = 0.45f * near(beyond, 0.8f) + 0.55f * vote_of(i);
+    c.parts.material = 0.45f * near(beyond, 0.8f) + 0.55f * material_likelihood(i);
     c.parts.use = use_[static_cast<std::size_t>(s.material)];
     c.parts.colour = harmony_.with(s.chroma, s.hue_deg);
     c.parts.style = style_fit(s, look_);
     c.parts.scale = scale_fit(s, look_);
     c.parts.synthesis = s.synthesis;
     const bool like = like_ < index_.samples.size();
-    const RecommendWish& w = request_.wish;
+    const RecommendAdjustments& w = request_.adjust;
     if (like || w.warmer != 0 || w.brighter != 0 || w.rougher != 0 || w.larger != 0) {
         const TextureAttributes& base =
             like ? index_.samples[like_].measured.attributes : look_.inside.attributes;
-        c.parts.wish = wish_fit(w, base, index_.samples[i].measured.attributes);
+        c.parts.adjustment = adjustment_fit(w, base, index_.samples[i].measured.attributes);
         if (like)
-            c.parts.wish *=
+            c.parts.adjustment *=
                 near(distance(index_.descriptor(i), index_.descriptor(like_)) / typical_, 1.5f);
     }
     const float lightness = std::abs(s.mean.l - look_.inside.mean.l) / 40;
@@ -185,23 +187,23 @@ SuitedSample RegionJudge::judge(std::size_t i) const {
     return c;
 }
 
-std::vector<SuitedSample> RegionJudge::judge_all() const {
+std::vector<ScoredSample> RegionScorer::score_all() const {
     std::vector<bool> excluded;
     for (int i = 0; i < index_.licences.size(); ++i)
         excluded.push_back(licence_excluded(index_.licences.text(i), request_.excluded_licences));
     const int material = region_.material.empty() ? -1 : index_.materials.find(region_.material);
-    std::vector<SuitedSample> out;
+    std::vector<ScoredSample> out;
     if (!region_.material.empty() && material < 0) return out;
     for (std::size_t i = 0; i < index_.looks.size(); ++i) {
         const SampleLook& s = index_.looks[i];
         if (excluded[static_cast<std::size_t>(s.licence)]) continue;
         if (material >= 0 && s.material != material) continue;
-        out.push_back(judge(i));
+        out.push_back(score(i));
     }
     return out;
 }
 
-float RegionJudge::likeness(std::size_t i, std::size_t j) const {
+float RegionScorer::likeness(std::size_t i, std::size_t j) const {
     const IndexedSample &a = index_.samples[i], &b = index_.samples[j];
     if (a.origin != TextureOrigin::kProcedural && a.package == b.package && a.source == b.source)
         return 1;

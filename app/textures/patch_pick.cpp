@@ -1,4 +1,4 @@
-#include "app/textures/piece_pick.h"
+#include "app/textures/patch_pick.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ int wrapped(int v, int n) {
     return v < 0 ? v + n : v;
 }
 
-// A grown plane's texels; all coordinates wrap.
+// The texels of a synthesized plane; coordinates wrap.
 class Texels {
   public:
     explicit Texels(const PlaneMap& map) : map_(map), size_(map.source.size()) {}
@@ -27,7 +27,7 @@ class Texels {
         const std::int32_t* from = map_.source.pixel(stored.x, stored.y);
         return {stored.x, stored.y, 1, from[0], from[1], sample(stored), orientation(stored)};
     }
-    // Whether q, one step from p, shows the neighbour of what p shows.
+    // Returns true if the neighbour of p shows the neighbouring sample pixel.
     [[nodiscard]] bool joined(Vec2i p, Vec2i step) const {
         const Vec2i a = at(p), b = at(p + step);
         if (sample(a) != sample(b) || orientation(a) != orientation(b)) return false;
@@ -43,7 +43,7 @@ class Texels {
     [[nodiscard]] int orientation(Vec2i p) const {
         return map_.orientation.empty() ? 0 : map_.orientation.at(p.x, p.y);
     }
-    // A step on the plane as a step in the sample (SampleAtlas::Page::orientation).
+    // Converts a step on the plane to a step in the sample (SampleAtlas::Page::orientation).
     static Vec2i in_sample(Vec2i step, int orientation) {
         Vec2i out = step;
         switch (orientation % 4) {
@@ -77,7 +77,7 @@ std::optional<Vec2i> stored_texel(const Provenance& from, Vec2 p) {
         .at({static_cast<int>(std::floor(texel.x)), static_cast<int>(std::floor(texel.y))});
 }
 
-// Stored texels, as few runs as there can be.
+// Groups texels into as few runs as possible.
 PlaneAmendment runs_of(const PlaneMap& map, std::vector<Vec2i> stored) {
     std::sort(stored.begin(), stored.end(),
               [](Vec2i a, Vec2i b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
@@ -101,7 +101,7 @@ PlaneAmendment runs_of(const PlaneMap& map, std::vector<Vec2i> stored) {
 
 }  // namespace
 
-std::optional<PlaneAmendment> piece_at(const Provenance& from, Vec2 plate_pixel) {
+std::optional<PlaneAmendment> patch_at(const Provenance& from, Vec2 plate_pixel) {
     const auto start = stored_texel(from, plate_pixel);
     if (!start) return std::nullopt;
     const Texels texels(*from.plane);
@@ -157,7 +157,7 @@ std::optional<PlaneAmendment> seam_at(const Provenance& from, Vec2 plate_pixel, 
 
 std::optional<PlaneAmendment> places_in(const Provenance& from, Vec2 a, Vec2 b) {
     if (!from.plane || from.plane->source.empty()) return std::nullopt;
-    // The rectangle as a polygon on the plane, its sides bent as the surface is.
+    // The rectangle as a polygon on the plane; its sides follow the surface's curvature.
     const std::array<Vec2, 4> corners{a, Vec2(b.x, a.y), b, Vec2(a.x, b.y)};
     std::vector<Vec2> outline;
     constexpr int kParts = 8;
