@@ -19,6 +19,15 @@ function(weft_library name)
     set_property(GLOBAL APPEND PROPERTY WEFT_LIBRARIES ${target})
 endfunction()
 
+# weft_precompile(NAME header…)
+#   Headers that nearly every source of a library includes, parsed once for all of them. The sources include what they
+#   use all the same: the sanitizer and fuzzing builds, and clang-tidy, go without.
+function(weft_precompile name)
+    target_precompile_headers(weft_${name} PRIVATE ${ARGN})
+    # For the compiler cache.
+    target_compile_options(weft_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
 # weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full] [OPTIMISED])
 #   One GoogleTest program per folder, each of its tests one for ctest. With the label "full" the whole program is one
 #   test instead: listing a program's tests means starting it, and a plain ./test need not start what it will not run.

@@ -57,7 +57,10 @@ build_jobs() {
 }
 
 # One compiler cache for every clone: objects are found by what they are made of, not by where they lie.
-use_compiler_cache() { export CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1; }
+# Sources whose headers are precompiled are cached only with this sloppiness.
+use_compiler_cache() {
+    export CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+}
 
 # build ROOT PRESET TARGET: configures where needed and builds; says nothing when all is up to date.
 build() {

@@ -187,13 +187,13 @@ void Session::dismiss(int notice) {
 void Session::flush() {
     end_stroke();
     shelf_.flush();
-    finish_chores(true);
+    file_tasks_.finish(true);
     recovery_.flush();
 }
 
 bool Session::busy() const {
     return playback_.direction() != 0 || painting_.active() || changing_ || fetching_ ||
-           opening_.valid() || !file_tasks_.empty() || request_pending_ || strip_.busy() ||
+           opener_.busy() || !file_tasks_.empty() || request_pending_ || strip_.busy() ||
            (measuring_ && view_.report.state == QualityReport::State::kMeasuring);
 }
 
@@ -207,7 +207,7 @@ void Session::update(double now_s) {
         if (clock_) clock_->enter(name);
     };
     part("files");
-    finish_chores(false);
+    file_tasks_.finish(false);
     part("plate");
     take_plate();
     now_s_ = now_s;

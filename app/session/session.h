@@ -9,8 +9,10 @@
 #include <set>
 #include <string>
 
+#include "app/base/background_tasks.h"
 #include "app/base/frame_clock.h"
 #include "app/mattes/matte_painting.h"
+#include "app/preview/plate_opener.h"
 #include "app/preview/plate_player.h"
 #include "app/preview/playback.h"
 #include "app/project/history.h"
@@ -89,7 +91,6 @@ class Session {
     void remember_recent(const std::string& path);
     void saved_as(const Project& written, const std::string& path,
                   const std::map<std::string, std::string>& moved);
-    void finish_chores(bool wait);
     void end_player();
 
     // ---- untrusted projects (session_trust.cpp) ----
@@ -189,24 +190,15 @@ class Session {
     RecoveryWriter recovery_;
     JobDesk jobs_;
 
-    struct OpenedPlate {
-        std::shared_ptr<const FrameReader> reader;
-        std::shared_ptr<const ColorTransform> srgb, linear;
-        std::string space;
-    };
-    std::future<Expected<OpenedPlate>> opening_;
-    std::vector<std::future<Expected<OpenedPlate>>> abandoned_;
-    Plate opened_plate_;
-    std::string opened_plate_dir_;
+    PlateOpener opener_;
     std::shared_ptr<const FrameReader> reader_;
     std::shared_ptr<PlatePlayer> player_;
     PlatePlayer::Reading plate_reading_;
     PreviewReading preview_reading_;
     /// Destructions that may block, each in a thread of its own.
     std::vector<std::future<void>> shutdowns_;
-    /// Background work on files; the function that it returns runs on the session's thread.
-    using Finish = std::function<void()>;
-    std::vector<std::future<Finish>> file_tasks_;
+    using Finish = BackgroundTasks::Finish;
+    BackgroundTasks file_tasks_;
 
     Playback playback_;
     double now_s_ = 0;

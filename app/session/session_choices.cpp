@@ -44,39 +44,38 @@ std::string Session::texture_folder() const {
 // Copies library textures beside the project first, then changes all regions in one step.
 void Session::apply_textures(const ApplyTextures& action) {
     if (action.textures.empty()) return;
-    file_tasks_.push_back(
-        in_background([this, wanted = action.textures, folder = texture_folder(),
+    file_tasks_.start([this, wanted = action.textures, folder = texture_folder(),
                        dir = project_dir(path_), library = options_.texture_library,
                        excluded = licence_list(document().settings.excluded_licences)]() -> Finish {
-            const auto fetch = [&]() -> Expected<std::vector<std::pair<RegionId, std::string>>> {
-                auto kept = wanted;
-                for (auto& [region, path] : kept) {
-                    if (!names_library_texture(path)) continue;
-                    WEFT_TRY(texture, resolve_texture(library, path));
-                    WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
-                    WEFT_TRY(file, keep_texture(texture, folder));
-                    path = dir.empty() ? file : fs::path(file).lexically_relative(dir).string();
-                }
-                return kept;
-            };
-            const auto kept = fetch();
-            return [this, kept] {
-                if (!kept) return notify(NoticeKind::kError, kept.error().text());
-                std::vector<Edit> edits;
-                for (const auto& [id, path] : *kept) {
-                    const Region* region = region_by_id(document(), id);
-                    if (!region) continue;
-                    TextureSource texture = region->texture;
-                    texture.sample = path;
-                    texture.plane.clear();
-                    edits.push_back(SetTexture{{id, {}}, texture});
-                }
-                auto changed = apply_edits(history_.current(), edits);
-                if (!changed) return notify(NoticeKind::kError, changed.error().text());
-                commit(std::move(*changed), "Textures for " + std::to_string(edits.size()) +
-                                                (edits.size() == 1 ? " region" : " regions"));
-            };
-        }));
+        const auto fetch = [&]() -> Expected<std::vector<std::pair<RegionId, std::string>>> {
+            auto kept = wanted;
+            for (auto& [region, path] : kept) {
+                if (!names_library_texture(path)) continue;
+                WEFT_TRY(texture, resolve_texture(library, path));
+                WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
+                WEFT_TRY(file, keep_texture(texture, folder));
+                path = dir.empty() ? file : fs::path(file).lexically_relative(dir).string();
+            }
+            return kept;
+        };
+        const auto kept = fetch();
+        return [this, kept] {
+            if (!kept) return notify(NoticeKind::kError, kept.error().text());
+            std::vector<Edit> edits;
+            for (const auto& [id, path] : *kept) {
+                const Region* region = region_by_id(document(), id);
+                if (!region) continue;
+                TextureSource texture = region->texture;
+                texture.sample = path;
+                texture.plane.clear();
+                edits.push_back(SetTexture{{id, {}}, texture});
+            }
+            auto changed = apply_edits(history_.current(), edits);
+            if (!changed) return notify(NoticeKind::kError, changed.error().text());
+            commit(std::move(*changed), "Textures for " + std::to_string(edits.size()) +
+                                            (edits.size() == 1 ? " region" : " regions"));
+        };
+    });
 }
 
 void Session::use_larger_original(RegionId id) {
@@ -86,9 +85,8 @@ void Session::use_larger_original(RegionId id) {
         return;
     }
     const std::string sample = resolve_path(project_dir(path_), region->texture.sample);
-    file_tasks_.push_back(in_background([this, id, sample, folder = texture_folder(),
-                                         dir = project_dir(path_),
-                                         library = options_.texture_library]() -> Finish {
+    file_tasks_.start([this, id, sample, folder = texture_folder(), dir = project_dir(path_),
+                       library = options_.texture_library]() -> Finish {
         const auto larger = keep_larger_original(library, sample, folder);
         return [this, id, larger, dir] {
             const Region* now = region_by_id(document(), id);
@@ -107,7 +105,7 @@ void Session::use_larger_original(RegionId id) {
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
             commit(std::move(*changed), "Larger original for " + now->name);
         };
-    }));
+    });
 }
 
 void Session::pick_cryptomatte(const PickCryptomatte& action) {
@@ -120,8 +118,8 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
     const bool own = !source.select.crypto.empty() && !source.files.empty();
     const std::string files =
         own ? resolve_path(project_dir(path_), source.files) : reader_->path_of(playback_.frame());
-    file_tasks_.push_back(in_background([this, action, files, frame = playback_.frame(),
-                                         id = region->id, layer = layer_]() -> Finish {
+    file_tasks_.start([this, action, files, frame = playback_.frame(), id = region->id,
+                       layer = layer_]() -> Finish {
         const auto pick = [&]() -> Expected<CryptoObject> {
             WEFT_TRY(pattern, SequencePattern::parse(files));
             return weft::pick_cryptomatte(pattern.path_for(frame), action.at.x, action.at.y);
@@ -143,7 +141,7 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
             commit(std::move(*changed), (action.subtract ? "Without " : "Pick ") + picked->name);
         };
-    }));
+    });
 }
 
 }  // namespace weft

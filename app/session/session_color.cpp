@@ -8,7 +8,7 @@ namespace weft {
 
 // In the background: a large config takes a large part of a second to read.
 void Session::look_for_screens() {
-    file_tasks_.push_back(in_background([this]() -> Finish {
+    file_tasks_.start([this]() -> Finish {
         auto screens = list_screens();
         auto spaces = list_color_spaces();
         return [this, screens = std::move(screens), spaces = std::move(spaces)] {
@@ -22,7 +22,7 @@ void Session::look_for_screens() {
                 (kept.display.empty() && !kept.view.empty());
             choose_screen(known ? kept : screens->front(), false);
         };
-    }));
+    });
 }
 
 void Session::choose_screen(const ScreenName& name, bool remember) {
@@ -36,7 +36,7 @@ void Session::choose_screen(const ScreenName& name, bool remember) {
         view_.screen.reset();
         return;
     }
-    file_tasks_.push_back(in_background([this, name]() -> Finish {
+    file_tasks_.start([this, name]() -> Finish {
         auto made = make_screen_view(name);
         return [this, name, made = std::move(made)] {
             if (!(wanted_screen_ == name)) return;
@@ -44,7 +44,7 @@ void Session::choose_screen(const ScreenName& name, bool remember) {
             view_.screen_name = name;
             view_.screen = *made;
         };
-    }));
+    });
 }
 
 }  // namespace weft

@@ -112,8 +112,7 @@ void Session::commit(Project project, std::string label) {
 void Session::document_changed() {
     ++document_version_;
     request_pending_ = true;
-    if (document().plate != opened_plate_ || project_dir(path_) != opened_plate_dir_)
-        open_plate_in_background();
+    open_plate_in_background();
     if (!region_by_id(document(), selected_))
         selected_ = document().regions.empty() ? 0 : document().regions.back()->id;
 }
@@ -131,8 +130,7 @@ void Session::start_document(Project project, std::string path) {
     history_ = History(std::move(project));
     open_ = true;
     selected_ = 0;
-    opened_plate_ = Plate{};
-    opened_plate_dir_ = "\n";  // not a folder name, so that the plate is always opened
+    opener_.forget();
     update_trust(!path_.empty());
     document_changed();
 }
@@ -186,35 +184,34 @@ void Session::save(const std::string& path) {
     const std::string whole = fs::absolute(path).string();
     const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
     view_.saving = true;
-    file_tasks_.push_back(
-        in_background([this, whole, unsaved, from = path_, project = history_.current(),
+    file_tasks_.start([this, whole, unsaved, from = path_, project = history_.current(),
                        serial = history_.serial()]() mutable -> Finish {
-            shelf_.flush();
-            Status written;
-            std::map<std::string, std::string> moved;
-            if (whole != from) written = move_to(whole, unsaved, project_dir(from), project, moved);
-            if (written) written = save_project(whole, project, in_place());
-            return [this, whole, from, serial, written, moved = std::move(moved),
-                    project = std::move(project)] {
-                view_.saving = false;
-                if (!written) {
-                    notify(NoticeKind::kError, written.error().text());
-                    return;
-                }
-                // Another project may have been opened in the meantime.
-                if (path_ != from) return;
-                if (whole != from) {
-                    saved_as(project, whole, moved);
-                } else {
-                    history_.mark_saved(serial);
-                }
-                if (!history_.modified()) recovery_.clear();
-                remember_recent(path_);
-                trust_saved();
-                ++document_version_;
-                notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
-            };
-        }));
+        shelf_.flush();
+        Status written;
+        std::map<std::string, std::string> moved;
+        if (whole != from) written = move_to(whole, unsaved, project_dir(from), project, moved);
+        if (written) written = save_project(whole, project, in_place());
+        return [this, whole, from, serial, written, moved = std::move(moved),
+                project = std::move(project)] {
+            view_.saving = false;
+            if (!written) {
+                notify(NoticeKind::kError, written.error().text());
+                return;
+            }
+            // Another project may have been opened in the meantime.
+            if (path_ != from) return;
+            if (whole != from) {
+                saved_as(project, whole, moved);
+            } else {
+                history_.mark_saved(serial);
+            }
+            if (!history_.modified()) recovery_.clear();
+            remember_recent(path_);
+            trust_saved();
+            ++document_version_;
+            notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
+        };
+    });
 }
 
 // The document has a path now; changes made while it was being written are still unsaved.
@@ -231,19 +228,6 @@ void Session::saved_as(const Project& written, const std::string& path,
     history_.push(std::move(now), "Save as " + fs::path(path).filename().string());
     document_changed();
     if (same) history_.mark_saved();
-}
-
-void Session::finish_chores(bool wait) {
-    for (std::size_t k = 0; k < file_tasks_.size();) {
-        if (!wait &&
-            file_tasks_[k].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-            ++k;
-            continue;
-        }
-        const Finish finish = file_tasks_[k].get();
-        file_tasks_.erase(file_tasks_.begin() + static_cast<std::ptrdiff_t>(k));
-        finish();
-    }
 }
 
 void Session::remember_recent(const std::string& path) {
@@ -277,34 +261,19 @@ void Session::recover(bool accept) {
 void Session::close_cleanly() {
     end_stroke();
     shelf_.flush();
-    finish_chores(true);
+    file_tasks_.finish(true);
     recovery_.clear();
     recovery_.flush();
 }
 
 void Session::open_plate_in_background() {
-    opened_plate_ = document().plate;
-    opened_plate_dir_ = project_dir(path_);
-    if (opening_.valid()) abandoned_.push_back(std::move(opening_));
+    Plate plate = document().plate;
+    plate.path = resolve_path(project_dir(path_), plate.path);
+    if (!opener_.open(plate)) return;
     end_player();
     reader_.reset();
     playback_.close();
     view_.plate = {};
-    Plate plate = opened_plate_;
-    plate.path = resolve_path(opened_plate_dir_, plate.path);
-    if (plate.path.empty()) return;
-    opening_ = in_background([plate]() -> Expected<OpenedPlate> {
-        OpenedPlate out;
-        WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
-        out.reader = reader;
-        out.space = plate.space.empty() ? reader->color().space : plate.space;
-        WEFT_TRY(space, parse_color_space(out.space));
-        WEFT_TRY(srgb, make_color_transform(space, {"srgb"}));
-        WEFT_TRY(linear, make_color_transform(space, {"linear"}));
-        out.srgb = srgb;
-        out.linear = linear;
-        return out;
-    });
 }
 
 // Waits in the background, because a worker may be decoding a large frame.
@@ -316,13 +285,12 @@ void Session::end_player() {
 }
 
 void Session::take_plate() {
-    const auto over = [](auto& future) {
+    std::erase_if(shutdowns_, [](const std::future<void>& future) {
         return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    };
-    std::erase_if(abandoned_, over);
-    std::erase_if(shutdowns_, over);
-    if (!opening_.valid() || !over(opening_)) return;
-    auto opened = opening_.get();
+    });
+    const auto taken = opener_.take();
+    if (!taken) return;
+    const Expected<OpenedPlate>& opened = *taken;
     if (!opened) {
         view_.plate.state = PlateView::State::kFailed;
         view_.plate.error = opened.error().text();

@@ -137,7 +137,7 @@ void Session::submit(const SubmitJob& action) {
         return;
     }
     if (!may_render_to(request->project)) return;
-    file_tasks_.push_back(in_background([this, request = std::move(*request)]() -> Finish {
+    file_tasks_.start([this, request = std::move(*request)]() -> Finish {
         // Painted mattes must be on disk before the renderer reads them.
         shelf_.flush();
         const auto id = jobs_.submit(request);
@@ -151,7 +151,7 @@ void Session::submit(const SubmitJob& action) {
                        fs::path(request.project.output.path).parent_path().filename().string() +
                        ".");
         };
-    }));
+    });
 }
 
 void Session::watch_jobs() {

@@ -44,9 +44,9 @@ void Session::write_mattes(const std::string& pattern_text,
                                   reader_->frames().begin() + last + 1);
     const Project absolute = resolve_paths(document(), project_dir(path_));
     const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
-    file_tasks_.push_back(in_background([this, pattern_text, frames, source, size = reader_->size(),
-                                         absolute, file = path_, id = region->id, layer = layer_,
-                                         then = std::move(then)]() -> Finish {
+    file_tasks_.start([this, pattern_text, frames, source, size = reader_->size(), absolute,
+                       file = path_, id = region->id, layer = layer_,
+                       then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
             WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
@@ -75,7 +75,7 @@ void Session::write_mattes(const std::string& pattern_text,
             else
                 notify(NoticeKind::kError, "The mattes are not written. " + done.error().text());
         };
-    }));
+    });
 }
 
 void Session::export_mattes(const std::string& pattern) {

@@ -33,8 +33,8 @@ void Session::scale_by_line(const ScaleByLine& action) {
     const Vec2 line = action.to - action.from;
     const double length = std::hypot(static_cast<double>(line.x), static_cast<double>(line.y));
     const std::string path = resolve_path(project_dir(path_), region->texture.sample);
-    file_tasks_.push_back(in_background([this, path, line, length, count = action.count,
-                                         id = region->id]() -> Finish {
+    file_tasks_.start([this, path, line, length, count = action.count,
+                       id = region->id]() -> Finish {
         const auto pitch = pitch_of(path, line);
         return [this, pitch, length, count, id] {
             if (!pitch) {
@@ -43,7 +43,7 @@ void Session::scale_by_line(const ScaleByLine& action) {
             }
             edit(SetRegionParameter{{id, {}}, "placement.scale", length / (count * *pitch)}, true);
         };
-    }));
+    });
 }
 
 }  // namespace weft

@@ -84,8 +84,8 @@ void Session::fill_between_shapes() {
                "Draw the shape on two frames first; the frames between them are filled.");
         return;
     }
-    file_tasks_.push_back(in_background([this, list = std::move(list), size = reader_->size(),
-                                         id = region->id, layer = layer_]() -> Finish {
+    file_tasks_.start([this, list = std::move(list), size = reader_->size(), id = region->id,
+                       layer = layer_]() -> Finish {
         Status written;
         for (const Made& one : list) {
             std::error_code error;
@@ -107,7 +107,7 @@ void Session::fill_between_shapes() {
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
             commit(std::move(*changed), "Fill between the shapes of " + layer_name(*now, layer));
         };
-    }));
+    });
 }
 
 void Session::show_shape() {

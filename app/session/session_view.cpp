@@ -66,7 +66,7 @@ void Session::show_plate() {
     PlateView& plate = view_.plate;
     plate.path = resolve_path(project_dir(path_), document().plate.path);
     plate.budget_bytes = options_.plate_budget_bytes;
-    if (opening_.valid()) plate.state = PlateView::State::kOpening;
+    if (opener_.busy()) plate.state = PlateView::State::kOpening;
     if (document().plate.path.empty()) plate.state = PlateView::State::kNone;
     view_.frame = playback_.frame();
     view_.playing = playback_.direction();

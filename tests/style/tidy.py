@@ -46,6 +46,19 @@ def changed_lines(base):
     return out
 
 
+def plain_commands(tree):
+    """A folder with the tree's compile commands less precompiled headers, which are another compiler's."""
+    folder = os.path.join(tree, "tidy")
+    with open(os.path.join(tree, "compile_commands.json"), encoding="utf-8") as file:
+        commands = json.load(file)
+    for entry in commands:
+        entry["command"] = re.sub(r" -Winvalid-pch| -fpch-preprocess| -include \S+/cmake_pch\.hxx", "", entry["command"])
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "compile_commands.json"), "w", encoding="utf-8") as file:
+        json.dump(commands, file)
+    return folder
+
+
 def main(tree):
     base = base_commit()
     if base is None:
@@ -62,9 +75,11 @@ def main(tree):
     lines = json.dumps([{"name": path, "lines": spans} for path, spans in changed.items()
                         if path.endswith((".cpp", ".h"))])
 
+    folder = plain_commands(tree)
+
     def tidy(path):
         return subprocess.run(
-            ["clang-tidy-14", "-p", tree, "--quiet", "--warnings-as-errors=*",
+            ["clang-tidy-14", "-p", folder, "--quiet", "--warnings-as-errors=*",
              "--line-filter=" + lines, path], capture_output=True, text=True, check=False)
 
     failed = 0
