@@ -94,6 +94,13 @@ for _name, _words, _exits in (
         ("frozen_without_files", ("--matte", f"1={P}", "--matte-frozen", "2"), (USAGE, MISSING, UNREADABLE)),
         ("holdout", ("--matte", f"1={P}", "--holdout", "painted/####.png"), (OK, USAGE, UNREADABLE)),
         ("holdout_missing", ("--matte", f"1={P}", "--holdout", "nosuch/####.png"), (MISSING, UNREADABLE)),
+        ("zone", ("--matte", f"1={P}", "--zone", f"light=0.5@1={P}"), SURE),
+        ("zone_in_files", ("--matte", f"1={P}", "--zone", "light=0@painted/####.png"), (OK, MISSING)),
+        ("zone_missing", ("--matte", f"1={P}", "--zone", "light=0@nosuch.png"), (MISSING, UNREADABLE)),
+        ("zone_outside", ("--matte", f"1={P}", "--zone", f"light=0@9={P}"), (MISSING, USAGE)),
+        ("zone_without_value", ("--matte", f"1={P}", "--zone", P), (USAGE,)),
+        ("zone_nan", ("--matte", f"1={P}", "--zone", f"light=nan@{P}"), (USAGE,)),
+        ("zone_of_no_kind", ("--matte", f"1={P}", "--zone", f"fog=1@{P}"), (USAGE,)),
         ("no_matte_at_all", (), (USAGE,))):
     add("keyframe/" + _name, keyframes(_words, _exits))
 

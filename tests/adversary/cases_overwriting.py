@@ -8,15 +8,17 @@ from shot import numbered, png
 
 # Input -> a name of one file of it.
 INPUTS = {"plate": "frames/0002.png", "matte": "masks/0001.png", "plane": "tile.png", "project": "shot.weft", "holdout": "holdout.png",
-          "track": "track.txt"}
+          "zone": "zone.png", "track": "track.txt"}
 
 
 def prepared(shot):
     shot.ordinary()
     shot.put("holdout.png", png("matte", 0))
+    shot.put("zone.png", png("matte", 0))
     shot.put("track.txt", "".join(f"{f} 10 10 50 10 50 40 10 40\n" for f in shot.numbers))
     project = shot.project()
     project["regions"][0]["holdouts"] = [{"files": "holdout.png", "invert": True}]
+    project["regions"][0]["zones"] = [{"value": 0.5, "matte": {"files": "zone.png"}}]
     project["regions"][0]["motion"] = {"track": "track.txt"}
     shot.put("shot.weft", json.dumps(project))
 
@@ -69,6 +71,7 @@ frames_onto("mattes", "masks/####.png")
 frames_onto("plate_by_folder_link", "linked/####.png", prepare=lambda s: s.link("frames", "linked"))
 frames_onto("plane_file", "tile.png")
 frames_onto("holdout_file", "holdout.png")
+frames_onto("zone_file", "zone.png")
 frames_onto("layers_onto_mattes", "out/####.png", ("--layers", "matte", "--layers-output", "masks/####.exr"), (OK, USAGE))
 frames_onto("textures_folder", "tex/####.png", exits=(USAGE,), prepare=lambda s: (s.put("tex/0002.png", png("texture", 0, (48, 48))), s.put(
     "shot.weft", s.get("shot.weft").replace(b'"tile.png"', b'"tex/0002.png"'))))

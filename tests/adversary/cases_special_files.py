@@ -70,6 +70,7 @@ INPUTS = {
     "matte_frame": ("masks/0002.png", shot_words()),
     "painted_matte": ("a.png", shot_words("--matte", "1=a.png", matte=None)),
     "holdout": ("h.png", shot_words("--holdout", "h.png")),
+    "zone": ("z.png", shot_words("--zone", "light=0@z.png")),
     "texture": ("t.png", shot_words(texture=("--texture", "t.png"))),
     "texture_also": ("t.png", shot_words("--texture-also", "t.png", texture=("--texture", "sample.png"))),
     "plane": ("t.exr", shot_words(texture=("--plane", "t.exr"))),
