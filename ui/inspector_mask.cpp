@@ -65,16 +65,14 @@ void matte_source_card(Ctx& c, const Region& region) {
     const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
     const bool key_here = matte.keyframes.contains(c.view.frame);
     if (button(c, "Add keyframe",
-               {.icon = icons::kKeyframe,
-                .enabled = !key_here,
+               {.enabled = !key_here,
                 .tip = "Makes this frame's matte a keyframe that you can correct",
                 .command = "region.key",
                 .width = half}))
         c.emit(KeyMatteHere{});
     ImGui::SameLine();
     if (button(c, "Remove keyframe",
-               {.icon = icons::kClose,
-                .enabled = key_here,
+               {.enabled = key_here,
                 .tip = "Propagates the neighbouring keyframes to this frame again",
                 .width = half}))
         c.edit(without_layer_key(region, c.view.matte_layer, c.view.frame));

@@ -77,9 +77,9 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         c.pictures.draw(list, draw);
     }
     if (!in_mask) return;
-    // Red, since it is taken away; yellow, since it is light.
+    // Holdouts are red, because they are cut out; zones are white, unlike any region.
     draw_layers(c, list, map, v.holdouts, c.theme.bad);
-    draw_layers(c, list, map, v.zones, c.theme.warn);
+    draw_layers(c, list, map, v.zones, IM_COL32_WHITE);
 }
 
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
