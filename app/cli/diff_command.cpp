@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "app/cli/commands.h"
+#include "app/cli/console.h"
 #include "engine/core/frame_range.h"
+#include "engine/media/atomic_file.h"
 #include "engine/media/frame_reader.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -130,7 +132,11 @@ std::string likeness_text(const SequenceLikeness& likeness) {
 Status write_strip(const std::string& path, const SequenceLikeness& likeness,
                    const WriteRule& rule) {
     const ImageU8x3 strip = strip_of(likeness.worst());
-    if (strip.empty()) return {};
+    if (strip.empty()) {
+        print_warning("No patch could be compared, so " + path + " was not written.");
+        return {};
+    }
+    WEFT_CHECK_OK(make_folder_of(path, rule));
     ImageF3 rgb(strip.size());
     std::transform(strip.data(), strip.data() + strip.size_bytes(), rgb.data(),
                    [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });

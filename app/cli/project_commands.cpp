@@ -17,6 +17,7 @@
 #include "engine/core/input_file.h"
 #include "engine/core/printable.h"
 #include "engine/core/text.h"
+#include "engine/media/atomic_file.h"
 
 namespace weft {
 namespace {
@@ -76,6 +77,7 @@ CommandResult new_command(const std::string& path, const Project& project,
                           const WriteFlags& write) {
     const Project whole = resolve_paths(project, project_dir(path));
     WEFT_TRY(rule, write_rule(write, {}, whole));
+    WEFT_CHECK_OK(make_folder_of(path, rule));
     WEFT_CHECK_OK(save_project(path, project, rule));
     // A project created here is trusted.
     if (!outputs_outside(whole, path).empty()) {

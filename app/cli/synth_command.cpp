@@ -7,6 +7,7 @@
 #include "engine/color/color_space.h"
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
+#include "engine/media/atomic_file.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
@@ -116,11 +117,11 @@ Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) 
     std::vector<PlannedFile> files{{"The plane", options.output}};
     if (!options.source_map.empty()) files.push_back({"The source map", options.source_map});
     WEFT_CHECK_OK(check_apart(files));
-    for (const PlannedFile& file : files)
-        WEFT_CHECK_OK(check_output(file.path, rule));
     WriteOptions write;
     write.depth = default_depth(options.output, PixelDepth::kU8);
     WEFT_CHECK_OK(check_format(options.output, write));
+    for (const PlannedFile& file : files)
+        WEFT_CHECK_OK(check_output(file.path, rule));
     std::vector<ImageU8x3> samples;
     std::string names;
     for (const std::string& path : options.samples) {
@@ -145,6 +146,8 @@ Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) 
     if (!plane) return fail_in(std::move(plane).error(), names);
     for (const std::string& remark : backend.remarks())
         print_warning(remark);
+    for (const PlannedFile& file : files)
+        WEFT_CHECK_OK(make_folder_of(file.path, rule));
     WEFT_CHECK_OK(write_plane(options.output, *plane, rule));
     if (!options.source_map.empty())
         WEFT_CHECK_OK(write_source_map(options.source_map, *plane, rule));

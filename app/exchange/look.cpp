@@ -89,6 +89,7 @@ Status save_look(const std::string& path, const Project& project, const std::str
     });
     WEFT_TRY(text, project_to_json(look));
     const Json json{{"schema", kSchema}, {"look", Json::parse(text)}};
+    WEFT_CHECK_OK(make_folder_of(path, rule));
     return write_file_atomically(path, json.dump(2) + "\n", rule);
 }
 

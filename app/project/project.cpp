@@ -35,7 +35,7 @@ std::size_t heap_bytes_of(const Members&... members) {
 
 std::string list_regions(const Project& project) {
     if (project.regions.empty()) return "the project has none yet; add one first";
-    std::string out = "there are ";
+    std::string out = "choose among ";
     constexpr std::size_t kMostListed = 10;
     for (std::size_t i = 0; i < project.regions.size() && i < kMostListed; ++i) {
         if (i > 0) out += ", ";

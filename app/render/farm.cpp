@@ -231,7 +231,8 @@ Status choose_task(const Json& stages, const std::string& stage, int index, Farm
         if (name != stage) continue;
         const auto frames = entry.at("frames").get<std::vector<std::string>>();
         if (index < 0 || static_cast<std::size_t>(index) >= frames.size()) {
-            return fail(ErrorCode::kUsage, "The stage " + stage + " has tasks 0 to " +
+            return fail(ErrorCode::kUsage, "The stage " + stage + " has no task " +
+                                               std::to_string(index) + ". Give one from 0 to " +
                                                std::to_string(frames.size() - 1) + ".");
         }
         // An empty list means the whole shot.
@@ -241,7 +242,8 @@ Status choose_task(const Json& stages, const std::string& stage, int index, Farm
         task.stage = known;
         return {};
     }
-    return fail(ErrorCode::kUsage, "The job has no stage '" + stage + "'. It has " + names + ".");
+    return fail(ErrorCode::kUsage,
+                "The job has no stage '" + stage + "'. Give one of " + names + ".");
 }
 
 }  // namespace

@@ -225,8 +225,9 @@ Expected<std::vector<int>> frames_to_render(const Project& project, const FrameR
     const std::vector<int> missing = missing_in(frames, plate.frames());
     if (!missing.empty()) {
         return fail(ErrorCode::kMissingFrames, "The plate " + project.plate.path + " has no " +
-                                                   frames_text(missing) + ". It has " +
-                                                   frames_text(plate.frames()) + ".");
+                                                   frames_text(missing) + ". Choose among its " +
+                                                   frames_text(plate.frames()) +
+                                                   by({{setting::kFrames}}) + ".");
     }
     return frames;
 }

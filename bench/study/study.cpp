@@ -27,6 +27,8 @@ double cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+namespace fs = std::filesystem;
+
 class Study {
   public:
     Study(const StudyOptions& options, const CancelToken& cancel, const ProgressFn& progress)
@@ -58,6 +60,21 @@ class Study {
   private:
     [[nodiscard]] std::string in(const char* name) const { return options_.folder + "/" + name; }
 
+    // A study leaves many files; among the frames they would be taken for frames.
+    [[nodiscard]] Status check_apart_from_inputs() const {
+        const std::string folder = real_path((fs::path(options_.folder) / "x").string());
+        std::string within;
+        static_cast<void>(map_paths(result_.project, [&](const std::string& path) {
+            if (fs::path(real_path(path)).parent_path() == fs::path(folder).parent_path())
+                within = path;
+            return path;
+        }));
+        if (within.empty()) return {};
+        return fail(ErrorCode::kUsage, "The output folder " + options_.folder +
+                                           " holds an input of the study, " + within +
+                                           ". Choose another folder.");
+    }
+
     Status prepare() {
         if (options_.folder.empty())
             return fail(ErrorCode::kUsage, "No output folder is set. Give one with -o.");
@@ -65,6 +82,7 @@ class Study {
         WEFT_TRY(fence, make_fence(result_.project, options_.limits));
         rule_.fence = fence;
         rule_.existing = existing_by(options_.overwrite);
+        WEFT_CHECK_OK(check_apart_from_inputs());
         WEFT_CHECK_OK(make_folder(options_.folder, rule_));
         for (const char* name : {"report.json", "report.csv", "report.html"})
             WEFT_CHECK_OK(check_output(in(name), rule_));

@@ -13,7 +13,8 @@ namespace {
 using Key = std::pair<int, std::vector<double>>;
 
 tl::unexpected<Error> not_a_number(std::string_view text) {
-    return fail(ErrorCode::kUsage, quoted(text) + " is not a number");
+    return fail(ErrorCode::kUsage,
+                quoted(text) + " is not a number. Write each key like 12:0.5, frame and value.");
 }
 
 Expected<std::vector<double>> numbers_of(std::string_view text) {

@@ -279,6 +279,10 @@ bool is_device(const std::string& path) {
 
 Status check_output(const std::string& path, const WriteRule& rule) {
     if (rule.device && is_device(path)) return {};
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && fs::symlink_status(folder, ignored).type() == fs::file_type::not_found)
+        return rule.fence ? rule.fence->check_folder(folder.string()) : Status();
     const auto probe = TemporaryFile::create(path, rule);
     if (!probe) return tl::unexpected(probe.error());
     return {};

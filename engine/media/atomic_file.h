@@ -30,7 +30,8 @@ namespace weft {
 /// device.
 [[nodiscard]] bool is_device(const std::string& path);
 
-/// Checks before the work whether a file could be written there. Errors: the same.
+/// Checks before the work whether a file could be written there. A missing folder is no error: it
+/// is to be created with make_folder_of() when the file is written. Errors: the same.
 [[nodiscard]] Status check_output(const std::string& path, const WriteRule& rule);
 
 /// Creates a folder, or the folder of a file, with its parents. Errors: Usage (outside the root),

@@ -310,8 +310,10 @@ Expected<CryptoObject> pick_cryptomatte(const std::string& path, int x, int y) {
         Size size;
         WEFT_TRY(samples, file.samples(layer, size));
         if (x < 0 || y < 0 || x >= size.width || y >= size.height) {
-            return fail(ErrorCode::kUsage, "The pixel " + std::to_string(x) + "," +
-                                               std::to_string(y) + "  is outside " + path + ".");
+            return fail(ErrorCode::kUsage,
+                        "The pixel " + std::to_string(x) + "," + std::to_string(y) +
+                            " is outside " + path + ". Give one inside its " +
+                            std::to_string(size.width) + " x " + std::to_string(size.height) + ".");
         }
         CryptoObject best{layer.name, "", 0, 0};
         const std::size_t count = 2 * layer.ranks.size();

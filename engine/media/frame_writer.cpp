@@ -177,8 +177,8 @@ Status check_format(const std::string& path, const WriteOptions& options) {
     const FormatFacts facts = facts_of(format);
     if (!holds(facts, options.depth)) {
         return fail(ErrorCode::kUsage, path + ": " + facts.name + " cannot hold " +
-                                           words(options.depth) + ". It holds " + facts.depths +
-                                           ".");
+                                           words(options.depth) + ". Choose " + facts.depths +
+                                           ", or another file format.");
     }
     return check_numbers(path, options);
 }

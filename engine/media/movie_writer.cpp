@@ -14,6 +14,7 @@ extern "C" {
 #include "engine/core/text.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/movie_pixels.h"
+#include "engine/media/movies.h"
 #include "engine/media/read_back.h"
 #include "engine/media/video_library.h"
 
@@ -246,11 +247,8 @@ class VideoFile final : public MovieWriter {
 Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size, double fps,
                                                   double pixel_aspect, const WriteRule& rule) {
     silence_video_library();
-    const std::string extension = std::filesystem::path(path).extension().string();
-    const bool lossless = extension == ".mkv";
-    if (!lossless && extension != ".mp4") {
-        return fail(ErrorCode::kUsage, path + ": unknown kind of movie. Use .mp4 or .mkv.");
-    }
+    WEFT_CHECK_OK(check_movie_name(path));
+    const bool lossless = std::filesystem::path(path).extension() == ".mkv";
     if (size.empty() || !(fps >= kMinFps && fps <= kMaxFps)) {
         return fail(ErrorCode::kUsage,
                     path + ": a movie needs a size and a frame rate between 0.01 and 1000.");

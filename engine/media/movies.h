@@ -14,5 +14,7 @@ namespace weft {
 
 /// Errors: NoBackend in a build without movies; the message names `path`.
 [[nodiscard]] Status require_movies(const std::string& path);
+/// Errors: Usage when the extension is not that of a movie that can be written (.mp4, .mkv).
+[[nodiscard]] Status check_movie_name(const std::string& path);
 
 }  // namespace weft

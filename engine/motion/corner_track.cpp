@@ -232,7 +232,8 @@ Expected<CornerTrack> parse_nuke(std::string_view text, const CornerTrackContext
 }  // namespace
 
 Expected<CornerTrack> completed(CornerTrack track) {
-    if (track.empty()) return unreadable("The track has no frames");
+    if (track.empty())
+        return unreadable("The track has no frames. Export it again with its frames");
     for (const auto& [frame, quad] : track) {
         if (!is_convex(quad)) {
             return unreadable(

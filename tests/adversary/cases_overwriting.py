@@ -3,7 +3,7 @@ import json
 import os
 
 from cases import add, frames
-from oracle import OK, UNREADABLE, USAGE, Output, Step
+from oracle import DIFFERS, OK, UNREADABLE, USAGE, Output, Step
 from shot import numbered, png
 
 # Input -> a name of one file of it.
@@ -56,12 +56,12 @@ for _written, (_option, _suffix) in WRITTEN.items():
 del build
 
 
-def frames_onto(name, out, more=(), exits=(USAGE,), prepare=lambda shot: None):
+def frames_onto(name, out, more=(), exits=(USAGE,), prepare=lambda shot: None, may_write=("out", "out/**")):
     def build(shot):
         prepared(shot)
         prepare(shot)
         for overwrite in ((), ("--overwrite",), ("--resume",), ("--skip-existing",), ("--restart",)):
-            yield Step(["render", "shot.weft", "--threads", "1", "-o", out, *more, *overwrite], exits=exits)
+            yield Step(["render", "shot.weft", "--threads", "1", "-o", out, *more, *overwrite], exits=exits, may_write=may_write)
     add("onto/frames_" + name, build)
 
 
@@ -72,7 +72,8 @@ frames_onto("plate_by_folder_link", "linked/####.png", prepare=lambda s: s.link(
 frames_onto("plane_file", "tile.png")
 frames_onto("holdout_file", "holdout.png")
 frames_onto("zone_file", "zone.png")
-frames_onto("layers_onto_mattes", "out/####.png", ("--layers", "matte", "--layers-output", "masks/####.exr"), (OK, USAGE))
+frames_onto("layers_onto_mattes", "out/####.png", ("--layers", "matte", "--layers-output", "masks/####.exr"), (OK, USAGE),
+            may_write=("out", "out/**", "masks/*.exr"))
 frames_onto("textures_folder", "tex/####.png", exits=(USAGE,), prepare=lambda s: (s.put("tex/0002.png", png("texture", 0, (48, 48))), s.put(
     "shot.weft", s.get("shot.weft").replace(b'"tile.png"', b'"tex/0002.png"'))))
 frames_onto("second_texture", "tex/####.png", exits=(USAGE,), prepare=lambda s: (s.put("tex/0002.png", s.get("sample.png")), s.put(
@@ -97,7 +98,7 @@ add("onto/movie_plate_link", movie_onto("link.mkv", "input"))
 add("onto/movie_other", movie_onto("notes.mkv", "other"))
 
 
-def onto_existing(words, name, prepare=prepared, exits=(USAGE,), again=True):
+def onto_existing(words, name, prepare=prepared, exits=(USAGE,), again=True, done=(OK,)):
     """A file that is there: refused without --overwrite, replaced with it."""
     def build(shot):
         prepare(shot)
@@ -105,7 +106,7 @@ def onto_existing(words, name, prepare=prepared, exits=(USAGE,), again=True):
         yield Step([*words], exits=exits)
         assert shot.get(name) == b"precious"
         if again:
-            yield Step([*words, "--overwrite"], may_write=("out", "out/**", name), outputs=[Output(name)])
+            yield Step([*words, "--overwrite"], exits=done, may_write=("out", "out/**", name), outputs=[Output(name)])
             assert shot.get(name) != b"precious"
     return build
 
@@ -119,9 +120,18 @@ for _name, _words, _file in (
         ("source_map", ("synth", "sample.png", "-o", "out/p.png", "--size", "64x64", "--source-map", "out/m.exr"), "out/m.exr"),
         ("new", ("new", "out/n.weft", "--plate", "frames/####.png", "-o", "x/####.png"), "out/n.weft"),
         ("look", ("look", "save", "shot.weft", "out/l.json", "--region", "wall"), "out/l.json"),
-        ("worst", ("diff", "frames/####.png", "frames/####.png", "--matte", "masks/####.png", "--worst", "out/w.png"), "out/w.png"),
         ("matte", ("matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png", "-o", "out/####.png"), "out/0002.png")):
     add("existing/" + _name, onto_existing(_words, _file))
+
+
+def two_sequences(shot):
+    prepared(shot)
+    for frame in shot.numbers:
+        shot.put(f"other/{frame:04d}.png", png("plate", frame + 1))
+
+
+add("existing/worst", onto_existing(("diff", "frames/####.png", "other/####.png", "--matte", "masks/####.png", "--worst", "out/w.png"),
+                                    "out/w.png", prepare=two_sequences, done=(DIFFERS,)))
 
 
 def self_overwriting(words):

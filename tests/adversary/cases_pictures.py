@@ -123,7 +123,7 @@ def converted_case(extension, options, exits=(OK,), linear=False, picture=True, 
 
 
 for _quality in (1, 50, 100):
-    add(f"jpeg/quality{_quality}", converted_case(".jpg", ("--compression", f"jpeg:{_quality}"), picture=_quality == 100,
+    add(f"jpeg/quality{_quality}", converted_case(".jpg", ("--compression", f"jpeg:{_quality}", "--attrib", "jpeg:subsampling", "4:4:4"), picture=_quality == 100,
                                                   out=".jpg"))
 for _layout in (("--scanline",), ("--tile", "16", "16"), ("--tile", "64", "64"), ("--planarconfig", "separate")):
     for _depth in ("uint8", "uint16", "half", "float"):

@@ -106,9 +106,9 @@ Status check_licence_names(const std::vector<std::string>& excluded,
     for (const std::string& name : excluded) {
         if (is_known(name, own)) continue;
         return fail(ErrorCode::kUsage, setting_name({setting::kExcludedLicences}) + ": licence '" +
-                                           name + "' is unknown. Known are " + listed(kLicences) +
+                                           name + "' is unknown. Use one of " + listed(kLicences) +
                                            ", each with any version, "
-                                           "and the families " +
+                                           "or one of the families " +
                                            listed(kFamilies) + ".");
     }
     return {};

@@ -36,7 +36,7 @@ Expected<int> read_frame(ObjectReader& object) {
 /// Errors: Unreadable when the key is missing.
 Expected<const Json*> required(ObjectReader& object, std::string_view key) {
     const Json* json = object.take(key);
-    if (!json) return fail_at(object.path_of(key), "This key is missing");
+    if (!json) return fail_at(object.path_of(key), "This key is missing; add it");
     return json;
 }
 

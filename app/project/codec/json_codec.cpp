@@ -22,14 +22,18 @@ class ParseGuard {
     bool operator()(int depth, nlohmann::json::parse_event_t event, Json& parsed) {
         using Event = nlohmann::json::parse_event_t;
         if (depth > kMaxJsonDepth)
-            throw Refused{fmt::format(
-                "It is nested more than {} levels deep, which no Weft file is", kMaxJsonDepth)};
+            throw Refused{
+                fmt::format("It is nested more than {} levels deep, which no Weft file is; open a "
+                            "file that Weft saved",
+                            kMaxJsonDepth)};
         if (event == Event::object_start) keys_.emplace_back();
         if (event == Event::object_end) keys_.pop_back();
         if (event != Event::key) return true;
         if (keys_.back().size() >= kMaxJsonKeys)
-            throw Refused{fmt::format("An object has more than {} keys, which no Weft file has",
-                                      kMaxJsonKeys)};
+            throw Refused{
+                fmt::format("An object has more than {} keys, which no Weft file has; open a file "
+                            "that Weft saved",
+                            kMaxJsonKeys)};
         if (!keys_.back().insert(parsed.get<std::string>()).second)
             throw Refused{fmt::format("The key '{}' occurs twice in one object; remove one of them",
                                       parsed.get<std::string>())};
@@ -136,7 +140,7 @@ Status ObjectReader::expect_no_rest() const {
 Expected<std::int64_t> ObjectReader::integer(std::string_view key, std::int64_t low,
                                              std::int64_t high) {
     const Json* json = take(key);
-    if (!json) return fail_at(path_of(key), "This key is missing");
+    if (!json) return fail_at(path_of(key), "This key is missing; add it");
     // Compared as double first, so that a number beyond 64 bits does not wrap into the range.
     const bool fits = json->is_number_integer() &&
                       json->get<double>() >= static_cast<double>(low) &&
@@ -149,7 +153,7 @@ Expected<std::int64_t> ObjectReader::integer(std::string_view key, std::int64_t 
 
 Expected<std::string> ObjectReader::text(std::string_view key) {
     const Json* json = take(key);
-    if (!json) return fail_at(path_of(key), "This key is missing");
+    if (!json) return fail_at(path_of(key), "This key is missing; add it");
     if (!json->is_string())
         return fail_at(path_of(key),
                        fmt::format("This is {}, but must be a string", type_of(*json)));

@@ -191,18 +191,24 @@ std::optional<int> version_of(std::string_view schema) {
 Status upgrade_to_current(Json& document) {
     if (!document.is_object())
         return fail_at(
-            "", fmt::format("It contains {}, so it is not a Weft project", type_of(document)));
+            "",
+            fmt::format("It contains {}, so it is not a Weft project; open a file that Weft saved",
+                        type_of(document)));
     const auto schema = document.find("schema");
     if (schema == document.end())
-        return fail_at("schema", "This key is missing, so it is not a Weft project");
+        return fail_at(
+            "schema",
+            "This key is missing, so it is not a Weft project; open a file that Weft saved");
     if (!schema->is_string())
         return fail_at("schema", fmt::format("This is {}, but must be a string", type_of(*schema)));
     const std::string name = schema->get<std::string>();
     const std::optional<int> version = version_of(name);
     if (!version)
-        return fail_at("schema",
-                       fmt::format("'{}' is not a Weft project; a project says '{}/{}'",
-                                   name.substr(0, 60), kProjectSchemaName, kProjectSchemaVersion));
+        return fail_at(
+            "schema",
+            fmt::format(
+                "'{}' is not a Weft project, which says '{}/{}'; open a file that Weft saved",
+                name.substr(0, 60), kProjectSchemaName, kProjectSchemaVersion));
     if (*version > kProjectSchemaVersion)
         return fail_at(
             "schema",
