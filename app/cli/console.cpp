@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "engine/core/printable.h"
+#include "engine/core/text.h"
 #include "engine/media/atomic_file.h"
 
 namespace weft {
@@ -101,7 +102,7 @@ void print_warning(std::string_view text) {
 }
 
 void report_error(const Error& error) {
-    const std::string line = printable(error.text());
+    const std::string line = printable(shortened_words(error.text()));
     print(stderr, "weft: " + line + "\n");
     if (speaks_openjd) print(progress_stream(), "openjd_fail: " + line + "\n");
 }

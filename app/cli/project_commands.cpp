@@ -71,12 +71,22 @@ std::string regions_text(const Project& project) {
     return text;
 }
 
+// --overwrite replaces a project, and nothing that only has its name.
+Status check_replaces_project(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored) || load_project(path)) return {};
+    return fail(ErrorCode::kUsage,
+                path + " is not a Weft project. Choose another name, or remove it.");
+}
+
 }  // namespace
 
 CommandResult new_command(const std::string& path, const Project& project,
                           const WriteFlags& write) {
     const Project whole = resolve_paths(project, project_dir(path));
-    WEFT_TRY(rule, write_rule(write, {}, whole));
+    // The plate is relative to the project's folder, but a slip might mean it from here.
+    WEFT_TRY(rule, write_rule(write, {project.plate.path}, whole));
+    WEFT_CHECK_OK(check_replaces_project(path));
     WEFT_CHECK_OK(make_folder_of(path, rule));
     WEFT_CHECK_OK(save_project(path, project, rule));
     // A project created here is trusted.
@@ -236,8 +246,11 @@ CommandResult validate_command(const std::string& path, bool files) {
         return issue.severity == Severity::kError;
     });
     if (wrong != issues.end()) {
-        answer.exit = exit_code(ErrorCode::kUsage);
-        answer.json.update(error_json(error_of(*wrong)));
+        // The list is the answer; the error stream says that there is one.
+        answer.error =
+            json_output()
+                ? error_of(*wrong)
+                : Error{ErrorCode::kUsage, path + " has errors. Correct those listed.", {}};
         return answer;
     }
     if (files) {

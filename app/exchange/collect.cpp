@@ -113,8 +113,7 @@ Expected<Collected> collect_project(const Project& project, const std::string& n
     const fs::path file = root / name;
     std::error_code error;
     if (fs::exists(file, error)) {
-        return fail(ErrorCode::kUsage,
-                    file.string() + " exists already. Collect into another folder.");
+        return fail(ErrorCode::kUsage, file.string() + " exists already. Choose another folder.");
     }
     WriteRule rule;
     WEFT_TRY(fence, make_fence(project, limits));

@@ -59,7 +59,7 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
         find.error(key,
                    fmt::format("It is propagated from frame {} to frame {}", *matte.propagate_from,
                                *matte.propagate_to),
-                   "Exchange the two frames");
+                   "Give the first frame first");
     if (matte.select.value && !matte.select.channel.empty())
         find.warning(
             key, "It selects an id and a channel",

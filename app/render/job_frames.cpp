@@ -85,8 +85,7 @@ struct ReviewMovie {
 
     static Expected<ReviewMovie> open(const JobSetup& setup, const std::string& path) {
         const Shot& shot = *setup.shot;
-        const double given = shot.project.plate.fps, of_plate = shot.plate->fps();
-        const double fps = given > 0 ? given : of_plate > 0 ? of_plate : 24.0;
+        const double fps = movie_fps(shot);
         ReviewMovie movie;
         WEFT_TRY(display_from_out, make_color_transform(shot.spaces.out, {"srgb"}));
         movie.display_from_out = display_from_out;
@@ -106,6 +105,11 @@ struct ReviewMovie {
 };
 
 }  // namespace
+
+double movie_fps(const Shot& shot) {
+    const double given = shot.project.plate.fps, of_plate = shot.plate->fps();
+    return given > 0 ? given : of_plate > 0 ? of_plate : 24.0;
+}
 
 bool is_exr(const std::string& path) {
     return path.ends_with(".exr") || path.ends_with(".EXR");

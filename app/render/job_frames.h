@@ -12,6 +12,9 @@ namespace weft {
 /// Returns true for an EXR file name; EXR files can hold layers.
 [[nodiscard]] bool is_exr(const std::string& path);
 
+/// Frames a second of the movie: the project's, otherwise the plate's, otherwise 24.
+[[nodiscard]] double movie_fps(const Shot& shot);
+
 /// Inputs of the frame stage; see render_frame().
 struct FrameInputs {
     const JobSetup& setup;

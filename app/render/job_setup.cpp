@@ -144,7 +144,7 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
     if (spec.stage != JobStage::kFrames) outputs.movie = setup.shot->project.output.movie;
     if (!outputs.movie.empty()) {
         WEFT_CHECK_OK(require_movies(outputs.movie));
-        WEFT_CHECK_OK(check_movie_name(outputs.movie));
+        WEFT_CHECK_OK(check_movie(outputs.movie, movie_fps(*setup.shot)));
     }
     WEFT_TRY(rules, check_outputs(outputs, spec.existing, setup.write.rule, folders));
     setup.result.report_rule = rules.report;

@@ -4,6 +4,7 @@
 
 #include "app/render/existing_frames.h"
 #include "engine/core/input_file.h"
+#include "engine/core/setting.h"
 #include "engine/media/atomic_file.h"
 #include "engine/media/read_back.h"
 
@@ -47,13 +48,15 @@ WriteRule rule_beside(const WriteRule& frames, ExistingFrames existing, bool own
     return rule;
 }
 
-// Checks files against the fence one by one; nothing is created yet.
+// Checks files one by one; nothing is created yet.
 Status check_fence(const SequencePattern& pattern, const std::vector<int>& frames,
                    const WriteRule& rule) {
-    if (!rule.fence) return {};
     for (const int frame : frames) {
         const std::string path = pattern.path_for(frame);
-        WEFT_CHECK_OK(rule.fence->check(path, real_path(path)));
+        if (rule.fence) WEFT_CHECK_OK(rule.fence->check(path, real_path(path)));
+        if (is_device(path))
+            return fail(ErrorCode::kUsage, path + " is a device or a pipe. Give names of files" +
+                                               by({{setting::kOutput}}) + ".");
     }
     return {};
 }
@@ -93,6 +96,9 @@ Status check_layers(const SequencePattern& layers, const std::vector<int>& frame
 
 Expected<OutputRules> check_outputs(const OutputPlan& plan, ExistingFrames existing,
                                     const WriteRule& frames, OutputFolders folders) {
+    // Everything is checked before the first folder is created.
+    if (folders == OutputFolders::kMake)
+        WEFT_CHECK_OK(check_outputs(plan, existing, frames, OutputFolders::kLeave));
     WEFT_CHECK_OK(check_apart(planned_files(plan)));
     WEFT_CHECK_OK(check_fence(plan.frames, plan.numbers, frames));
     if (plan.layers) WEFT_CHECK_OK(check_fence(*plan.layers, plan.numbers, frames));

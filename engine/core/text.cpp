@@ -34,6 +34,33 @@ std::string quoted(std::string_view text) {
     return std::string(1, '\'').append(text).append(1, '\'');
 }
 
+std::string shortened_words(std::string_view text) {
+    constexpr std::size_t kLongest = 1000, kHead = 600, kTail = 300;
+    // Not inside a character of several bytes.
+    const auto continues = [&](std::size_t at) {
+        return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80;
+    };
+    std::string out;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", from), text.size());
+        if (end - from > kLongest) {
+            std::size_t head = from + kHead, tail = end - kTail;
+            while (continues(head))
+                --head;
+            while (continues(tail))
+                ++tail;
+            out.append(text.substr(from, head - from))
+                .append("…")
+                .append(text.substr(tail, end - tail));
+        } else {
+            out.append(text.substr(from, end - from));
+        }
+        if (end < text.size()) out += text[end];
+        from = end + 1;
+    }
+    return out;
+}
+
 std::string size_text(Size size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }

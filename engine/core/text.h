@@ -18,6 +18,9 @@ namespace weft {
 /// 'text', for messages.
 [[nodiscard]] std::string quoted(std::string_view text);
 
+/// The text with the middle of every word of more than 1000 bytes left out, for messages.
+[[nodiscard]] std::string shortened_words(std::string_view text);
+
 /// "1920x1080", for messages.
 [[nodiscard]] std::string size_text(Size size);
 

@@ -211,7 +211,7 @@ Status write_matte(const std::string& path, ViewU8x1 matte, const WriteRule& rul
     const Format format = format_of(path);
     if (format == Format::kUnknown) return tl::unexpected(unknown_extension(path));
     if (format != Format::kPng && format != Format::kTiff) {
-        return fail(ErrorCode::kUsage, path + ": mattes are written as .png or .tif.");
+        return fail(ErrorCode::kUsage, path + ": mattes are PNG or TIFF. Use .png or .tif.");
     }
     if (matte.empty()) return fail(ErrorCode::kUsage, path + ": the matte is empty (0 pixels).");
     std::vector<std::uint8_t> codes;

@@ -28,7 +28,6 @@ constexpr int kMinLossless_px = 3;
 // The limit of H.264's highest level and of x264. Beyond it FFmpeg 5.1 fails with a leak.
 constexpr int kMaxLossy_px = 16384;
 constexpr int kSlices = 4;
-constexpr double kMinFps = 0.01, kMaxFps = 1000;
 
 struct Dictionary {
     AVDictionary* entries = nullptr;
@@ -247,12 +246,9 @@ class VideoFile final : public MovieWriter {
 Expected<std::unique_ptr<MovieWriter>> open_movie(const std::string& path, Size size, double fps,
                                                   double pixel_aspect, const WriteRule& rule) {
     silence_video_library();
-    WEFT_CHECK_OK(check_movie_name(path));
+    WEFT_CHECK_OK(check_movie(path, fps));
     const bool lossless = std::filesystem::path(path).extension() == ".mkv";
-    if (size.empty() || !(fps >= kMinFps && fps <= kMaxFps)) {
-        return fail(ErrorCode::kUsage,
-                    path + ": a movie needs a size and a frame rate between 0.01 and 1000.");
-    }
+    if (size.empty()) return fail(ErrorCode::kUsage, path + ": a movie needs frames with a size.");
     WEFT_TRY(temporary, TemporaryFile::create(path, rule));
     auto file = std::make_unique<VideoFile>(path, std::move(temporary), size, lossless,
                                             pixel_aspect > 0 ? pixel_aspect : 1.0);

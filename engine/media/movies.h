@@ -14,7 +14,8 @@ namespace weft {
 
 /// Errors: NoBackend in a build without movies; the message names `path`.
 [[nodiscard]] Status require_movies(const std::string& path);
-/// Errors: Usage when the extension is not that of a movie that can be written (.mp4, .mkv).
-[[nodiscard]] Status check_movie_name(const std::string& path);
+/// Errors: Usage when the extension is not that of a movie that can be written (.mp4, .mkv), or the
+/// frame rate is not 0.01 to 1000 per second.
+[[nodiscard]] Status check_movie(const std::string& path, double fps);
 
 }  // namespace weft

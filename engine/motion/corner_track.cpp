@@ -96,7 +96,8 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
                 "line: the frame, then x and y of the four corners");
         }
         if (!track.emplace(frame, quad).second)
-            return unreadable("Frame " + std::to_string(frame) + " occurs twice");
+            return unreadable("Frame " + std::to_string(frame) +
+                              " occurs twice. Keep one of its lines");
     }
     return completed(std::move(track));
 }
@@ -148,7 +149,8 @@ Expected<CornerTrack> parse_after_effects(std::string_view text,
     constexpr const char* kCorners[] = {"upper left", "upper right", "lower right", "lower left"};
     for (std::size_t k = 0; k < 4; ++k) {
         if (paths[k].empty())
-            return unreadable(std::string("The keyframe data has no ") + kCorners[k] + " corner");
+            return unreadable(std::string("The keyframe data has no ") + kCorners[k] +
+                              " corner. Copy the keyframes of all four corners");
     }
     return joined(paths);
 }
@@ -181,7 +183,10 @@ std::string_view braced(std::string_view text) {
 
 // A knob of two numbers, each of which may be a curve.
 Expected<Path> knob_path(std::string_view node, const std::string& name, double height) {
-    const auto missing = [&] { return unreadable("The CornerPin2D node has no usable " + name); };
+    const auto missing = [&] {
+        return unreadable("The CornerPin2D node has no usable " + name +
+                          ". Export the four points to1 to to4");
+    };
     std::size_t at = std::string_view::npos;
     for (std::size_t from = 0; (from = node.find(name + " ", from)) != std::string_view::npos;
          ++from) {
@@ -239,12 +244,13 @@ Expected<CornerTrack> completed(CornerTrack track) {
             return unreadable(
                 "On frame " + std::to_string(frame) +
                 " the corners do not go around a convex quadrilateral: top left, top right, bottom "
-                "right, bottom left");
+                "right, bottom left. Correct them, or remove the frame");
         }
     }
     constexpr int kLongest = 1'000'000;
     const int first = track.begin()->first, last = track.rbegin()->first;
-    if (last - first > kLongest) return unreadable("The track has too many frames");
+    if (last - first > kLongest)
+        return unreadable("The track has too many frames. Remove those far from the shot");
     CornerTrack out;
     for (int frame = first; frame <= last; ++frame) {
         const auto after = track.lower_bound(frame);

@@ -80,14 +80,17 @@ FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
     // Larger plates end at a level of about the same size.
     const int widest = draft ? 512 : 1280;
     int finest = 0;
-    while ((source.width() >> finest) > widest)
+    const cv::Mat from = prepared(as_mat(source)), to = prepared(as_mat(target));
+    // A strip has no more levels than patches of 8 px fit into its short side.
+    const int most = std::min(from.rows, from.cols) / 8;
+    while ((source.width() >> finest) > widest && (2 << finest) <= most)
         ++finest;
     dis->setFinestScale(finest);
     dis->setPatchStride(4);
     dis->setGradientDescentIterations(draft ? 12 : 16);
     dis->setVariationalRefinementIterations(draft ? 0 : 5);
     cv::Mat flow;
-    dis->calc(prepared(as_mat(source)), prepared(as_mat(target)), flow);
+    dis->calc(from, to, flow);
     FlowField out(source.size());
     for (int y = 0; y < out.d.height(); ++y) {
         const float* row = flow.ptr<float>(y);

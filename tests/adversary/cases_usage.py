@@ -64,7 +64,8 @@ for _command in COMMANDS:
     add(f"usage/{_command}_json_unknown_option", words(_command, "--json", "--nosuch"))
     if _command not in ("doctor", "demo", "bench", "schema", "trust"):
         add(f"usage/{_command}_alone", words(_command, exits=(USAGE,)))
-        add(f"usage/{_command}_json_missing_file", words(_command, "nosuch\x1b[2J.x", "--json", exits=REFUSED))
+        if _command != "new":  # which makes the file
+            add(f"usage/{_command}_json_missing_file", words(_command, "nosuch\x1b[2J.x", "--json", exits=REFUSED))
 for _label, _spoken in {"unknown": ("paint",), "typo": ("rendre",), "escape": ("\x1b[2J",), "empty": ("",), "dashes": ("--",), "dash": ("-",),
                         "long": ("x" * 100000,), "many": ("x",) * 3000, "twice": ("render", "shot.weft", "shot.weft"), "response_file": ("@shot.weft",),
                         "config": ("--config", "shot.weft")}.items():
@@ -83,7 +84,7 @@ for _command, _spoken in {
         "new": ("new", "out/n.weft", "--plate", "frames/####.png", "-o", "x/####.png"),
         "matte": ("matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png", "-o", "out/####.png"),
         "measure": ("measure", "--result", "frames/####.png", "--plate", "frames/####.png", "--matte", "masks/####.png"),
-        "texture_stats": ("texture", "stats", "--db", "../home/l.db"), "texture_import": ("texture", "import", "sample.png", "--db", "../home/l.db")}.items():
+        "texture_import": ("texture", "import", "sample.png", "--db", "../home/l.db")}.items():
     add("json/" + _command, words(*_spoken, "--json", exits=(OK,), may_write=("out", "out/**", "shot.weft")))
 for _command, _spoken in {
         "region_add": ("region", "add", "shot.weft", "--name", "b", "--matte", "masks/####.png", "--plane", "tile.png"),

@@ -74,7 +74,8 @@ TEST(OpticalFlow, CropsGiveWhatTheirCopiesGive) {
 }
 
 TEST(OpticalFlow, TakesTheSmallestPictures) {
-    for (const Size size : {Size{8, 8}, Size{1, 1}, Size{1, 90}, Size{90, 1}, Size{64, 9}}) {
+    for (const Size size :
+         {Size{8, 8}, Size{1, 1}, Size{1, 90}, Size{90, 1}, Size{64, 9}, Size{20000, 4}}) {
         const Matte picture = moved_texture(size, {0, 0});
         for (const FlowQuality quality : {FlowQuality::kDraft, FlowQuality::kFinal}) {
             FlowField there = estimate_flow(picture, picture, quality);

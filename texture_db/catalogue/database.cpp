@@ -157,6 +157,11 @@ Expected<std::unique_ptr<Database>> Database::open(const std::string& path, bool
     }
     if (there) {
         WEFT_CHECK_OK(check_input_file(path, "The texture library"));
+        // SQLite would take it for a new library, and write to it.
+        if (!create && fs::file_size(path, ignored) == 0)
+            return fail(ErrorCode::kUnreadable, "The texture library " + path +
+                                                    " is empty. Choose another" +
+                                                    by({{setting::kLibrary}}) + ", or remove it.");
     }
     if (!there && fs::path(path).has_parent_path()) {
         std::error_code error;

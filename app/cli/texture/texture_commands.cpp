@@ -27,8 +27,8 @@ using Json = nlohmann::ordered_json;
 ProgressFn plain_progress() {
     if (json_output()) return {};
     return [](const ProgressEvent& e) {
-        print(stderr,
-              e.stage + " " + std::to_string(e.done) + "/" + std::to_string(e.total) + "\n");
+        print(stderr, "weft: " + e.stage + " " + std::to_string(e.done) + "/" +
+                          std::to_string(e.total) + "\n");
     };
 }
 

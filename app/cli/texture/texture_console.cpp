@@ -28,7 +28,7 @@ Expected<std::shared_ptr<TextureLibrary>> open_texture_library(const TextureComm
             WEFT_CHECK_OK(
                 add_starter_textures(*library, cancel_on_signals(), [](const ProgressEvent& e) {
                     if (e.done % 640 == 0 || e.done == e.total) {
-                        print(stderr, "starter textures " + std::to_string(e.done) + "/" +
+                        print(stderr, "weft: starter textures " + std::to_string(e.done) + "/" +
                                           std::to_string(e.total) + "\n");
                     }
                 }));
