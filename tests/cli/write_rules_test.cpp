@@ -254,5 +254,28 @@ TEST_F(WriteRules, AReportMayGoToStandardOutput) {
     expect_failure(run_replace({"-o", "again/####.png", "--movie", "/dev/stdout"}), 2, {});
 }
 
+TEST_F(CliTest, NewReplacesAProjectAndNothingElse) {
+    make_shot(1);
+    const std::string plate = bytes("frames/0001.png");
+    const Words words{"new", "frames/0001.png", "--plate", "frames/####.png", "-o", "x/####.png"};
+    expect_failure(run(with_options(words, {"--overwrite"})), 2, {"frames/0001.png"});
+    EXPECT_EQ(bytes("frames/0001.png"), plate);
+    put("notes.weft", "precious");
+    expect_failure(run({"new", "notes.weft", "--plate", "frames/####.png", "--overwrite"}), 2,
+                   {"notes.weft", "Choose another name"});
+    EXPECT_EQ(bytes("notes.weft"), "precious");
+    expect_success(run({"new", "sub/shot.weft", "--plate", "../frames/####.png"}));
+    expect_success(run({"new", "sub/shot.weft", "--plate", "../frames/####.png", "--overwrite"}));
+}
+
+TEST_F(CliTest, AStudyIsNotWrittenAmongItsFrames) {
+    make_shot(2);
+    const auto before = contents("frames");
+    expect_failure(run({"study", "--plate", "frames/####.png", "--matte", "masks/####.png",
+                        "--texture", "sample.png", "-o", "frames", "--methods", "still"}),
+                   2, {"frames", "Choose another folder"});
+    EXPECT_EQ(contents("frames"), before);
+}
+
 }  // namespace
 }  // namespace weft::test
