@@ -1,6 +1,7 @@
 #pragma once
 // A folder of its own for every test, and pictures to put there.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -85,5 +86,22 @@ inline void put_frame(const std::string& path, const ImageF3& image,
     const Status status = write_image(path, image, {}, options);
     ASSERT_TRUE(status) << status.error().text();
 }
+
+/// Files that are read back after they were written, here under the name "shown.…".
+class ReadBackTest : public MediaTest {
+  protected:
+    static constexpr Size kSize{40, 30};
+
+    void cut(const std::string& name, double share) const {
+        const auto bytes = bytes_of(in(name));
+        put_bytes(in(name), bytes, static_cast<std::size_t>(share * double(bytes.size())));
+    }
+    static void expect_refused(const Status& status, const std::string& part) {
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().code, ErrorCode::kRenderFailed);
+        EXPECT_THAT(status.error().message, ::testing::HasSubstr("shown."));
+        EXPECT_THAT(status.error().message, ::testing::HasSubstr(part));
+    }
+};
 
 }  // namespace weft

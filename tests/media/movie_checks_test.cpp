@@ -31,21 +31,7 @@ TEST_F(MoviePacing, AVariableRateIsSaid) {
     EXPECT_THAT(open_plate(in("b.mkv"), {}).value()->warnings(), IsEmpty());
 }
 
-class MovieReadBack : public MediaTest {
-  protected:
-    static constexpr Size kSize{40, 30};
-
-    void cut(const std::string& name, double share) const {
-        const auto bytes = bytes_of(in(name));
-        put_bytes(in(name), bytes, static_cast<std::size_t>(share * double(bytes.size())));
-    }
-    static void expect_refused(const Status& status, const std::string& part) {
-        ASSERT_FALSE(status);
-        EXPECT_EQ(status.error().code, ErrorCode::kRenderFailed);
-        EXPECT_THAT(status.error().message, HasSubstr("shown."));
-        EXPECT_THAT(status.error().message, HasSubstr(part));
-    }
-};
+class MovieReadBack : public ReadBackTest {};
 
 TEST_F(MovieReadBack, AMovieHasItsFrames) {
     for (const char* name : {"a.mp4", "a.mkv"}) {

@@ -11,23 +11,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class ReadBack : public MediaTest {
+class ReadBack : public ReadBackTest {
   protected:
-    static constexpr Size kSize{40, 30};
-
     Status picture_of(const std::string& name, Size size, int channels) const {
         const WrittenPart part{size, channels};
         return check_written_picture(in(name), "shown.png", {&part, 1});
-    }
-    void cut(const std::string& name, double share) const {
-        const auto bytes = bytes_of(in(name));
-        put_bytes(in(name), bytes, static_cast<std::size_t>(share * double(bytes.size())));
-    }
-    static void expect_refused(const Status& status, const std::string& part) {
-        ASSERT_FALSE(status);
-        EXPECT_EQ(status.error().code, ErrorCode::kRenderFailed);
-        EXPECT_THAT(status.error().message, HasSubstr("shown."));
-        EXPECT_THAT(status.error().message, HasSubstr(part));
     }
 };
 
