@@ -1,4 +1,7 @@
-"""Renders a stage with Cycles: pictures with many samples a pixel, data with one in its centre."""
+"""Renders a stage with Cycles: pictures with many samples a pixel, data with one in its centre.
+
+The light of the sky is rendered by itself, once a frame: pictures hold sun and lamps, which have no noise, and
+bench/evaluation/compose.py adds the sky's light, freed of noise, in the same way to all of them."""
 import json
 import os
 
@@ -10,7 +13,7 @@ import numpy as np
 DATA_FILTER_PX = 0.01
 LIGHT_PASSES = ("diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color",
                 "environment")
-DATA_PASSES = ("position", "normal", "z", "vector", "uv", "object_index")
+DATA_PASSES = ("position", "normal", "z", "vector", "object_index")
 
 
 def set_up(stage, threads):
@@ -25,13 +28,14 @@ def set_up(stage, threads):
     cycles.diffuse_bounces = cycles.transmission_bounces = cycles.volume_bounces = 0
     render.threads_mode, render.threads = "FIXED", threads
     render.use_compositing = render.use_sequencer = False
-    render.use_persistent_data = True
+    # Blender 3.4 loses mesh attributes, or stops, when passes or materials change under data that is kept.
+    render.use_persistent_data = False
     render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
     render.image_settings.exr_codec = "ZIP"
     stage.scene.view_settings.view_transform = "Standard"
     layer = stage.scene.view_layers[0]
     layer.name = "scene"
-    for name in ["rest"] + ["coverage%d" % g for g in range(stage.coverage_groups)]:
+    for name in ["rest", "metres"] + ["coverage%d" % g for g in range(stage.coverage_groups)]:
         aov = layer.aovs.add()
         aov.name, aov.type = name, "COLOR"
 
@@ -41,31 +45,59 @@ def passes_on(layer, names):
         setattr(layer, "use_pass_" + name, name in names)
 
 
-def render_pictures(stage, variant, folder, samples, step=1):
-    """`folder`/####.exr, half: the picture; of the old materials also light, albedo, gloss and coverage."""
-    render, cycles, layer = stage.scene.render, stage.scene.cycles, stage.scene.view_layers[0]
+def render_pictures(stage, variant, folder, samples):
+    """`folder`/####.exr, half: the picture in the light of sun and lamps, its albedo; of the old materials also light,
+    gloss and coverage."""
+    with_samples(stage, samples)
+    stage.scene.view_layers[0].use_pass_combined = True
+    sky_on_diffuse(stage, False)
+    passes_on(stage.scene.view_layers[0], LIGHT_PASSES if variant == "old" else ("diffuse_color",))
+    write_frames(stage, folder)
+
+
+def render_sky(stage, folder, samples):
+    """`folder`/####.exr, half: DiffDir is the sky's light alone, with noise."""
+    with_samples(stage, samples)
+    layer = stage.scene.view_layers[0]
+    layer.use_pass_combined = False
+    layer.material_override = stage.white()
+    sky_on_diffuse(stage, True)
+    for lamp in stage.lamps:
+        lamp.hide_render = True
+    passes_on(layer, ("diffuse_direct",))
+    write_frames(stage, folder)
+    layer.material_override = None
+    for lamp in stage.lamps:
+        lamp.hide_render = False
+
+
+def with_samples(stage, samples):
+    render, cycles = stage.scene.render, stage.scene.cycles
     cycles.samples, cycles.filter_width = samples, 1.5
     render.use_motion_blur, render.motion_blur_shutter = stage.shutter_deg > 0, max(stage.shutter_deg, 1) / 360
     render.image_settings.color_depth = "16"
-    layer.use_pass_combined = True
-    passes_on(layer, LIGHT_PASSES if variant == "old" else ())
-    write_frames(stage, folder, step)
+
+
+def sky_on_diffuse(stage, lit):
+    stage.scene.world.cycles_visibility.diffuse = lit
+    stage.scene.world.update_tag()
 
 
 def render_data(stage, folder):
-    """`folder`/####.exr, float: Position, Normal, Depth (z), Vector, UV, IndexOB and rest at the pixels' centres."""
+    """`folder`/####.exr, float: Position, Normal, Depth (z), Vector, IndexOB, metres (UV) and rest at the pixels' centres."""
     render, cycles, layer = stage.scene.render, stage.scene.cycles, stage.scene.view_layers[0]
+    sky_on_diffuse(stage, False)
     cycles.samples, cycles.filter_width = 1, DATA_FILTER_PX
     render.use_motion_blur = False
     render.image_settings.color_depth = "32"
     layer.use_pass_combined = False
     passes_on(layer, DATA_PASSES)
-    write_frames(stage, folder, 1)
+    write_frames(stage, folder)
 
 
-def write_frames(stage, folder, step):
+def write_frames(stage, folder):
     os.makedirs(folder, exist_ok=True)
-    for frame in range(1, stage.frames + 1, step):
+    for frame in range(1, stage.frames + 1):
         stage.scene.frame_set(frame)
         stage.scene.render.filepath = os.path.join(folder, "%04d.exr" % frame)
         bpy.ops.render.render(write_still=True)

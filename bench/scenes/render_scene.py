@@ -2,7 +2,7 @@
 
     blender -b --factory-startup -noaudio -P render_scene.py -- FAMILY SEED FOLDER FRAMES WIDTHxHEIGHT SAMPLES TILE_PICTURE
 
-FOLDER gets old/, grey/ and tiled/####.exr, data/####.exr and scene.json; bench/corpus makes the rest from them."""
+FOLDER gets old/, grey/, tiled/, sky/ and data/####.exr and scene.json; bench/corpus makes the rest from them."""
 import importlib
 import os
 import sys
@@ -27,14 +27,15 @@ def main(family, seed, folder, frames, size, samples, tile_picture):
     camera = passes.camera_track(stage)
     passes.render_pictures(stage, "old", os.path.join(folder, "old"), int(samples))
     passes.render_data(stage, os.path.join(folder, "data"))
+    passes.render_sky(stage, os.path.join(folder, "sky"), max(1, int(samples) * 3 // 4))
     for variant in ("grey", "tiled"):
         stage.dress(variant, tile_picture)
         passes.render_pictures(stage, variant, os.path.join(folder, variant), int(samples))
     probed = sorted({1, (stage.frames + 1) // 2, stage.frames})
     passes.write_json(os.path.join(folder, "scene.json"), {
         "family": family, "seed": int(seed), "frames": stage.frames, "camera": camera, "shutter_deg": stage.shutter_deg,
-        "samples": int(samples), "grey": GREY, "tile_m": TILE_M,
-        "parts": [{"name": p.name, "id": p.id, "surface": p.surface, "hidden": p.hidden} for p in stage.parts],
+        "samples": int(samples), "bounces": stage.bounces, "grey": GREY, "tile_m": TILE_M, "sky": stage.sky_light,
+        "parts": [{"name": p.name, "id": p.id, "surface": p.surface, "hidden": p.hidden, "still": p.still} for p in stage.parts],
         "probes": rays.probe(stage, camera, probed, 300, np.random.default_rng(1)),
         "seconds": round(time.time() - started, 1)})
 

@@ -31,6 +31,7 @@ class Part:
     shape: Optional[Callable]
     hidden: bool
     object: bpy.types.Object = None
+    still: bool = False
 
 
 class Stage:
@@ -45,7 +46,8 @@ class Stage:
         self.scene.frame_start, self.scene.frame_end = 1, frames
         self.scene.render.resolution_x, self.scene.render.resolution_y = size
         self.scene.render.resolution_percentage = 100
-        self.parts, self.shutter_deg, self.bounces = [], 0, 0
+        self.parts, self.lamps, self.shutter_deg, self.bounces = [], [], 0, 0
+        self.sky((1, 1, 1), 0.0)
         self.camera = None
 
     @property
@@ -62,6 +64,7 @@ class Stage:
         fixed = Matrix.Identity(4) if pose is None else pose
         place = fixed if callable(fixed) else lambda frame: fixed
         part = Part(name, len(self.parts) + 1, mesh, paint, surface, place, shape, hidden)
+        part.still = not callable(fixed) and shape is None
         part.object = self._object(part)
         self._animate(part.object, place, animated=callable(fixed))
         if shape is not None:
@@ -137,9 +140,10 @@ class Stage:
 
     def sky(self, colour, strength):
         """Uniform light from everywhere, without noise where nothing stands in its way."""
-        world = bpy.data.worlds.new("sky")
+        world = self.scene.world or bpy.data.worlds.new("sky")
         self.scene.world = world
         world.use_nodes = True
+        self.sky_light = [float(c) * strength for c in colour]
         node = world.node_tree.nodes["Background"]
         node.inputs["Color"].default_value = (*colour, 1)
         node.inputs["Strength"].default_value = strength
@@ -162,6 +166,7 @@ class Stage:
     def _lamp(self, light, line):
         o = bpy.data.objects.new(light.name, light)
         self.scene.collection.objects.link(o)
+        self.lamps.append(o)
         animated = callable(line)
         self._animate(o, lambda f: looking(*(line(f) if animated else line)), animated)
         return o
@@ -183,11 +188,18 @@ class Stage:
                 else:
                     shader.diffuse(colour)
             shader.aov("rest", shader.rest)
+            # In place of Cycles' UV pass, which is empty or another attribute once materials have been exchanged.
+            shader.aov("metres", shader.uv)
             for group in range(self.coverage_groups):
                 shader.aov("coverage%d" % group, [float(part.id == 3 * group + c + 1) for c in range(3)])
             materials = part.object.data.materials
             materials.clear()
             materials.append(shader.material)
+
+    def white(self):
+        shader = Shader("white")
+        shader.diffuse((1, 1, 1))
+        return shader.material
 
     @property
     def coverage_groups(self):

@@ -1,0 +1,130 @@
+"""Composes what Blender rendered: adds the sky's light, freed of noise, and makes the camera's pictures.
+
+A picture is  Σ sun and lamps by sample  +  albedo · sky light,  both means over the pixel. The sky's light is smooth but
+for its noise, and is the same in the old, the grey and the tiled picture, so that these differ in the material alone."""
+import json
+import os
+import shutil
+import subprocess
+
+import numpy as np
+
+import images
+from camera import camera_picture
+from layout import Scene
+from visibility import seen_again
+
+
+def smooth_sky(light, position, normal, ids, depth, focal_px, levels=4):
+    """`light` (h, w) without noise: an à-trous filter (Dammertz et al. 2010, eq. 2 to 5) with weights of the surface alone.
+
+    A neighbour counts as far as it is of the same part, faces the same way and lies in this pixel's tangent plane,
+    in units of the surface that a pixel covers."""
+    pixel_m = (depth / focal_px).astype(np.float32)
+    current, height, width = light.astype(np.float32), *light.shape
+    kernel = (1 / 16, 1 / 4, 3 / 8, 1 / 4, 1 / 16)
+    for level in range(levels):
+        step = 1 << level
+        total, weights = kernel[2] ** 2 * current, np.full_like(current, kernel[2] ** 2)
+        for dy in (-2, -1, 0, 1, 2):
+            for dx in (-2, -1, 0, 1, 2):
+                y, x = dy * step, dx * step
+                if (y, x) == (0, 0) or abs(y) >= height or abs(x) >= width:
+                    continue
+                here = (slice(max(0, -y), height - max(0, y)), slice(max(0, -x), width - max(0, x)))
+                there = (slice(max(0, y), height - max(0, -y)), slice(max(0, x), width - max(0, -x)))
+                between = position[there] - position[here]
+                off = np.abs(np.einsum("ijk,ijk->ij", between, normal[here])) / (step * pixel_m[here] + 1e-9)
+                turned = 1 - np.einsum("ijk,ijk->ij", normal[there], normal[here])
+                w = kernel[dy + 2] * kernel[dx + 2] * np.exp(-off - turned / 0.02) * (ids[here] == ids[there])
+                total[here] += w * current[there]
+                weights[here] += w
+        current = total / weights
+    return current
+
+
+def compose(folder, seed):
+    """Makes the files of layout.py from Blender's in `folder`/raw, which is removed."""
+    scene = Scene(folder)
+    for frame in scene.frames:
+        compose_frame(scene, frame, np.random.default_rng([seed, frame]))
+    for frame in scene.frames:
+        images.write(scene.file(frame, "visible", ending="png"), seen_again(scene, frame) / 255, "uint8")
+    movie(scene)
+    shutil.rmtree(scene.folder / "raw")
+
+
+def compose_frame(scene, frame, rng):
+    raw = {name: images.read(scene.file(frame, "raw", name)) for name in ("old", "grey", "tiled", "sky")}
+    data = data_alone(scene.file(frame, "data"))
+    sky = sky_light(scene, raw["sky"], data)
+    light = images.channels(raw["old"], "DiffDir.R", "DiffDir.G", "DiffDir.B") + sky
+    albedo = images.channels(raw["old"], "DiffCol.R", "DiffCol.G", "DiffCol.B")
+    for name, folder in (("old", "clean"), ("grey", "grey"), ("tiled", "tiled")):
+        colour = images.channels(raw[name], "DiffCol.R", "DiffCol.G", "DiffCol.B")
+        picture = images.channels(raw[name], "Combined.R", "Combined.G", "Combined.B") + colour * sky
+        write_rgb(scene, frame, folder, picture)
+        if name == "old":
+            clean = picture
+    write_rgb(scene, frame, "light", light)
+    write_rgb(scene, frame, "albedo", albedo)
+    write_rgb(scene, frame, "gloss", gloss(raw["old"]))
+    for part in scene.parts:
+        group, place = divmod(part["id"] - 1, 3)
+        share = images.channels(raw["old"], "coverage%d.%s" % (group, "RGB"[place]))
+        images.write(scene.file(frame, "coverage", part["name"], ending="png"), np.clip(share, 0, 1), "uint16")
+    images.write(scene.file(frame, "plate", ending="png"), camera_picture(clean, rng), "uint8")
+
+
+def data_alone(path):
+    """Leaves out of a data file what the pictures' passes are for, and names the rest as Blender does; returns it."""
+    names, pixels = images.read(path)
+    names = [n.replace("metres.R", "UV.U").replace("metres.G", "UV.V") for n in names]
+    left_out = (".Combined.", ".coverage", ".metres.", "rest.A")
+    kept = [k for k, n in enumerate(names) if not any(part in n for part in left_out)]
+    picture = [names[k] for k in kept], pixels[..., kept]
+    images.write(path, picture[1], "float", picture[0], "zip")
+    return picture
+
+
+def sky_light(scene, raw, data):
+    """(h, w, 3), linear. The sky is of one colour: one channel is filtered."""
+    strength = np.array(scene.facts["sky"], np.float32)
+    if strength.max() == 0:
+        return np.zeros((*raw[1].shape[:2], 3), np.float32)
+    seen = images.channels(raw, "DiffDir.G") / strength[1]
+    if scene.facts["shutter_deg"] == 0:
+        normal = images.channels(data, "Normal.X", "Normal.Y", "Normal.Z")
+        seen = smooth_sky(seen, images.channels(data, "Position.X", "Position.Y", "Position.Z"), normal,
+                          images.channels(data, "IndexOB.X"), images.channels(data, "Depth.Z"),
+                          scene.facts["camera"]["focal_px"])
+    return seen[..., None] * strength
+
+
+def gloss(raw):
+    def of(name):
+        return images.channels(raw, name + ".R", name + ".G", name + ".B")
+    return (of("GlossDir") + of("GlossInd")) * of("GlossCol") + of("Env")
+
+
+def write_rgb(scene, frame, folder, picture):
+    images.write(scene.file(frame, folder), picture, "half", "RGB", "zip")
+
+
+def movie(scene):
+    """plate.mp4: H.264 at the quality of a phone's or an editor's intermediate."""
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-framerate", "24", "-i", str(scene.folder / "plate" / "%04d.png"),
+                    "-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart",
+                    str(scene.folder / "plate.mp4")], check=True)
+
+
+def arrange(folder):
+    """Puts Blender's pictures into raw/, from which the others are made."""
+    os.makedirs(folder / "raw", exist_ok=True)
+    for name in ("old", "grey", "tiled", "sky"):
+        os.replace(folder / name, folder / "raw" / name)
+
+
+def facts(folder):
+    with open(folder / "scene.json", encoding="utf-8") as f:
+        return json.load(f)
