@@ -2,7 +2,7 @@
 
 A picture is  Σ sun and lamps by sample  +  albedo · sky light,  both means over the pixel. The sky's light is smooth but
 for its noise, and is the same in the old, the grey and the tiled picture, so that these differ in the material alone."""
-import json
+import multiprocessing
 import os
 import shutil
 import subprocess
@@ -46,21 +46,25 @@ def smooth_sky(light, position, normal, ids, depth, focal_px, levels=4):
 def compose(folder, seed):
     """Makes the files of layout.py from Blender's in `folder`/raw, which is removed."""
     scene = Scene(folder)
-    for frame in scene.frames:
-        compose_frame(scene, frame, np.random.default_rng([seed, frame]))
-    for frame in scene.frames:
-        images.write(scene.file(frame, "visible", ending="png"), seen_again(scene, frame) / 255, "uint8")
+    with multiprocessing.Pool() as pool:
+        pool.starmap(compose_frame, [(scene, frame, [seed, frame]) for frame in scene.frames])
+        pool.starmap(write_visible, [(scene, frame) for frame in scene.frames])
     movie(scene)
     shutil.rmtree(scene.folder / "raw")
 
 
-def compose_frame(scene, frame, rng):
-    raw = {name: images.read(scene.file(frame, "raw", name)) for name in ("old", "grey", "tiled", "sky")}
+def write_visible(scene, frame):
+    images.write(scene.file(frame, "visible", ending="png"), seen_again(scene, frame) / 255, "uint8")
+
+
+def compose_frame(scene, frame, noise_seed):
+    variants = {"old": "clean", **({"grey": "grey", "tiled": "tiled"} if frame in scene.truth_frames else {})}
+    raw = {name: images.read(scene.file(frame, "raw", name)) for name in (*variants, "sky")}
     data = data_alone(scene.file(frame, "data"))
     sky = sky_light(scene, raw["sky"], data)
     light = images.channels(raw["old"], "DiffDir.R", "DiffDir.G", "DiffDir.B") + sky
     albedo = images.channels(raw["old"], "DiffCol.R", "DiffCol.G", "DiffCol.B")
-    for name, folder in (("old", "clean"), ("grey", "grey"), ("tiled", "tiled")):
+    for name, folder in variants.items():
         colour = images.channels(raw[name], "DiffCol.R", "DiffCol.G", "DiffCol.B")
         picture = images.channels(raw[name], "Combined.R", "Combined.G", "Combined.B") + colour * sky
         write_rgb(scene, frame, folder, picture)
@@ -73,7 +77,7 @@ def compose_frame(scene, frame, rng):
         group, place = divmod(part["id"] - 1, 3)
         share = images.channels(raw["old"], "coverage%d.%s" % (group, "RGB"[place]))
         images.write(scene.file(frame, "coverage", part["name"], ending="png"), np.clip(share, 0, 1), "uint16")
-    images.write(scene.file(frame, "plate", ending="png"), camera_picture(clean, rng), "uint8")
+    images.write(scene.file(frame, "plate", ending="png"), camera_picture(clean, np.random.default_rng(noise_seed)), "uint8")
 
 
 def data_alone(path):
@@ -123,8 +127,3 @@ def arrange(folder):
     os.makedirs(folder / "raw", exist_ok=True)
     for name in ("old", "grey", "tiled", "sky"):
         os.replace(folder / name, folder / "raw" / name)
-
-
-def facts(folder):
-    with open(folder / "scene.json", encoding="utf-8") as f:
-        return json.load(f)

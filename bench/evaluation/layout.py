@@ -4,8 +4,8 @@
     clean/####.exr        the picture, linear RGB, half: sun and lamps by sample, sky light by pixel
     plate/####.png        the same as a camera gives it: sRGB, 8 bit, with grain; what is rendered and measured
     plate.mp4             the plate as H.264, 4:2:0
-    grey/####.exr         clean, with the surfaces in question in plain grey (scene.json: grey)
-    tiled/####.exr        clean, with them in tile.png, repeated every tile_m metres of the surface
+    grey/####.exr         clean, with the surfaces in question in plain grey (scene.json: grey); on frames 1, 2, 5, 6, 9, …
+    tiled/####.exr        clean, with them in tile.png, repeated every tile_m metres of the surface; on the same frames
     light/####.exr        diffuse light: albedo × light + gloss is the picture of a diffuse surface
     albedo/####.exr       diffuse colour, the pixel's mean
     gloss/####.exr        what a glossy surface reflects, and the background
@@ -41,6 +41,11 @@ class Scene:
     @property
     def frames(self):
         return range(1, self.facts["frames"] + 1)
+
+    @property
+    def truth_frames(self):
+        """The frames of grey and tiled: pairs, so that change over time shows."""
+        return self.facts.get("truth_frames", list(self.frames))
 
     @property
     def drawn(self):

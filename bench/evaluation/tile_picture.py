@@ -5,7 +5,7 @@ import numpy as np
 import images
 
 SIDE = 512
-TILES = 4
+TILES = 2
 
 
 def tile_picture(path):

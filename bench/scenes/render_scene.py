@@ -33,7 +33,8 @@ def main(family, seed, folder, frames, size, samples, tile_picture):
         passes.render_pictures(stage, variant, os.path.join(folder, variant), int(samples))
     probed = sorted({1, (stage.frames + 1) // 2, stage.frames})
     passes.write_json(os.path.join(folder, "scene.json"), {
-        "family": family, "seed": int(seed), "frames": stage.frames, "camera": camera, "shutter_deg": stage.shutter_deg,
+        "family": family, "seed": int(seed), "frames": stage.frames,
+        "truth_frames": passes.truth_frames(stage.frames), "camera": camera, "shutter_deg": stage.shutter_deg,
         "samples": int(samples), "bounces": stage.bounces, "grey": GREY, "tile_m": TILE_M, "sky": stage.sky_light,
         "parts": [{"name": p.name, "id": p.id, "surface": p.surface, "hidden": p.hidden, "still": p.still} for p in stage.parts],
         "probes": rays.probe(stage, camera, probed, 300, np.random.default_rng(1)),
