@@ -17,10 +17,10 @@ def outdoors(stage, rng, kind=None):
         stage.sun(towards, rng.uniform(2.6, 3.4))
         stage.sky((0.55, 0.7, 1.0), rng.uniform(0.35, 0.6))
     elif kind == "evening":
-        stage.sun(towards, rng.uniform(1.8, 2.6), colour=(1, 0.55, 0.25))
-        stage.sky((0.5, 0.55, 0.9), rng.uniform(0.25, 0.4))
+        stage.sun(towards, rng.uniform(3.0, 4.2), colour=(1, 0.6, 0.32))
+        stage.sky((0.5, 0.55, 0.9), rng.uniform(0.35, 0.5))
     else:
-        stage.sky((0.85, 0.93, 1.0), rng.uniform(0.8, 1.1))
+        stage.sky((0.85, 0.93, 1.0), rng.uniform(1.0, 1.4))
     return kind
 
 
