@@ -22,6 +22,7 @@ def waves(rng, lengths, heights, speed, along):
 
 
 def build(stage, rng):
+    far, side = rng.uniform(2.7, 3.2), rng.uniform(-1.2, 1.2)
     kind = KINDS[rng.integers(3)]
     faint = rng.integers(3) == 0
     paint = paints.faint_cloth(rng) if faint else paints.patterned(rng, 0.2, paints.FABRICS)
@@ -62,6 +63,5 @@ def build(stage, rng):
         lighting.indoors(stage, rng, [((-2.6, -2.4, 2.6), (0, 0, 1.0)), ((2.6, -1.8, 2.2), (0, 0, 0.9))])
     else:
         lighting.outdoors(stage, rng)
-    far, side = rng.uniform(2.7, 3.2), rng.uniform(-1.2, 1.2)
     drift = rng.uniform(0.3, 0.9) * rng.choice([-1, 1])
     stage.look(lambda f: ((side + drift * f / 24, -far, 1.2), (0.25 * drift * (f / 24 - 0.5), 0, 1.05)), 35)

@@ -31,6 +31,7 @@ def shape(kind, rng):
 
 
 def build(stage, rng):
+    start, rise = rng.uniform(-0.3, 0.3), rng.uniform(-0.25, 0.25)
     kind = KINDS[rng.integers(4)]
     mesh, height, radius = shape(kind, rng)
     paint = paints.patterned(rng, 0.22)
@@ -48,8 +49,7 @@ def build(stage, rng):
         lighting.outdoors(stage, rng)
     middle = min(height, 2.0) / 2
     far = radius * rng.uniform(4.6, 5.6) if kind != "column" else rng.uniform(2.6, 3.2)
-    start, orbit = rng.uniform(-0.3, 0.3), np.radians(rng.uniform(10, 22)) * rng.choice([-1, 1])
-    rise = rng.uniform(-0.25, 0.25)
+    orbit = np.radians(rng.uniform(10, 22)) * rng.choice([-1, 1])
 
     def view(f):
         a = start + orbit * (f / 24 - 0.5)
