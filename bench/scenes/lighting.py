@@ -24,9 +24,9 @@ def outdoors(stage, rng, kind=None):
     return kind
 
 
-def indoors(stage, rng, lamps):
-    """`lamps`: (place, aim)…; a faint even light besides, so that no shadow is black."""
+def indoors(stage, rng, lamps, power=1.0):
+    """`lamps`: (place, aim)…; a faint even light besides, so that no shadow is black. `power`: less where they are near."""
     for k, (place, aim) in enumerate(lamps):
         colour = ((1, 0.8, 0.55), (0.7, 0.82, 1.0))[k % 2]
-        stage.lamp(place, aim, rng.uniform(130, 240), rng.uniform(0.06, 0.3), colour)
+        stage.lamp(place, aim, power * rng.uniform(130, 240), rng.uniform(0.06, 0.3), colour)
     stage.sky((1, 0.9, 0.8), rng.uniform(0.06, 0.14))
