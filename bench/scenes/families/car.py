@@ -27,7 +27,8 @@ def lower_body(rows=40, stations=140):
     top = np.interp(x, [-2.1, -1.9, -1.0, -.7, 1.3, 1.9, 2.1], [.62, .72, .86, .92, .96, .92, .78]) - 0.12 * (1 - end)
     low = np.full_like(x, 0.2)
     for axle in AXLES:
-        low = np.maximum(low, WHEEL + np.sqrt(np.maximum((WHEEL + 0.06) ** 2 - (x - axle) ** 2, 0)) - 0.02 * (np.abs(x - axle) > .37))
+        arch = WHEEL + np.sqrt(np.maximum((WHEEL + 0.06) ** 2 - (x - axle) ** 2, 0))
+        low = np.where(np.abs(x - axle) < WHEEL + 0.06, arch, low)
     lines, across = [], []
     phi = np.linspace(0, np.pi / 2, 400)
     for w, t, b in zip(wide, top, low):
@@ -69,7 +70,8 @@ def cabin():
     level, turn = np.meshgrid(np.arange(len(rings) - 1), (np.degrees(a) + 1.1) % 360, indexing="ij")
     off = np.abs((turn + 90) % 180 - 90)  # 0 at the front and back, 90 at the sides
     glass = (level >= 2) & (level < 12) & ((off < 22) | (off > 32)) & (off < 86)
-    return meshes.part_of(meshes.sheet(out, True, uv), ~glass), meshes.part_of(meshes.sheet(points(0.012), True, uv), level < 13)
+    windows = meshes.part_of(meshes.sheet(points(0.012), True, uv), level < 13)
+    return meshes.part_of(meshes.sheet(out, True, uv), ~glass), windows
 
 
 def wheel():
@@ -106,8 +108,8 @@ def build(stage, rng):
     body = meshes.joined([lower_body(), painted])
     stage.add("body", body, lacquer, surface=True, pose=drive)
     stage.add("windows", windows, paints.plain((0.02, 0.024, 0.026), (0.05, 0.5, 0.0)), pose=drive)
-    stage.add("inside", meshes.joined([meshes.box(3.3, 1.4, 0.3).moved((0, 0, 0.3)), meshes.box(1.7, 1.5, 0.36).moved((0, 0, 0.25))]),
-              paints.plain((0.008, 0.008, 0.008)), pose=drive)
+    inside = meshes.joined([meshes.box(3.3, 1.4, 0.3).moved((0, 0, 0.3)), meshes.box(1.7, 1.5, 0.36).moved((0, 0, 0.25))])
+    stage.add("inside", inside, paints.plain((0.008, 0.008, 0.008)), pose=drive)
     rim = spokes(rng)
     for k, (x, y) in enumerate((x, y) for x in AXLES for y in (-0.74, 0.74)):
         def roll(f, x=x, y=y):
@@ -117,9 +119,11 @@ def build(stage, rng):
     stage.add("floor", meshes.grid(40, 40), (paints.ground, paints.tiles)[rng.integers(2)](rng))
     simple, wheels = meshes.joined([lower_body(12, 50), painted, windows]), meshes.joined(
         [wheel().moved((x, y, WHEEL)) for x in AXLES for y in (-0.74, 0.74)])
-    places = [(np.array(Matrix.Rotation(rng.uniform(1.2, 1.9), 3, "Z")), (x + rng.uniform(-0.5, 0.5), 7, 0)) for x in (-4.5, -1, 4)]
+    places = [(np.array(Matrix.Rotation(rng.uniform(1.2, 1.9), 3, "Z")), (x + rng.uniform(-0.5, 0.5), 7, 0))
+              for x in (-4.5, -1, 4)]
     stage.add("parked cars", meshes.joined([simple.turned(r).moved(at) for r, at in places]), paints.lacquer(rng))
-    stage.add("their wheels", meshes.joined([wheels.turned(r).moved(at) for r, at in places]), paints.plain((0.02, 0.02, 0.02)))
+    stage.add("their wheels", meshes.joined([wheels.turned(r).moved(at) for r, at in places]),
+              paints.plain((0.02, 0.02, 0.02)))
     posts = [meshes.box(0.12, 0.12, 1.0).moved((x + rng.uniform(-.3, .3), 4.2, 0)) for x in (-5, -3, -1, 1, 3, 5)]
     poles = [meshes.box(0.25, 0.25, 4.5).moved((x, -7, 0)) for x in (-6, -2.5, 3, 7)]  # seen only as reflections
     stage.add("posts", meshes.joined(posts + poles), paints.plain(paints.tone(rng, (0.4, 0.7))))

@@ -31,7 +31,8 @@ def build(stage, rng):
     elif kind == "ball":  # it bounces and rolls
         radius = rng.uniform(0.36, 0.44)
         stage.add("ball", meshes.ball(radius), paint, surface=True,
-                  pose=lambda f: Matrix.Translation((reach * np.sin(beat * f + phase), 0, radius + 0.7 * abs(np.sin(0.5 * beat * f))))
+                  pose=lambda f: Matrix.Translation((reach * np.sin(beat * f + phase), 0,
+                                                     radius + 0.7 * abs(np.sin(0.5 * beat * f))))
                   @ Matrix.Rotation(0.35 * np.sin(beat * f + phase) * reach / radius, 4, "Y"))
     else:
         stage.add("poster", meshes.upright(1.9, 1.3), paint, surface=True,

@@ -31,7 +31,8 @@ def build(stage, rng):
     cloth = paints.faint_cloth(rng) if rng.integers(3) == 0 else paints.patterned(rng, 0.1, paints.FABRICS)
     stage.add("cloth", meshes.sheet(points, uv=meshes.flat(0.85, 0.6)), cloth, surface=True,
               pose=Matrix.Translation((0.5 + x, 0.3, 0.62)) @ Matrix.Rotation(rng.uniform(-0.5, 0.1), 4, "Z"))
-    rail = meshes.joined([meshes.box(0.86, 0.02, 0.02)] + [meshes.box(0.03, 0.03, 0.64).moved((s, 0, -0.62)) for s in (-0.42, 0.42)])
+    rail = meshes.joined([meshes.box(0.86, 0.02, 0.02)] +
+                         [meshes.box(0.03, 0.03, 0.64).moved((s, 0, -0.62)) for s in (-0.42, 0.42)])
     stage.add("rail", rail, paints.plain(paints.tone(rng, (0.1, 0.3))), pose=Matrix.Translation((0.5 + x, 0.32, 0.62)))
     if mover == "ring":  # a ring on a string, whose shadows swing
         a = np.linspace(0, 2 * np.pi, 48)

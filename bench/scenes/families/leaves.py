@@ -38,7 +38,8 @@ def build(stage, rng):
 
         def sway(f):
             s = pace * f / 24
-            branch = np.stack([np.sin(s + 0.9 * place[:, 0]), np.sin(0.7 * s + place[:, 1]), 0.3 * np.sin(s + place[:, 1])], -1)
+            branch = np.stack([np.sin(s + 0.9 * place[:, 0]), np.sin(0.7 * s + place[:, 1]),
+                               0.3 * np.sin(s + place[:, 1])], -1)
             return mesh.vertices + wind * branch + 0.5 * wind * flutter * np.sin(3 * s + 9 * place[:, :1])
         stage.add("leaves", mesh, paints.plain((0.1, 0.2, 0.05)), hidden=True, shape=sway)
     else:
@@ -56,7 +57,8 @@ def build(stage, rng):
                   @ Matrix.Rotation(roll * f / 24 / radius, 4, "Y"))
     else:
         folds, phase, deep = 2 * np.pi / rng.uniform(0.35, 0.55), rng.uniform(0, 6), rng.uniform(0.04, 0.06)
-        points = meshes.draped(1.5, 1.1, lambda u, v: deep * np.sin(folds * u + phase + 0.7 * np.sin(3 * u)) * (0.4 + v / 1.1))
+        points = meshes.draped(1.5, 1.1, lambda u, v: deep * (0.4 + v / 1.1) * np.sin(
+            folds * u + phase + 0.7 * np.sin(3 * u)))
         cloth = paints.faint_cloth(rng) if rng.integers(2) else paints.patterned(rng, 0.16, paints.FABRICS)
         stage.add("cloth", meshes.sheet(points, uv=meshes.flat(1.5, 1.1)), cloth, surface=True,
                   pose=Matrix.Translation((x, 0.5, 1.3)) @ Matrix.Rotation(rng.uniform(-0.3, 0.3), 4, "Z"))

@@ -57,7 +57,8 @@ def build(stage, rng):
     for side, name in ((near, "near sleeve"), (-near, "far sleeve")):
         def sleeve(f, side=side):
             return meshes.tube(arm(f, side), (0, 1, 0), radii).reshape(-1, 3)
-        stage.add(name, meshes.sheet(sleeve(0).reshape(44, 28, 3), True, uv), cloth, surface=side == near, pose=walk, shape=sleeve)
+        stage.add(name, meshes.sheet(sleeve(0).reshape(44, 28, 3), True, uv), cloth,
+                  surface=side == near, pose=walk, shape=sleeve)
     skin = paints.plain(((0.5, 0.33, 0.24), (0.25, 0.14, 0.08), (0.58, 0.42, 0.34))[rng.integers(3)])
     for side, name in ((near, "near hand"), (-near, "far hand")):
         stage.add(name, meshes.ball(0.06, 8), skin, pose=lambda f, side=side: walk(f) @ Matrix.Translation(arm(f, side)[-1]))
@@ -70,7 +71,8 @@ def build(stage, rng):
             line = meshes.bent((0, 0.1 * side, HIP), 0.84, 0.45 * swing(f, lag), knee, 40)
             return meshes.tube(line, (0, 1, 0), thick, 20).reshape(-1, 3)
         stage.add(name, meshes.sheet(leg(0).reshape(40, 20, 3), True), trousers, pose=walk, shape=leg)
-    head = meshes.joined([meshes.ball(0.12, 10).moved((0.03, 0, 1.68)), meshes.capsule(0.1, 0.055, 0.06).moved((0, 0, 1.58))])
+    head = meshes.joined([meshes.ball(0.12, 10).moved((0.03, 0, 1.68)),
+                          meshes.capsule(0.1, 0.055, 0.06).moved((0, 0, 1.58))])
     stage.add("head", head, skin, pose=walk)
     away = rng.uniform(0.8, 1.8)
     stage.add("wall", meshes.upright(12, 4), (paints.plaster, paints.bricks, paints.planks)[rng.integers(3)](rng),
