@@ -165,3 +165,8 @@ def lacquer(rng, roughness=0.25, coat=1.0):
 
 PATTERNED = (bricks, tiles, planks, stripes, tartan, print_)
 FABRICS = (stripes, tartan, print_)
+
+
+def patterned(rng, size, kinds=PATTERNED):
+    """One of `kinds`, whose pattern repeats every `size` metres or so."""
+    return kinds[rng.integers(len(kinds))](rng, size * rng.uniform(0.75, 1.25))
