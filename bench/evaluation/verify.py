@@ -213,9 +213,10 @@ def variants_agree(scene, frames, checks):
             outside.append(np.abs(grey - clean)[away].max())
         inside.append((np.abs(grey - scene.facts["grey"] * light).max(axis=-1) / np.maximum(grey.max(axis=-1), 0.02))[on])
     inside = np.concatenate(inside)
-    # light is the mean weighted by the old albedo: penumbras sampled 16 times differ by what varies within the pixel.
+    # light is a mean weighted by the old albedo. With 16 samples in a penumbra (deviation of the light 0.5) on a pattern
+    # (deviation of the albedo 0.3) it is 0.5 · 0.3 / √16 = 0.04 off; elsewhere it is exact.
     checks.at_most("grey rendering against grey · light on its surfaces, median", np.median(inside), 2e-3, "")
-    checks.at_most("grey rendering against grey · light on its surfaces, 95 %", np.percentile(inside, 95), 0.03, "")
+    checks.at_most("grey rendering against grey · light on its surfaces, 95 %", np.percentile(inside, 95), 0.05, "")
     if outside:
         checks.at_most("grey rendering against the old one elsewhere, largest", max(outside), 0.0, "")
 
