@@ -66,7 +66,7 @@ def cabin():
     below = np.linalg.norm(np.diff(out, axis=0), axis=2).mean(axis=1)[::-1].cumsum()[::-1]
     below = np.maximum(np.append(below, 0) - below[14], 0)[:, None, None]
     uv = np.where(np.arange(len(rings))[:, None, None] < 14, out[14, :, :2] + outward * below, out[..., :2])
-    uv = np.concatenate([uv, uv[:, :1]], 1)
+    uv = np.concatenate([uv, uv[:, :1]], 1) * [1, -1]
     level, turn = np.meshgrid(np.arange(len(rings) - 1), (np.degrees(a) + 1.1) % 360, indexing="ij")
     off = np.abs((turn + 90) % 180 - 90)  # 0 at the front and back, 90 at the sides
     glass = (level >= 2) & (level < 12) & ((off < 22) | (off > 32)) & (off < 86)
