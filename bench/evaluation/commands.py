@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import mini
 import rendering
 import seeds
 import verify
@@ -30,6 +31,9 @@ def parser():
         one = commands.add_parser(name, help=what, description=what)
         one.set_defaults(run=run)
         choose(one)
+    small = commands.add_parser("mini", help="render the mini corpus and put it into tests/data/corpus")
+    small.set_defaults(run=write_mini, half="mini", only="", each=3)
+    small.add_argument("--corpus", type=Path, default=corpus_folder(), help="folder of the scenes [%(default)s]")
     return top
 
 
@@ -93,6 +97,19 @@ def render_scenes(options):
         print("%-16s %6.1f s  %s" % (scene.name, seconds, "verified" if not checks else "FAILS " + "; ".join(checks)),
               flush=True)
     return 1 if bad else 0
+
+
+def write_mini(options):
+    for family, seed in chosen(options):
+        scene, _ = rendering.render(options.corpus / "mini", family, seed, look(options))
+        if failed(scene.folder):
+            raise rendering.RenderError("%s is not verified: %s" % (scene.name, "; ".join(failed(scene.folder))))
+        mini.reduce(scene, mini.FOLDER)
+    size = mini.size_of(mini.FOLDER)
+    print("%s: %.1f MB" % (mini.FOLDER, size / 1e6))
+    if size > mini.MOST_BYTES:
+        raise rendering.RenderError("the mini corpus may have %.0f MB" % (mini.MOST_BYTES / 1e6))
+    return 0
 
 
 def verify_scenes(options):
