@@ -2,10 +2,10 @@
 
 A picture is  Σ sun and lamps by sample  +  albedo · sky light,  both means over the pixel. The sky's light is smooth but
 for its noise, and is the same in the old, the grey and the tiled picture, so that these differ in the material alone."""
-import multiprocessing
 import os
 import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -46,9 +46,11 @@ def smooth_sky(light, position, normal, ids, depth, focal_px, levels=4):
 def compose(folder, seed):
     """Makes the files of layout.py from Blender's in `folder`/raw, which is removed."""
     scene = Scene(folder)
-    with multiprocessing.Pool() as pool:
-        pool.starmap(compose_frame, [(scene, frame, [seed, frame]) for frame in scene.frames])
-        pool.starmap(write_visible, [(scene, frame) for frame in scene.frames])
+    # Threads, since OpenImageIO has some of its own, which a forked process would wait for in vain; numpy and
+    # OpenImageIO let others run while they work.
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(lambda frame: compose_frame(scene, frame, [seed, frame]), scene.frames))
+        list(pool.map(lambda frame: write_visible(scene, frame), scene.frames))
     movie(scene)
     shutil.rmtree(scene.folder / "raw")
 
