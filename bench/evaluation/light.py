@@ -18,7 +18,7 @@ LEAST_PIXELS = 200
 PLAIN_LEVELS = 1.0     # a light that deviates by less is too even for a correlation
 GAIN_SAMPLES = 20000
 NAMES = ("correlation", "correlation_worst", "levels", "levels_worst", "levels_rgb", "levels_p95", "edge_levels",
-         "true_deviation_levels")
+         "true_deviation_levels", "gain")
 
 
 def levels(linear):
@@ -55,7 +55,7 @@ def measure(truth, true_pictures, candidate):
     if not inside:
         return dict.fromkeys(NAMES)
     gain, gains = fitted_gains(inside)
-    found = {**interior(inside, gain, gains), "edge_levels": edge_error(edges, gains)}
+    found = {**interior(inside, gain, gains), "edge_levels": edge_error(edges, gains), "gain": gain}
     return {k: None if found[k] is None else round(float(found[k]), 4) for k in NAMES}
 
 

@@ -5,6 +5,7 @@ import traceback
 from pathlib import Path
 
 from drawn import DrawnSurface
+from film import FilmSurface
 from rendered import RenderedSurface
 from runs import RunFailed, Runs
 
@@ -24,14 +25,19 @@ def measure_scene(scene, weft, work, only=None):
     for part in surfaces:
         folder = surface_folder(work, scene, part["name"])
         shutil.rmtree(folder, ignore_errors=True)
-        kind = DrawnSurface if scene.drawn else RenderedSurface
         try:
-            record, failures = measure_surface(kind(scene, part, Runs(weft, folder)))
+            record, failures = measure_surface(kind_of(scene)(scene, part, Runs(weft, folder)))
         except Exception:
             record, failures = {"name": part["name"]}, [failure("truth", traceback.format_exc())]
         found["surfaces"].append(record)
         found["failures"] += [{"surface": part["name"], **f} for f in failures]
     return found
+
+
+def kind_of(scene):
+    if scene.facts.get("film"):
+        return FilmSurface
+    return DrawnSurface if scene.drawn else RenderedSurface
 
 
 def verified(scene):

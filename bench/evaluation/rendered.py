@@ -34,6 +34,7 @@ class RenderedSurface:
         self.true_motion = ("--motion", scene.pattern("data"), "--motion-convention", "blender")
         self.texture = textures.followed(runs.work.parent.parent / "followed.png")
         self.tile = textures.tile_of(scene) or self.texture
+        self.moving = True  # its true motion is known
         self.followed = {}
 
     def render(self, name, *options, **how):
@@ -92,8 +93,9 @@ class RenderedSurface:
         self.runs("matte", "matte", "--plate", self.plate, "--matte", "%d=%s" % (painted, paint), "-o", pattern,
                   "--overwrite", "--progress", "none")
         figures = mattes.measure(list(self.scene.frames), painted, self.truth.coverage,
-                                 lambda f: images.grey(frame_file(str(pattern), f)), self.motion_to_previous)
-        return {**figures, "chatter_px": self.chatter(pattern), "painted": painted}
+                                 lambda f: images.grey(frame_file(str(pattern), f)),
+                                 self.motion_to_previous if self.moving else None)
+        return {**figures, "chatter_px": self.chatter(pattern) if self.moving else None, "painted": painted}
 
     def motion_to_previous(self, frame):
         data = self.truth.data(frame)
