@@ -1,7 +1,7 @@
 """Film clips (bench/clips.json) as scenes: what has a truth is laid out as layout.py says, and measured like a scene.
 
-A clip becomes a folder with plate, and for each of its surfaces coverage, and motion where it is known. Frames are numbered
-from 1 there."""
+A clip becomes a folder with plate, and for each of its surfaces coverage, and motion where it is known. Frames are
+numbered from 1 there."""
 import json
 import re
 from pathlib import Path

@@ -2,8 +2,8 @@
 
 For a point of the surface that is seen on the base frame and on another, the coordinates should be the same. The
 difference, by the base frame's own coordinates carried along by the true motion, is a distance on the other frame in
-pixels: what the texture would have to be moved by. The measured frame's own gradient is not used, so that coordinates that
-smear or stand still are errors and not small."""
+pixels: what the texture would have to be moved by. The measured frame's own gradient is not used, so that coordinates
+that smear or stand still are errors and not small."""
 import numpy as np
 
 import fields
@@ -13,6 +13,8 @@ import matching
 POINTS = 2000
 LEAST_POINTS = 50
 LOST_PX = 1000.0       # stands for a texture that cannot be followed at all
+NAMES = ("drift_median_px", "drift_last_median_px", "drift_last_p90_px", "drift_worst_median_px", "drift_worst_p90_px",
+         "drift_worst_frame", "drift_fresh_median_px", "drift_fresh_p90_px")
 DEGENERATE = 0.02      # texels per px of the base frame: a texture that is so smeared there cannot be followed
 
 
@@ -60,8 +62,7 @@ class Tally:
 
     def figures(self):
         if not self.frames:
-            return dict.fromkeys(("drift_median_px", "drift_last_median_px", "drift_last_p90_px", "drift_worst_median_px",
-                                  "drift_worst_p90_px", "drift_worst_frame", "drift_fresh_median_px", "drift_fresh_p90_px"))
+            return dict.fromkeys(NAMES)
         last, worst = max(self.frames), max(self.frames, key=lambda f: self.frames[f][0])
         fresh = np.concatenate(self.fresh) if self.fresh else np.zeros(0)
         new = np.percentile(fresh, (50, 90), method="lower") if len(fresh) >= LEAST_POINTS else (None, None)
@@ -80,8 +81,8 @@ def finite(value):
 def of_surface(truth, st_of_frame):
     """Figures for a rendered scene. `st_of_frame`: frame → Coordinates.
 
-    The base is the painted frame. Points that it does not show are compared with the middle, the last or the first frame,
-    the first of these that shows them (drift_fresh)."""
+    The base is the painted frame. Points that it does not show are compared with the middle, the last or the first
+    frame, the first of these that shows them (drift_fresh)."""
     frames = list(truth.scene.frames)
     bases = list(dict.fromkeys([truth.painted_frame, frames[len(frames) // 2], frames[-1], frames[0]]))
     known = {b: (truth.data(b).rest, truth.smooth(b), st_of_frame(b)) for b in bases}

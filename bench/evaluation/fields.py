@@ -1,4 +1,4 @@
-"""Operations on pictures and masks of one frame, in numpy. Places are (x, y) in pixels; a pixel's centre is at its index."""
+"""Operations on pictures and masks of one frame. Places are (x, y) in pixels; a pixel's centre is at its index."""
 import numpy as np
 
 

@@ -17,8 +17,8 @@ LEAST_PIXELS = 200
 TEAR_TEXELS = 1.0
 GROWN_POINTS = 1000
 NAMES = ("stretch_median", "stretch_p90", "area_median", "area_p90", "rim_stretch_median", "rim_stretch_p90",
-         "rim_area_median", "rim_area_p90", "grown_stretch_median", "grown_stretch_p90", "grown_area_p90", "flipped_share",
-         "torn_share")
+         "rim_area_median", "rim_area_p90", "grown_stretch_median", "grown_stretch_p90", "grown_area_p90",
+         "flipped_share", "torn_share")
 
 
 def place_slopes(truth, frame):
@@ -79,7 +79,7 @@ class Form:
 
 
 def torn(position, st):
-    """Pixels at which one step of the coordinates is not, to a texel, what the step before it and the surface foretell."""
+    """Pixels at which a step of the coordinates is not, to a texel, what the step before and the surface foretell."""
     found = np.zeros(position.shape[:2], bool)
     for axis in (0, 1):
         middle, _, _ = slices(axis)

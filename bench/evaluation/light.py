@@ -1,11 +1,11 @@
 """A picture with a new material laid on a surface, against a rendering of the scene with that material.
 
-Of a plain grey this is the light that Weft puts on it; of a tile laid by exact coordinates it is light, edges and filter.
-Everything is linear RGB until it is told in levels: sRGB codes of 0 to 255 after one gain for the whole clip, the one that
-makes the mean error least, for Weft and for what it is compared with alike.
+Of a plain grey this is the light that Weft puts on it; of a tile laid by exact coordinates, light, edges and filter.
+Everything is linear RGB until it is told in levels: sRGB codes of 0 to 255 after one gain for the whole clip, the one
+that makes the mean error least, for Weft and for what it is compared with alike.
 
-A candidate is a function of the frame that returns two pictures (height × width × 3, linear, without grain): the result,
-and what was laid on, times its coverage. A gain acts on the latter alone."""
+A candidate is a function of the frame that returns two pictures (height × width × 3, linear, without grain): the
+result, and what was laid on, times its coverage. A gain acts on the latter alone."""
 import numpy as np
 
 import fields
@@ -46,7 +46,7 @@ def plate_of(truth, frame):
 def measure(truth, true_pictures, candidate):
     """`true_pictures`: "grey" or "tiled". None of the figures where the surface is too small."""
     inside, edges = [], []
-    for frame in truth.scene.frames:
+    for frame in truth.frames_of(true_pictures):
         true, (result, laid) = images.rgb(truth.scene.file(frame, true_pictures)), candidate(frame)
         core = truth.core(frame, MARGIN_PX)
         if core.sum() >= LEAST_PIXELS:

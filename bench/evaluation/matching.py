@@ -1,7 +1,7 @@
 """Where a surface's points of one frame are on another, from the truth alone.
 
-A Match holds, for points seen on both frames: `here` (n, 2), pixels of the later frame; `there` (n, 2), sub-pixel places on
-the base frame; `here_from_there` (n, 2, 2), the derivative of the true motion, px of here per px of there."""
+A Match holds for points seen on both frames: `here` (n, 2), pixels of the later frame; `there` (n, 2), sub-pixel places
+on the base frame; `here_from_there` (n, 2, 2), the derivative of the true motion, px of here per px of there."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,7 +88,7 @@ def derivative(metres_from, metres_to):
 
 
 class Follower:
-    """The points of `mask` on a base frame, followed by true motion from frame to frame; where it is unknown they are lost."""
+    """The points of `mask` on a base frame, followed by true motion; where that is unknown they are lost."""
 
     def __init__(self, mask):
         y, x = np.nonzero(mask)

@@ -1,8 +1,8 @@
 """Propagated mattes against the true coverage.
 
 Regions are compared at one half: J, their intersection over union, and F, the harmonic mean of precision and recall of
-their boundaries within 0.8 % of the picture's diagonal (Perazzi et al. 2016), as DAVIS evaluates. The painted frame itself
-is left out everywhere."""
+their boundaries within 0.8 % of the picture's diagonal (Perazzi et al. 2016), as DAVIS evaluates. The painted frame
+itself is left out everywhere."""
 import numpy as np
 
 import fields
@@ -12,8 +12,8 @@ FAR_PX = 4             # further outside than this is a leak, further inside a h
 LEAST_AREA_PX = 50
 SOFT = (0.02, 0.98)
 FOLLOWED_PX = 6        # how far the surface's motion is continued beyond its edge
-NAMES = ("iou", "iou_worst", "boundary_f", "boundary_f_worst", "leak", "leak_worst", "hole", "hole_worst", "edge_levels",
-         "hard_edge_levels", "edge_change_levels", "worst_frame")
+NAMES = ("iou", "iou_worst", "boundary_f", "boundary_f_worst", "leak", "leak_worst", "hole", "hole_worst",
+         "edge_levels", "hard_edge_levels", "edge_change_levels", "worst_frame")
 
 
 def intersection_over_union(ours, true):
@@ -52,7 +52,7 @@ class Comparison:
         self.hard.append(255 * np.abs(true - coverage)[soft])
 
     def add_change(self, errors, coverage, previous_errors, to_previous, known):
-        """How the soft edge's error, matte − coverage, changes along the surface's motion `to_previous` (px, known or not)."""
+        """How the soft edge's error changes along the motion `to_previous`, px, where it is `known`."""
         motion, reached = fields.extended(to_previous, known, FOLLOWED_PX)
         y, x = np.nonzero(soft_pixels(coverage) & reached)
         if len(x):

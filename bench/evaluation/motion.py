@@ -2,12 +2,12 @@
 NAMES = ("tde", "tde_floor", "tde_over_floor", "end_drift_px", "sharpness", "sharpness_least", "true_chatter_px")
 
 
-def measure(runs, name, plate, options, result, reference, last):
+def measure(runs, plate, options, result, reference, last):
     """`options`: matte, texture and true motion; `result`: pattern of the frames, without light and grain.
 
-    From the reference frame on, since the ideal that the floor comes from is placed there. true_chatter_px is the floor of
-    mattes' chatter: that of the true ones."""
-    said = runs(name, "measure", "--result", result, "--plate", plate, *options, "--reference-frame", reference,
+    From the reference frame on, since the ideal that the floor comes from is placed there. true_chatter_px is the floor
+    of mattes' chatter: that of the true ones."""
+    said = runs("flicker", "measure", "--result", result, "--plate", plate, *options, "--reference-frame", reference,
                 "--frames", "%d-%d" % (reference, last))
     sharpness, chatter = said["sharpness_kept"] or {}, said["matte_chatter_px"] or {}
     found = {"tde": (said["tde"] or {}).get("mean"), "tde_floor": (said["tde_floor"] or {}).get("mean"),

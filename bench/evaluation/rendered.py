@@ -23,8 +23,8 @@ class RenderedSurface:
 
     `delivered` comes first, so that its seconds are those of a whole run without a cache."""
 
-    measures = {"deliver": (None,), "light": ("draft", "final", "multiply", "constant"), "motion": ("draft", "final"), "form": (None,),
-                "tiled": (None,), "matte": (None,)}
+    measures = {"deliver": (None,), "light": ("draft", "final", "multiply", "constant"), "motion": ("draft", "final"),
+                "form": (None,), "tiled": (None,), "matte": (None,)}
 
     def __init__(self, scene, part, runs):
         self.scene, self.runs, self.truth = scene, runs, SurfaceTruth(scene, part)
@@ -51,23 +51,27 @@ class RenderedSurface:
         if candidate in BASELINES:
             return light.measure(self.truth, "grey", partial(BASELINES[candidate], self.truth))
         grey = textures.grey(self.runs.work / "grey.png", self.scene.facts["grey"])
-        laid = self.lay("light-" + candidate, "--plane", grey, "--quality", candidate)
+        laid = self.lay("light-" + candidate, "grey", "--plane", grey, "--quality", candidate)
         return light.measure(self.truth, "grey", laid)
 
-    def lay(self, name, *options):
-        """A candidate of light.py: weft's result and its layer patch."""
-        _, frames, layers = self.render(name, *options, "--grain", "0", ending="exr", layers="patch")
+    def lay(self, name, true_pictures, *options):
+        """A candidate of light.py: weft's result and its layer patch, on the frames of the true pictures."""
+        wanted = ",".join(map(str, self.truth.frames_of(true_pictures)))
+        _, frames, layers = self.render(name, *options, "--grain", "0", "--frames", wanted, ending="exr", layers="patch")
         return lambda frame: (images.rgb(frame_file(frames, frame)), patch(frame_file(layers, frame)))
 
     def motion(self, quality):
         name = "followed-" + quality
-        report, frames, layers = self.render(name, "--plane", self.texture, *UNTOUCHED, "--quality", quality, layers="st")
+        report, frames, layers = self.render(name, "--plane", self.texture, *UNTOUCHED, "--quality", quality,
+                                             layers="st")
         reference = report["references"][0]["frame"]
         self.followed[quality] = reference, lru_cache(8)(partial(coordinates, layers))
-        flicker = motion.measure(self.runs, name + "-measured", self.plate,
-                                 (*self.matte_options, "--plane", self.texture, *self.true_motion), frames, reference,
-                                 self.last)
-        return {**flicker, **self.drift(self.followed[quality][1]), "reference": reference}
+        figures = {**self.drift(self.followed[quality][1]), "reference": reference}
+        return figures if quality == "draft" else {**figures, **self.flicker(frames, reference)}
+
+    def flicker(self, frames, reference):
+        options = (*self.matte_options, "--plane", self.texture, *self.true_motion)
+        return motion.measure(self.runs, self.plate, options, frames, reference, self.last)
 
     def drift(self, st_of_frame):
         return drift.of_surface(self.truth, st_of_frame)
@@ -82,7 +86,7 @@ class RenderedSurface:
         coordinates_pattern = tiled.write_coordinates(self.truth, self.runs.work / "uv")
         if coordinates_pattern is None or self.tile == self.texture:
             return None
-        laid = self.lay("tiled", "--plane", self.tile, "--uv", coordinates_pattern)
+        laid = self.lay("tiled", "tiled", "--plane", self.tile, "--uv", coordinates_pattern)
         return light.measure(self.truth, "tiled", laid)
 
     def matte(self):

@@ -1,4 +1,4 @@
-"""The file of results: docs/schemas/corpus-results.schema.json. Kept between runs, so that what is measured stays measured."""
+"""The file of results (docs/schemas/corpus-results.schema.json), to which every run adds what is not measured yet."""
 import datetime
 import hashlib
 import json
@@ -45,7 +45,8 @@ def machine():
     memory = next((int(line.split()[1]) for line in lines("/proc/meminfo") if line.startswith("MemTotal")), 0)
     system = next((line.split("=", 1)[1].strip().strip('"') for line in lines("/etc/os-release")
                    if line.startswith("PRETTY_NAME=")), platform.system())
-    return {"cpu": cpu, "cores": len(os.sched_getaffinity(0)), "memory_gib": round(memory / 2 ** 20, 1), "system": system}
+    return {"cpu": cpu, "cores": len(os.sched_getaffinity(0)), "memory_gib": round(memory / 2 ** 20, 1),
+            "system": system}
 
 
 def lines(path):
@@ -57,8 +58,8 @@ def lines(path):
 
 def stamp(results, scene):
     """What a surface's figures depend on."""
-    facts = json.dumps(scene.facts, sort_keys=True).encode()
-    return {"weft_sha256": results["weft_sha256"], "scene_sha256": hashlib.sha256(facts).hexdigest(), "version": VERSION}
+    facts = hashlib.sha256(json.dumps(scene.facts, sort_keys=True).encode()).hexdigest()
+    return {"weft_sha256": results["weft_sha256"], "scene_sha256": facts, "version": VERSION}
 
 
 def to_measure(results, scene):

@@ -55,7 +55,7 @@ class Runs:
         return said
 
     def render(self, name, plate, options, ending="png", layers=None):
-        """`weft replace` into the folder `name`: (its report, the pattern of the frames, that of the layers or None)."""
+        """`weft replace` into the folder `name`: (its report, the frames' pattern, the layers' pattern or None)."""
         frames = self.work / name / ("####." + ending)
         arguments = ["replace", "--plate", plate, *options, "-o", frames, "--overwrite", "--progress", "none"]
         kept = self.work / (name + "-layers") / "####.exr" if layers else None

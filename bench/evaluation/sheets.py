@@ -1,4 +1,4 @@
-"""Contact sheets as JPEG: what was measured, to look at. They need the pictures that measure_scene leaves in its folder."""
+"""Contact sheets as JPEG: what was measured, to look at. They need the pictures that measure_scene leaves."""
 import numpy as np
 import OpenImageIO as oiio
 
@@ -17,8 +17,9 @@ WORST_OF_EACH = 4
 def scene_sheet(scene, work, path):
     """Rows: the plate; then for each surface the tile as delivered, the true grey, Weft's grey, the propagated matte.
 
-    Columns: frames from the first to the last. Rows of which there is no picture are left out."""
-    frames = sorted({int(round(f)) for f in np.linspace(scene.frames[0], scene.frames[-1], COLUMNS)})
+    Columns: frames of which there is a true grey, from the first to the last. Rows of which there is no picture are left out."""
+    frames = [f for f in scene.frames if scene.file(f, "grey").is_file()] or list(scene.frames)
+    frames = [frames[k] for k in sorted({int(round(k)) for k in np.linspace(0, len(frames) - 1, COLUMNS)})]
     rows = [("%s: the plate, frames %s" % (scene.name, ", ".join(map(str, frames))), [plate(scene, f) for f in frames])]
     for part in scene.surfaces:
         views = Views(scene, surface_folder(work, scene, part["name"]), part["name"])
@@ -30,7 +31,7 @@ def scene_sheet(scene, work, path):
 
 
 def worst_sheet(results, scenes, work, path):
-    """`scenes`: Scene by name. The worst surfaces by each table's first column, on the frame that it names or the last."""
+    """`scenes`: Scene by name. The worst surfaces by each table's first column, each on one frame."""
     strips = []
     for title, columns in tables.TABLES.items():
         for record, surface in tables.ordered(results, columns)[:WORST_OF_EACH]:
@@ -38,7 +39,7 @@ def worst_sheet(results, scenes, work, path):
             if scene is None:
                 continue
             views = Views(scene, surface_folder(work, scene, surface["name"]), surface["name"])
-            frame = worst_frame(title, surface) or scene.frames[-1]
+            frame = worst_frame(title, surface) or last_rendered(scene)
             pictures = {"Light": (views.true_grey, views.grey), "Matte": (views.matte,),
                         "Tile by exact coordinates": (views.true_tile, views.tile)}.get(title, (views.delivered,))
             pictures = [plate(scene, frame)] + [view(frame) for view in pictures]
@@ -47,6 +48,10 @@ def worst_sheet(results, scenes, work, path):
             strips.append(captioned(caption, [p for p in pictures if p is not None], width=3 * CELL_WIDTH))
     if strips:
         write(path, strips)
+
+
+def last_rendered(scene):
+    return max((f for f in scene.frames if scene.file(f, "grey").is_file()), default=scene.frames[-1])
 
 
 def worst_frame(title, surface):
@@ -71,7 +76,7 @@ class Views:
         return shown(self.scene.file(frame, "grey"))
 
     def grey(self, frame):
-        """Inside at the true grey's brightness, by one gain for the clip, from the frame that shows most of the surface."""
+        """Inside at the true grey's brightness, by one gain for the clip: that of the frame that shows most of it."""
         path = self.folder / "light-final" / ("%04d.exr" % frame)
         if not path.is_file():
             return None
@@ -79,10 +84,10 @@ class Views:
         return images.srgb_from_linear(gain * images.rgb(path))
 
     def gain(self):
-        frame = max(self.scene.frames, key=lambda f: self.coverage(f).sum())
+        files = {f: self.folder / "light-final" / ("%04d.exr" % f) for f in self.scene.frames}
+        frame = max((f for f in files if files[f].is_file()), key=lambda f: self.coverage(f).sum())
         inside = self.coverage(frame) > 0.999
-        true, result = (images.luma(images.rgb(p)) for p in (self.scene.file(frame, "grey"),
-                                                             self.folder / "light-final" / ("%04d.exr" % frame)))
+        true, result = (images.luma(images.rgb(p)) for p in (self.scene.file(frame, "grey"), files[frame]))
         return np.median(true[inside]) / max(np.median(result[inside]), 1e-6) if inside.any() else 1
 
     def coverage(self, frame):

@@ -101,11 +101,11 @@ def table(titles, rows):
 def markdown(results):
     machine = results["machine"]
     count, failures = len(surfaces_of(results)), [f for s in results["scenes"] for f in s["failures"]]
-    parts = ["%d surfaces of %d scenes, half *%s*, commit %s%s, %s; %s, %d cores, %s; %s. Each cell: median / worst over the "
-             "surfaces. %s." % (count, len(results["scenes"]), results["half"], results["commit"][:10],
-                                " (with changes)" if results["dirty"] else "", results["weft"], machine["cpu"],
-                                machine["cores"], machine["system"], results["date"],
-                                "No run failed" if not failures else "%d runs failed" % len(failures))]
+    of = (count, len(results["scenes"]), results["half"], results["commit"][:10],
+          " (with changes)" if results["dirty"] else "", results["weft"], machine["cpu"], machine["cores"],
+          machine["system"], results["date"], "No run failed" if not failures else "%d runs failed" % len(failures))
+    parts = ["%d surfaces of %d scenes, half *%s*, commit %s%s, %s; %s, %d cores, %s; %s. Each cell: median / worst of "
+             "the surfaces. %s." % of]
     for name, columns in TABLES.items():
         if any(columns[0].value(s) is not None for _, s in surfaces_of(results)):
             parts += ["### %s" % name, by_family(results, columns), "The worst:", worst(results, columns)]

@@ -1,4 +1,4 @@
-"""The textures that are laid: a picture of cells and grain to follow, the grey of the second rendering, and the tile."""
+"""The textures that are laid: one to follow, the grey of the second rendering, the tile of the third."""
 import numpy as np
 
 import fields
@@ -8,7 +8,7 @@ SIDE = 1024  # texels of the followed texture: coordinates are known up to its w
 
 
 def followed(path):
-    """A fixed texture that repeats, with detail of 2 to 60 texels in luma and colour; the same bytes every time. Kept if it exists."""
+    """A fixed texture that repeats, with detail of 2 to 60 texels in luma and colour. Kept if it exists."""
     if path.is_file():
         return path
     rng = np.random.default_rng(20)

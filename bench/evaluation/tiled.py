@@ -8,7 +8,7 @@ import images
 
 
 def write_coordinates(truth, folder):
-    """ST-maps (0 to 1 across the tile, origin bottom left, repeating): the folder's pattern, or None without coordinates."""
+    """ST-maps (0 to 1 across the tile, origin bottom left, repeating): their pattern, or None without coordinates."""
     scene, painted = truth.scene, truth.data(truth.painted_frame)
     if not np.any(painted.uv[painted.ids == truth.id]):
         return None

@@ -7,7 +7,7 @@ import fields
 import images
 
 INSIDE = 0.999       # a pixel with more coverage shows nothing else
-PAINTED_SHARE = 0.6  # of the greatest area: the first frame that shows as much is the one that is painted and compared with
+PAINTED_SHARE = 0.6  # of the greatest area: the first frame that shows as much is painted, and compared with
 
 
 class Data:
@@ -27,7 +27,9 @@ class SurfaceTruth:
     def __init__(self, scene, part):
         self.scene, self.name, self.id = scene, part["name"], part.get("id")
         self.coverage = lru_cache(64)(self._coverage)
-        self.data = lru_cache(4)(self._data)
+        self.data = lru_cache(8)(self._data)
+        self.core = lru_cache(128)(self._core)
+        self.smooth = lru_cache(64)(self._smooth)
         self.areas = {f: float(self.coverage(f).sum()) for f in scene.frames}
         enough = PAINTED_SHARE * max(self.areas.values())
         self.painted_frame = next(f for f in scene.frames if self.areas[f] >= enough)
@@ -35,6 +37,13 @@ class SurfaceTruth:
     @property
     def coverage_pattern(self):
         return self.scene.pattern("coverage", self.name, ending="png")
+
+    def frames_of(self, pictures):
+        """The frames of which there are such pictures: grey and tiled are rendered for some only."""
+        found = [f for f in self.scene.frames if self.scene.file(f, pictures).is_file()]
+        if not found:
+            raise OSError("%s has no frame of %s" % (self.scene.folder, pictures))
+        return found
 
     def _coverage(self, frame):
         return images.grey(self.scene.file(frame, "coverage", self.name, ending="png"))
@@ -48,12 +57,12 @@ class SurfaceTruth:
         files = [self.scene.file(frame, "coverage", n, ending="png") for n in others]
         return sum((images.grey(f) for f in files), np.zeros_like(self.coverage(frame)))
 
-    def core(self, frame, margin_px):
+    def _core(self, frame, margin_px):
         """Pixels that show the surface alone, at least so far from its edge."""
         return fields.eroded(self.coverage(frame) > INSIDE, margin_px)
 
-    def smooth(self, frame):
-        """Core pixels whose neighbours continue the same piece of the surface: no fold, corner or other sheet between."""
+    def _smooth(self, frame):
+        """Core pixels whose neighbours continue the same piece of the surface: no fold or other sheet between."""
         data = self.data(frame)
         good = self.core(frame, 2) & (data.ids == self.id)
         rest = np.where(good[..., None], data.rest, np.nan)

@@ -22,7 +22,8 @@ def header(**more):
 
 
 def scenes(*surfaces):
-    return [{"name": "room-1", "family": "room", "seed": 1, "verified": True, "failures": [], "surfaces": list(surfaces)}]
+    return [{"name": "room-1", "family": "room", "seed": 1, "verified": True, "failures": [],
+             "surfaces": list(surfaces)}]
 
 
 class Tables(unittest.TestCase):
@@ -47,7 +48,8 @@ class Tables(unittest.TestCase):
             page = Path(folder) / "page.md"
             page.write_text("above\n%s\nold\n%s\nbelow\n" % (tables.BEGIN, tables.END), encoding="utf-8")
             tables.replace_between(page, "new")
-            self.assertEqual(page.read_text(encoding="utf-8"), "above\n%s\nnew\n%s\nbelow\n" % (tables.BEGIN, tables.END))
+            whole = page.read_text(encoding="utf-8")
+            self.assertEqual(whole, "above\n%s\nnew\n%s\nbelow\n" % (tables.BEGIN, tables.END))
             page.write_text("no markers", encoding="utf-8")
             self.assertRaises(ValueError, tables.replace_between, page, "new")
 
