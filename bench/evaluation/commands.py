@@ -1,14 +1,21 @@
 """The command line of bench/corpus."""
 import argparse
+import json
+import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import mini
 import rendering
+import results
 import seeds
+import sheets
+import tables
 import verify
 from layout import Scene, corpus_folder
+from measure import measure_scene
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -17,29 +24,47 @@ def main(arguments):
     options = parser().parse_args(arguments)
     try:
         return options.run(options)
-    except (rendering.RenderError, OSError) as failure:
+    except (rendering.RenderError, OSError, ValueError) as failure:
         print("corpus: %s" % failure, file=sys.stderr)
         return 1
 
 
 def parser():
-    top = argparse.ArgumentParser(prog="bench/corpus", description=__doc__)
+    top = argparse.ArgumentParser(prog="bench/corpus", description="Weft's corpus of scenes with the truth (docs/CORPUS.md)")
     commands = top.add_subparsers(required=True, metavar="COMMAND")
-    for name, run, what in (("list", list_scenes, "the scenes of a half and whether they are rendered and verified"),
+    for name, run, what in (("list", list_scenes, "list the scenes of a half and whether they are rendered and verified"),
                             ("render", render_scenes, "render what is missing of a half, and verify it"),
-                            ("verify", verify_scenes, "check every pass of the rendered scenes against another")):
+                            ("verify", verify_scenes, "check every pass of the rendered scenes against another"),
+                            ("measure", measure_scenes, "measure weft on the rendered scenes of the developing half"),
+                            ("report", report_scenes, "render and measure the half that nobody has seen")):
         one = commands.add_parser(name, help=what, description=what)
         one.set_defaults(run=run)
         choose(one)
+        if name in ("measure", "report"):
+            one.add_argument("--weft", type=Path, default=built_weft(), help="the program [%(default)s]")
+            one.add_argument("-o", "--output", type=Path, default=Path("corpus-" + name),
+                             help="folder of results.json, table.md and sheets/ [%(default)s]")
+        if name == "report":
+            one.set_defaults(half="report")
     small = commands.add_parser("mini", help="render the mini corpus and put it into tests/data/corpus")
     small.set_defaults(run=write_mini, half="mini", only="", each=3)
     small.add_argument("--corpus", type=Path, default=corpus_folder(), help="folder of the scenes [%(default)s]")
+    evidence = commands.add_parser("evidence", help="put the tables of a results.json into docs/EVIDENCE.md")
+    evidence.set_defaults(run=write_evidence)
+    evidence.add_argument("results", type=Path)
     return top
+
+
+def built_weft():
+    """The program that was built last."""
+    found = [p for p in (ROOT / "build").glob("*/bin/weft") if p.is_file()]
+    return max(found, key=lambda p: p.stat().st_mtime, default=Path("weft"))
 
 
 def choose(command):
     command.add_argument("--half", choices=("develop", "report", "mini"), default="develop",
                          help="develop: fixed seeds; report: seeds from the commit's hash; mini: small, for tests [develop]")
+    command.add_argument("--commit", default="HEAD", help="the commit that is reported [HEAD]")
     command.add_argument("--each", type=int, default=3, help="seeds a family [3]")
     command.add_argument("--only", default="", help="families or scenes, by commas: room,cloth-2 [all]")
     command.add_argument("--corpus", type=Path, default=corpus_folder(), help="folder of the scenes [%(default)s]")
@@ -53,16 +78,23 @@ def chosen(options):
     if options.half == "mini":
         all_of = list(seeds.MINI)
     elif options.half == "report":
-        all_of = seeds.report(commit(), options.each)
+        all_of = seeds.report(full_hash(options.commit), options.each)
     else:
         all_of = [s for s in seeds.develop() if s[1] <= options.each]
     wanted = [w for w in options.only.split(",") if w]
     return [(f, s) for f, s in all_of if not wanted or f in wanted or "%s-%d" % (f, s) in wanted]
 
 
-def commit():
-    return subprocess.run(["git", "-C", str(ROOT), "rev-parse", "HEAD"], capture_output=True, text=True,
-                          check=True).stdout.strip()
+def folder_of(options, family, seed):
+    return options.corpus / ("%s-%d" % (family, seed))
+
+
+def full_hash(commit):
+    found = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--verify", "--quiet", commit + "^{commit}"],
+                           capture_output=True, text=True, check=False)
+    if found.returncode:
+        raise ValueError("%s is no commit of this repository" % commit)
+    return found.stdout.strip()
 
 
 def look(options):
@@ -73,7 +105,7 @@ def look(options):
 
 def list_scenes(options):
     for family, seed in chosen(options):
-        folder = options.corpus / ("%s-%d" % (family, seed))
+        folder = folder_of(options, family, seed)
         state = "not rendered"
         if (folder / "verified.json").exists():
             checks = failed(folder)
@@ -83,7 +115,6 @@ def list_scenes(options):
 
 
 def failed(folder):
-    import json
     with open(folder / "verified.json", encoding="utf-8") as f:
         return ["%s: %g (%g)" % (c["check"], c["value"], c["limit"]) for c in json.load(f)["checks"] if not c["holds"]]
 
@@ -97,6 +128,63 @@ def render_scenes(options):
         print("%-16s %6.1f s  %s" % (scene.name, seconds, "verified" if not checks else "FAILS " + "; ".join(checks)),
               flush=True)
     return 1 if bad else 0
+
+
+def measure_scenes(options):
+    measured(options, [s for s in chosen(options) if (folder_of(options, *s) / "verified.json").exists()])
+    return 0
+
+
+def report_scenes(options):
+    """The seeds follow from the commit: the program that is measured must be that commit's, and nothing else."""
+    frozen = full_hash(options.commit)
+    if frozen == full_hash("HEAD") and results.changed():
+        raise ValueError("the working tree differs from its commit, from which the reported scenes follow: commit first")
+    if built_from(options.weft) != frozen[:7]:
+        raise ValueError("%s was not built from commit %s: build it, or name another with --weft or --commit" % (
+            options.weft, frozen[:7]))
+    for scene in chosen(options):
+        rendering.render(options.corpus, *scene, look(options))
+    measured(options, chosen(options))
+    return 0
+
+
+def built_from(weft):
+    """The commit that `weft --version` names, shortened to seven digits; None without one."""
+    said = subprocess.run([str(weft), "--version"], capture_output=True, text=True, check=True).stdout
+    found = re.search(r"\b([0-9a-f]{7,40})\b", said)
+    return found.group(1)[:7] if found else None
+
+
+def measured(options, names):
+    """Measures what is missing, and writes results.json, table.md and the contact sheets."""
+    weft, out = options.weft.resolve(), options.output
+    path, work = out / "results.json", (out / "pictures").resolve()
+    found = results.opened(path, weft, options.half, names, full_hash(options.commit))
+    scenes = {}
+    for family, seed in names:
+        scene = Scene(folder_of(options, family, seed))
+        scenes[scene.name] = scene
+        missing = results.to_measure(found, scene)
+        if missing:
+            started = time.monotonic()
+            results.put(found, scene, measure_scene(scene, weft, work, missing))
+            results.save(path, found)
+            print("%-16s %6.1f s  %s" % (scene.name, time.monotonic() - started, ", ".join(missing)), flush=True)
+        sheets.scene_sheet(scene, work, out / "sheets" / (scene.name + ".jpg"))
+    results.save(path, found)
+    (out / "table.md").write_text(tables.markdown(found) + "\n", encoding="utf-8")
+    sheets.worst_sheet(found, scenes, work, out / "sheets" / "worst.jpg")
+    print("%s, table.md and sheets/ are written" % path)
+
+
+def write_evidence(options):
+    """Replaces the corpus's tables in docs/EVIDENCE.md by those of a report."""
+    found = json.loads(options.results.read_text(encoding="utf-8"))
+    if found["dirty"]:
+        raise ValueError("%s was measured with changes that no commit has: measure a commit" % options.results)
+    tables.replace_between(ROOT / "docs" / "EVIDENCE.md", tables.markdown(found))
+    return 0
 
 
 def write_mini(options):
@@ -115,7 +203,7 @@ def write_mini(options):
 def verify_scenes(options):
     bad = 0
     for family, seed in chosen(options):
-        folder = options.corpus / ("%s-%d" % (family, seed))
+        folder = folder_of(options, family, seed)
         if not (folder / "scene.json").exists():
             continue
         result = verify.verify(Scene(folder))

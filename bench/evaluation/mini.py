@@ -2,7 +2,7 @@
 
     scene.json, verified.json           as in layout.py, without rays
     plate/####.png, coverage/PART/####.png
-    grey/####.png                       sRGB, 8 bit
+    grey/####.exr
     motion/####.png                     KITTI, to the next frame; valid where the point is seen there
 """
 import json
@@ -31,9 +31,7 @@ def reduce(scene, target):
     shutil.copytree(scene.folder / "plate", partial / "plate")
     for part in scene.surfaces:
         shutil.copytree(scene.folder / "coverage" / part["name"], partial / "coverage" / part["name"])
-    for frame in scene.truth_frames:
-        grey = images.srgb_from_linear(images.rgb(scene.file(frame, "grey")))
-        images.write(partial / "grey" / ("%04d.png" % frame), grey, "uint8")
+    shutil.copytree(scene.folder / "grey", partial / "grey")
     for frame in list(scene.frames)[:-1]:
         write_kitti(scene, frame, partial / "motion" / ("%04d.png" % frame))
     shutil.rmtree(folder, ignore_errors=True)

@@ -16,18 +16,23 @@ SCHEMA_FILE = ROOT / "docs" / "schemas" / "corpus-results.schema.json"
 SCHEMA = "weft.corpus-results/1"
 
 
-def opened(path, weft, half, seeds):
+def opened(path, weft, half, seeds, commit):
     """The results in `path`, or new ones, with the header of this run. `seeds`: [[family, seed]…]."""
     path = Path(path)
     before = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     kept = before.get("scenes", []) if before.get("schema") == SCHEMA else []
     wanted = {tuple(s) for s in seeds}
     version = run(str(weft), "--version").splitlines()[0]
-    return {"schema": SCHEMA, "version": VERSION, "commit": run("git", "-C", str(ROOT), "rev-parse", "HEAD"),
-            "dirty": bool(run("git", "-C", str(ROOT), "status", "--porcelain", "--untracked-files=no")),
+    return {"schema": SCHEMA, "version": VERSION, "commit": commit,
+            "dirty": changed(),
             "machine": machine(), "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(), "half": half,
             "seeds": [list(s) for s in seeds], "weft": version, "weft_sha256": digest(weft),
             "scenes": [s for s in kept if (s["family"], s["seed"]) in wanted]}
+
+
+def changed():
+    """Whether the working tree has changes that no commit has."""
+    return bool(run("git", "-C", str(ROOT), "status", "--porcelain", "--untracked-files=no"))
 
 
 def run(*command):

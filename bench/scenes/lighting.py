@@ -11,7 +11,7 @@ def outdoors(stage, rng, kind=None):
     side, drift = rng.uniform(20, 65) * rng.choice([-1, 1]), rng.uniform(-6, 6)
 
     def towards(frame):
-        a, h = math.radians(side + drift * stage.at(frame)), math.radians(height)
+        a, h = math.radians(side + drift * (frame - 1) / 23), math.radians(height)
         return (math.sin(a) * math.cos(h), math.cos(a) * math.cos(h), -math.sin(h))
     if kind == "sun":
         stage.sun(towards, rng.uniform(2.6, 3.4))

@@ -24,4 +24,4 @@ def build(stage, rng):
     else:
         lighting.outdoors(stage, rng)
     start, end = rng.uniform(-1.6, -0.4), rng.uniform(0.3, 1.5)
-    stage.look(lambda f: ((start + (end - start) * stage.at(f), -3.6, 1.65), (0.2, 1.6, 0.95)), rng.uniform(28, 38))
+    stage.look(lambda f: ((start + (end - start) * (f - 1) / 23, -3.6, 1.65), (0.2, 1.6, 0.95)), rng.uniform(28, 38))

