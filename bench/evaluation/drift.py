@@ -78,25 +78,31 @@ def finite(value):
     return None if value is None else round(float(min(value, LOST_PX)), 4)
 
 
-def of_surface(truth, st_of_frame):
-    """Figures for a rendered scene. `st_of_frame`: frame → Coordinates.
+def matched(truth):
+    """[(frame, base, Match)…] of a rendered scene, from the truth alone.
 
-    The base is the painted frame. Points that it does not show are compared with the middle, the last or the first
-    frame, the first of these that shows them (drift_fresh)."""
+    The base is the painted frame. Points that it does not show are found on the middle, the last or the first frame, the
+    first of these that shows them."""
     frames = list(truth.scene.frames)
     bases = list(dict.fromkeys([truth.painted_frame, frames[len(frames) // 2], frames[-1], frames[0]]))
-    known = {b: (truth.data(b).rest, truth.smooth(b), st_of_frame(b)) for b in bases}
-    tally = Tally()
+    found = []
     for frame in (f for f in frames if f != bases[0]):
-        rest, st = truth.data(frame).rest, st_of_frame(frame)
         wanted = matching.chosen(truth.smooth(frame), POINTS, np.random.default_rng(frame))
         for base in (b for b in bases if b != frame):
-            match, wanted = matching.by_place(wanted, rest, *known[base][:2])
-            found = errors(match, st, known[base][2])
-            if base == bases[0]:
-                tally.add(frame, found)
-            else:
-                tally.fresh.append(found)
+            match, wanted = matching.by_place(wanted, truth.data(frame).rest, truth.data(base).rest, truth.smooth(base))
+            found.append((frame, base, match))
+    return found
+
+
+def of_surface(painted_frame, matches, st_of_frame):
+    """`matches` as matched() returns them; `st_of_frame`: frame → Coordinates. Those of other bases are the fresh ones."""
+    tally = Tally()
+    for frame, base, match in matches:
+        found = errors(match, st_of_frame(frame), st_of_frame(base))
+        if base == painted_frame:
+            tally.add(frame, found)
+        else:
+            tally.fresh.append(found)
     return tally.figures()
 
 

@@ -53,13 +53,20 @@ def camera_place(scene, frame):
 
 def eigenvalues(texels, metres):
     """l1 and l2 of (PᵀP)⁻¹ JᵀJ by pixel; `texels` (n, 2, 2), `metres` (n, 3, 2)."""
-    h = np.einsum("nki,nkj->nij", texels, texels).astype(np.float64)
-    g = np.einsum("nki,nkj->nij", metres, metres).astype(np.float64)
-    both = np.linalg.solve(g, h)
-    half, determinant = np.trace(both, axis1=1, axis2=2) / 2, np.linalg.det(both)
+    hxx, hxy, hyy = metric(texels)
+    gxx, gxy, gyy = metric(metres)
+    area = gxx * gyy - gxy * gxy
+    half = (gyy * hxx - 2 * gxy * hxy + gxx * hyy) / (2 * area)
+    determinant = (hxx * hyy - hxy * hxy) / area
     root = np.sqrt(np.maximum(half * half - determinant, 0))
     larger = half + root
     return larger, np.maximum(determinant, 0) / np.maximum(larger, 1e-30)
+
+
+def metric(slope):
+    """xx, xy and yy of slopeᵀ slope."""
+    x, y = slope[..., 0].astype(np.float64), slope[..., 1].astype(np.float64)
+    return (x * x).sum(1), (x * y).sum(1), (y * y).sum(1)
 
 
 class Form:
@@ -74,7 +81,8 @@ class Form:
         larger, smaller = eigenvalues(texels[good], metres[good])
         self.stretch = np.sqrt(larger / np.maximum(smaller, 1e-12 * np.maximum(larger, 1e-30)))
         self.log_area = 0.5 * np.log(np.maximum(larger * smaller, 1e-30))
-        self.hand = np.sign(np.linalg.det(texels[good].astype(np.float64)))
+        (a, b), (c, d) = np.moveaxis(texels[good], 0, -1)
+        self.hand = np.sign(a * d - b * c)
         self.torn = torn(truth.data(frame).position, st)[good]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 import fields
 
-NEAREST_AMONG = 20000     # pixels of the base frame among which the first guess is sought
+NEAREST_AMONG = 8000     # pixels of the base frame among which the first guess is sought
 NEWTON_STEPS = 8
 CLOSE_PX = 0.05           # a point is found where the surface's own place agrees to this, in steps of a pixel
 STRETCH_LIMIT = 12        # pairs of views of which one is so much larger or more slanted say nothing in pixels

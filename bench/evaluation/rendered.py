@@ -1,6 +1,6 @@
 """The runs of weft and the measures for one surface of a rendered scene."""
 import shutil
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 
 import drift
 import form
@@ -65,7 +65,7 @@ class RenderedSurface:
         report, frames, layers = self.render(name, "--plane", self.texture, *UNTOUCHED, "--quality", quality,
                                              layers="st")
         reference = report["references"][0]["frame"]
-        self.followed[quality] = reference, lru_cache(8)(partial(coordinates, layers))
+        self.followed[quality] = reference, lru_cache(32)(partial(coordinates, layers))
         figures = {**self.drift(self.followed[quality][1]), "reference": reference}
         return figures if quality == "draft" else {**figures, **self.flicker(frames, reference)}
 
@@ -73,8 +73,12 @@ class RenderedSurface:
         options = (*self.matte_options, "--plane", self.texture, *self.true_motion)
         return motion.measure(self.runs, self.plate, options, frames, reference, self.last)
 
+    @cached_property
+    def matches(self):
+        return drift.matched(self.truth)
+
     def drift(self, st_of_frame):
-        return drift.of_surface(self.truth, st_of_frame)
+        return drift.of_surface(self.truth.painted_frame, self.matches, st_of_frame)
 
     def form(self):
         if "final" not in self.followed:

@@ -15,7 +15,7 @@ class Data:
 
     def __init__(self, path):
         picture = images.read(path)
-        self.ids = np.rint(images.channels(picture, "IndexOB.X")).astype(int)
+        self.ids = np.rint(images.channels(picture, "IndexOB.X")).astype(np.int32)
         self.position = images.channels(picture, "Position.X", "Position.Y", "Position.Z")
         self.normal = images.channels(picture, "Normal.X", "Normal.Y", "Normal.Z")
         self.rest = images.channels(picture, "rest.R", "rest.G", "rest.B")
@@ -23,11 +23,16 @@ class Data:
         self.to_previous = images.channels(picture, "Vector.X", "Vector.Y") * np.float32((1, -1))
 
 
+@lru_cache(32)
+def data_of(path):
+    """Kept for all frames of a shot, and for all surfaces of a scene."""
+    return Data(path)
+
+
 class SurfaceTruth:
     def __init__(self, scene, part):
         self.scene, self.name, self.id = scene, part["name"], part.get("id")
         self.coverage = lru_cache(64)(self._coverage)
-        self.data = lru_cache(8)(self._data)
         self.core = lru_cache(128)(self._core)
         self.smooth = lru_cache(64)(self._smooth)
         self.areas = {f: float(self.coverage(f).sum()) for f in scene.frames}
@@ -48,8 +53,8 @@ class SurfaceTruth:
     def _coverage(self, frame):
         return images.grey(self.scene.file(frame, "coverage", self.name, ending="png"))
 
-    def _data(self, frame):
-        return Data(self.scene.file(frame, "data"))
+    def data(self, frame):
+        return data_of(self.scene.file(frame, "data"))
 
     def other_surfaces(self, frame):
         """The share of each pixel that the scene's other surfaces in question cover."""
