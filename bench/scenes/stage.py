@@ -90,7 +90,9 @@ class Stage:
         rest = data.attributes.new("rest", "FLOAT_VECTOR", "POINT")
         rest.data.foreach_set("vector", mesh.vertices.astype(np.float32).ravel())
         data.update(calc_edges=True)
-        if smooth(mesh):
+        # What deforms keeps its vertices: auto smooth splits them where faces meet sharply, on some frames and not on
+        # others, and Cycles then has no motion of them.
+        if smooth(mesh) and part.shape is None:
             data.use_auto_smooth, data.auto_smooth_angle = True, math.radians(40)
         o = bpy.data.objects.new(part.name, data)
         o.pass_index = part.id

@@ -99,7 +99,7 @@ class Results(unittest.TestCase):
         results.put(found, self.scene, self.measured)
         results.save(path, found)
         with mock.patch.object(results, "run", return_value="b" * 40):
-            kept = results.opened(path, __file__, "develop", [("room", 1)])
+            kept = results.opened(path, __file__, "develop", [("room", 1)], "0" * 40)
             self.assertEqual([s["name"] for s in kept["scenes"]], ["room-1"])
             self.assertEqual(results.opened(path, __file__, "develop", [("room", 2)])["scenes"], [])
 

@@ -4,7 +4,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "bench" / "evaluation"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "bench" / "evaluation"))
 
 import numpy as np  # noqa: E402
 
