@@ -27,11 +27,21 @@ def measure_scene(scene, weft, work, only=None):
         shutil.rmtree(folder, ignore_errors=True)
         try:
             record, failures = measure_surface(kind_of(scene)(scene, part, Runs(weft, folder)))
-        except Exception:
-            record, failures = {"name": part["name"]}, [failure("truth", traceback.format_exc())]
+        except Exception as error:
+            record, failures = {"name": part["name"]}, [failure("truth", error)]
         found["surfaces"].append(record)
         found["failures"] += [{"surface": part["name"], **f} for f in failures]
+    found["failures"] = without_folders(found["failures"], {str(weft): "weft", str(work): "WORK",
+                                                            str(scene.folder.parent): "CORPUS"})
     return found
+
+
+def without_folders(failures, names):
+    """The same with short names in place of this machine's folders, which are nobody else's."""
+    text = json.dumps(failures)
+    for folder in sorted(names, key=len, reverse=True):
+        text = text.replace(json.dumps(folder)[1:-1], names[folder])
+    return json.loads(text)
 
 
 def kind_of(scene):
@@ -55,8 +65,8 @@ def measure_surface(surface):
                 figures = getattr(surface, measure)(variant) if variant else getattr(surface, measure)()
             except RunFailed as error:
                 failures.append({"measure": measure, **error.record})
-            except Exception:
-                failures.append(failure(measure, traceback.format_exc()))
+            except Exception as error:
+                failures.append(failure(measure, error))
             else:
                 if variant:
                     record.setdefault(measure, {})[variant] = figures
@@ -67,5 +77,8 @@ def measure_surface(surface):
     return record, failures
 
 
-def failure(measure, text):
-    return {"measure": measure, "command": None, "exit_code": None, "stderr": text.strip().splitlines()[-4:]}
+def failure(measure, error):
+    """Of a measure itself: where it stopped, and why."""
+    steps = ["%s:%d, %s" % (Path(s.filename).name, s.lineno, s.name) for s in traceback.extract_tb(error.__traceback__)]
+    return {"measure": measure, "command": None, "exit_code": None,
+            "stderr": steps[-3:] + ["%s: %s" % (type(error).__name__, error)]}
