@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 
+import clips
 import mini
 import rendering
 import results
@@ -41,18 +42,26 @@ def parser():
         one.set_defaults(run=run)
         choose(one)
         if name in ("measure", "report"):
-            one.add_argument("--weft", type=Path, default=built_weft(), help="the program [%(default)s]")
-            one.add_argument("-o", "--output", type=Path, default=Path("corpus-" + name),
-                             help="folder of results.json, table.md and sheets/ [%(default)s]")
+            program_and_output(one, name)
         if name == "report":
             one.set_defaults(half="report")
     small = commands.add_parser("mini", help="render the mini corpus and put it into tests/data/corpus")
     small.set_defaults(run=write_mini, half="mini", only="", each=3)
     small.add_argument("--corpus", type=Path, default=corpus_folder(), help="folder of the scenes [%(default)s]")
+    film = commands.add_parser("clips", help="measure the film clips of bench/clips.json that lie in a folder")
+    film.set_defaults(run=measure_clips, half="clips", commit="HEAD")
+    film.add_argument("folder", type=Path)
+    program_and_output(film, "clips")
     evidence = commands.add_parser("evidence", help="put the tables of a results.json into docs/EVIDENCE.md")
     evidence.set_defaults(run=write_evidence)
     evidence.add_argument("results", type=Path)
     return top
+
+
+def program_and_output(command, name):
+    command.add_argument("--weft", type=Path, default=built_weft(), help="the program [%(default)s]")
+    command.add_argument("-o", "--output", type=Path, default=Path("corpus-" + name),
+                         help="folder of results.json, table.md and sheets/ [%(default)s]")
 
 
 def built_weft():
@@ -131,7 +140,14 @@ def render_scenes(options):
 
 
 def measure_scenes(options):
-    measured(options, [s for s in chosen(options) if (folder_of(options, *s) / "verified.json").exists()])
+    there = [folder_of(options, *s) for s in chosen(options)]
+    measured(options, [Scene(f) for f in there if (f / "verified.json").exists()])
+    return 0
+
+
+def measure_clips(options):
+    """What has no truth is left out, saying so."""
+    measured(options, clips.scenes(options.folder, options.output.resolve()))
     return 0
 
 
@@ -143,10 +159,17 @@ def report_scenes(options):
     if built_from(options.weft) != frozen[:7]:
         raise ValueError("%s was not built from commit %s: build it, or name another with --weft or --commit" % (
             options.weft, frozen[:7]))
-    for scene in chosen(options):
-        rendering.render(options.corpus, *scene, look(options))
-    measured(options, chosen(options))
-    return 0
+    scenes, missing = [], []
+    for family, seed in chosen(options):
+        try:
+            scenes.append(rendering.render(options.corpus, family, seed, look(options))[0])
+        except rendering.RenderError as failure:
+            missing.append("%s-%d" % (family, seed))
+            print("corpus: %s" % failure, file=sys.stderr)
+    measured(options, scenes)
+    if missing:
+        print("corpus: not in the report, since they were not rendered: %s" % ", ".join(missing), file=sys.stderr)
+    return 1 if missing else 0
 
 
 def built_from(weft):
@@ -156,15 +179,13 @@ def built_from(weft):
     return found.group(1)[:7] if found else None
 
 
-def measured(options, names):
+def measured(options, scenes):
     """Measures what is missing, and writes results.json, table.md and the contact sheets."""
     weft, out = options.weft.resolve(), options.output
     path, work = out / "results.json", (out / "pictures").resolve()
+    names = [(s.facts["family"], s.facts["seed"]) for s in scenes]
     found = results.opened(path, weft, options.half, names, full_hash(options.commit))
-    scenes = {}
-    for family, seed in names:
-        scene = Scene(folder_of(options, family, seed))
-        scenes[scene.name] = scene
+    for scene in scenes:
         missing = results.to_measure(found, scene)
         if missing:
             started = time.monotonic()
@@ -174,7 +195,7 @@ def measured(options, names):
         sheets.scene_sheet(scene, work, out / "sheets" / (scene.name + ".jpg"))
     results.save(path, found)
     (out / "table.md").write_text(tables.markdown(found) + "\n", encoding="utf-8")
-    sheets.worst_sheet(found, scenes, work, out / "sheets" / "worst.jpg")
+    sheets.worst_sheet(found, {s.name: s for s in scenes}, work, out / "sheets" / "worst.jpg")
     print("%s, table.md and sheets/ are written" % path)
 
 

@@ -101,7 +101,7 @@ class Results(unittest.TestCase):
         with mock.patch.object(results, "run", return_value="b" * 40):
             kept = results.opened(path, __file__, "develop", [("room", 1)], "0" * 40)
             self.assertEqual([s["name"] for s in kept["scenes"]], ["room-1"])
-            self.assertEqual(results.opened(path, __file__, "develop", [("room", 2)])["scenes"], [])
+            self.assertEqual(results.opened(path, __file__, "develop", [("room", 2)], "0" * 40)["scenes"], [])
 
 
 if __name__ == "__main__":
