@@ -2,6 +2,7 @@
 import os
 import shutil
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -32,6 +33,7 @@ def render(corpus, family, seed, look):
         shutil.rmtree(partial, ignore_errors=True)
         partial.mkdir(parents=True)
         (draw if family == "drawn" else photograph)(corpus, family, seed, partial, look)
+        shutil.copy(tile_of(corpus), partial / "tile.png")
         verify.verify(Scene(partial))
         shutil.rmtree(folder, ignore_errors=True)
         os.replace(partial, folder)
@@ -63,7 +65,6 @@ def photograph(corpus, family, seed, folder, look):
 
 
 def draw(corpus, family, seed, folder, look):
-    import sys
     sys.path.insert(0, str(SCENES))
     import drawn
     drawn.make(seed, str(folder), look.frames, tuple(int(n) for n in look.size.split("x")), str(tile_of(corpus)))
