@@ -1,6 +1,6 @@
 """Composes what Blender rendered: adds the sky's light, freed of noise, and makes the camera's pictures.
 
-A picture is  Σ sun and lamps by sample  +  albedo · sky light,  both means over the pixel. The sky's light is smooth but
+A picture is  Σ sun and lamps by sample  +  albedo · sky light  +  reflections,  all means over the pixel. The sky's light is smooth but
 for its noise, and is the same in the old, the grey and the tiled picture, so that these differ in the material alone."""
 import os
 import shutil
@@ -65,16 +65,20 @@ def compose_frame(scene, frame, noise_seed):
     data = data_alone(scene.file(frame, "data"))
     sky = sky_light(scene, raw["sky"], data)
     light = images.channels(raw["old"], "DiffDir.R", "DiffDir.G", "DiffDir.B") + sky
+    gloss = {"old": reflected(scene, frame, "gloss")}
+    if len(variants) > 1:
+        gloss["grey"] = gloss["tiled"] = reflected(scene, frame, "gloss elsewhere")
     albedo = images.channels(raw["old"], "DiffCol.R", "DiffCol.G", "DiffCol.B")
     for name, folder in variants.items():
         colour = images.channels(raw[name], "DiffCol.R", "DiffCol.G", "DiffCol.B")
-        picture = images.channels(raw[name], "Combined.R", "Combined.G", "Combined.B") + colour * sky
+        picture = combined(raw[name]) + colour * sky + gloss[name]
         write_rgb(scene, frame, folder, picture)
         if name == "old":
             clean = picture
     write_rgb(scene, frame, "light", light)
     write_rgb(scene, frame, "albedo", albedo)
-    write_rgb(scene, frame, "gloss", gloss(raw["old"]))
+    background = images.channels(raw["old"], "Env.R", "Env.G", "Env.B")
+    write_rgb(scene, frame, "gloss", gloss["old"] + background)
     for part in scene.parts:
         group, place = divmod(part["id"] - 1, 3)
         share = images.channels(raw["old"], "coverage%d.%s" % (group, "RGB"[place]))
@@ -107,10 +111,13 @@ def sky_light(scene, raw, data):
     return seen[..., None] * strength
 
 
-def gloss(raw):
-    def of(name):
-        return images.channels(raw, name + ".R", name + ".G", name + ".B")
-    return (of("GlossDir") + of("GlossInd")) * of("GlossCol") + of("Env")
+def combined(raw):
+    return images.channels(raw, "Combined.R", "Combined.G", "Combined.B")
+
+
+def reflected(scene, frame, name):
+    """The reflections of a glossy scene; 0 of another."""
+    return combined(images.read(scene.file(frame, "raw", name))) if scene.facts["glossy"] else np.float32(0)
 
 
 def write_rgb(scene, frame, folder, picture):
@@ -127,5 +134,6 @@ def movie(scene):
 def arrange(folder):
     """Puts Blender's pictures into raw/, from which the others are made."""
     os.makedirs(folder / "raw", exist_ok=True)
-    for name in ("old", "grey", "tiled", "sky"):
-        os.replace(folder / name, folder / "raw" / name)
+    for name in ("old", "grey", "tiled", "sky", "gloss", "gloss elsewhere"):
+        if (folder / name).is_dir():
+            os.replace(folder / name, folder / "raw" / name)

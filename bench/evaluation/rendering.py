@@ -32,8 +32,12 @@ def render(corpus, family, seed, look):
         partial = Path(corpus) / (".partial-%s-%d" % (family, seed))
         shutil.rmtree(partial, ignore_errors=True)
         partial.mkdir(parents=True)
-        (draw if family == "drawn" else photograph)(corpus, family, seed, partial, look)
-        shutil.copy(tile_of(corpus), partial / "tile.png")
+        if family == "drawn":
+            draw(seed, partial, look)
+        else:
+            photograph(corpus, family, seed, partial, look)
+        if not (partial / "tile.png").exists():
+            shutil.copy(tile_of(corpus), partial / "tile.png")
         verify.verify(Scene(partial))
         shutil.rmtree(folder, ignore_errors=True)
         os.replace(partial, folder)
@@ -64,7 +68,7 @@ def photograph(corpus, family, seed, folder, look):
     compose.compose(folder, seed)
 
 
-def draw(corpus, family, seed, folder, look):
+def draw(seed, folder, look):
     sys.path.insert(0, str(SCENES))
-    import drawn
-    drawn.make(seed, str(folder), look.frames, tuple(int(n) for n in look.size.split("x")), str(tile_of(corpus)))
+    import drawings
+    drawings.make(seed, str(folder), look.frames, tuple(int(n) for n in look.size.split("x")))

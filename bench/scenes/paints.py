@@ -1,16 +1,16 @@
 """What the old surfaces are made of: colours by Blender's procedural textures, in metres, moving with the surface.
 
 A paint is a function of a Shader that returns the colour's socket; its parameters are drawn when it is made, so
-that one seed gives one scene. `gloss` is (roughness, specular, coat) or None for a purely diffuse surface."""
+that one seed gives one scene. `gloss` is the roughness of a clear coat, or None for a purely diffuse surface."""
 import colorsys
 from dataclasses import dataclass
-from typing import Callable, Optional, Tuple
+from typing import Callable, Optional
 
 
 @dataclass
 class Paint:
     colour: Callable
-    gloss: Optional[Tuple[float, float, float]] = None
+    gloss: Optional[float] = None
 
 
 def tone(rng, value=(0.25, 0.6), saturation=(0.1, 0.5)):
@@ -158,9 +158,9 @@ def ground(rng):
     return Paint(build)
 
 
-def lacquer(rng, roughness=0.25, coat=1.0):
+def lacquer(rng, roughness=0.25):
     """Car paint: one colour under a clear coat."""
-    return Paint(plain(tone(rng, (0.03, 0.35), (0.5, 0.9))).colour, (roughness, 0.4, coat))
+    return Paint(plain(tone(rng, (0.03, 0.35), (0.5, 0.9))).colour, roughness)
 
 
 PATTERNED = (bricks, tiles, planks, stripes, tartan, print_)

@@ -11,8 +11,7 @@ import numpy as np
 # The width of the filter that jitters the sample of a data pass, px: its values are those of the surface point seen
 # through the pixel's centre, to within half of this. (Cycles writes Position and ids from the first sample alone.)
 DATA_FILTER_PX = 0.01
-LIGHT_PASSES = ("diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color",
-                "environment")
+LIGHT_PASSES = ("diffuse_direct", "diffuse_color", "environment")
 DATA_PASSES = ("position", "normal", "z", "vector", "object_index")
 
 
@@ -23,9 +22,8 @@ def set_up(stage, threads):
     cycles.caustics_reflective = cycles.caustics_refractive = False
     # One seed for every frame and variant: what differs between two renderings of a frame is the material alone.
     cycles.seed = 7
-    # Diffuse surfaces light nothing else, so that a new material changes its own pixels only.
-    cycles.max_bounces = cycles.glossy_bounces = stage.bounces
-    cycles.diffuse_bounces = cycles.transmission_bounces = cycles.volume_bounces = 0
+    # Nothing lights anything else, so that a new material changes its own pixels only.
+    cycles.max_bounces = cycles.glossy_bounces = cycles.diffuse_bounces = cycles.transmission_bounces = cycles.volume_bounces = 0
     render.threads_mode, render.threads = "FIXED", threads
     render.use_compositing = render.use_sequencer = False
     # Blender 3.4 loses mesh attributes, or stops, when passes or materials change under data that is kept.
@@ -50,9 +48,22 @@ def render_pictures(stage, variant, folder, samples):
     gloss and coverage. Other variants on `truth_frames` only."""
     with_samples(stage, samples)
     stage.scene.view_layers[0].use_pass_combined = True
-    sky_on_diffuse(stage, False)
+    sky_seen_by(stage, "camera")
     passes_on(stage.scene.view_layers[0], LIGHT_PASSES if variant == "old" else ("diffuse_color",))
     write_frames(stage, folder, range(1, stage.frames + 1) if variant == "old" else truth_frames(stage.frames))
+
+
+def render_gloss(stage, folder, samples, frames):
+    """`folder`/####.exr, half: Combined is what is reflected once. By itself, since Cycles gives light that a coat's
+    sample finds to the colour below the coat as well."""
+    with_samples(stage, samples)
+    cycles, layer = stage.scene.cycles, stage.scene.view_layers[0]
+    cycles.max_bounces = cycles.glossy_bounces = 1
+    layer.use_pass_combined = True
+    sky_seen_by(stage, "glossy")
+    passes_on(layer, ())
+    write_frames(stage, folder, frames)
+    cycles.max_bounces = cycles.glossy_bounces = 0
 
 
 def render_sky(stage, folder, samples):
@@ -61,7 +72,7 @@ def render_sky(stage, folder, samples):
     layer = stage.scene.view_layers[0]
     layer.use_pass_combined = False
     layer.material_override = stage.white()
-    sky_on_diffuse(stage, True)
+    sky_seen_by(stage, "diffuse")
     for lamp in stage.lamps:
         lamp.hide_render = True
     passes_on(layer, ("diffuse_direct",))
@@ -78,15 +89,17 @@ def with_samples(stage, samples):
     render.image_settings.color_depth = "16"
 
 
-def sky_on_diffuse(stage, lit):
-    stage.scene.world.cycles_visibility.diffuse = lit
+def sky_seen_by(stage, rays):
+    """`rays`: "camera", "diffuse" or "glossy"."""
+    for kind in ("camera", "diffuse", "glossy"):
+        setattr(stage.scene.world.cycles_visibility, kind, kind == rays)
     stage.scene.world.update_tag()
 
 
 def render_data(stage, folder):
     """`folder`/####.exr, float: Position, Normal, Depth (z), Vector, IndexOB, metres (UV) and rest at the pixels' centres."""
     render, cycles, layer = stage.scene.render, stage.scene.cycles, stage.scene.view_layers[0]
-    sky_on_diffuse(stage, False)
+    sky_seen_by(stage, "camera")
     cycles.samples, cycles.filter_width = 1, DATA_FILTER_PX
     render.use_motion_blur = False
     render.image_settings.color_depth = "32"

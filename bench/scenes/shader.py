@@ -75,10 +75,21 @@ class Shader:
     def diffuse(self, colour):
         self.finish(self.node("ShaderNodeBsdfDiffuse", {"Color": colour}))
 
-    def principled(self, colour, roughness, specular, coat=0.0):
-        self.finish(self.node("ShaderNodeBsdfPrincipled", {"Base Color": colour, "Roughness": roughness,
-                                                           "Specular": specular, "Clearcoat": coat,
-                                                           "Clearcoat Roughness": 0.03}))
+    def under_coat(self, colour):
+        """What is left of a diffuse colour under a clear coat of index 1.5 (its Fresnel reflection is taken off)."""
+        self.diffuse(self.mix(self.fresnel(), colour, (0, 0, 0)))
+
+    def coat(self, roughness):
+        """The coat's reflection alone."""
+        self.finish(self.node("ShaderNodeBsdfGlossy", {"Color": self.fresnel(), "Roughness": roughness}))
+
+    def in_reflections(self, colour):
+        """Diffuse where it is reflected, black to the camera."""
+        seen = self.node("ShaderNodeLightPath").outputs["Is Camera Ray"]
+        self.diffuse(self.mix(seen, colour, (0, 0, 0)))
+
+    def fresnel(self):
+        return self.node("ShaderNodeFresnel", {"IOR": 1.5}).outputs[0]
 
     def finish(self, shader):
         output = self.node("ShaderNodeOutputMaterial")

@@ -46,7 +46,7 @@ class Stage:
         self.scene.frame_start, self.scene.frame_end = 1, frames
         self.scene.render.resolution_x, self.scene.render.resolution_y = size
         self.scene.render.resolution_percentage = 100
-        self.parts, self.lamps, self.shutter_deg, self.bounces = [], [], 0, 0
+        self.parts, self.lamps, self.shutter_deg = [], [], 0
         self.sky((1, 1, 1), 0.0)
         self.camera = None
 
@@ -175,20 +175,21 @@ class Stage:
 
     # ---- what the parts look like -------------------------------------------------------------------
 
-    def dress(self, variant, tile_picture):
-        """`variant`: "old"; or "grey" or "tiled", which the surfaces in question have then, and nothing else changes."""
+    def dress(self, variant, tile_picture=None):
+        """`variant`: "old", "grey" or "tiled", without any reflection: the surfaces in question change, nothing else does.
+        Or "gloss" (the reflections alone) or "gloss elsewhere" (those of all but the surfaces in question)."""
         for part in self.parts:
             shader = Shader("%s %s" % (part.name, variant))
-            if variant == "grey" and part.surface:
+            if variant.startswith("gloss"):
+                self._reflect(shader, part, part.surface and variant == "gloss elsewhere")
+            elif variant == "grey" and part.surface:
                 shader.diffuse((GREY,) * 3)
             elif variant == "tiled" and part.surface:
                 shader.diffuse(shader.picture(tile_picture, shader.scaled(shader.uv, (1 / TILE_M, -1 / TILE_M, 1))))
+            elif part.paint.gloss is not None:
+                shader.under_coat(part.paint.colour(shader))
             else:
-                colour = part.paint.colour(shader)
-                if part.paint.gloss:
-                    shader.principled(colour, *part.paint.gloss)
-                else:
-                    shader.diffuse(colour)
+                shader.diffuse(part.paint.colour(shader))
             shader.aov("rest", shader.rest)
             # In place of Cycles' UV pass, which is empty or another attribute once materials have been exchanged.
             shader.aov("metres", shader.uv)
@@ -197,6 +198,16 @@ class Stage:
             materials = part.object.data.materials
             materials.clear()
             materials.append(shader.material)
+
+    def _reflect(self, shader, part, left_out):
+        if part.paint.gloss is None or left_out:
+            shader.in_reflections(part.paint.colour(shader))
+        else:
+            shader.coat(part.paint.gloss)
+
+    @property
+    def glossy(self):
+        return any(part.paint.gloss is not None for part in self.parts)
 
     def white(self):
         shader = Shader("white")

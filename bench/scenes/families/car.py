@@ -93,7 +93,6 @@ def spokes(rng):
 
 
 def build(stage, rng):
-    stage.bounces = 1
     radius = rng.uniform(2.6, 4)
     yaw = rng.uniform(1.3, 2.0) / radius * rng.choice([-1, 1])
     heading = rng.uniform(-0.9, 0.9)
@@ -107,7 +106,7 @@ def build(stage, rng):
     lacquer = paints.lacquer(rng, rng.uniform(0.15, 0.4))
     body = meshes.joined([lower_body(), painted])
     stage.add("body", body, lacquer, surface=True, pose=drive)
-    stage.add("windows", windows, paints.plain((0.02, 0.024, 0.026), (0.05, 0.5, 0.0)), pose=drive)
+    stage.add("windows", windows, paints.plain((0.02, 0.024, 0.026), 0.05), pose=drive)
     inside = meshes.joined([meshes.box(3.3, 1.4, 0.3).moved((0, 0, 0.3)), meshes.box(1.7, 1.5, 0.36).moved((0, 0, 0.25))])
     stage.add("inside", inside, paints.plain((0.008, 0.008, 0.008)), pose=drive)
     rim = spokes(rng)

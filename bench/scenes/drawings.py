@@ -213,10 +213,10 @@ def flow(tools, now, then, extent):
     return out
 
 
-def make(seed, folder, frames, size, tile_picture=None):
+def make(seed, folder, frames, size):
     """Writes the scene of `seed`: `frames` pictures of `size` and all that is known of them.
 
-    `tile_picture`: 8-bit RGB that covers its own size in pixels of a fill's coordinates; by default one of the seed's."""
+    Its tile.png covers its own size in pixels of a fill's coordinates."""
     folder, rng, tools = pathlib.Path(folder), np.random.default_rng(seed), toolbox(size)
     scale = size[1] / 360 * rng.uniform(1.1, 1.35)
     centre = np.array([size[0] * rng.uniform(0.46, 0.54), size[1] * 0.5])
@@ -225,7 +225,8 @@ def make(seed, folder, frames, size, tile_picture=None):
     drawing = (figure, creature, banner)[rng.integers(3)](tools, rng, scale)
     drawing_of = holds(rng, frames)
     background = landscape(tools, rng)
-    picture_of_tile = tile(rng) if tile_picture is None else tile_picture
+    picture_of_tile = tile(rng)
+    tools.png(str(folder / "tile.png"), picture_of_tile)
     grey = 255 * (1.055 * GREY_LINEAR ** (1 / 2.4) - 0.055)
     looks = {"plate": None, "tiled": lambda u, v: sampled(picture_of_tile, u, v),
              "grey": lambda u, v: np.full(u.shape + (3,), grey)}
