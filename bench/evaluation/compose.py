@@ -103,11 +103,10 @@ def sky_light(scene, raw, data):
     if strength.max() == 0:
         return np.zeros((*raw[1].shape[:2], 3), np.float32)
     seen = images.channels(raw, "DiffDir.G") / strength[1]
-    if scene.facts["shutter_deg"] == 0:
-        normal = images.channels(data, "Normal.X", "Normal.Y", "Normal.Z")
-        seen = smooth_sky(seen, images.channels(data, "Position.X", "Position.Y", "Position.Z"), normal,
-                          images.channels(data, "IndexOB.X"), images.channels(data, "Depth.Z"),
-                          scene.facts["camera"]["focal_px"])
+    normal = images.channels(data, "Normal.X", "Normal.Y", "Normal.Z")
+    seen = smooth_sky(seen, images.channels(data, "Position.X", "Position.Y", "Position.Z"), normal,
+                      images.channels(data, "IndexOB.X"), images.channels(data, "Depth.Z"),
+                      scene.facts["camera"]["focal_px"])
     return seen[..., None] * strength
 
 
