@@ -132,11 +132,16 @@ def render_scenes(options):
     bad = 0
     for family, seed in chosen(options):
         scene, seconds = rendering.render(options.corpus, family, seed, look(options))
-        checks = failed(scene.folder)
-        bad += bool(checks)
-        print("%-16s %6.1f s  %s" % (scene.name, seconds, "verified" if not checks else "FAILS " + "; ".join(checks)),
-              flush=True)
+        bad += not say_rendered(scene, seconds)
     return 1 if bad else 0
+
+
+def say_rendered(scene, seconds):
+    """Returns whether the scene is verified."""
+    checks = failed(scene.folder)
+    print("%-16s %6.1f s  %s" % (scene.name, seconds, "verified" if not checks else "FAILS " + "; ".join(checks)),
+          flush=True)
+    return not checks
 
 
 def measure_scenes(options):
@@ -162,7 +167,9 @@ def report_scenes(options):
     scenes, missing = [], []
     for family, seed in chosen(options):
         try:
-            scenes.append(rendering.render(options.corpus, family, seed, look(options))[0])
+            scene, seconds = rendering.render(options.corpus, family, seed, look(options))
+            say_rendered(scene, seconds)
+            scenes.append(scene)
         except rendering.RenderError as failure:
             missing.append("%s-%d" % (family, seed))
             print("corpus: %s" % failure, file=sys.stderr)

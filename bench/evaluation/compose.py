@@ -1,7 +1,8 @@
 """Composes what Blender rendered: adds the sky's light, freed of noise, and makes the camera's pictures.
 
-A picture is  Σ sun and lamps by sample  +  albedo · sky light  +  reflections,  all means over the pixel. The sky's light is smooth but
-for its noise, and is the same in the old, the grey and the tiled picture, so that these differ in the material alone."""
+A picture is  Σ sun and lamps by sample  +  albedo · sky light  +  reflections,  all means over the pixel. The sky's light
+is smooth but for its noise, and is the same in the old, the grey and the tiled picture, so that these differ in the
+material alone."""
 import os
 import shutil
 import subprocess

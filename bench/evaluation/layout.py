@@ -5,7 +5,7 @@
     plate/####.png        the same as a camera gives it: sRGB, 8 bit, with grain; what is rendered and measured
     plate.mp4             the plate as H.264, 4:2:0
     grey/####.exr         clean, with the surfaces in question in plain grey (scene.json: grey); on frames 1, 2, 5, 6, 9, …
-    tiled/####.exr        clean, with them in the scene's tile.png, repeated every tile_m metres of the surface; on the same frames
+    tiled/####.exr        clean, with them in the scene's tile.png, repeated every tile_m metres; on the same frames
     light/####.exr        diffuse light: albedo × light + gloss is the picture of a diffuse surface
     albedo/####.exr       diffuse colour, the pixel's mean
     gloss/####.exr        what a glossy surface reflects, and the background

@@ -57,7 +57,8 @@ def photograph(corpus, family, seed, folder, look):
     log = folder / "blender.log"
     try:
         with open(log, "wb") as out:
-            run = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+            run = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT, check=False,
+                                 env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
     except FileNotFoundError:
         raise RenderError("blender is not installed: apt-get install blender (3.4 of Debian 12)") from None
     if run.returncode:

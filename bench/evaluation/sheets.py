@@ -17,7 +17,7 @@ WORST_OF_EACH = 4
 def scene_sheet(scene, work, path):
     """Rows: the plate; then for each surface the tile as delivered, the true grey, Weft's grey, the propagated matte.
 
-    Columns: frames of which there is a true grey, from the first to the last. Rows of which there is no picture are left out."""
+    Columns: frames of which there is a true grey, from the first to the last. Rows without pictures are left out."""
     frames = [f for f in scene.frames if scene.file(f, "grey").is_file()] or list(scene.frames)
     frames = [frames[k] for k in sorted({int(round(k)) for k in np.linspace(0, len(frames) - 1, COLUMNS)})]
     rows = [("%s: the plate, frames %s" % (scene.name, ", ".join(map(str, frames))), [plate(scene, f) for f in frames])]

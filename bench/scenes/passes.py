@@ -23,7 +23,8 @@ def set_up(stage, threads):
     # One seed for every frame and variant: what differs between two renderings of a frame is the material alone.
     cycles.seed = 7
     # Nothing lights anything else, so that a new material changes its own pixels only.
-    cycles.max_bounces = cycles.glossy_bounces = cycles.diffuse_bounces = cycles.transmission_bounces = cycles.volume_bounces = 0
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = 0
+    cycles.transmission_bounces = cycles.volume_bounces = 0
     render.threads_mode, render.threads = "FIXED", threads
     render.use_compositing = render.use_sequencer = False
     # Blender 3.4 loses mesh attributes, or stops, when passes or materials change under data that is kept.

@@ -2,7 +2,8 @@
 
     blender -b --factory-startup -noaudio -P render_scene.py -- FAMILY SEED FOLDER FRAMES WIDTHxHEIGHT SAMPLES TILE_PICTURE
 
-FOLDER gets old/, grey/, tiled/, sky/, data/ and of glossy scenes gloss/####.exr, and scene.json; bench/corpus makes the rest from them."""
+FOLDER gets old/, grey/, tiled/, sky/, data/ and of glossy scenes gloss/####.exr, and scene.json; bench/corpus makes the
+rest from them."""
 import importlib
 import os
 import sys
@@ -32,7 +33,8 @@ def main(family, seed, folder, frames, size, samples, tile_picture):
         stage.dress(variant, tile_picture)
         passes.render_pictures(stage, variant, os.path.join(folder, variant), int(samples))
     if stage.glossy:
-        for variant, shown in (("gloss", range(1, stage.frames + 1)), ("gloss elsewhere", passes.truth_frames(stage.frames))):
+        for variant, shown in (("gloss", range(1, stage.frames + 1)),
+                               ("gloss elsewhere", passes.truth_frames(stage.frames))):
             stage.dress(variant)
             passes.render_gloss(stage, os.path.join(folder, variant), int(samples), shown)
     probed = sorted({1, (stage.frames + 1) // 2, stage.frames})
@@ -40,7 +42,8 @@ def main(family, seed, folder, frames, size, samples, tile_picture):
         "family": family, "seed": int(seed), "frames": stage.frames,
         "truth_frames": passes.truth_frames(stage.frames), "camera": camera, "shutter_deg": stage.shutter_deg,
         "samples": int(samples), "glossy": stage.glossy, "grey": GREY, "tile_m": TILE_M, "sky": stage.sky_light,
-        "parts": [{"name": p.name, "id": p.id, "surface": p.surface, "hidden": p.hidden, "still": p.still} for p in stage.parts],
+        "parts": [{"name": p.name, "id": p.id, "surface": p.surface, "hidden": p.hidden, "still": p.still}
+                  for p in stage.parts],
         "probes": rays.probe(stage, camera, probed, 300, np.random.default_rng(1)),
         "seconds": round(time.time() - started, 1)})
 

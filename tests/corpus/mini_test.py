@@ -29,14 +29,22 @@ WEFT = None
 # By scene and surface: TDE over the floor (times) and drift (px), the light's correlation and error (levels), and the
 # propagated matte's IoU and leak on the worst frame.
 LIMITS = {
-    "cloth-12, hanging": {"tde_over_floor": 46.41, "drift_px": 8.62, "correlation": 0.972, "levels": 1.74, "iou": 0.989, "leak": 0.005},
-    "cloth-12, wall": {"tde_over_floor": 24.18, "drift_px": 6.27, "correlation": 0.979, "levels": 0.64, "iou": 0.986, "leak": 0.005},
-    "leaves-13, ball": {"tde_over_floor": 44.08, "drift_px": 11.11, "correlation": 0.843, "levels": 14.91, "iou": 0.969, "leak": 0.0054},
-    "leaves-13, floor": {"tde_over_floor": 5.6, "drift_px": 1.64, "correlation": 0.717, "levels": 23.9, "iou": 0.983, "leak": 0.005},
-    "leaves-13, wall": {"tde_over_floor": 6.54, "drift_px": 1.47, "correlation": 0.761, "levels": 14.8, "iou": 0.987, "leak": 0.005},
-    "room-11, floor": {"tde_over_floor": 1.36, "drift_px": 0.14, "correlation": 0.929, "levels": 5.61, "iou": 0.984, "leak": 0.005},
-    "room-11, table": {"tde_over_floor": 31.05, "correlation": 0.816, "levels": 4.37, "iou": 0.899, "leak": 0.005},
-    "room-11, wall": {"tde_over_floor": 1.32, "drift_px": 0.12, "correlation": 0.976, "levels": 1.79, "iou": 0.979, "leak": 0.005},
+    "cloth-12, hanging": {
+        "tde_over_floor": 46.41, "drift_px": 8.62, "correlation": 0.972, "levels": 1.74, "iou": 0.989, "leak": 0.005},
+    "cloth-12, wall": {
+        "tde_over_floor": 24.18, "drift_px": 6.27, "correlation": 0.979, "levels": 0.64, "iou": 0.986, "leak": 0.005},
+    "leaves-13, ball": {
+        "tde_over_floor": 44.08, "drift_px": 11.11, "correlation": 0.843, "levels": 14.91, "iou": 0.969, "leak": 0.0054},
+    "leaves-13, floor": {
+        "tde_over_floor": 5.6, "drift_px": 1.64, "correlation": 0.717, "levels": 23.9, "iou": 0.983, "leak": 0.005},
+    "leaves-13, wall": {
+        "tde_over_floor": 6.54, "drift_px": 1.47, "correlation": 0.761, "levels": 14.8, "iou": 0.987, "leak": 0.005},
+    "room-11, floor": {
+        "tde_over_floor": 1.36, "drift_px": 0.14, "correlation": 0.929, "levels": 5.61, "iou": 0.984, "leak": 0.005},
+    "room-11, table": {
+        "tde_over_floor": 31.05, "correlation": 0.816, "levels": 4.37, "iou": 0.899, "leak": 0.005},
+    "room-11, wall": {
+        "tde_over_floor": 1.32, "drift_px": 0.12, "correlation": 0.976, "levels": 1.79, "iou": 0.979, "leak": 0.005},
 }
 
 
