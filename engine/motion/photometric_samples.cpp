@@ -156,4 +156,56 @@ RegistrationFit registration_fit(const RegistrationPicture& anchor, const Regist
             static_cast<double>(agreeing) / static_cast<double>(samples.size())};
 }
 
+namespace {
+
+// Sums of one cell for the correlation under a map and under its four shifts.
+struct CellSums {
+    std::array<double, 5> product{}, there{}, here{};
+    int count = 0;
+
+    [[nodiscard]] double correlation(std::size_t k) const {
+        constexpr double kNothing = 1e-9;
+        return product[k] / std::sqrt(there[k] * here[k] + kNothing);
+    }
+    [[nodiscard]] double evidence() const {
+        return correlation(0) -
+               (correlation(1) + correlation(2) + correlation(3) + correlation(4)) / 4;
+    }
+};
+
+}  // namespace
+
+double registration_evidence(const RegistrationPicture& anchor, const RegistrationPicture& cur,
+                             const LatticeField& anchor_from_cur) {
+    constexpr int kSamples = 40000, kFewest = 40;
+    const float unit = std::max(1.0f, static_cast<float>(anchor_from_cur.full_size().width) / 640);
+    const float shift = 4 * unit, cell_px = 32 * unit;
+    const std::array<Vec2, 5> shifts{Vec2(0), Vec2(shift, 0), Vec2(-shift, 0), Vec2(0, shift),
+                                     Vec2(0, -shift)};
+    const int across = static_cast<int>(static_cast<float>(cur.area.width()) / cell_px) + 1;
+    const int down = static_cast<int>(static_cast<float>(cur.area.height()) / cell_px) + 1;
+    std::vector<CellSums> cells(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    for (const RegistrationSample& s : registration_samples(cur, kSamples)) {
+        const int column = static_cast<int>((s.p.x - static_cast<float>(cur.area.x0)) / cell_px);
+        const int row = static_cast<int>((s.p.y - static_cast<float>(cur.area.y0)) / cell_px);
+        CellSums& cell = cells[static_cast<std::size_t>(row * across + column)];
+        const Vec2 place = s.p + anchor_from_cur.at(s.p);
+        ++cell.count;
+        for (std::size_t k = 0; k < shifts.size(); ++k) {
+            const auto there = look_up(anchor, place + shifts[k]);
+            if (!there) continue;
+            cell.product[k] += static_cast<double>(s.value) * there->value;
+            cell.there[k] += static_cast<double>(there->value) * there->value;
+            cell.here[k] += static_cast<double>(s.value) * s.value;
+        }
+    }
+    std::vector<double> found;
+    for (const CellSums& cell : cells)
+        if (cell.count >= kFewest) found.push_back(cell.evidence());
+    if (found.empty()) return 0;
+    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+    std::nth_element(found.begin(), middle, found.end());
+    return *middle;
+}
+
 }  // namespace weft

@@ -5,11 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "engine/motion/contour_flow.h"
-#include "engine/motion/outline_register.h"
 #include "engine/motion/relocalise.h"
 #include "engine/motion/surface_fit.h"
 #include "engine/temporal/anchors.h"
+#include "engine/temporal/step_motion.h"
 #include "engine/temporal/stretch_limit.h"
 
 namespace weft {
@@ -40,7 +39,8 @@ struct SurfaceWalker::State {
 
     AnchorSet anchors;
     LatticeField anchor_from_cur;  // of the present anchor
-    int since_older_tried = 0;     // frames
+    MotionChoice choice;
+    int since_older_tried = 0;  // frames
 
     // After the texture was released to its own shape: its previous track, continued for the
     // frames over which a seam hides the change.
@@ -99,40 +99,6 @@ struct SurfaceWalker::State {
     void search(const RegistrationPicture& cur, ViewU8x1 visible, std::int64_t visible_px);
     void register_frame(const RegistrationPicture& cur, ViewU8x1 visible);
     bool try_others(const RegistrationPicture& cur, int generation_below, double share_above);
-
-    // True if the picture inside the region determines its motion less well than the outline does.
-    [[nodiscard]] bool has_no_structure(ViewU8x1 luma, ViewU8x1 visible,
-                                        const FlowField& motion) const {
-        constexpr float kEnough = 1.25f;
-        return structure_to_noise(luma, visible, last_luma, last_visible, motion) < kEnough;
-    }
-
-    [[nodiscard]] LatticeField fit_motion(ViewU8x1 luma, ViewU8x1 visible,
-                                          const FlowField& motion) const {
-        const int border = options.exact_motion ? 2 : 6;
-        return fit_surface_motion(motion.d, motion_weights(luma, visible, motion.valid, border),
-                                  fit_options());
-    }
-
-    [[nodiscard]] LatticeField fit_outline(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent) const {
-        const FlowField motion = estimate_contour_flow(luma, extent, last_luma, last_extent);
-        SurfaceFitOptions fit = fit_options();
-        fit.finest_px = 12;
-        fit.correlation_px = 4;
-        return register_outline({last_luma, last_extent, last_visible}, {luma, extent, visible},
-                                fit_surface_motion(motion.d, motion.valid, fit));
-    }
-
-    [[nodiscard]] SurfaceFitOptions fit_options() const {
-        SurfaceFitOptions fit;
-        fit.spacing_px = options.spacing_px;
-        if (options.exact_motion) {
-            fit.finest_px = 8;
-            fit.correlation_px = 1;
-            fit.noise_floor_px = 0.005f;
-        }
-        return fit;
-    }
 };
 
 bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
@@ -317,7 +283,7 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         return s.ref_from_cur;
     };
     if (s.options.exact_motion) {
-        s.follow(s.fit_motion(luma, visible, prev_from_cur));
+        s.follow(fit_exact_motion(luma, visible, prev_from_cur, s.options.spacing_px));
         return keep();
     }
     const bool hiding = s.hiding_left > 0;
@@ -333,13 +299,13 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         if (hiding) s.advance_stretched();
         return keep();
     };
-    const bool by_outline = s.has_no_structure(luma, visible, prev_from_cur);
+    StepMotion step =
+        measure_step({s.last_luma, s.last_extent, s.last_visible}, {luma, extent, visible},
+                     prev_from_cur, s.options.spacing_px, s.choice);
     // A part that has just come into view has no motion yet.
-    s.follow(was_hidden   ? s.prev_from_cur
-             : by_outline ? s.fit_outline(luma, visible, extent)
-                          : s.fit_motion(luma, visible, prev_from_cur));
+    s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     // Without structure inside there is nothing to register: the chain continues alone.
-    if (!by_outline) {
+    if (!step.by_outline) {
         const RegistrationPicture cur = registration_picture(luma, visible);
         if (s.lost) {
             s.search(cur, visible, visible_px);

@@ -20,12 +20,13 @@ struct SurfaceWalkerOptions {
 /// Walks away from a reference frame, forwards or backwards in time, and keeps the position of
 /// every pixel on it (method: "Temporal consistency", surface-locked mode).
 ///
-/// Motion from frame to frame is fitted (fit_surface_motion()) and chained. Where the region shows
-/// only its outline (structure_to_noise()), the motion comes from that (register_outline()). A
-/// chain drifts, so each frame is also registered against an *anchor*, at first the reference frame
-/// itself: by a homography where one explains the picture, else by a smooth field
-/// (register_planar(), register_lattice()). When too little of the anchor is visible, the current
-/// frame becomes the next anchor. Not thread-safe; several walkers may run in several threads.
+/// Motion from frame to frame is fitted and chained: that of the picture inside, or where little
+/// structure stands out of its noise and the outline bears it out better, the outline's
+/// (measure_step()). A chain drifts, so each frame is also registered against an *anchor*, at first
+/// the reference frame itself: by a homography where one explains the picture, else by a smooth
+/// field (register_planar(), register_lattice()). When too little of the anchor is visible, the
+/// current frame becomes the next anchor. Not thread-safe; several walkers may run in several
+/// threads.
 class SurfaceWalker {
   public:
     /// `luma`: the frame to start from, 8 bit, H×W. `visible`: the full matte without holdouts.

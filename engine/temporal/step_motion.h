@@ -1,0 +1,43 @@
+#pragma once
+// A surface's motion from one frame to the next: by the picture inside it, or by its outline.
+
+#include <optional>
+
+#include "engine/motion/lattice_field.h"
+#include "engine/motion/optical_flow.h"
+#include "engine/motion/outline_register.h"
+
+namespace weft {
+
+/// Whether a surface with little structure follows the picture inside it or its outline. One frame
+/// says little, so leads are averaged, and a choice changes only where the other one leads clearly.
+/// Not thread-safe.
+class MotionChoice {
+  public:
+    /// What the pictures of one step say (registration_evidence()) for the motion of the picture
+    /// inside and for the outline's.
+    void note(double picture, double outline);
+    [[nodiscard]] bool by_outline() const { return by_outline_; }
+
+  private:
+    std::optional<double> lead_;  // of the picture's motion, the mean of the last frames
+    bool by_outline_ = true;
+};
+
+struct StepMotion {
+    LatticeField prev_from_cur;
+    bool by_outline = false;  ///< There is nothing inside to register either.
+};
+
+/// The surface's motion from raw motion `prev_from_cur`. Where the structure inside stands out of
+/// its noise (structure_to_noise()), that is the picture's; else both the picture's and the
+/// outline's are measured, and `choice` takes the one that the pictures bear out. All H×W.
+[[nodiscard]] StepMotion measure_step(const OutlineView& prev, const OutlineView& cur,
+                                      const FlowField& prev_from_cur, int spacing_px,
+                                      MotionChoice& choice);
+
+/// The surface's motion by motion that is exact, followed closely.
+[[nodiscard]] LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible,
+                                            const FlowField& prev_from_cur, int spacing_px);
+
+}  // namespace weft

@@ -1,0 +1,103 @@
+#include "engine/temporal/step_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "engine/core/rng.h"
+#include "engine/motion/contour_flow.h"
+#include "engine/temporal/surface_walker.h"
+#include "tests/motion/pictures.h"
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{256, 176};
+constexpr float kStep_px = 3;
+
+float normal(Rng& rng) {
+    return static_cast<float>(std::sqrt(-2 * std::log(1 - rng.uniform())) *
+                              std::cos(6.283185307 * rng.uniform()));
+}
+
+// A picture that moves to the right, of `contrast` (of full scale) about grey, under grain.
+Matte frame_of(int t, float contrast, float grain_levels) {
+    const WaveTexture texture(11);
+    Rng rng(100 + static_cast<std::uint64_t>(t));
+    return draw(kFrame, [&](Vec2 p) {
+        const float value = texture(p - Vec2(kStep_px * static_cast<float>(t), 0)) - 0.5f;
+        return 0.5f + contrast * value + grain_levels / 255 * normal(rng);
+    });
+}
+
+// A window that stands still while what it shows moves: its outline says that nothing moves.
+Matte window() {
+    return draw(kFrame, [](Vec2 p) {
+        return p.x > 30 && p.x < 226 && p.y > 20 && p.y < 156 ? 1.0f : 0.0f;
+    });
+}
+
+FlowField flow_between(const Matte& cur, const Matte& prev) {
+    FlowField there = estimate_flow(cur, prev, FlowQuality::kFinal);
+    FlowField back = estimate_flow(prev, cur, FlowQuality::kFinal);
+    check_consistency(there, back);
+    return there;
+}
+
+TEST(StepMotion, FollowsFaintPlasterByItsPicture) {
+    constexpr int kFrames = 6;
+    constexpr float kContrast = 0.03f, kGrain = 1.5f;
+    const Matte matte = window();
+    Matte last = frame_of(0, kContrast, kGrain);
+    SurfaceWalker walker(last, matte, {});
+    for (int t = 1; t < kFrames; ++t) {
+        const Matte luma = frame_of(t, kContrast, kGrain);
+        const FlowField flow = flow_between(luma, last);
+        // No more structure for one pixel than a flat fill has.
+        ASSERT_LT(structure_to_noise(luma, matte, last, matte, flow), 1.25f);
+        walker.advance(luma, matte, flow);
+        last = luma;
+    }
+    for (const Vec2 p : std::array{Vec2(60, 60), Vec2(128, 88), Vec2(200, 120)}) {
+        const Vec2 moved = walker.ref_from_cur().at(p);
+        EXPECT_NEAR(moved.x, -kStep_px * (kFrames - 1), 1.0f);
+        EXPECT_NEAR(moved.y, 0, 1.0f);
+    }
+}
+
+TEST(StepMotion, GrainAloneIsNoEvidence) {
+    const Matte matte = window();
+    const Matte last = frame_of(0, 0, 2.5f), luma = frame_of(1, 0, 2.5f);
+    MotionChoice choice;
+    const StepMotion step = measure_step({last, matte, matte}, {luma, matte, matte},
+                                         flow_between(luma, last), 8, choice);
+    EXPECT_TRUE(step.by_outline);
+}
+
+TEST(MotionChoice, TakesThePictureWhereItIsClearlyBetterOrFoundAlmostEverywhere) {
+    const auto first = [](double picture, double outline) {
+        MotionChoice choice;
+        choice.note(picture, outline);
+        return choice.by_outline() ? "outline" : "picture";
+    };
+    EXPECT_STREQ(first(0.36, 0.17), "picture");
+    EXPECT_STREQ(first(0.83, 0.80), "picture");
+    EXPECT_STREQ(first(0.60, 0.58), "outline");
+    EXPECT_STREQ(first(0.0, 0.0), "outline");
+    EXPECT_TRUE(MotionChoice().by_outline());
+}
+
+TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
+    MotionChoice choice;
+    choice.note(0.4, 0.1);
+    ASSERT_FALSE(choice.by_outline());
+    choice.note(0.1, 0.4);
+    EXPECT_FALSE(choice.by_outline()) << "one frame is no reason";
+    for (int k = 0; k < 4; ++k)
+        choice.note(0.1, 0.4);
+    EXPECT_TRUE(choice.by_outline());
+}
+
+}  // namespace
+}  // namespace weft
