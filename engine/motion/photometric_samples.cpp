@@ -182,13 +182,14 @@ double registration_evidence(const RegistrationPicture& anchor, const Registrati
     const float shift = 4 * unit, cell_px = 32 * unit;
     const std::array<Vec2, 5> shifts{Vec2(0), Vec2(shift, 0), Vec2(-shift, 0), Vec2(0, shift),
                                      Vec2(0, -shift)};
-    const int across = static_cast<int>(static_cast<float>(cur.area.width()) / cell_px) + 1;
-    const int down = static_cast<int>(static_cast<float>(cur.area.height()) / cell_px) + 1;
-    std::vector<CellSums> cells(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    const auto cell_of = [&](float from) { return static_cast<std::size_t>(from / cell_px); };
+    const std::size_t across = cell_of(static_cast<float>(cur.area.width())) + 1;
+    const std::size_t down = cell_of(static_cast<float>(cur.area.height())) + 1;
+    std::vector<CellSums> cells(across * down);
     for (const RegistrationSample& s : registration_samples(cur, kSamples)) {
-        const int column = static_cast<int>((s.p.x - static_cast<float>(cur.area.x0)) / cell_px);
-        const int row = static_cast<int>((s.p.y - static_cast<float>(cur.area.y0)) / cell_px);
-        CellSums& cell = cells[static_cast<std::size_t>(row * across + column)];
+        const std::size_t column = cell_of(s.p.x - static_cast<float>(cur.area.x0));
+        const std::size_t row = cell_of(s.p.y - static_cast<float>(cur.area.y0));
+        CellSums& cell = cells[row * across + column];
         const Vec2 place = s.p + anchor_from_cur.at(s.p);
         ++cell.count;
         for (std::size_t k = 0; k < shifts.size(); ++k) {
