@@ -25,7 +25,7 @@ def main(arguments):
     options = parser().parse_args(arguments)
     try:
         return options.run(options)
-    except (rendering.RenderError, OSError, ValueError) as failure:
+    except (rendering.RenderError, OSError, ValueError, subprocess.CalledProcessError) as failure:
         print("corpus: %s" % failure, file=sys.stderr)
         return 1
 

@@ -41,7 +41,17 @@ def render(corpus, family, seed, look):
         verify.verify(Scene(partial))
         shutil.rmtree(folder, ignore_errors=True)
         os.replace(partial, folder)
+    check_look(Scene(folder), look)
     return Scene(folder), time.time() - started
+
+
+def check_look(scene, look):
+    """A scene that is there is kept, but not taken for one of another length or size."""
+    width, height = scene.facts.get("size") or scene.facts["camera"]["size"]
+    there = (scene.facts["frames"], "%dx%d" % (width, height))
+    if there != (look.frames, look.size):
+        raise RenderError("%s has %d frames of %s, not %d of %s: remove it, or name another folder with --corpus" % (
+            scene.folder, *there, look.frames, look.size))
 
 
 def tile_of(corpus):

@@ -106,6 +106,9 @@ def markdown(results):
           machine["system"], results["date"], "No run failed" if not failures else "%d runs failed" % len(failures))
     parts = ["%d surfaces of %d scenes, half *%s*, commit %s%s, %s; %s, %d cores, %s; %s. Each cell: median / worst of "
              "the surfaces. %s." % of]
+    unverified = [s["name"] for s in results["scenes"] if s["verified"] is False]
+    if unverified:
+        parts.append("**A check of the truth fails** on %s (bench/corpus verify)." % ", ".join(unverified))
     for name, columns in TABLES.items():
         if any(columns[0].value(s) is not None for _, s in surfaces_of(results)):
             parts += ["### %s" % name, by_family(results, columns), "The worst:", worst(results, columns)]

@@ -31,5 +31,5 @@ def grey(path, linear):
 
 def tile_of(scene):
     """The picture of the scene's tiled rendering, or None."""
-    places = (scene.folder / "tile.png", scene.folder.parent / "tile.png")
-    return next((p for p in places if p.is_file()), None)
+    path = scene.folder / "tile.png"
+    return path if path.is_file() else None

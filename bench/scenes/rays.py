@@ -60,7 +60,7 @@ def project(pose, focal_px, size, point):
 
 
 def probe(stage, camera, frames, count, rng):
-    """Records for `count` random pixels of each frame; None stands for what is not known (no surface, no such frame)."""
+    """Records for `count` random pixels of each frame; where a ray hits nothing, the id is 0 and no more is known."""
     focal, (width, height) = camera["focal_px"], stage.size
     records = []
     for frame in frames:

@@ -75,7 +75,6 @@ class Stage:
     def _object(self, part):
         data = bpy.data.meshes.new(part.name)
         mesh = part.mesh
-        data.from_pydata([], [], [])
         data.vertices.add(len(mesh.vertices))
         data.vertices.foreach_set("co", mesh.vertices.astype(np.float32).ravel())
         count = len(mesh.triangles)

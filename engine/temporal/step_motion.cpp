@@ -35,14 +35,16 @@ LatticeField by_outline(const OutlineView& prev, const OutlineView& cur, int spa
 // 0.11 to 0.62 and 0.23 to 0.64.)
 double lead_of(double picture, double outline) {
     constexpr double kClearly = 1.3, kAlmostEverywhere = 0.75;
-    constexpr double kByChance = 0.03;  // grain alone has 0.01
-    return std::max(picture - std::max(kClearly * outline, kByChance), picture - kAlmostEverywhere);
+    return std::max(picture - kClearly * outline, picture - kAlmostEverywhere);
 }
 
 }  // namespace
 
 void MotionChoice::note(double picture, double outline) {
     constexpr double kShare = 0.2, kClear = 0.02;
+    constexpr double kByChance = 0.03;  // grain alone has 0.01
+    // A frame that shows neither, black or blurred, is no reason to change.
+    if (std::max(picture, outline) < kByChance) return;
     const double lead = lead_of(picture, outline);
     if (!lead_) {
         lead_ = lead;

@@ -15,7 +15,7 @@ namespace weft {
 class MotionChoice {
   public:
     /// What the pictures of one step say (registration_evidence()) for the motion of the picture
-    /// inside and for the outline's.
+    /// inside and for the outline's. Without evidence for either the choice stays.
     void note(double picture, double outline);
     [[nodiscard]] bool by_outline() const { return by_outline_; }
 

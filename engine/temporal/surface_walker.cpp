@@ -299,10 +299,11 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         if (hiding) s.advance_stretched();
         return keep();
     };
+    // A part that has just come into view has no motion yet, and says nothing for either choice.
+    MotionChoice unchanged = s.choice;
     StepMotion step =
         measure_step({s.last_luma, s.last_extent, s.last_visible}, {luma, extent, visible},
-                     prev_from_cur, s.options.spacing_px, s.choice);
-    // A part that has just come into view has no motion yet.
+                     prev_from_cur, s.options.spacing_px, was_hidden ? unchanged : s.choice);
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     // Without structure inside there is nothing to register: the chain continues alone.
     if (!step.by_outline) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "engine/core/rng.h"
 #include "engine/motion/contour_flow.h"
@@ -18,7 +19,7 @@ constexpr float kStep_px = 3;
 
 float normal(Rng& rng) {
     return static_cast<float>(std::sqrt(-2 * std::log(1 - rng.uniform())) *
-                              std::cos(6.283185307 * rng.uniform()));
+                              std::cos(2 * std::numbers::pi * rng.uniform()));
 }
 
 // A picture that moves to the right, of `contrast` (of full scale) about grey, under grain.
@@ -97,6 +98,15 @@ TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
     for (int k = 0; k < 4; ++k)
         choice.note(0.1, 0.4);
     EXPECT_TRUE(choice.by_outline());
+}
+
+TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
+    MotionChoice choice;
+    choice.note(0.36, 0.17);
+    ASSERT_FALSE(choice.by_outline());
+    for (int k = 0; k < 50; ++k)
+        choice.note(0.01, 0.0);
+    EXPECT_FALSE(choice.by_outline());
 }
 
 }  // namespace

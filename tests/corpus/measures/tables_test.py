@@ -54,6 +54,16 @@ class Tables(unittest.TestCase):
             self.assertRaises(ValueError, tables.replace_between, page, "new")
 
 
+    def test_scenes_whose_truth_is_not_verified_are_named(self):
+        found = header()
+        found["scenes"] = [{"name": n, "family": "room", "verified": v, "surfaces": [], "failures": []}
+                           for n, v in (("room-1", True), ("room-2", False))]
+        text = tables.markdown(found)
+        self.assertIn("fails** on room-2 (", text)
+        found["scenes"].pop()
+        self.assertNotIn("A check of the truth", tables.markdown(found))
+
+
 class Results(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
