@@ -7,7 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/placement_search.h"
 #include "engine/synthesis/sweep_axis.h"

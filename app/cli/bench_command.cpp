@@ -15,7 +15,7 @@
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/synthesis/repetition.h"
 
 namespace weft {

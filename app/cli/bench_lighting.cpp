@@ -11,7 +11,7 @@
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/shading.h"
 #include "engine/pipeline/surface_pass.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/synthesis/texture_plane.h"
 
 namespace weft {

@@ -1,7 +1,7 @@
 #include "app/cli/engine_choice.h"
 
 #include "engine/core/parallel.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 
 namespace weft {
 

@@ -11,7 +11,7 @@
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/synthesis/endless_plane.h"
 #include "engine/synthesis/light_guide.h"
 #include "engine/synthesis/plane_energy.h"

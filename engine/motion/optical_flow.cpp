@@ -2,30 +2,12 @@
 
 #include <cassert>
 #include <cmath>
-#include <opencv2/video/tracking.hpp>
 
 #include "engine/core/parallel.h"
+#include "engine/motion/patch_search.h"
 
 namespace weft {
 namespace {
-
-cv::Mat as_mat(ViewU8x1 image) {
-    return {image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data()),
-            static_cast<std::size_t>(image.stride())};
-}
-
-// DIS builds a pyramid down to patches of 8 px, so smaller pictures are padded by repeating the
-// border. It also needs rows without gaps, which a crop does not have.
-constexpr int kSmallest = 64;
-
-cv::Mat prepared(const cv::Mat& image) {
-    const int right = std::max(0, kSmallest - image.cols);
-    const int bottom = std::max(0, kSmallest - image.rows);
-    if (right == 0 && bottom == 0) return image.isContinuous() ? image : image.clone();
-    cv::Mat out;
-    cv::copyMakeBorder(image, out, 0, bottom, 0, right, cv::BORDER_REPLICATE);
-    return out;
-}
 
 // Bilinear lookup of a displacement; false when p lies outside the pixel centres.
 bool lookup(const ImageF2& d, float px, float py, Vec2& out) {
@@ -69,34 +51,81 @@ void check_one_way(const FlowField& there, const ImageF2& back, float tolerance_
     });
 }
 
+// The finest level that is searched, and the most steps of a patch there.
+struct SearchDepth {
+    std::size_t finest;
+    int iterations;
+};
+
+SearchDepth depth_for(Size size, FlowQuality quality, std::size_t levels) {
+    // Larger pictures end at a level of about the same size.
+    const int widest = quality == FlowQuality::kDraft ? 512 : 1280;
+    SearchDepth depth{0, quality == FlowQuality::kDraft ? 12 : 16};
+    while ((size.width >> depth.finest) > widest && depth.finest + 1 < levels)
+        ++depth.finest;
+    return depth;
+}
+
+ImageF2 search(const std::vector<SearchPicture>& source, const std::vector<SearchPicture>& target,
+               const SearchDepth& depth) {
+    ImageF2 motion;
+    for (std::size_t level = source.size(); level-- > depth.finest;)
+        motion = search_level(source[level], target[level], motion, depth.iterations);
+    return motion;
+}
+
+// Motion found at 1 / `factor` of the size, bilinear between its pixels' centres.
+FlowField enlarged(const ImageF2& motion, Size size, int factor) {
+    FlowField out(size);
+    if (factor == 1) {
+        out.d = motion;
+        return out;
+    }
+    const float scale = 1.0f / static_cast<float>(factor), gain = static_cast<float>(factor);
+    const auto place = [&](int at, int count) {
+        const float g = (static_cast<float>(at) + 0.5f) * scale - 0.5f;
+        return std::min(std::max(g, 0.0f), static_cast<float>(count - 1));
+    };
+    parallel_rows(size.height, 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            const float gy = place(y, motion.height());
+            const int iy = std::min(static_cast<int>(gy), std::max(0, motion.height() - 2));
+            const float fy = gy - static_cast<float>(iy);
+            const float *a = motion.row(iy), *b = motion.row(std::min(iy + 1, motion.height() - 1));
+            float* row = out.d.row(y);
+            for (int x = 0; x < size.width; ++x) {
+                const float gx = place(x, motion.width());
+                const int ix = std::min(static_cast<int>(gx), std::max(0, motion.width() - 2));
+                const float fx = gx - static_cast<float>(ix);
+                const int right = ix + 1 < motion.width() ? 2 : 0;
+                for (int c = 0; c < 2; ++c) {
+                    const int k = 2 * ix + c;
+                    const float top = a[k] + fx * (a[k + right] - a[k]);
+                    const float low = b[k] + fx * (b[k + right] - b[k]);
+                    row[2 * x + c] = gain * (top + fy * (low - top));
+                }
+            }
+        }
+    });
+    return out;
+}
+
 }  // namespace
 
 FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
     assert(source.size() == target.size());
-    const auto dis = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
-    const bool draft = quality == FlowQuality::kDraft;
-    // The finest pyramid level determines precision and cost (measured on blender_fox_gt: the
-    // rolling ball's error is 1.2 px at a quarter, 0.37 at a half and 0.14 at the full size).
-    // Larger plates end at a level of about the same size.
-    const int widest = draft ? 512 : 1280;
-    int finest = 0;
-    const cv::Mat from = prepared(as_mat(source)), to = prepared(as_mat(target));
-    // A strip has no more levels than patches of 8 px fit into its short side.
-    const int most = std::min(from.rows, from.cols) / 8;
-    while ((source.width() >> finest) > widest && (2 << finest) <= most)
-        ++finest;
-    dis->setFinestScale(finest);
-    dis->setPatchStride(4);
-    dis->setGradientDescentIterations(draft ? 12 : 16);
-    dis->setVariationalRefinementIterations(draft ? 0 : 5);
-    cv::Mat flow;
-    dis->calc(from, to, flow);
-    FlowField out(source.size());
-    for (int y = 0; y < out.d.height(); ++y) {
-        const float* row = flow.ptr<float>(y);
-        std::copy(row, row + out.d.stride(), out.d.row(y));
-    }
-    return out;
+    const auto from = search_pyramid(source), to = search_pyramid(target);
+    const SearchDepth depth = depth_for(source.size(), quality, from.size());
+    return enlarged(search(from, to, depth), source.size(), 1 << depth.finest);
+}
+
+FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality) {
+    assert(a.size() == b.size());
+    const auto of_a = search_pyramid(a), of_b = search_pyramid(b);
+    const SearchDepth depth = depth_for(a.size(), quality, of_a.size());
+    const int factor = 1 << depth.finest;
+    return {enlarged(search(of_a, of_b, depth), a.size(), factor),
+            enlarged(search(of_b, of_a, depth), a.size(), factor)};
 }
 
 void check_consistency(FlowField& target_from_source, FlowField& source_from_target,

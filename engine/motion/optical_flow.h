@@ -8,9 +8,16 @@ namespace weft {
 
 enum class FlowQuality { kDraft, kFinal };
 
-/// DIS optical flow (Kroeger et al. 2016, OpenCV): for each pixel of `source` the displacement to
-/// `target`, H×W×2 pixels, every pixel valid. 8-bit luma, both H×W. Deterministic.
+/// Dense inverse search (Kroeger et al. 2016): for each pixel of `source` the displacement to
+/// `target`, H×W×2 pixels, every pixel valid. 8-bit luma, both H×W. Pure; the same bits for any
+/// number of threads.
 [[nodiscard]] FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality);
+
+struct FlowPair {
+    FlowField b_from_a, a_from_b;
+};
+/// The motion in both directions, which share their work.
+[[nodiscard]] FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality);
 
 /// Marks pixels as invalid whose way there and back misses by more than `tolerance_px` plus 5 % of
 /// its length, or leaves the frame (Sundaram et al. 2010). Only `valid` changes.

@@ -35,10 +35,9 @@ FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& curr
     if (plan.stages) {
         if (auto kept = plan.stages->motion(frame, previous)) return std::move(*kept);
     }
-    FlowField motion = estimate_flow(current.luma, previous_views.luma, plan.quality);
-    const FlowField back = estimate_flow(previous_views.luma, current.luma, plan.quality);
-    check_consistency(motion, back.d);
-    return motion;
+    FlowPair motion = estimate_flows(current.luma, previous_views.luma, plan.quality);
+    check_consistency(motion.b_from_a, motion.a_from_b.d);
+    return std::move(motion.b_from_a);
 }
 
 Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::vector<int>& frames,
@@ -59,8 +58,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
             const PlateViews& before = last->second.views;
             if (!plan.stages->motion(frame, frame - 1) || !plan.stages->motion(frame - 1, frame)) {
                 // One estimate in each direction serves sweeps both ways.
-                FlowField down = estimate_flow(here.views.luma, before.luma, plan.quality);
-                FlowField up = estimate_flow(before.luma, here.views.luma, plan.quality);
+                auto [down, up] = estimate_flows(here.views.luma, before.luma, plan.quality);
                 check_consistency(down, up);
                 plan.stages->keep_motion(frame, frame - 1, down);
                 plan.stages->keep_motion(frame - 1, frame, up);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/seam/aligned.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/synthesis/scratch.h"
 
 namespace weft {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 
 namespace weft {
 namespace {

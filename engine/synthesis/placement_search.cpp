@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/synthesis/direct_search.h"
 #include "engine/synthesis/fft_correlation.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "engine/synthesis/fft_line.h"
 #include "engine/synthesis/scratch.h"
 

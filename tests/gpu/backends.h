@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 #include "gpu/gpu_backend.h"
 #include "tests/gpu/emulated_device.h"
 #include "tests/gpu/search_cases.h"

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "engine/core/rng.h"
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 
 namespace weft::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/seam/isa.h"
+#include "engine/core/isa.h"
 
 #include <algorithm>
 #include <array>
