@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the estimate changes.
-constexpr int kMotionVersion = 1;
+constexpr int kMotionVersion = 2;
 
 class DiskStages final : public StageStore {
   public:

@@ -2,8 +2,10 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/motion/follow_size.h"
 #include "engine/motion/patch_search.h"
 
 namespace weft {
@@ -74,40 +76,10 @@ ImageF2 search(const std::vector<SearchPicture>& source, const std::vector<Searc
     return motion;
 }
 
-// Motion found at 1 / `factor` of the size, bilinear between its pixels' centres.
-FlowField enlarged(const ImageF2& motion, Size size, int factor) {
-    FlowField out(size);
-    if (factor == 1) {
-        out.d = motion;
-        return out;
-    }
-    const float scale = 1.0f / static_cast<float>(factor), gain = static_cast<float>(factor);
-    const auto place = [&](int at, int count) {
-        const float g = (static_cast<float>(at) + 0.5f) * scale - 0.5f;
-        return std::min(std::max(g, 0.0f), static_cast<float>(count - 1));
-    };
-    parallel_rows(size.height, 32, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            const float gy = place(y, motion.height());
-            const int iy = std::min(static_cast<int>(gy), std::max(0, motion.height() - 2));
-            const float fy = gy - static_cast<float>(iy);
-            const float *a = motion.row(iy), *b = motion.row(std::min(iy + 1, motion.height() - 1));
-            float* row = out.d.row(y);
-            for (int x = 0; x < size.width; ++x) {
-                const float gx = place(x, motion.width());
-                const int ix = std::min(static_cast<int>(gx), std::max(0, motion.width() - 2));
-                const float fx = gx - static_cast<float>(ix);
-                const int right = ix + 1 < motion.width() ? 2 : 0;
-                for (int c = 0; c < 2; ++c) {
-                    const int k = 2 * ix + c;
-                    const float top = a[k] + fx * (a[k + right] - a[k]);
-                    const float low = b[k] + fx * (b[k + right] - b[k]);
-                    row[2 * x + c] = gain * (top + fy * (low - top));
-                }
-            }
-        }
-    });
-    return out;
+FlowField at_full_size(ImageF2 motion, Size size) {
+    FlowField found(motion.size());
+    found.d = std::move(motion);
+    return found.size() == size ? std::move(found) : resized(found, size);
 }
 
 }  // namespace
@@ -116,16 +88,15 @@ FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
     assert(source.size() == target.size());
     const auto from = search_pyramid(source), to = search_pyramid(target);
     const SearchDepth depth = depth_for(source.size(), quality, from.size());
-    return enlarged(search(from, to, depth), source.size(), 1 << depth.finest);
+    return at_full_size(search(from, to, depth), source.size());
 }
 
 FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality) {
     assert(a.size() == b.size());
     const auto of_a = search_pyramid(a), of_b = search_pyramid(b);
     const SearchDepth depth = depth_for(a.size(), quality, of_a.size());
-    const int factor = 1 << depth.finest;
-    return {enlarged(search(of_a, of_b, depth), a.size(), factor),
-            enlarged(search(of_b, of_a, depth), a.size(), factor)};
+    return {at_full_size(search(of_a, of_b, depth), a.size()),
+            at_full_size(search(of_b, of_a, depth), a.size())};
 }
 
 void check_consistency(FlowField& target_from_source, FlowField& source_from_target,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "engine/motion/photometric_register.h"
 
@@ -16,70 +18,106 @@ cv::Mat as_mat(ViewU8x1 v) {
 
 constexpr float kWidest_px = 24;
 
-// What all pictures of a frame are computed from.
-struct Shape {
-    cv::Rect box;
-    cv::Mat distance;      // signed, positive inside
-    cv::Mat open;          // visible, away from holdouts
-    cv::Mat light, share;  // luma where open, and 1 there
-
-    explicit Shape(const OutlineView& view) {
-        const cv::Mat all = as_mat(view.extent) >= 128;
-        box = cv::boundingRect(all);
-        if (box.empty()) return;
-        const int margin = static_cast<int>(kWidest_px) + 2;
-        box -= cv::Point(margin, margin);
-        box += cv::Size(2 * margin, 2 * margin);
-        box &= cv::Rect(0, 0, view.extent.width(), view.extent.height());
-        const cv::Mat inside = all(box), outside = ~inside;
-        cv::Mat away;
-        cv::distanceTransform(inside, distance, cv::DIST_L2, 5);
-        cv::distanceTransform(outside, away, cv::DIST_L2, 5);
-        distance -= away;
-        // The ink of an occluder covers the surface beside it.
-        open = as_mat(view.visible)(box) >= 250;
-        cv::erode(open, open, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
-        open.convertTo(share, CV_32F, 1.0 / 255);
-        as_mat(view.luma)(box).convertTo(light, CV_32F);
-        light = light.mul(share);
-    }
-};
-
-// Compares the distance within `band` px of the outline and, inside, the luma smoothed by `sigma`
-// less its surroundings.
-RegistrationPicture picture(const Shape& shape, float band, float sigma) {
-    constexpr float kDistance_px = 6, kInk = 20;  // that count as 1
-    constexpr float kMostInk = 1.5f;
-    RegistrationPicture out;
-    if (shape.box.empty()) return out;
+// The luma's lines and tones inside, smoothed, in units of a line's contrast.
+cv::Mat ink_of(const cv::Mat& light, const cv::Mat& share, float sigma) {
+    constexpr float kInk = 20, kMostInk = 1.5f;  // levels that count as 1; the most
+    constexpr float kNone = 1e-3f;
     cv::Mat near, near_share, wide, wide_share;
     const double surroundings = 4.0 * sigma + 6.0;
-    cv::GaussianBlur(shape.light, near, {0, 0}, sigma);
-    cv::GaussianBlur(shape.share, near_share, {0, 0}, sigma);
-    cv::GaussianBlur(shape.light, wide, {0, 0}, surroundings);
-    cv::GaussianBlur(shape.share, wide_share, {0, 0}, surroundings);
-    out.area = {shape.box.x, shape.box.y, shape.box.x + shape.box.width,
-                shape.box.y + shape.box.height};
-    out.value = ImageF1(shape.box.width, shape.box.height);
-    out.inside = ImageF1(shape.box.width, shape.box.height);
-    for (int y = 0; y < shape.box.height; ++y) {
-        for (int x = 0; x < shape.box.width; ++x) {
-            const float d = shape.distance.at<float>(y, x);
-            float value = (std::clamp(d, -band, band) - band) / kDistance_px;
-            bool compared = std::abs(d) < band;
-            if (d >= band && shape.open.at<std::uint8_t>(y, x) != 0) {
-                constexpr float kNone = 1e-3f;
-                const float ink = near.at<float>(y, x) / (near_share.at<float>(y, x) + kNone) -
-                                  wide.at<float>(y, x) / (wide_share.at<float>(y, x) + kNone);
-                value += std::clamp(ink / kInk, -kMostInk, kMostInk);
+    cv::GaussianBlur(light, near, {0, 0}, sigma);
+    cv::GaussianBlur(share, near_share, {0, 0}, sigma);
+    cv::GaussianBlur(light, wide, {0, 0}, surroundings);
+    cv::GaussianBlur(share, wide_share, {0, 0}, surroundings);
+    cv::Mat ink(light.size(), CV_32F);
+    for (int y = 0; y < ink.rows; ++y) {
+        const auto *n = near.ptr<float>(y), *ns = near_share.ptr<float>(y);
+        const auto *w = wide.ptr<float>(y), *ws = wide_share.ptr<float>(y);
+        auto* out = ink.ptr<float>(y);
+        for (int x = 0; x < ink.cols; ++x) {
+            const float v = n[x] / (ns[x] + kNone) - w[x] / (ws[x] + kNone);
+            out[x] = std::clamp(v / kInk, -kMostInk, kMostInk);
+        }
+    }
+    return ink;
+}
+
+}  // namespace
+
+struct OutlineShape::State {
+    Size frame;
+    cv::Rect box;
+    cv::Mat distance;              // signed, positive inside
+    cv::Mat open;                  // visible, away from holdouts
+    cv::Mat light, share;          // luma where open, and 1 there
+    std::map<float, cv::Mat> ink;  // by σ, px
+    std::map<std::pair<float, float>, RegistrationPicture> pictures;
+};
+
+OutlineShape::OutlineShape(const OutlineView& view) : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.frame = view.extent.size();
+    const cv::Mat all = as_mat(view.extent) >= 128;
+    s.box = cv::boundingRect(all);
+    if (s.box.empty()) return;
+    const int margin = static_cast<int>(kWidest_px) + 2;
+    s.box -= cv::Point(margin, margin);
+    s.box += cv::Size(2 * margin, 2 * margin);
+    s.box &= cv::Rect(0, 0, view.extent.width(), view.extent.height());
+    const cv::Mat inside = all(s.box), outside = ~inside;
+    cv::Mat away;
+    cv::distanceTransform(inside, s.distance, cv::DIST_L2, 5);
+    cv::distanceTransform(outside, away, cv::DIST_L2, 5);
+    s.distance -= away;
+    // The ink of an occluder covers the surface beside it.
+    s.open = as_mat(view.visible)(s.box) >= 250;
+    cv::erode(s.open, s.open, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
+    s.open.convertTo(s.share, CV_32F, 1.0 / 255);
+    as_mat(view.luma)(s.box).convertTo(s.light, CV_32F);
+    s.light = s.light.mul(s.share);
+}
+
+OutlineShape::~OutlineShape() = default;
+OutlineShape::OutlineShape(OutlineShape&&) noexcept = default;
+OutlineShape& OutlineShape::operator=(OutlineShape&&) noexcept = default;
+
+bool OutlineShape::empty() const {
+    return state_->box.empty();
+}
+
+Size OutlineShape::frame_size() const {
+    return state_->frame;
+}
+
+const RegistrationPicture& OutlineShape::picture(float band_px, float sigma_px) const {
+    constexpr float kDistance_px = 6;  // that counts as 1
+    State& s = *state_;
+    const auto [kept, is_new] = s.pictures.try_emplace({band_px, sigma_px});
+    RegistrationPicture& out = kept->second;
+    if (!is_new || s.box.empty()) return out;
+    cv::Mat& ink = s.ink[sigma_px];
+    if (ink.empty()) ink = ink_of(s.light, s.share, sigma_px);
+    out.area = {s.box.x, s.box.y, s.box.x + s.box.width, s.box.y + s.box.height};
+    out.value = ImageF1(s.box.width, s.box.height);
+    out.inside = ImageF1(s.box.width, s.box.height);
+    for (int y = 0; y < s.box.height; ++y) {
+        const auto *distance = s.distance.ptr<float>(y), *tone = ink.ptr<float>(y);
+        const auto* open = s.open.ptr<std::uint8_t>(y);
+        for (int x = 0; x < s.box.width; ++x) {
+            const float d = distance[x];
+            float value = (std::clamp(d, -band_px, band_px) - band_px) / kDistance_px;
+            bool compared = std::abs(d) < band_px;
+            if (d >= band_px && open[x] != 0) {
+                value += tone[x];
                 compared = true;
             }
-            out.value.at(x, y) = value;
-            out.inside.at(x, y) = compared ? 1.0f : 0.0f;
+            out.value.row(y)[x] = value;
+            out.inside.row(y)[x] = compared ? 1.0f : 0.0f;
         }
     }
     return out;
 }
+
+namespace {
 
 struct Stage {
     float band_px, sigma_px;
@@ -90,10 +128,8 @@ struct Stage {
 
 class OutlineMatch {
   public:
-    OutlineMatch(const OutlineView& prev, const OutlineView& cur)
-        : prev_(prev), cur_(cur), scale_(static_cast<float>(cur.luma.width()) / 640.0f) {}
-
-    [[nodiscard]] bool empty() const { return prev_.box.empty() || cur_.box.empty(); }
+    OutlineMatch(const OutlineShape& prev, const OutlineShape& cur)
+        : prev_(prev), cur_(cur), scale_(static_cast<float>(cur.frame_size().width) / 640.0f) {}
 
     // True if a homography was found; `field` is its start and its result.
     bool planar(LatticeField& field) const {
@@ -122,8 +158,9 @@ class OutlineMatch {
     }
 
   private:
-    [[nodiscard]] static RegistrationPicture of(const Shape& shape, const Stage& stage) {
-        return picture(shape, stage.band_px, stage.sigma_px);
+    [[nodiscard]] static const RegistrationPicture& of(const OutlineShape& shape,
+                                                       const Stage& stage) {
+        return shape.picture(stage.band_px, stage.sigma_px);
     }
     [[nodiscard]] RegistrationOptions options(const Stage& stage) const {
         RegistrationOptions out;
@@ -135,16 +172,16 @@ class OutlineMatch {
         return out;
     }
 
-    Shape prev_, cur_;
+    const OutlineShape &prev_, &cur_;
     float scale_;  // of the lattices
 };
 
 }  // namespace
 
-LatticeField register_outline(const OutlineView& prev, const OutlineView& cur,
+LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
                               const LatticeField& initial) {
+    if (prev.empty() || cur.empty()) return initial;
     const OutlineMatch match(prev, cur);
-    if (match.empty()) return initial;
     constexpr float kNarrow = 8;
     LatticeField field = initial;
     match.smooth(field);

@@ -1,8 +1,11 @@
 #pragma once
 // Motion of a flat surface from one drawing to the next, from its outline and its lines.
 
+#include <memory>
+
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/motion/photometric_register.h"
 
 namespace weft {
 
@@ -13,14 +16,35 @@ struct OutlineView {
     ViewU8x1 visible;  ///< The same without holdouts.
 };
 
+/// What is compared of one frame, by the width of the band about its outline. Each picture is made
+/// when it is first asked for and kept, since a frame is registered against the one before it and
+/// the one after it. Not thread-safe.
+class OutlineShape {
+  public:
+    explicit OutlineShape(const OutlineView& view);
+    ~OutlineShape();
+    OutlineShape(OutlineShape&&) noexcept;
+    OutlineShape& operator=(OutlineShape&&) noexcept;
+
+    [[nodiscard]] bool empty() const;
+    [[nodiscard]] Size frame_size() const;
+    /// The signed distance within `band_px` of the outline, and inside of it the luma, smoothed by
+    /// `sigma_px`, less its surroundings.
+    [[nodiscard]] const RegistrationPicture& picture(float band_px, float sigma_px) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 /// prev_from_cur of a region that shows little more than its outline. Each frame becomes a picture
 /// of the signed distance to the outline of the *full matte* in a band about it, so that holdouts
 /// have no effect, and, inside, of the visible lines and tones. The pictures are registered from
 /// wide bands to narrow ones: by a homography, and by a smooth field that starts from it and from
 /// `initial`. The homography is kept where it explains as much, because an outline does not
 /// determine motion along itself and a plane does. `initial`: raw estimate (pixels), defined
-/// everywhere; it is the result where there is nothing to register. Pure; deterministic.
-[[nodiscard]] LatticeField register_outline(const OutlineView& prev, const OutlineView& cur,
+/// everywhere; it is the result where there is nothing to register. Deterministic.
+[[nodiscard]] LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
                                             const LatticeField& initial);
 
 }  // namespace weft

@@ -322,7 +322,8 @@ std::vector<Sample> take_samples(ViewF2 flow, ViewU8x1 weights, int stride) {
 LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitOptions& options) {
     const Size full = flow.size();
     LatticeField field(full, options.spacing_px);
-    const int stride = options.correlation_px > 4 ? 2 : 1;
+    // Two samples a side for what is correlated.
+    const int stride = std::max(1, static_cast<int>(options.correlation_px) / 2);
     const std::vector<Sample> samples = take_samples(flow, weights, stride);
     if (samples.size() < 3) return field;
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/mask/matte_propagation.h"
+#include "engine/motion/follow_size.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_zones.h"
 
@@ -183,14 +184,23 @@ Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
     std::vector<Job> jobs = jobs_of(context.plan, store);
     if (jobs.empty()) return {};
     const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
-    WEFT_CHECK_OK(sweep(context, {there.first, there.last, true}, [&](const SweepFrame& at) {
-        return visit_forward(context, store, jobs, at);
-    }));
+    using Visit =
+        Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const SweepFrame&);
+    const auto walk_mattes = [&](const SweepOptions& options, Visit visit) {
+        return sweep(context, options, [&](SweepFrame at) -> Status {
+            // Mattes are of the plate's size.
+            const Size plate = at.views->display.size();
+            if (!at.prev_from_cur || at.prev_from_cur->size() == plate)
+                return visit(context, store, jobs, at);
+            const FlowField motion = resized(*at.prev_from_cur, plate);
+            at.prev_from_cur = &motion;
+            return visit(context, store, jobs, at);
+        });
+    };
+    WEFT_CHECK_OK(walk_mattes({there.first, there.last, true}, visit_forward));
     for (Job& job : jobs)
         job.walker.reset();
-    WEFT_CHECK_OK(sweep(context, {back.last, back.first, true}, [&](const SweepFrame& at) {
-        return visit_backward(context, store, jobs, at);
-    }));
+    WEFT_CHECK_OK(walk_mattes({back.last, back.first, true}, visit_backward));
     return fill_the_rest(context, store, jobs);
 }
 

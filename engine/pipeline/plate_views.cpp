@@ -6,6 +6,7 @@
 
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
+#include "engine/motion/follow_size.h"
 
 namespace weft {
 namespace {
@@ -20,7 +21,7 @@ std::uint8_t code(float v) {
 }  // namespace
 
 PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate) {
-    PlateViews views{ImageU8x3(plate.size()), Matte(plate.size()), Matte(plate.size(), 255)};
+    PlateViews views{ImageU8x3(plate.size()), Matte(plate.size()), Matte(plate.size(), 255), {}};
     std::atomic<bool> all_finite{true};
     const bool convert = !display_from_plate.identity();
     parallel_rows(plate.height(), kBand, [&](int y0, int y1) {
@@ -49,6 +50,8 @@ PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_p
         }
     });
     if (all_finite) views.finite = {};
+    const Size followed = follow_size(plate.size());
+    if (followed != plate.size()) views.small_luma = reduced(views.luma, followed);
     return views;
 }
 

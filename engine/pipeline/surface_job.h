@@ -10,9 +10,9 @@
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/surface_pass.h"
+#include "engine/pipeline/surface_track.h"
 #include "engine/temporal/held_frames.h"
 #include "engine/temporal/shutter.h"
-#include "engine/temporal/surface_walker.h"
 
 namespace weft {
 
@@ -25,7 +25,7 @@ struct SurfaceJob {
     int primary = 0;              // the reference that holds the placement
     bool coords = false, shading = false, paper = false, grain = false, shutter = false;
 
-    std::optional<SurfaceWalker> walker;
+    std::optional<SurfaceTrack> track;
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
     HeldFrames held;
     bool held_now = false;
@@ -40,6 +40,10 @@ struct SurfaceJob {
 
     [[nodiscard]] bool is_reference(int frame) const {
         return std::binary_search(references.begin(), references.end(), frame);
+    }
+    [[nodiscard]] SurfaceTrack::Motion motion() const {
+        if (!plan->track.empty()) return SurfaceTrack::Motion::kKnown;
+        return plan->true_motion ? SurfaceTrack::Motion::kExact : SurfaceTrack::Motion::kEstimated;
     }
     // Light is estimated from several frames at once, after the legs.
     [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }

@@ -11,7 +11,6 @@
 #include "engine/temporal/held_frames.h"
 #include "engine/temporal/history_seam.h"
 #include "engine/temporal/shutter.h"
-#include "engine/temporal/surface_walker.h"
 
 namespace weft {
 namespace {
@@ -53,7 +52,7 @@ class Follower {
             return {};
         }
         WEFT_CHECK_OK(advance(job, at, visible));
-        return at.frame > job.primary ? blend(job, at.frame, visible, job.walker->ref_from_cur())
+        return at.frame > job.primary ? blend(job, at.frame, visible, job.track->ref_from_cur())
                                       : keep_all(job, at, visible);
     }
 
@@ -63,7 +62,7 @@ class Follower {
         WEFT_TRY(visible, visible_at(job, at));
         if (job.is_reference(at.frame)) return restart(job, at, visible);
         WEFT_CHECK_OK(advance(job, at, visible));
-        return blend(job, at.frame, visible, job.walker->ref_from_cur());
+        return blend(job, at.frame, visible, job.track->ref_from_cur());
     }
 
   private:
@@ -83,17 +82,14 @@ class Follower {
 
     Status start(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
                  const LatticeField* base) {
-        SurfaceWalkerOptions options;
-        options.quality = context_.plan.quality;
-        options.exact_motion = job.plan->true_motion;
-        options.spacing_px =
-            std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
+        const SurfaceTrack::Motion motion = job.motion();
         std::optional<LatticeField> placed;
         if (const auto* pins = pins_at(job, at.frame); pins && !base) {
-            placed = corrected(LatticeField(context_.source.size(), options.spacing_px), *pins);
+            const Size size = context_.source.size();
+            placed = corrected(LatticeField(size, SurfaceTrack::spacing_for(size, motion)), *pins);
             base = &*placed;
         }
-        job.walker.emplace(at.views->luma, visible, options, base, job.extent_now);
+        job.track.emplace(*at.views, visible, job.extent_now, motion, context_.plan.quality, base);
         job.walked_to = job.anchored_at = at.frame;
         job.last_shading.reset();
         job.last_visible = visible;
@@ -125,29 +121,29 @@ class Follower {
             follow_track(job, at, visible);
         } else if (job.plan->true_motion) {
             WEFT_TRY(motion, true_motion(job, at.frame));
-            job.walker->advance(at.views->luma, visible, motion);
+            job.track->advance(*at.views, visible, motion, job.extent_now);
         } else if (job.held_now) {
-            job.walker->hold();
+            job.track->hold();
         } else {
             const bool between =
                 at.frame > job.references.front() && at.frame < job.references.back();
-            job.walker->hide_reanchoring(job.coords && !between);
-            job.walker->advance(at.views->luma, visible, *at.prev_from_cur, job.extent_now);
+            job.track->hide_reanchoring(job.coords && !between);
+            job.track->advance(*at.views, visible, *at.prev_from_cur, job.extent_now);
         }
         job.last_visible = visible;
         WEFT_CHECK_OK(keep_found_late(job, at.frame));
         if (const auto* pins = pins_at(job, at.frame)) {
-            const LatticeField placed = corrected(job.walker->ref_from_cur(), *pins);
-            job.walker->anchor_here(at.views->luma, visible, &placed);
+            const LatticeField placed = corrected(job.track->ref_from_cur(), *pins);
+            job.track->anchor_here(*at.views, visible, &placed);
             job.anchored_at = at.frame;
         } else if (job.is_reference(at.frame)) {
-            job.walker->anchor_here(at.views->luma, visible);
+            job.track->anchor_here(*at.views, visible);
             job.anchored_at = at.frame;
         }
         job.walked_to = at.frame;
         if (job.painter) {
             WEFT_TRY(picture,
-                     job.painter->advance(at.frame, job.walker->prev_from_cur(), context_.cancel));
+                     job.painter->advance(at.frame, job.track->prev_from_cur(), context_.cancel));
             return keep(job, at.frame, AnalysisKind::kPaperTexture, encode(picture));
         }
         return {};
@@ -155,7 +151,7 @@ class Follower {
 
     // Stores better coordinates for frames that were passed.
     Status keep_found_late(SurfaceJob& job, int frame) {
-        const auto found = job.walker->take_found_late();
+        const auto found = job.track->take_found_late();
         if (!job.coords && !job.gathers_light()) return {};
         for (const LatticeField& ref_from_frame : found) {
             frame += walking_back_ ? 1 : -1;
@@ -178,10 +174,10 @@ class Follower {
     void follow_track(SurfaceJob& job, const SweepFrame& at, const Matte& visible) const {
         const auto motion_to = [&](int frame) {
             return plane_motion(job.plan->track.at(at.frame), job.plan->track.at(frame),
-                                context_.source.size(), job.walker->ref_from_cur().spacing());
+                                context_.source.size(), job.track->ref_from_cur().spacing());
         };
-        job.walker->advance_known(at.views->luma, visible, motion_to(job.walked_to),
-                                  motion_to(job.anchored_at));
+        job.track->advance_known(*at.views, visible, motion_to(job.walked_to),
+                                 motion_to(job.anchored_at));
     }
 
     // prev_from_cur from the files, which point in one direction of time. The other direction is
@@ -199,9 +195,9 @@ class Follower {
     // While a seam hides that a stretched texture returned to its shape, both tracks are stored for
     // it.
     Status keep_stretched(const SurfaceJob& job, int frame) {
-        const LatticeField* stretched = job.walker->stretched();
+        const LatticeField* stretched = job.track->stretched();
         if (!stretched || !job.coords) return {};
-        const LatticeField& relaxed = job.walker->ref_from_cur();
+        const LatticeField& relaxed = job.track->ref_from_cur();
         const bool back = walking_back_;
         if (job.held_now)
             WEFT_CHECK_OK(
@@ -215,7 +211,7 @@ class Follower {
         WEFT_CHECK_OK(keep_stretched(job, at.frame));
         if (job.coords || job.gathers_light()) {
             WEFT_CHECK_OK(
-                keep(job, at.frame, job.coords_kind(at.frame), encode(job.walker->ref_from_cur())));
+                keep(job, at.frame, job.coords_kind(at.frame), encode(job.track->ref_from_cur())));
         }
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
@@ -228,7 +224,7 @@ class Follower {
         Shading shading = estimate_shading(working, visible, options);
         if (job.last_shading) {
             shading = steady_shading(shading, *job.last_shading,
-                                     job.walker->prev_from_cur().dense(rect_of(size)));
+                                     job.track->prev_from_cur().dense(rect_of(size)));
         }
         WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kShading, encode(shading)));
         job.last_shading = std::move(shading);
@@ -245,7 +241,7 @@ class Follower {
             job.meter.emplace(context_.plan.plate_quantum);
         } else {
             job.meter->add(display, job.last_display, metered, job.last_metered,
-                           job.walker->prev_from_cur().dense(rect_of(display.size())));
+                           job.track->prev_from_cur().dense(rect_of(display.size())));
         }
         job.last_display = std::move(display);
         job.last_metered = std::move(metered);
@@ -260,7 +256,7 @@ class Follower {
         const std::vector<int>& frames = job.plan->shutter_evidence;
         if (!job.shutter || at.frame > frames.back()) return {};
         if (at.frame > job.primary)
-            job.shutter_meter.add(at.views->luma, visible, job.walker->prev_from_cur());
+            job.shutter_meter.add(at.views->luma, visible, job.track->prev_from_cur());
         if (at.frame < frames.back()) return {};
         return keep(job, job.primary, AnalysisKind::kShutter, encode(job.shutter_meter.degrees()));
     }

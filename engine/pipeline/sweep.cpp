@@ -35,7 +35,7 @@ FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& curr
     if (plan.stages) {
         if (auto kept = plan.stages->motion(frame, previous)) return std::move(*kept);
     }
-    FlowPair motion = estimate_flows(current.luma, previous_views.luma, plan.quality);
+    FlowPair motion = estimate_flows(current.followed(), previous_views.followed(), plan.quality);
     check_consistency(motion.b_from_a, motion.a_from_b.d);
     return std::move(motion.b_from_a);
 }
@@ -58,7 +58,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
             const PlateViews& before = last->second.views;
             if (!plan.stages->motion(frame, frame - 1) || !plan.stages->motion(frame - 1, frame)) {
                 // One estimate in each direction serves sweeps both ways.
-                auto [down, up] = estimate_flows(here.views.luma, before.luma, plan.quality);
+                auto [down, up] = estimate_flows(here.views.followed(), before.followed(), plan.quality);
                 check_consistency(down, up);
                 plan.stages->keep_motion(frame, frame - 1, down);
                 plan.stages->keep_motion(frame - 1, frame, up);

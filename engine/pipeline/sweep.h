@@ -18,8 +18,8 @@ struct SweepFrame {
     int frame = 0;
     std::shared_ptr<const ImageF3> plate;
     const PlateViews* views = nullptr;
-    /// Estimated motion to the frame before (of the sweep) with its consistency; empty on the first
-    /// frame and if the sweep uses no motion.
+    /// Estimated motion to the frame before (of the sweep) with its consistency, of follow_size();
+    /// empty on the first frame and if the sweep uses no motion.
     const FlowField* prev_from_cur = nullptr;
 };
 
@@ -46,7 +46,7 @@ using SweepVisitor = std::function<Status(const SweepFrame&)>;
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
                            const SweepVisitor& visit);
 
-/// prev_from_cur between two neighbours of a sweep, estimated or taken from ShotPlan::stages.
+/// prev_from_cur between two neighbours of a sweep, of follow_size(), estimated or taken from ShotPlan::stages.
 [[nodiscard]] FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& current,
                                        int previous, const PlateViews& previous_views);
 

@@ -19,13 +19,23 @@ LatticeField by_picture(const OutlineView& cur, const FlowField& prev_from_cur, 
         fit);
 }
 
-LatticeField by_outline(const OutlineView& prev, const OutlineView& cur, int spacing_px) {
-    const FlowField motion = estimate_contour_flow(cur.luma, cur.extent, prev.luma, prev.extent);
+LatticeField by_outline(const StepFrame& prev, const StepFrame& cur, int spacing_px) {
+    const OutlineView before = prev.view(), now = cur.view();
+    const FlowField motion =
+        estimate_contour_flow(now.luma, now.extent, before.luma, before.extent);
     SurfaceFitOptions fit;
     fit.spacing_px = spacing_px;
     fit.finest_px = 12;
     fit.correlation_px = 4;
-    return register_outline(prev, cur, fit_surface_motion(motion.d, motion.valid, fit));
+    return register_outline(prev.outline(), cur.outline(),
+                            fit_surface_motion(motion.d, motion.valid, fit));
+}
+
+Matte copy_of(ViewU8x1 v) {
+    Matte out(v.size());
+    for (int y = 0; y < v.height(); ++y)
+        std::copy(v.row(y), v.row(y) + v.width(), out.row(y));
+    return out;
 }
 
 // The outline's motion of a thing with limbs lies near the truth, and so does that of a plane whose
@@ -55,21 +65,33 @@ void MotionChoice::note(double picture, double outline) {
     if (by_outline_ ? *lead_ > kClear : *lead_ < -kClear) by_outline_ = !by_outline_;
 }
 
-StepMotion measure_step(const OutlineView& prev, const OutlineView& cur,
-                        const FlowField& prev_from_cur, int spacing_px, MotionChoice& choice) {
+StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
+    : luma_(copy_of(luma)), extent_(copy_of(extent)), visible_(copy_of(visible)) {}
+
+const RegistrationPicture& StepFrame::picture() const {
+    if (!picture_) picture_ = registration_picture(luma_, visible_);
+    return *picture_;
+}
+
+const OutlineShape& StepFrame::outline() const {
+    if (!outline_) outline_.emplace(view());
+    return *outline_;
+}
+
+StepMotion measure_step(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
+                        int spacing_px, MotionChoice& choice) {
     constexpr float kEnough = 1.25f;
-    LatticeField picture = by_picture(cur, prev_from_cur, spacing_px);
-    if (structure_to_noise(cur.luma, cur.visible, prev.luma, prev.visible, prev_from_cur) >=
+    const OutlineView before = prev.view(), now = cur.view();
+    LatticeField picture = by_picture(now, prev_from_cur, spacing_px);
+    if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         return {std::move(picture), false};
     }
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
     LatticeField outline = by_outline(prev, cur, spacing_px);
-    const RegistrationPicture before = registration_picture(prev.luma, prev.visible);
-    const RegistrationPicture now = registration_picture(cur.luma, cur.visible);
-    choice.note(registration_evidence(before, now, picture),
-                registration_evidence(before, now, outline));
+    choice.note(registration_evidence(prev.picture(), cur.picture(), picture),
+                registration_evidence(prev.picture(), cur.picture(), outline));
     return {choice.by_outline() ? std::move(outline) : std::move(picture), choice.by_outline()};
 }
 

@@ -9,6 +9,25 @@
 
 namespace weft {
 
+/// One frame of a walk: copies of its pictures, and what registration makes of them, computed when
+/// it is first asked for. Not thread-safe.
+class StepFrame {
+  public:
+    StepFrame() = default;
+    /// `luma`, `visible` (the matte without holdouts), `extent` (the full matte): H×W.
+    StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent);
+
+    [[nodiscard]] Size size() const { return luma_.size(); }
+    [[nodiscard]] OutlineView view() const { return {luma_, extent_, visible_}; }
+    [[nodiscard]] const RegistrationPicture& picture() const;
+    [[nodiscard]] const OutlineShape& outline() const;
+
+  private:
+    Matte luma_, extent_, visible_;
+    mutable std::optional<RegistrationPicture> picture_;
+    mutable std::optional<OutlineShape> outline_;
+};
+
 /// Whether a surface with little structure follows the picture inside it or its outline. One frame
 /// says little, so leads are averaged, and a choice changes only where the other one leads clearly.
 /// Not thread-safe.
@@ -31,8 +50,8 @@ struct StepMotion {
 
 /// The surface's motion from raw motion `prev_from_cur`. Where the structure inside stands out of
 /// its noise (structure_to_noise()), that is the picture's; else both the picture's and the
-/// outline's are measured, and `choice` takes the one that the pictures bear out. All H×W.
-[[nodiscard]] StepMotion measure_step(const OutlineView& prev, const OutlineView& cur,
+/// outline's are measured, and `choice` takes the one that the pictures bear out.
+[[nodiscard]] StepMotion measure_step(const StepFrame& prev, const StepFrame& cur,
                                       const FlowField& prev_from_cur, int spacing_px,
                                       MotionChoice& choice);
 

@@ -14,13 +14,6 @@
 namespace weft {
 namespace {
 
-Matte copy_of(ViewU8x1 v) {
-    Matte out(v.size());
-    for (int y = 0; y < v.height(); ++y)
-        std::copy(v.row(y), v.row(y) + v.width(), out.row(y));
-    return out;
-}
-
 std::int64_t count_of(ViewU8x1 visible) {
     std::int64_t count = 0;
     for (int y = 0; y < visible.height(); ++y) {
@@ -35,7 +28,7 @@ std::int64_t count_of(ViewU8x1 visible) {
 struct SurfaceWalker::State {
     SurfaceWalkerOptions options;
     LatticeField ref_from_cur, prev_from_cur;
-    Matte last_luma, last_visible, last_extent;
+    StepFrame last;
 
     AnchorSet anchors;
     LatticeField anchor_from_cur;  // of the present anchor
@@ -69,7 +62,7 @@ struct SurfaceWalker::State {
         anchors.add({std::move(picture), ref_from_cur, generation});
         anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
     }
-    [[nodiscard]] Size frame_size() const { return last_luma.size(); }
+    [[nodiscard]] Size frame_size() const { return last.size(); }
 
     // The position of the frame on an anchor, from the positions of both on the reference frame.
     [[nodiscard]] LatticeField predicted(const Anchor& anchor) const {
@@ -262,10 +255,8 @@ SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalke
     state_->options = options;
     state_->ref_from_cur = ref_from_start ? *ref_from_start : still;
     state_->prev_from_cur = still;
-    state_->last_luma = copy_of(luma);
-    state_->last_visible = copy_of(visible);
-    state_->last_extent = copy_of(extent.empty() ? visible : extent);
-    state_->become_anchor(registration_picture(luma, visible));
+    state_->last = StepFrame(luma, visible, extent.empty() ? visible : extent);
+    state_->become_anchor(state_->last.picture());
 }
 
 SurfaceWalker::~SurfaceWalker() = default;
@@ -275,11 +266,9 @@ SurfaceWalker& SurfaceWalker::operator=(SurfaceWalker&&) noexcept = default;
 const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
                                            const FlowField& prev_from_cur, ViewU8x1 extent) {
     State& s = *state_;
-    if (extent.empty()) extent = visible;
+    StepFrame cur(luma, visible, extent.empty() ? visible : extent);
     const auto keep = [&]() -> const LatticeField& {
-        s.last_luma = copy_of(luma);
-        s.last_visible = copy_of(visible);
-        s.last_extent = copy_of(extent);
+        s.last = std::move(cur);
         return s.ref_from_cur;
     };
     if (s.options.exact_motion) {
@@ -301,17 +290,15 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     };
     // A part that has just come into view has no motion yet, and says nothing for either choice.
     MotionChoice unchanged = s.choice;
-    StepMotion step =
-        measure_step({s.last_luma, s.last_extent, s.last_visible}, {luma, extent, visible},
-                     prev_from_cur, s.options.spacing_px, was_hidden ? unchanged : s.choice);
+    StepMotion step = measure_step(s.last, cur, prev_from_cur, s.options.spacing_px,
+                                   was_hidden ? unchanged : s.choice);
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     // Without structure inside there is nothing to register: the chain continues alone.
     if (!step.by_outline) {
-        const RegistrationPicture cur = registration_picture(luma, visible);
         if (s.lost) {
-            s.search(cur, visible, visible_px);
+            s.search(cur.picture(), visible, visible_px);
         } else {
-            s.register_frame(cur, visible);
+            s.register_frame(cur.picture(), visible);
         }
     }
     return noted();
@@ -333,9 +320,7 @@ void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField 
     State& s = *state_;
     s.prev_from_cur = std::move(prev_from_cur);
     s.correct(s.anchors.present_index(), std::move(anchor_from_cur));
-    s.last_luma = copy_of(luma);
-    s.last_visible = copy_of(visible);
-    s.last_extent = copy_of(visible);
+    s.last = StepFrame(luma, visible, visible);
 }
 
 void SurfaceWalker::hold() {

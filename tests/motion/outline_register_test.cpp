@@ -22,7 +22,7 @@ bool arm(Vec2 p, float turn) {
 
 struct Drawing {
     Matte luma, extent, visible;
-    [[nodiscard]] OutlineView view() const { return {luma, extent, visible}; }
+    [[nodiscard]] OutlineShape shape() const { return OutlineShape({luma, extent, visible}); }
 };
 
 // `material`: where a place of the picture lies on the shield. Inside there is one belt and one
@@ -75,7 +75,7 @@ TEST(OutlineRegister, FollowsAFlatShapeUnderASwingingArm) {
     const LatticeField still(kFrame, 8);
     const auto prev_at = [](Vec2 q) { return q + Vec2(150, 120); };
     EXPECT_GT(mean_error(still, cur, after, prev_at), 7.0f);
-    const LatticeField found = register_outline(prev.view(), cur.view(), still);
+    const LatticeField found = register_outline(prev.shape(), cur.shape(), still);
     EXPECT_LT(mean_error(found, cur, after, prev_at), 0.25f);
 }
 
@@ -89,7 +89,7 @@ TEST(OutlineRegister, BendsWhereNoPlaneFits) {
     const LatticeField still(kFrame, 8);
     const auto prev_at = [](Vec2 q) { return q + Vec2(150, 120); };
     const float unmoved = mean_error(still, cur, after, prev_at);
-    const LatticeField found = register_outline(prev.view(), cur.view(), still);
+    const LatticeField found = register_outline(prev.shape(), cur.shape(), still);
     EXPECT_LT(mean_error(found, cur, after, prev_at), 0.25f * unmoved);
 }
 
@@ -97,8 +97,8 @@ TEST(OutlineRegister, WithoutAShapeNothingIsChanged) {
     const Matte empty(kFrame);
     LatticeField initial(kFrame, 8);
     initial.set_node(5, 5, {1, 2});
-    const LatticeField out =
-        register_outline({empty, empty, empty}, {empty, empty, empty}, initial);
+    const LatticeField out = register_outline(OutlineShape({empty, empty, empty}),
+                                              OutlineShape({empty, empty, empty}), initial);
     EXPECT_EQ(out.nodes(), initial.nodes());
 }
 

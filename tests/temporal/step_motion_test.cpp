@@ -71,8 +71,9 @@ TEST(StepMotion, GrainAloneIsNoEvidence) {
     const Matte matte = window();
     const Matte last = frame_of(0, 0, 2.5f), luma = frame_of(1, 0, 2.5f);
     MotionChoice choice;
-    const StepMotion step = measure_step({last, matte, matte}, {luma, matte, matte},
-                                         flow_between(luma, last), 8, choice);
+    const StepMotion step =
+        measure_step(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                     flow_between(luma, last), 8, choice);
     EXPECT_TRUE(step.by_outline);
 }
 

@@ -1,0 +1,57 @@
+#pragma once
+// Internal to follow_surfaces(): a surface's walk at the size at which it is followed, seen from
+// the plate's.
+
+#include <vector>
+
+#include "engine/pipeline/plate_views.h"
+#include "engine/temporal/surface_walker.h"
+
+namespace weft {
+
+/// All mattes and lattices are of the plate's size; motion that was estimated from frame to frame
+/// is of the size of PlateViews::followed(). A surface whose motion is known is not followed and
+/// walks at the plate's size. Not thread-safe.
+class SurfaceTrack {
+  public:
+    enum class Motion : std::uint8_t {
+        kEstimated,
+        kExact,  ///< From files: followed closely.
+        kKnown   ///< By advance_known().
+    };
+    /// The spacing of the lattices of a walk, px of the plate.
+    [[nodiscard]] static int spacing_for(Size plate, Motion motion);
+
+    /// As SurfaceWalker's; `base` has the spacing that spacing_for() gives.
+    SurfaceTrack(const PlateViews& views, const Matte& visible, const Matte& extent, Motion motion,
+                 FlowQuality quality, const LatticeField* base);
+
+    void advance(const PlateViews& views, const Matte& visible, const FlowField& prev_from_cur,
+                 const Matte& extent);
+    void advance_known(const PlateViews& views, const Matte& visible, LatticeField prev_from_cur,
+                       LatticeField anchor_from_cur);
+    void hold();
+    void anchor_here(const PlateViews& views, const Matte& visible,
+                     const LatticeField* ref_from_here = nullptr);
+    void hide_reanchoring(bool hide) { walker_.hide_reanchoring(hide); }
+
+    [[nodiscard]] const LatticeField& ref_from_cur() const;
+    [[nodiscard]] const LatticeField& prev_from_cur() const;
+    /// Null unless a seam hides that the texture returned to its shape.
+    [[nodiscard]] const LatticeField* stretched() const;
+    [[nodiscard]] std::vector<LatticeField> take_found_late();
+
+  private:
+    [[nodiscard]] bool reduces() const { return followed_ != plate_; }
+    [[nodiscard]] const Matte& luma_of(const PlateViews& views) const;
+    [[nodiscard]] LatticeField in_plate(const LatticeField& field) const;
+    void take_over();
+
+    Size plate_, followed_;
+    int spacing_px_;
+    SurfaceWalker walker_;
+    // At the plate's size, if that is another.
+    LatticeField ref_from_cur_, prev_from_cur_, stretched_;
+};
+
+}  // namespace weft
