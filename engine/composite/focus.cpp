@@ -69,15 +69,39 @@ ImageF1 gradient_lengths(const ImageF1& sharp, ViewU8x1 matte) {
     return length;
 }
 
-// The deviation of the Gaussian that makes an ideal step as wide as `width`. A step's width is its
-// height over its central difference, both on the pixel grid: 2 / erf(1 / (√2 σ)).
-float blur_of_width(float width) {
-    constexpr int kHalvings = 16;
+// The bisection of blurs by width, as a tree whose node n has the children 2n and 2n + 1: at each
+// node the width that an ideal step has under the blur in the middle. A step's width is its height
+// over its central difference, both on the pixel grid: 2 / erf(1 / (√2 σ)).
+constexpr int kHalvings = 16;
+
+void fill_widths(std::vector<float>& widths, std::size_t node, float low, float high) {
+    if (node >= widths.size()) return;
     constexpr float kRootTwo = 1.41421356f;
+    const float middle = 0.5f * (low + high);
+    widths[node] = 2.0f / std::erf(1.0f / (middle * kRootTwo));
+    fill_widths(widths, 2 * node, low, middle);
+    fill_widths(widths, 2 * node + 1, middle, high);
+}
+
+const std::vector<float>& widths_by_blur() {
+    static const std::vector<float> widths = [] {
+        std::vector<float> out(std::size_t{1} << kHalvings);
+        fill_widths(out, 1, kNoBlur, kMostBlurred);
+        return out;
+    }();
+    return widths;
+}
+
+// The deviation of the Gaussian that makes an ideal step as wide as `width`.
+float blur_of_width(float width) {
+    const std::vector<float>& widths = widths_by_blur();
     float low = kNoBlur, high = kMostBlurred;  // the width grows with the blur
+    std::size_t node = 1;
     for (int i = 0; i < kHalvings; ++i) {
         const float middle = 0.5f * (low + high);
-        (2.0f / std::erf(1.0f / (middle * kRootTwo)) < width ? low : high) = middle;
+        const bool wider = widths[node] < width;
+        (wider ? low : high) = middle;
+        node = 2 * node + (wider ? 1 : 0);
     }
     return 0.5f * (low + high);
 }

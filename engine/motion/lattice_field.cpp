@@ -151,6 +151,42 @@ Vec2 LatticeField::at(Vec2 p) const {
     return d;
 }
 
+std::vector<Vec2> LatticeField::at(const std::vector<Vec2>& positions) const {
+    constexpr std::size_t kChunk = 4096;
+    std::vector<Vec2> out(positions.size());
+    parallel_for((positions.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(positions.size(), (chunk + 1) * kChunk);
+        std::vector<float> line(static_cast<std::size_t>(nodes_.stride()));
+        for (std::size_t k = chunk * kChunk; k < end;) {
+            const float y = positions[k].y;
+            std::size_t row_end = k;
+            while (row_end < end && positions[row_end].y == y)
+                ++row_end;
+            const Tap ty = tap_at(y, spacing_, nodes_.height());
+            const auto [left, right] =
+                std::minmax_element(positions.begin() + static_cast<std::ptrdiff_t>(k),
+                                    positions.begin() + static_cast<std::ptrdiff_t>(row_end),
+                                    [](const Vec2& a, const Vec2& b) { return a.x < b.x; });
+            const int first = tap_at(left->x, spacing_, nodes_.width()).first;
+            const int last = tap_at(right->x, spacing_, nodes_.width()).first + 3;
+            for (int n = 2 * first; n < 2 * (last + 1); ++n) {
+                float sum = 0;
+                for (int r = 0; r < 4; ++r)
+                    sum += ty.weight[static_cast<std::size_t>(r)] * nodes_.row(ty.first + r)[n];
+                line[static_cast<std::size_t>(n)] = sum;
+            }
+            for (; k < row_end; ++k) {
+                const Tap tx = tap_at(positions[k].x, spacing_, nodes_.width());
+                const float* n = line.data() + static_cast<std::ptrdiff_t>(2) * tx.first;
+                const auto& w = tx.weight;
+                out[k] = {w[0] * n[0] + w[1] * n[2] + w[2] * n[4] + w[3] * n[6],
+                          w[0] * n[1] + w[1] * n[3] + w[2] * n[5] + w[3] * n[7]};
+            }
+        }
+    });
+    return out;
+}
+
 ImageF2 LatticeField::dense(const Recti& area) const {
     assert(area.intersected(rect_of(full_)) == area);
     ImageF2 out(area.width(), area.height());

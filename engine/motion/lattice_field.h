@@ -2,6 +2,7 @@
 // A smooth displacement field on a lattice of nodes, with interpolation between them.
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/core/image.h"
 
@@ -40,6 +41,8 @@ class LatticeField {
 
     /// The displacement at any position, in or outside of the frame.
     [[nodiscard]] Vec2 at(Vec2 p) const;
+    /// The displacements at positions inside the frame. Neighbours in a row share work.
+    [[nodiscard]] std::vector<Vec2> at(const std::vector<Vec2>& positions) const;
     /// The displacement at the centre of every pixel of `area` (inside the frame), in its order.
     [[nodiscard]] ImageF2 dense(const Recti& area) const;
     /// The same field on a lattice of another spacing.

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/core/parallel.h"
 #include "engine/motion/photometric_samples.h"
 
 namespace weft {
@@ -72,12 +73,11 @@ Vec8 gradient_of(const Homography& map, const Homography::At& a, double gx, doub
 
 // The homography nearest to a field at the samples, by linear least squares on the numerator
 // (algebraic error; the photometric iterations that follow do not depend on it).
-bool start_from(const LatticeField& field, const std::vector<RegistrationSample>& samples,
-                Homography& map) {
+bool start_from(const LatticeField& field, const RegistrationSamples& samples, Homography& map) {
     Mat8 a{};
     Vec8 b{};
     for (std::size_t k = 0; k < samples.size(); k += 7) {
-        const Vec2 p = samples[k].p, q = p + field.at(p);
+        const Vec2 p = samples.p[k], q = p + field.at(p);
         const double u = (p.x - map.cx) / map.radius, v = (p.y - map.cy) / map.radius;
         const double tx = (q.x - map.cx) / map.radius, ty = (q.y - map.cy) / map.radius;
         const std::array<Vec8, 2> rows{
@@ -119,39 +119,64 @@ LatticeField field_of(const Homography& map, const LatticeField& like) {
     return out;
 }
 
-// One Gauss–Newton step. Returns how far the samples move at most, px; negative: no solution.
-double planar_step(const RegistrationPicture& anchor,
-                   const std::vector<RegistrationSample>& samples, Homography& map) {
-    struct Term {
-        double r;
-        Vec8 j;
-    };
-    std::vector<Term> terms;
-    terms.reserve(samples.size());
-    std::vector<float> sizes;
-    sizes.reserve(samples.size());
-    for (const RegistrationSample& s : samples) {
-        const auto a = map.at(s.p.x, s.p.y);
-        if (a.w < 0.05) continue;
-        const auto seen = look_up(anchor, {static_cast<float>(a.x), static_cast<float>(a.y)});
-        if (!seen) continue;
-        const double r = static_cast<double>(seen->value) - static_cast<double>(s.value);
-        terms.push_back({r, gradient_of(map, a, seen->gradient.x, seen->gradient.y)});
-        sizes.push_back(static_cast<float>(std::abs(r)));
-    }
-    if (terms.size() < 200) return -1;
-    const double scale = robust_spread(sizes);
+// The normal equations of some residuals.
+struct Normal {
     Mat8 a{};
     Vec8 b{};
-    for (const Term& t : terms) {
+
+    void add(const Homography& map, const RegistrationResidual& t, double scale) {
         const double w = cauchy(t.r / scale);
+        const Vec8 j = gradient_of(map, map.at(t.p.x, t.p.y), t.gradient.x, t.gradient.y);
         for (std::size_t i = 0; i < 8; ++i) {
-            const double wj = w * t.j[i];
+            const double wj = w * j[i];
             for (std::size_t k = 0; k <= i; ++k)
-                a[i][k] += wj * t.j[k];
+                a[i][k] += wj * j[k];
             b[i] -= wj * t.r;
         }
     }
+    void add(const Normal& other) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            for (std::size_t k = 0; k <= i; ++k)
+                a[i][k] += other.a[i][k];
+            b[i] += other.b[i];
+        }
+    }
+};
+
+Normal normal_of(const Homography& map, const std::vector<RegistrationResidual>& residuals,
+                 double scale) {
+    constexpr std::size_t kChunk = 4096;
+    std::vector<Normal> parts((residuals.size() + kChunk - 1) / kChunk);
+    parallel_for(parts.size(), [&](std::size_t part) {
+        const std::size_t end = std::min(residuals.size(), (part + 1) * kChunk);
+        for (std::size_t k = part * kChunk; k < end; ++k)
+            parts[part].add(map, residuals[k], scale);
+    });
+    Normal sum;
+    for (const Normal& part : parts)
+        sum.add(part);
+    return sum;
+}
+
+std::vector<Vec2> places_under(const Homography& map, const RegistrationSamples& samples) {
+    constexpr float kNowhere = -1e6f;  // beyond the horizon
+    std::vector<Vec2> places;
+    places.reserve(samples.size());
+    for (const Vec2 p : samples.p) {
+        const auto a = map.at(p.x, p.y);
+        places.push_back(a.w < 0.05 ? Vec2(kNowhere)
+                                    : Vec2(static_cast<float>(a.x), static_cast<float>(a.y)));
+    }
+    return places;
+}
+
+// One Gauss–Newton step. Returns how far the samples move at most, px; negative: no solution.
+double planar_step(const RegistrationPicture& anchor, const RegistrationSamples& samples,
+                   Homography& map) {
+    const auto residuals = residuals_at(anchor, samples, places_under(map, samples));
+    if (residuals.size() < 200) return -1;
+    const double scale = robust_spread(residuals);
+    auto [a, b] = normal_of(map, residuals, scale);
     // A prior limits perspective to about a tenth over the region.
     const double prior = 100 * scale * scale;
     a[6][6] += prior;
@@ -175,7 +200,7 @@ PlanarRegistration register_planar(const RegistrationPicture& anchor,
                                    const RegistrationPicture& cur, const LatticeField& initial,
                                    const RegistrationOptions& options) {
     PlanarRegistration out{initial, {}, false};
-    const auto samples = registration_samples(cur, options.samples);
+    const RegistrationSamples samples = registration_samples(cur, options.samples);
     if (samples.size() < 500) return out;
     Homography map;
     map.cx = 0.5 * (cur.area.x0 + cur.area.x1);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
+
+#include "engine/core/parallel.h"
 
 namespace weft {
 namespace {
@@ -18,12 +21,49 @@ constexpr float kLocal_px = 4;
 // Pixels nearer to the outline are mixed with the background.
 constexpr float kEdge_px = 3;
 
+using F4 = float __attribute__((vector_size(16)));
+
+F4 load(const float* from) {
+    F4 v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+
+float dot(F4 a, F4 b) {
+    const F4 v = a * b;
+    return (v[0] + v[2]) + (v[1] + v[3]);
+}
+
 // Catmull–Rom weights of four neighbours at fraction t, and their derivatives.
-void weights_at(float t, std::array<float, 4>& w, std::array<float, 4>& d) {
+F4 weights_at(float t) {
     const float t2 = t * t, t3 = t2 * t;
-    w = {-0.5f * t + t2 - 0.5f * t3, 1 - 2.5f * t2 + 1.5f * t3, 0.5f * t + 2 * t2 - 1.5f * t3,
-         -0.5f * t2 + 0.5f * t3};
-    d = {-0.5f + 2 * t - 1.5f * t2, -5 * t + 4.5f * t2, 0.5f + 4 * t - 4.5f * t2, -t + 1.5f * t2};
+    return F4{-0.5f * t + t2 - 0.5f * t3, 1 - 2.5f * t2 + 1.5f * t3, 0.5f * t + 2 * t2 - 1.5f * t3,
+              -0.5f * t2 + 0.5f * t3};
+}
+F4 slopes_at(float t) {
+    const float t2 = t * t;
+    return F4{-0.5f + 2 * t - 1.5f * t2, -5 * t + 4.5f * t2, 0.5f + 4 * t - 4.5f * t2,
+              -t + 1.5f * t2};
+}
+
+// Where a picture is looked up: the first of sixteen pixels, and the fractions.
+struct Cell {
+    const float* first;
+    float fx, fy;
+};
+
+std::optional<Cell> cell_at(const RegistrationPicture& picture, Vec2 p) {
+    const float gx = p.x - 0.5f - static_cast<float>(picture.area.x0);
+    const float gy = p.y - 0.5f - static_cast<float>(picture.area.y0);
+    if (!(gx >= 1 && gy >= 1 && gx < static_cast<float>(picture.area.width() - 2) &&
+          gy < static_cast<float>(picture.area.height() - 2))) {
+        return std::nullopt;
+    }
+    const int x = static_cast<int>(gx), y = static_cast<int>(gy);
+    if (*picture.inside.pixel(x, y) == 0 || *picture.inside.pixel(x + 1, y + 1) == 0)
+        return std::nullopt;
+    return Cell{picture.value.pixel(x - 1, y - 1), gx - static_cast<float>(x),
+                gy - static_cast<float>(y)};
 }
 
 }  // namespace
@@ -81,7 +121,7 @@ RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     return out;
 }
 
-std::vector<RegistrationSample> registration_samples(const RegistrationPicture& picture, int most) {
+RegistrationSamples registration_samples(const RegistrationPicture& picture, int most) {
     std::int64_t count = 0;
     for (int y = 0; y < picture.inside.height(); ++y) {
         const float* row = picture.inside.row(y);
@@ -90,45 +130,76 @@ std::vector<RegistrationSample> registration_samples(const RegistrationPicture& 
     int stride = 1;
     while (count / (static_cast<std::int64_t>(stride) * stride) > most)
         ++stride;
-    std::vector<RegistrationSample> samples;
+    RegistrationSamples samples;
     for (int y = 0; y < picture.inside.height(); y += stride) {
         // Rows are shifted against each other, so that no column is missed altogether.
         for (int x = (y / stride * 2) % stride; x < picture.inside.width(); x += stride) {
             if (picture.inside.at(x, y) == 0) continue;
-            samples.push_back({{static_cast<float>(picture.area.x0 + x) + 0.5f,
-                                static_cast<float>(picture.area.y0 + y) + 0.5f},
-                               picture.value.at(x, y)});
+            samples.p.emplace_back(static_cast<float>(picture.area.x0 + x) + 0.5f,
+                                   static_cast<float>(picture.area.y0 + y) + 0.5f);
+            samples.value.push_back(picture.value.at(x, y));
         }
     }
     return samples;
 }
 
-std::optional<RegistrationLookup> look_up(const RegistrationPicture& picture, Vec2 p) {
-    const float gx = p.x - 0.5f - static_cast<float>(picture.area.x0);
-    const float gy = p.y - 0.5f - static_cast<float>(picture.area.y0);
-    if (!(gx >= 1 && gy >= 1 && gx < static_cast<float>(picture.area.width() - 2) &&
-          gy < static_cast<float>(picture.area.height() - 2))) {
-        return std::nullopt;
-    }
-    const int x = static_cast<int>(gx), y = static_cast<int>(gy);
-    if (picture.inside.at(x, y) == 0 || picture.inside.at(x + 1, y + 1) == 0) return std::nullopt;
-    std::array<float, 4> wx{}, dx{}, wy{}, dy{};
-    weights_at(gx - static_cast<float>(x), wx, dx);
-    weights_at(gy - static_cast<float>(y), wy, dy);
-    RegistrationLookup out{0, {0, 0}};
-    for (int j = 0; j < 4; ++j) {
-        const float* row = picture.value.pixel(x - 1, y - 1 + j);
-        const auto k = static_cast<std::size_t>(j);
-        const float v = wx[0] * row[0] + wx[1] * row[1] + wx[2] * row[2] + wx[3] * row[3];
-        const float g = dx[0] * row[0] + dx[1] * row[1] + dx[2] * row[2] + dx[3] * row[3];
-        out.value += wy[k] * v;
-        out.gradient.x += wy[k] * g;
-        out.gradient.y += dy[k] * v;
-    }
-    return out;
+std::vector<Vec2> places_under(const LatticeField& anchor_from_cur,
+                               const RegistrationSamples& samples) {
+    std::vector<Vec2> places = anchor_from_cur.at(samples.p);
+    for (std::size_t k = 0; k < places.size(); ++k)
+        places[k] += samples.p[k];
+    return places;
 }
 
-double robust_spread(std::vector<float>& sizes) {
+std::vector<RegistrationResidual> residuals_at(const RegistrationPicture& anchor,
+                                               const RegistrationSamples& samples,
+                                               const std::vector<Vec2>& places) {
+    constexpr std::size_t kChunk = 4096;
+    std::vector<std::vector<RegistrationResidual>> parts((places.size() + kChunk - 1) / kChunk);
+    parallel_for(parts.size(), [&](std::size_t part) {
+        const std::size_t end = std::min(places.size(), (part + 1) * kChunk);
+        std::vector<RegistrationResidual>& out = parts[part];
+        out.reserve(kChunk);
+        for (std::size_t k = part * kChunk; k < end; ++k) {
+            const auto cell = cell_at(anchor, places[k]);
+            if (!cell) continue;
+            const F4 wy = weights_at(cell->fy), dy = slopes_at(cell->fy);
+            const float* row = cell->first;
+            F4 column{}, slope{};
+            for (int j = 0; j < 4; ++j, row += anchor.value.stride()) {
+                const F4 v = load(row);
+                column += wy[j] * v;
+                slope += dy[j] * v;
+            }
+            const F4 wx = weights_at(cell->fx);
+            out.push_back({samples.p[k],
+                           dot(wx, column) - samples.value[k],
+                           {dot(slopes_at(cell->fx), column), dot(wx, slope)}});
+        }
+    });
+    std::vector<RegistrationResidual> all;
+    all.reserve(places.size());
+    for (const auto& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+std::optional<float> look_up(const RegistrationPicture& picture, Vec2 p) {
+    const auto cell = cell_at(picture, p);
+    if (!cell) return std::nullopt;
+    const F4 wy = weights_at(cell->fy);
+    const float* row = cell->first;
+    F4 column{};
+    for (int j = 0; j < 4; ++j, row += picture.value.stride())
+        column += wy[j] * load(row);
+    return dot(weights_at(cell->fx), column);
+}
+
+double robust_spread(const std::vector<RegistrationResidual>& residuals) {
+    std::vector<float> sizes;
+    sizes.reserve(residuals.size());
+    for (const RegistrationResidual& t : residuals)
+        sizes.push_back(std::abs(t.r));
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
     return std::max(0.03, 1.4826 * static_cast<double>(*middle));
@@ -142,11 +213,12 @@ RegistrationFit registration_fit(const RegistrationPicture& anchor, const Regist
     RegistrationFit fit;
     double sum = 0;
     std::size_t seen = 0, agreeing = 0;
-    const auto samples = registration_samples(cur, options.samples / 2);
-    for (const RegistrationSample& s : samples) {
-        const auto there = look_up(anchor, s.p + anchor_from_cur.at(s.p));
+    const RegistrationSamples samples = registration_samples(cur, options.samples / 2);
+    const std::vector<Vec2> places = places_under(anchor_from_cur, samples);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto there = look_up(anchor, places[k]);
         if (!there) continue;
-        const double r = std::abs(static_cast<double>(there->value) - s.value);
+        const double r = std::abs(static_cast<double>(*there) - samples.value[k]);
         ++seen;
         agreeing += r < kMost;
         sum += std::min(r, kMost);
@@ -186,18 +258,20 @@ double registration_evidence(const RegistrationPicture& anchor, const Registrati
     const std::size_t across = cell_of(static_cast<float>(cur.area.width())) + 1;
     const std::size_t down = cell_of(static_cast<float>(cur.area.height())) + 1;
     std::vector<CellSums> cells(across * down);
-    for (const RegistrationSample& s : registration_samples(cur, kSamples)) {
-        const std::size_t column = cell_of(s.p.x - static_cast<float>(cur.area.x0));
-        const std::size_t row = cell_of(s.p.y - static_cast<float>(cur.area.y0));
+    const RegistrationSamples samples = registration_samples(cur, kSamples);
+    const std::vector<Vec2> places = places_under(anchor_from_cur, samples);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::size_t column = cell_of(samples.p[i].x - static_cast<float>(cur.area.x0));
+        const std::size_t row = cell_of(samples.p[i].y - static_cast<float>(cur.area.y0));
         CellSums& cell = cells[row * across + column];
-        const Vec2 place = s.p + anchor_from_cur.at(s.p);
+        const double here = samples.value[i];
         ++cell.count;
         for (std::size_t k = 0; k < shifts.size(); ++k) {
-            const auto there = look_up(anchor, place + shifts[k]);
+            const auto there = look_up(anchor, places[i] + shifts[k]);
             if (!there) continue;
-            cell.product[k] += static_cast<double>(s.value) * there->value;
-            cell.there[k] += static_cast<double>(there->value) * there->value;
-            cell.here[k] += static_cast<double>(s.value) * s.value;
+            cell.product[k] += here * *there;
+            cell.there[k] += static_cast<double>(*there) * *there;
+            cell.here[k] += here * here;
         }
     }
     std::vector<double> found;
