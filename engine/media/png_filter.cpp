@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <cstdlib>
+#include <bit>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "engine/media/png_format.h"
@@ -38,31 +39,118 @@ void subtract(const unsigned char* row, const unsigned char* other, std::size_t 
         to[i] = static_cast<unsigned char>(row[i] - other[i]);
 }
 
-// Of three neighbours the one nearest to left + above − corner.
-int paeth(int left, int above, int corner) {
-    const int to_left = std::abs(above - corner), to_above = std::abs(left - corner);
-    const int to_corner = std::abs(left + above - 2 * corner);
-    if (to_left <= to_above && to_left <= to_corner) return left;
-    return to_above <= to_corner ? above : corner;
+// The filters that need the pixel to the left keep it in a register. All bytes of a pixel are
+// computed at once: in a word whose bytes must not carry into each other, or in a vector.
+template <std::size_t kPixel>
+using PixelWord = std::conditional_t<(kPixel > 4), std::uint64_t, std::uint32_t>;
+
+template <class Part>
+Part load_part(const unsigned char* from) {
+    Part part;
+    std::memcpy(&part, from, sizeof part);
+    return part;
 }
 
-// The filters that need the pixel to the left, which stays in registers because its number of bytes
-// is known here.
-template <Filter kFilter, std::size_t kPixel>
-void add_guesses(unsigned char* __restrict row, const unsigned char* __restrict above,
-                 std::size_t bytes) {
-    int left[kPixel] = {}, corner[kPixel] = {};
+template <class Part>
+void store_part(unsigned char* to, Part part) {
+    std::memcpy(to, &part, sizeof part);
+}
+
+// Three and six bytes in two parts: a copy of so many goes through memory, which takes longer than
+// all the rest.
+template <std::size_t kPixel>
+PixelWord<kPixel> load(const unsigned char* from) {
+    using Word = PixelWord<kPixel>;
+    if constexpr (kPixel == 3 || kPixel == 6) {
+        using Low = std::conditional_t<kPixel == 3, std::uint16_t, std::uint32_t>;
+        using High = std::conditional_t<kPixel == 3, std::uint8_t, std::uint16_t>;
+        const Word high = load_part<High>(from + sizeof(Low));
+        return load_part<Low>(from) | high << (8 * sizeof(Low));
+    } else if constexpr (kPixel == 1) {
+        return *from;
+    } else if constexpr (kPixel == 2) {
+        return load_part<std::uint16_t>(from);
+    } else {
+        return load_part<Word>(from);
+    }
+}
+
+template <std::size_t kPixel>
+void store(unsigned char* to, PixelWord<kPixel> word) {
+    if constexpr (kPixel == 3 || kPixel == 6) {
+        using Low = std::conditional_t<kPixel == 3, std::uint16_t, std::uint32_t>;
+        using High = std::conditional_t<kPixel == 3, std::uint8_t, std::uint16_t>;
+        store_part(to, static_cast<Low>(word));
+        store_part(to + sizeof(Low), static_cast<High>(word >> (8 * sizeof(Low))));
+    } else if constexpr (kPixel == 1) {
+        *to = static_cast<unsigned char>(word);
+    } else if constexpr (kPixel == 2) {
+        store_part(to, static_cast<std::uint16_t>(word));
+    } else {
+        store_part(to, word);
+    }
+}
+
+template <class Word>
+Word add_bytes(Word a, Word b) {
+    constexpr Word kLow = static_cast<Word>(0x7f7f7f7f7f7f7f7fu);
+    return ((a & kLow) + (b & kLow)) ^ ((a ^ b) & ~kLow);
+}
+
+template <class Word>
+Word halfway_bytes(Word a, Word b) {
+    constexpr Word kNot_lowest = static_cast<Word>(0xfefefefefefefefeu);
+    return (a & b) + (((a ^ b) & kNot_lowest) >> 1);
+}
+
+template <std::size_t kPixel>
+void add_left(unsigned char* row, std::size_t bytes) {
+    PixelWord<kPixel> left = 0;
     for (std::size_t x = 0; x + kPixel <= bytes; x += kPixel) {
-        for (std::size_t c = 0; c < kPixel; ++c) {
-            int guess = left[c];
-            if constexpr (kFilter == kAverage) guess = (left[c] + above[x + c]) / 2;
-            if constexpr (kFilter == kPaeth) {
-                guess = paeth(left[c], above[x + c], corner[c]);
-                corner[c] = above[x + c];
-            }
-            left[c] = (row[x + c] + guess) & 0xff;
-            row[x + c] = static_cast<unsigned char>(left[c]);
-        }
+        left = add_bytes(left, load<kPixel>(row + x));
+        store<kPixel>(row + x, left);
+    }
+}
+
+template <std::size_t kPixel>
+void add_average(unsigned char* row, const unsigned char* above, std::size_t bytes) {
+    PixelWord<kPixel> left = 0;
+    for (std::size_t x = 0; x + kPixel <= bytes; x += kPixel) {
+        left = add_bytes(halfway_bytes(left, load<kPixel>(above + x)), load<kPixel>(row + x));
+        store<kPixel>(row + x, left);
+    }
+}
+
+using Bytes8 = std::uint8_t __attribute__((vector_size(8)));
+using Shorts8 = std::int16_t __attribute__((vector_size(16)));
+
+template <std::size_t kPixel>
+Shorts8 load_wide(const unsigned char* from) {
+    return __builtin_convertvector(std::bit_cast<Bytes8>(std::uint64_t{load<kPixel>(from)}),
+                                   Shorts8);
+}
+
+Shorts8 magnitude(Shorts8 v) {
+    return v > -v ? v : -v;
+}
+
+// Of three neighbours the one nearest to left + above − corner.
+Shorts8 paeth(Shorts8 left, Shorts8 above, Shorts8 corner) {
+    const Shorts8 to_left = magnitude(above - corner), to_above = magnitude(left - corner);
+    const Shorts8 to_corner = magnitude(left + above - corner - corner);
+    const Shorts8 second = to_above <= to_corner ? above : corner;
+    return (to_left <= to_above) & (to_left <= to_corner) ? left : second;
+}
+
+template <std::size_t kPixel>
+void add_paeth(unsigned char* row, const unsigned char* above, std::size_t bytes) {
+    Shorts8 left{}, corner{};
+    for (std::size_t x = 0; x + kPixel <= bytes; x += kPixel) {
+        const Shorts8 up = load_wide<kPixel>(above + x);
+        left = (load_wide<kPixel>(row + x) + paeth(left, up, corner)) & 0xff;
+        corner = up;
+        const auto pixel = std::bit_cast<std::uint64_t>(__builtin_convertvector(left, Bytes8));
+        store<kPixel>(row + x, static_cast<PixelWord<kPixel>>(pixel));
     }
 }
 
@@ -73,17 +161,17 @@ bool unfilter_row(unsigned char filter, unsigned char* __restrict row,
         case kNone:
             return true;
         case kSub:
-            add_guesses<kSub, kPixel>(row, above, bytes);
+            add_left<kPixel>(row, bytes);
             return true;
         case kUp:
             for (std::size_t i = 0; i < bytes; ++i)
                 row[i] = static_cast<unsigned char>(row[i] + above[i]);
             return true;
         case kAverage:
-            add_guesses<kAverage, kPixel>(row, above, bytes);
+            add_average<kPixel>(row, above, bytes);
             return true;
         case kPaeth:
-            add_guesses<kPaeth, kPixel>(row, above, bytes);
+            add_paeth<kPixel>(row, above, bytes);
             return true;
         default:
             return false;
