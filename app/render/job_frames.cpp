@@ -1,6 +1,7 @@
 #include "app/render/job_frames.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 
@@ -104,6 +105,30 @@ struct ReviewMovie {
     }
 };
 
+// The first of the frames that failed. No later one is begun; earlier ones are still made, so that
+// any number of threads reports the same frame.
+class FirstFailure {
+  public:
+    explicit FirstFailure(std::size_t none) : at_(none) {}
+    [[nodiscard]] bool is_before(std::size_t frame) const { return at_.load() < frame; }
+    void note(std::size_t frame) {
+        std::size_t known = at_.load();
+        while (frame < known && !at_.compare_exchange_weak(known, frame)) {
+        }
+    }
+
+  private:
+    std::atomic<std::size_t> at_;
+};
+
+// A movie receives its frames in order, so they are rendered in batches; so they are where memory
+// allows fewer frames side by side than there are threads. Otherwise no thread waits for another.
+std::size_t frames_in_batch(const JobSetup& setup, std::size_t frames, bool movie) {
+    const auto threads = static_cast<std::size_t>(thread_count());
+    if (movie || setup.frames_at_once < threads) return std::min(2 * threads, setup.frames_at_once);
+    return frames;
+}
+
 }  // namespace
 
 double movie_fps(const Shot& shot) {
@@ -141,15 +166,21 @@ Status render_frames(const FrameInputs& in, const std::string& movie_path,
         }
         return {};
     };
-    // Renders in batches, so that the movie receives frames in order and memory stays bounded.
-    const auto batch =
-        std::min(static_cast<std::size_t>(2 * thread_count()), in.setup.frames_at_once);
+    const std::size_t batch = frames_in_batch(in.setup, frames.size(), movie.has_value());
     for (std::size_t first = 0; first < frames.size(); first += batch) {
         const std::size_t count = std::min(batch, frames.size() - first);
         std::vector<Status> status(count);
         std::vector<ImageF3> display(movie ? count : 0);
+        FirstFailure failure{count};
         parallel_for(count, [&](std::size_t k) {
-            status[k] = one_frame(frames[first + k], movie ? &display[k] : nullptr);
+            if (failure.is_before(k)) return;
+            try {
+                status[k] = one_frame(frames[first + k], movie ? &display[k] : nullptr);
+            } catch (...) {
+                failure.note(k);
+                throw;
+            }
+            if (!status[k]) failure.note(k);
         });
         for (std::size_t k = 0; k < count; ++k) {
             if (!status[k]) {

@@ -2,6 +2,10 @@
 
 #include <sys/resource.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
 #include <map>
@@ -235,6 +239,17 @@ Expected<JobResult> attempt_job(const JobSpec& spec, const std::vector<int>& lea
     return std::move(job.setup.result);
 }
 
+// A picture of 3840x2160 has 25 to 100 MB, and glibc returns blocks of more than 32 MB to the
+// system at once: 12 % of the time of a render went into getting zeroed pages again and again. The
+// peak of such a render grows by up to 17 % (1.40 to 1.64 GB, with 12 frames as with 40).
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int kLargest_bytes = 1 << 30, kUnused_bytes = 512 << 20;
+    mallopt(M_MMAP_THRESHOLD, kLargest_bytes);
+    mallopt(M_TRIM_THRESHOLD, kUnused_bytes);
+#endif
+}
+
 }  // namespace
 
 Expected<JobStage> parse_job_stage(const std::string& name) {
@@ -268,6 +283,7 @@ void use_threads(int threads) {
 
 Expected<JobResult> run_job(const JobSpec& spec, const CancelToken& cancel,
                             const ProgressFn& progress) {
+    if (spec.memory_bytes <= 0) keep_freed_memory();
     Attempt first;
     auto result = attempt_job(spec, {}, cancel, progress, first);
     if (result || result.error().code != ErrorCode::kUnreadable || !first.shot ||

@@ -5,15 +5,18 @@
 
 #include <array>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "engine/core/text.h"
 #include "engine/media/atomic_file.h"
 #include "engine/media/metadata.h"
 #include "engine/media/picture_file.h"
+#include "engine/media/png_writer.h"
 #include "engine/media/read_back.h"
 
 namespace weft {
@@ -21,12 +24,6 @@ namespace {
 
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
-
-// The filters sub, up and average differ by less than 1 % on film frames at this level, and take
-// two thirds of the time of choosing a filter for every row. Level 6 takes four times as long for 6
-// % less.
-constexpr int kPngLevel = 1;
-constexpr int kPngFilterAverage = 0x40;
 
 OIIO::TypeDesc type_of(SampleKind kind) {
     switch (kind) {
@@ -77,10 +74,7 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
         spec.attribute("Software", software_text(options.metadata));
         spec.attribute("Copyright", copyright_text(options.metadata));
     }
-    if (format == "png") {
-        spec.attribute("png:compressionLevel", kPngLevel);
-        spec.attribute("png:filter", kPngFilterAverage);
-    } else if (format == "jpeg") {
+    if (format == "jpeg") {
         spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
         spec.attribute("jpeg:subsampling", "4:4:4");
     } else if (format == "tiff") {
@@ -116,11 +110,25 @@ Status write_pixels(ImageOutput& output, const std::string& name, const ImageSpe
     return {};
 }
 
+Status put_on_disk(const std::string& path, std::span<const std::byte> bytes,
+                   std::span<const WrittenPart> parts, const WriteRule& rule) {
+    WEFT_TRY(temporary, TemporaryFile::create(path, rule));
+    WEFT_CHECK_OK(temporary.write(bytes));
+    WEFT_CHECK_OK(check_written_picture(temporary.name(), path, parts));
+    return temporary.commit();
+}
+
+bool is_png_name(const std::string& path) {
+    return lower_case(std::filesystem::path(path).extension().string()) == ".png";
+}
+
 Status encode(const std::string& path, const Samples& samples, const WriteOptions& options) {
+    const std::array parts{WrittenPart{samples.size, samples.channels}};
+    if (is_png_name(path))
+        return put_on_disk(path, encode_png(samples, options).bytes(), parts, options.rule);
     auto output = ImageOutput::create(path);
     if (!output) return tl::unexpected(cannot_encode(path, OIIO::geterror()));
     const ImageSpec spec = spec_of(samples, options, output->format_name());
-    const std::array parts{WrittenPart{samples.size, samples.channels}};
     if (output->supports("ioproxy")) {
         // Encoded into memory first, so that all disk errors get our messages.
         std::vector<unsigned char> bytes;
@@ -129,10 +137,7 @@ Status encode(const std::string& path, const Samples& samples, const WriteOption
             return tl::unexpected(cannot_encode(path, output->geterror()));
         }
         WEFT_CHECK_OK(write_pixels(*output, path, spec, samples, path));
-        WEFT_TRY(temporary, TemporaryFile::create(path, options.rule));
-        WEFT_CHECK_OK(temporary.write(std::as_bytes(std::span(bytes))));
-        WEFT_CHECK_OK(check_written_picture(temporary.name(), path, parts));
-        return temporary.commit();
+        return put_on_disk(path, std::as_bytes(std::span(bytes)), parts, options.rule);
     }
     WEFT_TRY(temporary, TemporaryFile::create(path, options.rule));
     if (Status written = write_pixels(*output, temporary.name(), spec, samples, path); !written) {

@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -72,11 +73,26 @@ float unit(T v) {
     }
 }
 
+// The same of one 8-bit channel, which most mattes are, by a table.
+void quantise_codes(const std::vector<std::uint8_t>& samples, std::size_t channel, std::size_t step,
+                    std::uint8_t* out) {
+    std::array<std::uint8_t, 256> coverage_of{};
+    for (std::size_t code = 0; code < coverage_of.size(); ++code)
+        coverage_of[code] = quantise(unit(static_cast<std::uint8_t>(code)));
+    for (std::size_t at = channel; at < samples.size(); at += step)
+        *out++ = coverage_of[samples[at]];
+}
+
 Matte coverage(const Raster& raster, Source source) {
     Matte matte(raster.info.size);
     const auto step = static_cast<std::size_t>(raster.channels);
     const auto channel = static_cast<std::size_t>(source.channel);
     std::uint8_t* const out = matte.data();
+    if (const auto* codes = std::get_if<std::vector<std::uint8_t>>(&raster.samples);
+        codes && !source.luma) {
+        quantise_codes(*codes, channel, step, out);
+        return matte;
+    }
     std::visit(
         [&](const auto& samples) {
             for (std::size_t i = 0, at = 0; at < samples.size(); ++i, at += step) {

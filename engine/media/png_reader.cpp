@@ -6,10 +6,13 @@
 #include <bit>
 #include <cstdint>
 #include <new>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/core/input_file.h"
 #include "engine/media/orientation.h"
+#include "engine/media/png_plain.h"
 #include "engine/media/raster_errors.h"
 
 namespace weft {
@@ -83,6 +86,19 @@ class PngHandle {
         return {static_cast<int>(png_get_image_width(png_, info_)),
                 static_cast<int>(png_get_image_height(png_, info_))};
     }
+    /// How the pixels lie in the file if that is all there is to know about them.
+    [[nodiscard]] std::optional<PngShape> plain_shape() const {
+        const int depth = png_get_bit_depth(png_, info_);
+        if ((depth != 8 && depth != 16) ||
+            png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE ||
+            png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE ||
+            png_get_valid(png_, info_, PNG_INFO_tRNS) != 0)
+            return std::nullopt;
+        return PngShape{size(), png_get_channels(png_, info_), depth / 8};
+    }
+    /// Where the first IDAT chunk begins, once png_read_info() has found it.
+    [[nodiscard]] std::uint64_t first_pixels() const { return source_.at - kPngChunkHead; }
+    [[nodiscard]] const InputFile& file() const { return source_.file; }
     [[nodiscard]] SampleKind kind() const {
         return png_get_bit_depth(png_, info_) == 16 ? SampleKind::kU16 : SampleKind::kU8;
     }
@@ -125,6 +141,23 @@ void set_transforms(const PngHandle& handle, bool raw_codes) {
     png_read_update_info(png, handle.info());
 }
 
+// The samples if the file is plain and sound.
+template <class T>
+std::optional<std::vector<T>> read_plain(const PngHandle& handle) {
+    const auto shape = handle.plain_shape();
+    if (!shape) return std::nullopt;
+    std::vector<T> samples((shape->filtered_bytes() + sizeof(T) - 1) / sizeof(T));
+    const std::span bytes(reinterpret_cast<unsigned char*>(samples.data()),
+                          samples.size() * sizeof(T));
+    if (!read_plain_png(handle.file(), handle.first_pixels(), *shape, bytes)) return std::nullopt;
+    samples.resize(shape->row_bytes() * static_cast<std::size_t>(shape->size.height) / sizeof(T));
+    if constexpr (sizeof(T) == 2 && std::endian::native == std::endian::little) {
+        for (T& sample : samples)
+            sample = static_cast<T>(sample << 8 | sample >> 8);
+    }
+    return samples;
+}
+
 template <class T>
 std::vector<T> read_rows(const PngHandle& handle, int channels) {
     const Size size = handle.size();
@@ -140,6 +173,18 @@ std::vector<T> read_rows(const PngHandle& handle, int channels) {
     return samples;
 }
 
+// libpng reads what is unusual, and says what is wrong with what is damaged.
+template <class T>
+void fill(Raster& raster, const PngHandle& handle, bool raw_codes) {
+    auto plain = read_plain<T>(handle);
+    if (!plain) set_transforms(handle, raw_codes);
+    raster.channels = png_get_channels(handle.png(), handle.info());
+    raster.has_alpha =
+        (png_get_color_type(handle.png(), handle.info()) & PNG_COLOR_MASK_ALPHA) != 0;
+    raster.samples = upright(plain ? std::move(*plain) : read_rows<T>(handle, raster.channels),
+                             handle.size(), raster.channels, raster.info.orientation);
+}
+
 Expected<Raster> read_open(const InputFile& file, const std::string& path, bool raw_codes) {
     const PngHandle handle(file);
     png_read_info(handle.png(), handle.info());
@@ -148,16 +193,10 @@ Expected<Raster> read_open(const InputFile& file, const std::string& path, bool 
     raster.info = handle.info_as_seen();
     raster.palette_indices =
         raw_codes && png_get_color_type(handle.png(), handle.info()) == PNG_COLOR_TYPE_PALETTE;
-    set_transforms(handle, raw_codes);
-    raster.channels = png_get_channels(handle.png(), handle.info());
-    raster.has_alpha =
-        (png_get_color_type(handle.png(), handle.info()) & PNG_COLOR_MASK_ALPHA) != 0;
     if (raster.info.kind == SampleKind::kU16) {
-        raster.samples = upright(read_rows<std::uint16_t>(handle, raster.channels), handle.size(),
-                                 raster.channels, raster.info.orientation);
+        fill<std::uint16_t>(raster, handle, raw_codes);
     } else {
-        raster.samples = upright(read_rows<std::uint8_t>(handle, raster.channels), handle.size(),
-                                 raster.channels, raster.info.orientation);
+        fill<std::uint8_t>(raster, handle, raw_codes);
     }
     return raster;
 }

@@ -115,6 +115,7 @@ const std::vector<Library> kLibraries{
     {"OpenImageIO",
      {"OpenImageIO/"},
      {"engine/media", "engine/media/exr_part.h", "engine/media/picture_file.h"}},
+    {"libdeflate", {"libdeflate.h"}, {"engine/media"}},
     {"FFmpeg",
      {"libavcodec/", "libavformat/", "libavutil/", "libswscale/"},
      {"engine/media"},
