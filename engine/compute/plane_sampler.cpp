@@ -43,14 +43,12 @@ struct LevelView {
 
 // Cubic convolution (Keys 1981) with a = −0.5, Catmull–Rom: averaged over the pixel it keeps the
 // plane's sharpness; steeper kernels overshoot it (docs/decisions/0005-sampling-filter.md).
-constexpr float kA = -0.5f;
-
+// Polynomials in the fraction, one lane for each of the four texels.
 F4 cubic_weights(float f) {
-    const float g = 1 - f;
-    const float near = ((kA + 2) * f - (kA + 3)) * f * f + 1;
-    const float far = ((kA + 2) * g - (kA + 3)) * g * g + 1;
-    // a (d³ − 5d² + 8d − 4) at d = 1 + f and at d = 1 + g.
-    return F4{kA * f * g * g, near, far, kA * g * f * f};
+    const F4 t = spread(f);
+    const F4 constant{0, 1, 0, 0}, linear{-0.5f, 0, 0.5f, 0};
+    const F4 square{1, -2.5f, 2, -0.5f}, cube{-0.5f, 1.5f, -1.5f, 0.5f};
+    return constant + t * (linear + t * (square + t * cube));
 }
 
 F4 row_sum(const float* t0, const float* t1, const float* t2, const float* t3, F4 w) {
@@ -93,14 +91,22 @@ using Lanes = float __attribute__((vector_size(16)));
 }  // namespace portable
 
 #if defined(__x86_64__)
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#endif
 namespace avx2 {
 constexpr std::size_t kRegister = 8;
 using Lanes = float __attribute__((vector_size(32)));
 #include "engine/compute/plane_sampler.inl"
 }  // namespace avx2
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 #endif
 
 template <WrapMode W>

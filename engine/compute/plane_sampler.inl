@@ -22,8 +22,11 @@ struct Pair {
     for (std::size_t k = 0; k < 8 / kRegister; ++k)
         sum.part[k] += weight.part[k] * texels.part[k];
 }
-[[gnu::always_inline]] inline Pair weights_of(float even, float odd) {
-    const F4 a = spread(even), b = spread(odd);
+// The weights of two neighbouring texels, of all channels.
+template <int Even>
+[[gnu::always_inline]] inline Pair weights_of(F4 w) {
+    const F4 a = __builtin_shufflevector(w, w, Even, Even, Even, Even);
+    const F4 b = __builtin_shufflevector(w, w, Even + 1, Even + 1, Even + 1, Even + 1);
     Pair v;
     std::memcpy(&v, &a, sizeof a);
     std::memcpy(reinterpret_cast<char*>(&v) + sizeof a, &b, sizeof b);
@@ -49,8 +52,8 @@ struct Pair {
         add(wy[k], load_pair(row), left);
         add(wy[k], load_pair(row + 8), right);
     }
-    add(weights_of(wx[0], wx[1]), left, sum);
-    add(weights_of(wx[2], wx[3]), right, sum);
+    add(weights_of<0>(wx), left, sum);
+    add(weights_of<2>(wx), right, sum);
 }
 
 template <WrapMode W>
