@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
+#include "engine/core/isa.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
-#include "engine/core/isa.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/placement_search.h"
 #include "engine/synthesis/sweep_axis.h"

@@ -10,12 +10,12 @@
 #include "app/cli/commands.h"
 #include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"
+#include "engine/core/isa.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
-#include "engine/core/isa.h"
 #include "engine/synthesis/repetition.h"
 
 namespace weft {

@@ -8,10 +8,10 @@
 
 #include "app/cli/console.h"
 #include "engine/color/color_space.h"
+#include "engine/core/isa.h"
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/shading.h"
 #include "engine/pipeline/surface_pass.h"
-#include "engine/core/isa.h"
 #include "engine/synthesis/texture_plane.h"
 
 namespace weft {

@@ -1,7 +1,7 @@
 #include "app/cli/engine_choice.h"
 
-#include "engine/core/parallel.h"
 #include "engine/core/isa.h"
+#include "engine/core/parallel.h"
 
 namespace weft {
 

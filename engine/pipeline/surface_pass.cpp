@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/region_mattes.h"
@@ -334,8 +335,18 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
         if (!leg) return {};
         follower.begin_leg(*leg, jobs);
         return sweep(context, *leg, [&](const SweepFrame& at) -> Status {
-            for (SurfaceJob& job : jobs)
-                WEFT_CHECK_OK((follower.*stop)(job, at));
+            std::vector<Status> done(jobs.size());
+            const auto one = [&](std::size_t k) { done[k] = (follower.*stop)(jobs[k], at); };
+            // Few regions leave more to gain inside of each.
+            const bool side_by_side = thread_count() <= 2 * static_cast<int>(jobs.size());
+            if (jobs.size() > 1 && side_by_side) {
+                parallel_for(jobs.size(), one);
+            } else {
+                for (std::size_t k = 0; k < jobs.size(); ++k)
+                    one(k);
+            }
+            for (Status& status : done)
+                WEFT_CHECK_OK(std::move(status));
             return {};
         });
     };

@@ -58,7 +58,8 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
             const PlateViews& before = last->second.views;
             if (!plan.stages->motion(frame, frame - 1) || !plan.stages->motion(frame - 1, frame)) {
                 // One estimate in each direction serves sweeps both ways.
-                auto [down, up] = estimate_flows(here.views.followed(), before.followed(), plan.quality);
+                auto [down, up] =
+                    estimate_flows(here.views.followed(), before.followed(), plan.quality);
                 check_consistency(down, up);
                 plan.stages->keep_motion(frame, frame - 1, down);
                 plan.stages->keep_motion(frame - 1, frame, up);

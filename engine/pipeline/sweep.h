@@ -46,7 +46,8 @@ using SweepVisitor = std::function<Status(const SweepFrame&)>;
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
                            const SweepVisitor& visit);
 
-/// prev_from_cur between two neighbours of a sweep, of follow_size(), estimated or taken from ShotPlan::stages.
+/// prev_from_cur between two neighbours of a sweep, of follow_size(), estimated or taken from
+/// ShotPlan::stages.
 [[nodiscard]] FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& current,
                                        int previous, const PlateViews& previous_views);
 

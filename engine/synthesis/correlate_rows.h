@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/seam/aligned.h"
 #include "engine/core/isa.h"
+#include "engine/seam/aligned.h"
 #include "engine/synthesis/scratch.h"
 
 namespace weft {

@@ -86,6 +86,29 @@ TEST(Analysis, DoesNotDependOnThreads) {
     EXPECT_EQ(analysed(1), analysed(3));
 }
 
+TEST(Analysis, RegionsSideBySideAreThoseOneAfterTheOther) {
+    MemoryShot shot = make_wall();
+    for (int frame = kFirst; frame <= kLast; ++frame)
+        shot.mattes[{1, frame}] = box_matte({30, 24, 90, 80});
+    ShotPlan plan = make_plan(region_from({1}), 1, 5);
+    plan.regions.push_back(region_from({3}));
+    const auto analysed = [&](int threads) {
+        set_thread_count(threads);
+        MemoryAnalysisStore store;
+        analyse(shot, plan, store);
+        set_thread_count(0);
+        std::vector<Bytes> out;
+        for (const int region : {0, 1}) {
+            for (int frame = 1; frame <= 5; ++frame)
+                out.push_back(*store.get({region, frame, AnalysisKind::kCoords}));
+        }
+        return out;
+    };
+    const auto alone = analysed(1);
+    EXPECT_EQ(analysed(2), alone);   // side by side
+    EXPECT_EQ(analysed(16), alone);  // each parallel inside
+}
+
 TEST(Analysis, TwoReferencesAreBlendedBetweenAndKeptThemselves) {
     const MemoryShot shot = make_wall();
     MemoryAnalysisStore one, two;

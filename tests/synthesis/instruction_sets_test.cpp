@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "engine/core/parallel.h"
 #include "engine/core/isa.h"
+#include "engine/core/parallel.h"
 #include "engine/synthesis/direct_search.h"
 #include "engine/synthesis/overlap_cost.h"
 #include "tests/synthesis/samples.h"

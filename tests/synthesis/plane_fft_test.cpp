@@ -9,8 +9,8 @@
 #include <complex>
 #include <numbers>
 
-#include "engine/core/rng.h"
 #include "engine/core/isa.h"
+#include "engine/core/rng.h"
 
 namespace weft::test {
 namespace {
