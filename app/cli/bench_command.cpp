@@ -228,6 +228,13 @@ CommandResult report_lighting(const BenchOptions& options, const ImageU8x3& samp
 }  // namespace
 
 CommandResult bench_command(const BenchOptions& options) {
+    if (!options.shot.plate.empty()) {
+        if (options.shot.matte.empty())
+            return fail(ErrorCode::kUsage, "--shot needs the matte of its frames. Add --matte.");
+        ShotBenchOptions shot = options.shot;
+        shot.texture = options.sample;
+        return bench_shot(shot);
+    }
     WEFT_TRY(chosen, choose_engine(options.threads, options.isa, options.backend));
     const Backend& backend = *chosen.backend;
     WEFT_TRY(sample, middle_of(options.sample));

@@ -8,6 +8,7 @@
 #include "app/base/path_map.h"
 #include "app/base/trust.h"
 #include "app/cli/answer.h"
+#include "app/cli/bench_shot.h"
 #include "app/cli/console.h"
 #include "app/cli/write_flags.h"
 #include "app/project/edit.h"
@@ -111,6 +112,7 @@ struct BenchOptions {
     bool lighting = false;  ///< Only the cost of relighting relative to the paper's synthesis.
     /// Planes made by other programs, of which only the repetition is measured.
     std::vector<std::string> repetition_of;
+    ShotBenchOptions shot;  ///< A plate: only the cost of replacing its texture by the sample.
     std::string isa, backend = "cpu";
     WriteFlags write;
 };

@@ -118,6 +118,21 @@ void add_synth(CLI::App& app, CommandResult& result) {
     });
 }
 
+void add_shot(CLI::App& command, ShotBenchOptions& shot) {
+    command
+        .add_option(
+            "--shot", shot.plate,
+            "Time only replacing the texture of this sequence by the sample, draft and final")
+        ->type_name("PATH");
+    command.add_option("--matte", shot.matte, "Mattes of the shot's frames, a pattern")
+        ->type_name("PATH");
+    command.add_option("--matte-value", shot.matte_value, "Id mattes: the pixels with this value")
+        ->transform(whole_number(0, 65535))
+        ->type_name("N");
+    command.add_option("--against", shot.against, "Another weft, timed in turns with this one")
+        ->type_name("PATH");
+}
+
 void add_bench(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("bench", "Time texture synthesis");
     const auto options = std::make_shared<BenchOptions>();
@@ -143,6 +158,7 @@ void add_bench(CLI::App& app, CommandResult& result) {
         ->add_option("--repetition-of", options->repetition_of,
                      "Measure only the repetition of these planes of the sample")
         ->type_name("PATH");
+    add_shot(*command, options->shot);
     add_isa(*command, options->isa);
     add_backend(*command, options->backend);
     command->footer(
@@ -151,8 +167,15 @@ void add_bench(CLI::App& app, CommandResult& result) {
         "against dynamic programming and direct stitching.\n"
         "Examples:\n"
         "  weft bench gravel.jpg\n"
-        "  weft bench gravel.jpg --sizes 512 --runs 3 --seams seams --json");
-    on_run(*command, result, [=] { return bench_command(*options); });
+        "  weft bench gravel.jpg --sizes 512 --runs 3 --seams seams --json\n"
+        "  weft bench gravel.jpg --shot 'frames/####.png' --matte 'masks/####.png' --against "
+        "/usr/bin/weft");
+    on_run(*command, result, [=] {
+        // A shot uses all processors, and a few runs suffice.
+        if (command->count("--threads") > 0) options->shot.threads = options->threads;
+        if (command->count("--runs") > 0) options->shot.runs = options->runs;
+        return bench_command(*options);
+    });
 }
 
 }  // namespace
