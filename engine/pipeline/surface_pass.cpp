@@ -8,6 +8,7 @@
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_job.h"
+#include "engine/pipeline/track_spacing.h"
 #include "engine/temporal/held_frames.h"
 #include "engine/temporal/history_seam.h"
 #include "engine/temporal/shutter.h"
@@ -86,8 +87,7 @@ class Follower {
         SurfaceWalkerOptions options;
         options.quality = context_.plan.quality;
         options.exact_motion = job.plan->true_motion;
-        options.spacing_px =
-            std::max(options.exact_motion ? 4 : 8, context_.source.size().width / 160);
+        options.spacing_px = track_spacing_px(options.exact_motion, context_.source.size().width);
         std::optional<LatticeField> placed;
         if (const auto* pins = pins_at(job, at.frame); pins && !base) {
             placed = corrected(LatticeField(context_.source.size(), options.spacing_px), *pins);
