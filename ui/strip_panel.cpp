@@ -69,6 +69,8 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     c.note(one.label);
     tooltip(c, !one.error.empty() ? one.error.c_str()
                : frames           ? "Go to this frame"
+               : one.provisional  ? "Provisional: the exact picture follows. Use this setting; one "
+                                    "undo step"
                                   : "Use this setting; one undo step");
     const ImVec2 max(at.x + size.x, at.y + size.y - t.px(20));
     picture_in(c, one, at, max);

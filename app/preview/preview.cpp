@@ -20,6 +20,11 @@ bool Preview::try_request(const PreviewRequest& request) {
     std::optional<PreviewRequest> next = request;  // the one before is freed after the lock is
     const auto shared = impl_->guarded.try_lock();
     if (!shared) return false;
+    if (!shared->wanted || shared->wanted_pixels != pixels ||
+        shared->wanted->frame != request.frame) {
+        shared->requested_at = Impl::Clock::now();
+        shared->first_shown = false;
+    }
     if (shared->wanted_pixels != pixels) {
         shared->failed_pixels.clear();
         shared->grow_cancel.cancel();
@@ -49,6 +54,7 @@ void Preview::clear() {
     old.swap(shared->frames);
     old_cards.swap(shared->cards);
     shared->frame_bytes = 0;
+    shared->provisional.reset();
     shared->overlay.reset();
     shared->confidences.clear();
     shared->healths.clear();
@@ -90,6 +96,8 @@ bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& re
         reading.rendered.push_back(number);
     if (const auto found = shared->frames.find(frame); found != shared->frames.end())
         reading.frame = found->second;
+    else if (shared->provisional && shared->provisional_frame == frame)
+        reading.frame = *shared->provisional;
     return true;
 }
 
