@@ -40,6 +40,10 @@ bool Preview::try_request(const PreviewRequest& request) {
     return true;
 }
 
+void Preview::carry(const Project& project, const PaintedMattes& painted) {
+    impl_->carrier.carry(project, painted);
+}
+
 void Preview::clear() {
     std::map<int, PreviewFrame> old;  // freed after the lock is: pictures are large
     std::map<std::string, StripCard> old_cards;
@@ -63,6 +67,7 @@ void Preview::clear() {
 }
 
 void Preview::pause() {
+    impl_->carrier.pause();
     const auto shared = impl_->guarded.lock();
     shared->paused = true;
     shared->analysis_cancel.cancel();
@@ -70,6 +75,7 @@ void Preview::pause() {
 }
 
 void Preview::resume() {
+    impl_->carrier.resume();
     const auto shared = impl_->guarded.lock();
     shared->paused = false;
     shared->analysis_pending = shared->to_analyse != nullptr;
@@ -102,7 +108,7 @@ bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& re
 }
 
 std::uint64_t Preview::changes() const {
-    return impl_->changes.load();
+    return impl_->changes.load() + impl_->carrier.changes();
 }
 
 Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
@@ -116,8 +122,7 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame)
             return std::move(stored.matte);
         }
     }
-    return fail(ErrorCode::kMissingFrames,
-                "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
+    return impl_->carrier.matte(region, layer, frame);
 }
 
 Expected<LatticeField> Preview::track(RegionId region, int before, int now) const {
@@ -139,7 +144,7 @@ std::pair<OpenedPtr, std::size_t> Preview::Impl::find_opened(RegionId region) co
 }
 
 std::uint64_t Preview::matte_version() const {
-    return impl_->mattes.load();
+    return impl_->mattes.load() + impl_->carrier.changes();
 }
 
 }  // namespace weft

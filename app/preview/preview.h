@@ -157,7 +157,10 @@ class Preview {
 
     /// Returns false and does nothing while a worker holds the lock.
     bool try_request(const PreviewRequest& request);
-    /// Closes the shot and stops all work.
+    /// Carries the painted mattes of regions without a texture (MatteCarrier::carry()). Never
+    /// blocks.
+    void carry(const Project& project, const PaintedMattes& painted);
+    /// Closes the shot and stops all work except carry().
     void clear();
     /// Pauses the analysis until resume(), or until a request changes it.
     void pause();

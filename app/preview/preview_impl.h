@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/base/guarded.h"
+#include "app/preview/matte_carrier.h"
 #include "app/preview/preview.h"
 #include "app/preview/preview_overlay.h"
 #include "app/preview/preview_scenes.h"
@@ -155,6 +156,7 @@ struct Preview::Impl {
         CancelToken analysis_cancel, grow_cancel, card_cancel;
     };
     void changed(Shared& of) { of.shown.changes = ++changes; }
+    void begin_analysis(Shared& of, int frame, const std::vector<int>& range);
     // Measures how long the artist has waited, and lets the analysis go on.
     void note_first(Shared& of, int frame);
     void signal(Shared& of) {
@@ -193,6 +195,7 @@ struct Preview::Impl {
     // by CardRequest::key, with Shared::visits at that time
     std::map<std::string, std::uint64_t> tried_cards;
 
+    MatteCarrier carrier;
     std::thread renderer, analyser;
 };
 

@@ -36,7 +36,8 @@ Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std
     : cache(std::move(cache_options)),
       texture_library(std::move(library)),
       budget_bytes(budget),
-      backend(make_cpu_backend()) {
+      backend(make_cpu_backend()),
+      carrier(cache) {
     renderer = std::thread([this] { render_loop(); });
     analyser = std::thread([this] { analyse_loop(); });
 }
@@ -226,15 +227,18 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
         ++mattes;
     }
     const std::vector<int> range = now.range.empty() ? std::vector<int>{now.frame} : now.range;
-    if (!same_analysis || shared->analyse_frames != range) {
-        if (shared->analysing_key != fresh->analysis) shared->analysis_cancel.cancel();
-        shared->to_analyse = fresh;
-        shared->analyse_first = {now.frame};
-        shared->analyse_frames = range;
-        shared->analysis_pending = true;
-        shared->analysis_held = true;
-    }
+    if (!same_analysis || shared->analyse_frames != range)
+        begin_analysis(*shared, now.frame, range);
     return true;
+}
+
+// Of the shot just opened; it waits for the first picture.
+void Preview::Impl::begin_analysis(Shared& of, int frame, const std::vector<int>& range) {
+    if (of.analysing_key != of.opened->analysis) of.analysis_cancel.cancel();
+    of.to_analyse = of.opened;
+    of.analyse_first = {frame};
+    of.analyse_frames = range;
+    of.analysis_pending = of.analysis_held = true;
 }
 
 bool Preview::Impl::ready(int frame) {

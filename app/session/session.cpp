@@ -91,12 +91,25 @@ Project Session::project_to_preview(bool& any) const {
     return project;
 }
 
+// Painted mattes are carried to the other frames before a texture is chosen.
+void Session::carry_mattes() {
+    Project project = resolved();
+    project.settings.quality = preview_quality_;
+    for (Leaf<Region>& region : project.regions) {
+        const bool waits = region->enabled && !region->matte->keyframes.empty() &&
+                           region->texture.sample.empty() && region->texture.plane.empty();
+        region = region.with([&](Region& r) { r.enabled = waits; });
+    }
+    preview_.carry(project, shelf_.unwritten());
+}
+
 void Session::request_preview() {
     if (!request_pending_ || painting_.active()) return;
     if (!reader_) {
         request_pending_ = false;
         return;
     }
+    carry_mattes();
     PreviewRequest request;
     bool any = false;
     request.project = project_to_preview(any);

@@ -198,9 +198,10 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
 // machine.
 TEST(Screenshots, EveryWorkspaceMatchesItsGoldenPicture) {
     const Sandbox sandbox;
-    expect_golden_pages(
-        sandbox, {"edit", "--demo", "--paused"},
-        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"}, {"wait": 1.5})", "");
+    expect_golden_pages(sandbox, {"edit", "--demo", "--paused"},
+                        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"},
+            {"wait_for": "provisional", "timeout": 60}, {"wait": 1.5})",
+                        "");
 }
 
 void write_plates(const Sandbox& sandbox) {
