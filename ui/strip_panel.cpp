@@ -81,7 +81,7 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
                      here ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(here ? 2 : 1));
     ImGui::PushFont(t.small);
     text_in(list, t.small, {at.x, max.y}, {max.x, at.y + size.y}, here ? t.text : t.quiet,
-            fitted(one.label, size.x).c_str(), 0);
+            fitted(one.label + (one.provisional ? "  ·  provisional" : ""), size.x).c_str(), 0);
     ImGui::PopFont();
 }
 

@@ -179,9 +179,10 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
         std::ofstream script(sandbox.in("script.json"));
         script << "[" << begin;
         for (const Page& page : kPages)
-            script << R"(, {"workspace": ")" << page.workspace
-                   << R"("}, {"hover": "Top/File"}, {"wait": 0.7}, {"screenshot": ")"
-                   << sandbox.in(std::string(page.file) + ".png") << R"("})";
+            script
+                << R"(, {"workspace": ")" << page.workspace
+                << R"("}, {"hover": "Top/File"}, {"settle": true, "timeout": 20}, {"wait": 0.7}, )"
+                << R"({"screenshot": ")" << sandbox.in(std::string(page.file) + ".png") << R"("})";
         script << "]";
     }
     std::vector<std::string> all = arguments;
