@@ -98,6 +98,7 @@ struct Preview::Impl {
     bool step_provisional(const PreviewRequest& wanted);
     [[nodiscard]] Expected<ProvisionalFrame> provisional_of(const OpenedShot& of, int frame,
                                                             const CancelToken& cancel);
+    bool shows_already(const PreviewRequest& wanted, const std::vector<bool>& shown);
     [[nodiscard]] Expected<PreviewFrame> quick_picture(const PreviewRequest& wanted, int factor,
                                                        const CancelToken& cancel);
     void release_analysis();
@@ -181,7 +182,8 @@ struct Preview::Impl {
     std::set<int> ready_frames;
     std::set<int> compared;  // frames whose flicker was measured
     bool refine_pending = false;
-    std::string tried_provisional;  // key of the last provisional picture that was tried
+    std::string tried_provisional;          // key of the last provisional picture that was tried
+    std::vector<bool> shown_provisionally;  // its regions
     std::optional<KeptProvisional> kept_provisional;
     OpenedPtr unwritten;  // opened while its mattes were not on disk
     std::shared_ptr<const ColorTransform> srgb_from_out, linear_from_out;

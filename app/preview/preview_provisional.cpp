@@ -36,8 +36,16 @@ Expected<ProvisionalFrame> Preview::Impl::provisional_of(const OpenedShot& of, i
     return made;
 }
 
+// Whether the present provisional picture has the same regions, for the same request.
+bool Preview::Impl::shows_already(const PreviewRequest& now, const std::vector<bool>& shown) {
+    const auto shared = guarded.lock();
+    const std::optional<PreviewFrame>& before = shared->provisional;
+    return before && shared->provisional_frame == now.frame && shown == shown_provisionally &&
+           (!now.stages || before->stages[0]) && (!now.layer || before->layer_kind == now.layer);
+}
+
 // A picture of the requested frame with quickly synthesized textures; provisional if the frame has
-// not been analysed, and empty if nothing can be shown of it yet.
+// not been analysed, and empty if nothing of it, or nothing more, can be shown yet.
 Expected<PreviewFrame> Preview::Impl::quick_picture(const PreviewRequest& now, int factor,
                                                     const CancelToken& cancel) {
     Shot shot = *current->shot;
@@ -46,9 +54,10 @@ Expected<PreviewFrame> Preview::Impl::quick_picture(const PreviewRequest& now, i
     const bool provisional = !ready(now.frame);
     if (provisional) {
         WEFT_TRY(made, provisional_of(*current, now.frame, cancel));
-        if (!made.shows_anything()) return PreviewFrame();
+        if (!made.shows_anything() || shows_already(now, made.shown)) return PreviewFrame();
         shot.plan = std::move(made.plan);
         shown = std::move(made.shown);
+        shown_provisionally = shown;
         alone = std::move(made.store);
     }
     const AnalysisStore& store = alone ? *alone : *current->store;

@@ -49,25 +49,33 @@ class FirstPicture : public testing::Test {
             r.texture.sample = test::source_folder() + "/assets/demo/textures/" + name;
         });
     }
-    // Sends the request and waits; prints when the first and the exact picture came.
+    // Sends the request and waits for the exact picture; prints when each picture came.
     void measure(const char* what) {
         while (!preview_->try_request(request_))
             std::this_thread::yield();
         const auto start = Clock::now();
-        double first = -1;
+        std::printf("%-38s", what);
+        PicturePtr last;
         for (;;) {
             PreviewReading reading;
             if (preview_->try_read(request_.frame, 0, 0, reading)) {
                 ASSERT_NE(reading.view.state, PreviewView::State::kFailed) << reading.view.error;
                 const PreviewFrame& frame = reading.frame;
-                if (frame.stages[static_cast<std::size_t>(Stage::kFinal)]) {
-                    if (first < 0) first = seconds_since(start);
-                    if (!frame.approximate && !frame.provisional) break;
+                const PicturePtr& shown = frame.stages[static_cast<std::size_t>(Stage::kFinal)];
+                if (shown && shown != last) {
+                    last = shown;
+                    const bool exact = !frame.approximate && !frame.provisional;
+                    std::printf(" %s %.2f s",
+                                exact               ? "exact"
+                                : frame.provisional ? "provisional"
+                                                    : "approximate",
+                                seconds_since(start));
+                    if (exact) break;
                 }
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        std::printf("%-40s first %6.2f s, exact %6.2f s\n", what, first, seconds_since(start));
+        std::printf("\n");
     }
 
     fs::path cache_ = fs::temp_directory_path() / ("weft_first_" + std::to_string(getpid()));
