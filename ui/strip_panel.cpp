@@ -69,6 +69,8 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     c.note(one.label);
     tooltip(c, !one.error.empty() ? one.error.c_str()
                : frames           ? "Go to this frame"
+               : one.provisional  ? "Provisional: the exact picture follows. Use this setting; one "
+                                    "undo step"
                                   : "Use this setting; one undo step");
     const ImVec2 max(at.x + size.x, at.y + size.y - t.px(20));
     picture_in(c, one, at, max);
@@ -79,7 +81,7 @@ void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
                      here ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(here ? 2 : 1));
     ImGui::PushFont(t.small);
     text_in(list, t.small, {at.x, max.y}, {max.x, at.y + size.y}, here ? t.text : t.quiet,
-            fitted(one.label, size.x).c_str(), 0);
+            fitted(one.label + (one.provisional ? "  ·  provisional" : ""), size.x).c_str(), 0);
     ImGui::PopFont();
 }
 

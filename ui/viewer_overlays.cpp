@@ -173,7 +173,29 @@ struct State {
     ImU32 color;
     const char* icon = nullptr;
     float part = -1;  // progress of the pending work, 0–1
+    const char* tip = nullptr;
 };
+
+void add_progress(const PreviewView& preview, State& to) {
+    if (preview.total <= 0) return;
+    to.part = static_cast<float>(preview.done) / static_cast<float>(preview.total);
+    to.text += " " + std::to_string(preview.done) + "/" + std::to_string(preview.total);
+    if (preview.seconds_left > 0) to.text += ", " + time_text(preview.seconds_left) + " left";
+}
+
+State provisional_state(const Ctx& c) {
+    const SessionView& v = c.view;
+    State out{"Provisional", c.theme.warn, icons::kTimer};
+    out.tip = "From this frame alone. The clip's light is still being measured.";
+    if (v.analysis_paused) {
+        out.text += "  ·  analysis paused";
+        out.icon = icons::kPause;
+    } else if (v.preview.state == PreviewView::State::kAnalysing) {
+        out.text += "  ·  analysing";
+        add_progress(v.preview, out);
+    }
+    return out;
+}
 
 State state_of_picture(const Ctx& c) {
     const SessionView& v = c.view;
@@ -203,19 +225,14 @@ State state_of_picture(const Ctx& c) {
                     std::to_string(v.preview.total);
         return {what, t.good, icons::kCheck};
     }
+    if (v.stages.provisional) return provisional_state(c);
     switch (v.preview.state) {
         case PreviewView::State::kOpening:
             return {"Opening the shot…", t.warn, icons::kTimer};
         case PreviewView::State::kAnalysing: {
             if (v.analysis_paused) return {"Plate  ·  Analysis paused", t.warn, icons::kPause};
             State out{"Plate  ·  Analysing", t.warn, icons::kTimer};
-            if (v.preview.total > 0) {
-                out.part = static_cast<float>(v.preview.done) / static_cast<float>(v.preview.total);
-                out.text +=
-                    " " + std::to_string(v.preview.done) + "/" + std::to_string(v.preview.total);
-                if (v.preview.seconds_left > 0)
-                    out.text += ", " + time_text(v.preview.seconds_left) + " left";
-            }
+            add_progress(v.preview, out);
             return out;
         }
         case PreviewView::State::kGrowing:
@@ -242,7 +259,10 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const std::string shown = fitted(state.text, room);
     ImGui::PopFont();
     text_in(list, t.small, {x, min.y}, {x + room, max.y}, state.color, shown.c_str(), 0);
-    if (shown != state.text && ImGui::IsMouseHoveringRect(min, {x + room, max.y}))
+    const bool hovered = ImGui::IsMouseHoveringRect(min, {x + room, max.y});
+    if (hovered && state.tip)
+        ImGui::SetTooltip("%s", state.tip);
+    else if (hovered && shown != state.text)
         ImGui::SetTooltip("%s", state.text.c_str());
     if (state.part < 0) return;
     const float y = max.y - t.px(5), w = std::min(room, t.px(220));

@@ -59,13 +59,14 @@ bool ScriptRunner::reached(const std::string& what) const {
             if (matte.kind == RegionMatteView::Kind::kLoading) return false;
         return !v.matte_busy;
     }
+    if (what == "provisional") return v.stages.provisional;
     if (what == "result") return v.result_current && !v.stages.approximate;
-    if (what == "stages") return v.stages.stages[0] != nullptr;
+    if (what == "stages") return v.stages.stages[0] && !v.stages.provisional;
     if (what == "full_result")
         return v.result_current && !v.stages.approximate && v.stages.proxy == 1;
     if (what == "strip") {
         for (const StripCard& card : v.strip.cards)
-            if (!card.picture && card.error.empty()) return false;
+            if ((!card.picture || card.provisional) && card.error.empty()) return false;
         return !v.strip.cards.empty();
     }
     if (what == "overlay") return v.overlay_picture != nullptr;

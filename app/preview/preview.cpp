@@ -20,6 +20,11 @@ bool Preview::try_request(const PreviewRequest& request) {
     std::optional<PreviewRequest> next = request;  // the one before is freed after the lock is
     const auto shared = impl_->guarded.try_lock();
     if (!shared) return false;
+    if (!shared->wanted || shared->wanted_pixels != pixels ||
+        shared->wanted->frame != request.frame) {
+        shared->requested_at = Impl::Clock::now();
+        shared->first_shown = false;
+    }
     if (shared->wanted_pixels != pixels) {
         shared->failed_pixels.clear();
         shared->grow_cancel.cancel();
@@ -33,6 +38,10 @@ bool Preview::try_request(const PreviewRequest& request) {
     shared->refine_at = Impl::Clock::now() + kPause;
     impl_->signal(*shared);
     return true;
+}
+
+void Preview::carry(const Project& project, const PaintedMattes& painted) {
+    impl_->carrier.carry(project, painted);
 }
 
 void Preview::clear() {
@@ -49,6 +58,7 @@ void Preview::clear() {
     old.swap(shared->frames);
     old_cards.swap(shared->cards);
     shared->frame_bytes = 0;
+    shared->provisional.reset();
     shared->overlay.reset();
     shared->confidences.clear();
     shared->healths.clear();
@@ -57,6 +67,7 @@ void Preview::clear() {
 }
 
 void Preview::pause() {
+    impl_->carrier.pause();
     const auto shared = impl_->guarded.lock();
     shared->paused = true;
     shared->analysis_cancel.cancel();
@@ -64,6 +75,7 @@ void Preview::pause() {
 }
 
 void Preview::resume() {
+    impl_->carrier.resume();
     const auto shared = impl_->guarded.lock();
     shared->paused = false;
     shared->analysis_pending = shared->to_analyse != nullptr;
@@ -90,11 +102,13 @@ bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& re
         reading.rendered.push_back(number);
     if (const auto found = shared->frames.find(frame); found != shared->frames.end())
         reading.frame = found->second;
+    else if (shared->provisional && shared->provisional_frame == frame)
+        reading.frame = *shared->provisional;
     return true;
 }
 
 std::uint64_t Preview::changes() const {
-    return impl_->changes.load();
+    return impl_->changes.load() + impl_->carrier.changes();
 }
 
 Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
@@ -108,8 +122,7 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame)
             return std::move(stored.matte);
         }
     }
-    return fail(ErrorCode::kMissingFrames,
-                "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
+    return impl_->carrier.matte(region, layer, frame);
 }
 
 Expected<LatticeField> Preview::track(RegionId region, int before, int now) const {
@@ -131,7 +144,7 @@ std::pair<OpenedPtr, std::size_t> Preview::Impl::find_opened(RegionId region) co
 }
 
 std::uint64_t Preview::matte_version() const {
-    return impl_->mattes.load();
+    return impl_->mattes.load() + impl_->carrier.changes();
 }
 
 }  // namespace weft

@@ -1,7 +1,8 @@
 #pragma once
 // Interactive results: one background thread analyses the shot, another renders frames from the
 // analysis. The newest request wins. The picture equals what a render writes, except that a large
-// plate is shown at reduced size first.
+// plate is shown at reduced size first, and that a provisional picture is shown while the frame is
+// being analysed.
 
 #include <array>
 #include <map>
@@ -54,6 +55,8 @@ struct StripCard {
     PicturePtr picture;    ///< Null until it is rendered.
     std::string error;     ///< Error message; empty: none.
     bool current = false;  ///< Copied from CardRequest::current.
+    /// From its frame alone, or with a quickly synthesized texture; the exact one is in progress.
+    bool provisional = false;
 };
 
 struct PreviewRequest {
@@ -73,8 +76,12 @@ struct PreviewRequest {
 struct PreviewFrame {
     /// By Stage; null except for the final one unless requested.
     std::array<PicturePtr, kStageCount> stages;
-    /// The texture was synthesized for another scale; the exact one is in progress.
+    /// The texture was synthesized for another scale, or quickly for this frame; the exact one is
+    /// in progress.
     bool approximate = false;
+    /// From this frame alone, because the analysis that it needs is in progress. Regions of which
+    /// nothing is known yet are missing. Never counted among PreviewReading::rendered.
+    bool provisional = false;
     int proxy = 1;  ///< Reduction factor of the pictures relative to the plate.
     std::optional<LayerKind> layer_kind;
     PicturePtr layer;  ///< PreviewRequest::layer, converted for display.
@@ -122,7 +129,8 @@ struct PreviewView {
     std::map<RegionId, int> references;  ///< The reference frame of each region.
     std::uint64_t changes = 0;           ///< Increases with every change.
     double frame_seconds = 0;            ///< Render time of the last full-size frame, s.
-    double first_seconds = 0;            ///< Time until the last picture of the requested frame, s.
+    /// Time from the request to the first picture of its frame, provisional or not, s.
+    double first_seconds = 0;
 };
 
 /// The preview's results at the last successful Preview::try_read().
@@ -130,7 +138,7 @@ struct PreviewReading {
     PreviewView view;
     bool paused = false;
     PreviewFrame frame;         ///< Matches the newest request's content only.
-    std::vector<int> rendered;  ///< Rendered frames of that content, ascending.
+    std::vector<int> rendered;  ///< Rendered frames of that content, ascending; not provisional.
     std::shared_ptr<const OverlayPicture> overlay;
     /// Confidence of matte propagation, by frame; empty for mattes from files.
     std::map<int, float> confidence;
@@ -149,7 +157,10 @@ class Preview {
 
     /// Returns false and does nothing while a worker holds the lock.
     bool try_request(const PreviewRequest& request);
-    /// Closes the shot and stops all work.
+    /// Carries the painted mattes of regions without a texture (MatteCarrier::carry()). Never
+    /// blocks.
+    void carry(const Project& project, const PaintedMattes& painted);
+    /// Closes the shot and stops all work except carry().
     void clear();
     /// Pauses the analysis until resume(), or until a request changes it.
     void pause();

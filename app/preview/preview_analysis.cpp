@@ -52,7 +52,8 @@ void Preview::Impl::analyse_loop() {
         {
             auto shared = guarded.lock();
             wake.wait(shared.lock(), [&] {
-                return shared->stop || (shared->analysis_pending && !shared->paused);
+                return shared->stop ||
+                       (shared->analysis_pending && !shared->paused && !shared->analysis_held);
             });
             if (shared->stop) return;
             shared->analysis_pending = false;
@@ -91,6 +92,7 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
             shared->shown.seconds_left = seconds_since(start) / static_cast<double>(event.done) *
                                          static_cast<double>(event.total - event.done);
         }
+        if (shared->wanted && shared->wanted->frame == event.frame) ++shared->visits;
         changed(*shared);
         ++mattes;
         signal(*shared);

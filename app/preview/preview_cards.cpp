@@ -53,11 +53,11 @@ bool served_by(const Project& wanted, const std::string& analysis) {
 
 }  // namespace
 
-Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const CardRequest& request) {
-    const Shot& shot = *of.shot;
+Expected<PicturePtr> Preview::Impl::card_picture(const Look& look, const CardRequest& request) {
+    const Shot& shot = look.shot;
     const int factor = factor_of(shot, kCardPixels);
-    const ProxyShot small(shot, *of.store, *proxies, factor);
-    const std::vector<RegionScene> placed = proxy_scenes(scenes.scenes(), factor);
+    const ProxyShot small(shot, look.store, *proxies, factor);
+    const std::vector<RegionScene> placed = proxy_scenes(look.scenes, factor);
     WEFT_TRY(made, render_frame(small.source(), small.plan(), placed, small.store(), *backend,
                                 request.frame));
     ImageF3 pixels = std::move(made.pixels);
@@ -70,9 +70,8 @@ Expected<PicturePtr> Preview::Impl::card_picture(const OpenedShot& of, const Car
     return make_picture(shrink(*picture_of(shot, pixels), kLongest_px));
 }
 
-// A region without a texture is not part of the shot's analysis: analyse this frame alone.
-Status Preview::Impl::analyse_card(OpenedShot& of, const CardRequest& request,
-                                   const CancelToken& cancel) {
+// A region without a texture is not part of the shot's analysis.
+Status Preview::Impl::open_card_store(OpenedShot& of, const CardRequest& request) {
     of.analysis = analysis_key(request.project);
     if (card_analysis != of.analysis) {
         std::vector<std::string> warnings;
@@ -81,66 +80,133 @@ Status Preview::Impl::analyse_card(OpenedShot& of, const CardRequest& request,
         card_analysis = of.analysis;
     }
     of.store = card_store;
+    return {};
+}
+
+// Analyses this frame alone.
+Status Preview::Impl::analyse_card(OpenedShot& of, const CardRequest& request,
+                                   const CancelToken& cancel) {
+    WEFT_CHECK_OK(open_card_store(of, request));
     ShotPlan plan = of.shot->plan;
     plan.frames = {request.frame};
     return analyse_shot(*of.shot->source, plan, *of.store, cancel, {});
 }
 
+bool Preview::Impl::put_card(const CardRequest& request, PicturePtr picture, std::string error,
+                             bool provisional) {
+    const auto shared = guarded.lock();
+    shared->cards[request.key] = {request.label,    request.note, request.frame, std::move(picture),
+                                  std::move(error), false,        provisional};
+    changed(*shared);
+    return true;
+}
+
+// From the card's frame alone where it has not been analysed, with a quickly synthesized texture.
+// Null: nothing can be shown yet.
+Expected<PicturePtr> Preview::Impl::quick_card(const PreviewRequest& now,
+                                               const CardRequest& request,
+                                               const CancelToken& cancel) {
+    WEFT_TRY(opened, open(request.project, now.painted));
+    OpenedShot of{opened, current->store, current->pixels, current->analysis};
+    const bool served = served_by(request.project, current->analysis);
+    if (!served) WEFT_CHECK_OK(open_card_store(of, request));
+    Shot shot = *opened;
+    std::vector<bool> shown(shot.plan.regions.size(), true);
+    std::unique_ptr<AnalysisStore> alone;
+    if (!served || !ready(request.frame)) {
+        WEFT_TRY(made, provisional_of(of, request.frame, cancel));
+        if (!made.shows_anything()) return PicturePtr();
+        shot.plan = std::move(made.plan);
+        shown = std::move(made.shown);
+        alone = std::move(made.store);
+    }
+    const AnalysisStore& store = alone ? *alone : *of.store;
+    WEFT_TRY(made, scenes.quick(shot, shot.plan, store, request.frame, shown, kCardPixels, cancel));
+    return card_picture({shot, store, made}, request);
+}
+
+// All cards are made quickly before any is made exactly. Errors are left to step_card().
+bool Preview::Impl::step_quick_card(const PreviewRequest& now) {
+    const CancelToken token;
+    const CardRequest* next = nullptr;
+    {
+        const auto shared = guarded.lock();
+        if (!shared->wanted || shared->wanted->frame != now.frame || now.interactive) return false;
+        shared->card_cancel = token;
+        for (const CardRequest& request : now.cards) {
+            const auto tried = tried_cards.find(request.key);
+            if (shared->cards.contains(request.key) ||
+                (tried != tried_cards.end() && tried->second == shared->visits))
+                continue;
+            next = &request;
+            tried_cards[request.key] = shared->visits;
+            break;
+        }
+    }
+    if (!next) return false;
+    auto made = quick_card(now, *next, token);
+    if (token.cancelled())
+        tried_cards.erase(next->key);
+    else if (made && *made)
+        put_card(*next, std::move(*made), {}, true);
+    return true;
+}
+
+// Synthesizes the planes of a card. Returns false if something else is to be done first.
+bool Preview::Impl::grow_card(const PreviewRequest& now, const OpenedShot& of, Status& grown) {
+    while (!scenes.exact()) {
+        CancelToken token;
+        {
+            const auto shared = guarded.lock();
+            if (shared->stop || !shared->wanted || shared->wanted_pixels != current->pixels)
+                return false;
+            shared->grow_cancel = token;
+        }
+        grown = scenes.grow_one(*of.shot, *of.store, of.analysis, token);
+        if (token.cancelled()) return false;
+        if (!grown) return true;
+        const auto shared = guarded.lock();
+        if (shared->wanted->frame != now.frame) return false;  // the new frame comes first
+    }
+    return true;
+}
+
 bool Preview::Impl::step_card(const PreviewRequest& now) {
     const CancelToken card;
+    const auto is_asked = [&](const auto& made) {
+        return std::any_of(now.cards.begin(), now.cards.end(),
+                           [&](const CardRequest& request) { return request.key == made.first; });
+    };
     {
         const auto shared = guarded.lock();
         if (!shared->wanted || shared->wanted->frame != now.frame) return true;
         shared->card_cancel = card;
+        std::erase_if(shared->cards, [&](const auto& made) { return !is_asked(made); });
     }
-    const auto put = [&](const CardRequest& request, PicturePtr picture, std::string error) {
-        const auto shared = guarded.lock();
-        shared->cards[request.key] = {request.label, request.note, request.frame,
-                                      std::move(picture), std::move(error)};
-        changed(*shared);
-        return true;
-    };
-    {
-        const auto shared = guarded.lock();
-        std::erase_if(shared->cards, [&](const auto& made) {
-            return std::none_of(
-                now.cards.begin(), now.cards.end(),
-                [&](const CardRequest& request) { return request.key == made.first; });
-        });
-    }
+    std::erase_if(tried_cards, [&](const auto& tried) { return !is_asked(tried); });
     for (const CardRequest& request : now.cards) {
         {
             const auto shared = guarded.lock();
-            if (shared->cards.contains(request.key)) continue;
+            const auto made = shared->cards.find(request.key);
+            if (made != shared->cards.end() && !made->second.provisional) continue;
         }
         const bool served = served_by(request.project, current->analysis);
         if (served && !ready(request.frame)) continue;  // wait for the analysis of its frame
         auto shot = open(request.project, now.painted);
-        if (!shot) return put(request, nullptr, shot.error().text());
+        if (!shot) return put_card(request, nullptr, shot.error().text());
         OpenedShot of{*shot, current->store, current->pixels, current->analysis};
         if (!served) {
             const Status analysed = analyse_card(of, request, card);
             if (card.cancelled()) return true;
-            if (!analysed) return put(request, nullptr, analysed.error().text());
+            if (!analysed) return put_card(request, nullptr, analysed.error().text());
         }
         (void)scenes.adopt(*of.shot, of.analysis);
-        while (!scenes.exact()) {
-            CancelToken token;
-            {
-                const auto shared = guarded.lock();
-                if (shared->stop || !shared->wanted || shared->wanted_pixels != current->pixels)
-                    return true;
-                shared->grow_cancel = token;
-            }
-            const Status grown = scenes.grow_one(*of.shot, *of.store, of.analysis, token);
-            if (token.cancelled()) return true;
-            if (!grown) return put(request, nullptr, grown.error().text());
-            const auto shared = guarded.lock();
-            if (shared->wanted->frame != now.frame) return true;  // the new frame comes first
-        }
-        auto made = card_picture(of, request);
-        if (!made) return put(request, nullptr, made.error().text());
-        return put(request, std::move(*made), {});
+        Status grown;
+        if (!grow_card(now, of, grown)) return true;
+        if (!grown) return put_card(request, nullptr, grown.error().text());
+        auto made = card_picture({*of.shot, *of.store, scenes.scenes()}, request);
+        if (!made) return put_card(request, nullptr, made.error().text());
+        return put_card(request, std::move(*made), {});
     }
     return false;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/base/guarded.h"
+#include "app/preview/matte_carrier.h"
 #include "app/preview/preview.h"
 #include "app/preview/preview_overlay.h"
 #include "app/preview/preview_scenes.h"
@@ -21,8 +22,12 @@
 #include "app/shot/shot.h"
 #include "engine/compute/backend.h"
 #include "engine/core/cancel.h"
+#include "engine/pipeline/provisional.h"
 
 namespace weft {
+
+/// Pixels of the first picture; larger plates are shown reduced first.
+inline constexpr std::int64_t kProxyPixels = 640'000;
 
 /// An opened project.
 struct OpenedShot {
@@ -31,6 +36,22 @@ struct OpenedShot {
     std::string pixels, analysis;  ///< Keys of the opened project.
 };
 using OpenedPtr = std::shared_ptr<const OpenedShot>;
+
+/// What render_frame() is given for a picture of a shot. Refers to its parts.
+struct Look {
+    const Shot& shot;
+    const AnalysisStore& store;
+    const std::vector<RegionScene>& scenes;
+};
+
+/// What a frame says alone, kept for the settings that are tried next.
+struct KeptProvisional {
+    std::string analysis;
+    int frame = 0;
+    std::uint64_t visits = 0;                    // as Shared::visits when it was made
+    std::shared_ptr<const AnalysisCache> known;  // which `made` refers to
+    ProvisionalFrame made;
+};
 
 /// Number of frames that must still be analysed for these frames.
 [[nodiscard]] int steps_to(const OpenedShot& opened, std::vector<int> frames);
@@ -50,13 +71,21 @@ struct Preview::Impl {
     Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget);
     ~Impl();
 
-    // ---- the rendering thread (preview_render.cpp, preview_cards.cpp) ----
+    // ---- the rendering thread (preview_render.cpp, preview_provisional.cpp, preview_cards.cpp)
     void render_loop();
     bool step();
     bool step_frame(const PreviewRequest& now);
     bool step_fill(const PreviewRequest& now, const std::string& pixels);
     bool step_flicker(const PreviewRequest& now);
     bool step_card(const PreviewRequest& now);
+    bool step_quick_card(const PreviewRequest& now);
+    bool put_card(const CardRequest& request, PicturePtr picture, std::string error,
+                  bool provisional = false);
+    [[nodiscard]] Status open_card_store(OpenedShot& of, const CardRequest& request);
+    [[nodiscard]] Expected<PicturePtr> quick_card(const PreviewRequest& now,
+                                                  const CardRequest& request,
+                                                  const CancelToken& cancel);
+    [[nodiscard]] bool grow_card(const PreviewRequest& now, const OpenedShot& of, Status& grown);
     [[nodiscard]] Status analyse_card(OpenedShot& of, const CardRequest& request,
                                       const CancelToken& cancel);
     [[nodiscard]] Expected<std::shared_ptr<const Shot>> open(const Project& project,
@@ -65,13 +94,22 @@ struct Preview::Impl {
     bool open_shot_of(const PreviewRequest& wanted, const std::string& pixels);
     bool render(const PreviewRequest& wanted, int frame, int factor);
     void keep(const PreviewRequest& wanted, int frame, PreviewFrame made, double seconds);
+    void keep_provisional(const PreviewRequest& wanted, PreviewFrame made);
+    bool step_provisional(const PreviewRequest& wanted);
+    [[nodiscard]] Expected<ProvisionalFrame> provisional_of(const OpenedShot& of, int frame,
+                                                            const CancelToken& cancel);
+    bool shows_already(const PreviewRequest& wanted, const std::vector<bool>& shown);
+    [[nodiscard]] Expected<PreviewFrame> quick_picture(const PreviewRequest& wanted, int factor,
+                                                       const CancelToken& cancel);
+    void release_analysis();
+    void note_seam(int frame, float seam);
     bool grow(const OpenedShot& of);
     bool draw_overlay(const PreviewRequest& wanted);
     bool ready(int frame);
-    [[nodiscard]] Expected<PreviewFrame> pictures_of(int frame, bool stages, int factor,
-                                                     std::optional<LayerKind> layer);
-    [[nodiscard]] Expected<PicturePtr> card_picture(const OpenedShot& of,
-                                                    const CardRequest& request);
+    [[nodiscard]] Expected<PreviewFrame> pictures_of(const Look& look, int frame, bool stages,
+                                                     int factor, std::optional<LayerKind> layer,
+                                                     float* seam);
+    [[nodiscard]] Expected<PicturePtr> card_picture(const Look& look, const CardRequest& request);
     [[nodiscard]] PicturePtr picture_of(const Shot& shot, const ImageF3& pixels) const;
     [[nodiscard]] int factor_of(const Shot& shot, std::int64_t pixels) const;
     void set_state(PreviewView::State state, std::string error = {});
@@ -92,11 +130,16 @@ struct Preview::Impl {
         // The request.
         std::optional<PreviewRequest> wanted;
         std::string wanted_pixels, wanted_analysis;
-        Clock::time_point refine_at;  // time to refine to full size
+        Clock::time_point refine_at;     // time to refine to full size
+        Clock::time_point requested_at;  // of the first request for this content and frame
+        bool first_shown = false;        // since then
         // The results.
         OpenedPtr opened;
         std::string failed_pixels;  // key of a project that could not be opened or rendered
         std::map<int, PreviewFrame> frames;
+        // Of the frame `provisional_frame`; shown only while `frames` has no picture of it.
+        std::optional<PreviewFrame> provisional;
+        int provisional_frame = 0;
         std::size_t frame_bytes = 0;
         std::shared_ptr<const OverlayPicture> overlay;
         std::map<std::string, StripCard> cards;
@@ -108,10 +151,15 @@ struct Preview::Impl {
         OpenedPtr to_analyse;
         std::vector<int> analyse_frames, analyse_first;
         bool analysis_pending = false;
+        bool analysis_held = false;  // until the first picture, which it would slow down
+        std::uint64_t visits = 0;    // how often the analysis has passed the requested frame
         std::string analysing_key;
         CancelToken analysis_cancel, grow_cancel, card_cancel;
     };
     void changed(Shared& of) { of.shown.changes = ++changes; }
+    void begin_analysis(Shared& of, int frame, const std::vector<int>& range);
+    // Measures how long the artist has waited, and lets the analysis go on.
+    void note_first(Shared& of, int frame);
     void signal(Shared& of) {
         ++of.signals;
         wake.notify_all();
@@ -134,6 +182,9 @@ struct Preview::Impl {
     std::set<int> ready_frames;
     std::set<int> compared;  // frames whose flicker was measured
     bool refine_pending = false;
+    std::string tried_provisional;          // key of the last provisional picture that was tried
+    std::vector<bool> shown_provisionally;  // its regions
+    std::optional<KeptProvisional> kept_provisional;
     OpenedPtr unwritten;  // opened while its mattes were not on disk
     std::shared_ptr<const ColorTransform> srgb_from_out, linear_from_out;
     std::shared_ptr<const CachedReader> reader;  // reads the plate `reader_of`
@@ -143,7 +194,10 @@ struct Preview::Impl {
     // for cards that the picture's analysis does not serve
     std::shared_ptr<AnalysisCache> card_store;
     std::string card_analysis;
+    // by CardRequest::key, with Shared::visits at that time
+    std::map<std::string, std::uint64_t> tried_cards;
 
+    MatteCarrier carrier;
     std::thread renderer, analyser;
 };
 

@@ -10,9 +10,6 @@
 namespace weft {
 namespace {
 
-// Pixels of the first picture; larger plates are shown reduced first.
-constexpr std::int64_t kProxyPixels = 640'000;
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -39,7 +36,8 @@ Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std
     : cache(std::move(cache_options)),
       texture_library(std::move(library)),
       budget_bytes(budget),
-      backend(make_cpu_backend()) {
+      backend(make_cpu_backend()),
+      carrier(cache) {
     renderer = std::thread([this] { render_loop(); });
     analyser = std::thread([this] { analyse_loop(); });
 }
@@ -83,6 +81,7 @@ void Preview::Impl::render_loop() {
             const auto shared = guarded.lock();
             if (shared->stop) return;
         }
+        release_analysis();
     }
 }
 
@@ -99,12 +98,14 @@ bool Preview::Impl::step() {
     }
     note_written(now);
     if (!current || current->pixels != pixels) return open_shot_of(now, pixels);
-    if (!ready(now.frame))
+    if (!ready(now.frame)) {
         set_state(PreviewView::State::kAnalysing);
-    else if (step_frame(now))
+        if (step_provisional(now)) return true;
+    } else if (step_frame(now)) {
         return true;
+    }
     // Pictures first, then measurements.
-    return step_fill(now, pixels) || step_card(now) || step_flicker(now);
+    return step_quick_card(now) || step_fill(now, pixels) || step_card(now) || step_flicker(now);
 }
 
 // Files analysis results of in-memory mattes under the names of their files, once they are written.
@@ -211,6 +212,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     current = fresh;
     old_frames.swap(shared->frames);
     shared->frame_bytes = 0;
+    shared->provisional.reset();
     compared.clear();
     for (auto& [region, of_frames] : shared->healths)
         for (auto& [frame, health] : of_frames)
@@ -225,15 +227,18 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
         ++mattes;
     }
     const std::vector<int> range = now.range.empty() ? std::vector<int>{now.frame} : now.range;
-    if (!same_analysis || shared->analyse_frames != range) {
-        if (shared->analysing_key != fresh->analysis) shared->analysis_cancel.cancel();
-        shared->to_analyse = fresh;
-        shared->analyse_first = {now.frame};
-        shared->analyse_frames = range;
-        shared->analysis_pending = true;
-        wake.notify_all();
-    }
+    if (!same_analysis || shared->analyse_frames != range)
+        begin_analysis(*shared, now.frame, range);
     return true;
+}
+
+// Of the shot just opened; it waits for the first picture.
+void Preview::Impl::begin_analysis(Shared& of, int frame, const std::vector<int>& range) {
+    if (of.analysing_key != of.opened->analysis) of.analysis_cancel.cancel();
+    of.to_analyse = of.opened;
+    of.analyse_first = {frame};
+    of.analyse_frames = range;
+    of.analysis_pending = of.analysis_held = true;
 }
 
 bool Preview::Impl::ready(int frame) {
@@ -254,28 +259,19 @@ PicturePtr Preview::Impl::picture_of(const Shot& shot, const ImageF3& pixels) co
     return make_picture(pixels, eight_bit, srgb_from_out.get(), linear_from_out.get());
 }
 
-Expected<PreviewFrame> Preview::Impl::pictures_of(int frame, bool stages, int factor,
-                                                  std::optional<LayerKind> layer) {
-    const Shot& shot = *current->shot;
-    float seam = -1;
-    const auto note_seam = [&] {
-        const auto shared = guarded.lock();
-        for (const std::size_t k : shot.region_index)
-            shared->healths[shot.project.regions[k]->id][frame].seam = seam;
-    };
+Expected<PreviewFrame> Preview::Impl::pictures_of(const Look& look, int frame, bool stages,
+                                                  int factor, std::optional<LayerKind> layer,
+                                                  float* seam) {
+    const Shot& shot = look.shot;
     const auto picture = [&](const ImageF3& pixels) { return picture_of(shot, pixels); };
     if (factor == 1) {
-        auto whole =
-            render_stages({*shot.source, shot.plan, scenes.scenes(), *current->store, *backend},
-                          frame, stages, layer, picture, seam);
-        note_seam();
-        return whole;
+        return render_stages({*shot.source, shot.plan, look.scenes, look.store, *backend}, frame,
+                             stages, layer, picture, seam);
     }
-    const ProxyShot small(shot, *current->store, *proxies, factor);
-    const std::vector<RegionScene> placed = proxy_scenes(scenes.scenes(), factor);
+    const ProxyShot small(shot, look.store, *proxies, factor);
+    const std::vector<RegionScene> placed = proxy_scenes(look.scenes, factor);
     WEFT_TRY(made, render_stages({small.source(), small.plan(), placed, small.store(), *backend},
                                  frame, stages, layer, picture, seam));
-    note_seam();
     made.proxy = factor;
     return made;
 }
@@ -296,20 +292,36 @@ bool Preview::Impl::grow(const OpenedShot& of) {
     return false;
 }
 
+void Preview::Impl::note_seam(int frame, float seam) {
+    const Shot& shot = *current->shot;
+    const auto shared = guarded.lock();
+    for (const std::size_t k : shot.region_index)
+        shared->healths[shot.project.regions[k]->id][frame].seam = seam;
+}
+
 bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
     const bool usable = scenes.adopt(*current->shot, current->analysis);
+    CancelToken token;
     const bool first_look = [&] {
         const auto shared = guarded.lock();
-        return !shared->frames.contains(frame);
+        shared->grow_cancel = token;
+        // A provisional picture serves as well while the texture is synthesized.
+        const bool shown = shared->frames.contains(frame) ||
+                           (shared->provisional && shared->provisional_frame == frame);
+        return frame == now.frame && !shown && shared->wanted_pixels == current->pixels;
     }();
-    if (!usable || (!scenes.exact() && !(first_look && frame == now.frame))) {
+    if (!scenes.exact() && !first_look) {
         set_state(PreviewView::State::kGrowing);
         return grow(*current);
     }
     if (frame == now.frame) set_state(PreviewView::State::kRendering);
     const auto start = Clock::now();
-    auto made = pictures_of(frame, now.stages && frame == now.frame, factor,
-                            frame == now.frame ? now.layer : std::nullopt);
+    float seam = -1;
+    auto made = usable ? pictures_of({*current->shot, *current->store, scenes.scenes()}, frame,
+                                     now.stages && frame == now.frame, factor,
+                                     frame == now.frame ? now.layer : std::nullopt, &seam)
+                       : quick_picture(now, factor, token);
+    if (!made && token.cancelled()) return true;
     if (!made) {
         set_state(PreviewView::State::kFailed,
                   "Frame " + std::to_string(frame) + ": " + made.error().text());
@@ -318,6 +330,7 @@ bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
         return false;
     }
     made->approximate = !scenes.exact();
+    if (scenes.exact()) note_seam(frame, seam);
     keep(now, frame, std::move(*made), seconds_since(start));
     return true;
 }
@@ -327,7 +340,7 @@ void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made
     const auto shared = guarded.lock();
     // Full-size pictures only: reduced ones say little about render time.
     if (made.proxy == 1 && !made.stages[0]) shared->shown.frame_seconds = seconds;
-    if (frame == now.frame) shared->shown.first_seconds = seconds;
+    note_first(*shared, frame);
     if (const auto before = shared->frames.find(frame); before != shared->frames.end()) {
         shared->frame_bytes -= bytes_of(before->second);
         // Keep the small picture, so that neighbours are compared at one size.
@@ -337,6 +350,7 @@ void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made
             made.seams = before->second.seams;
         }
     }
+    if (shared->provisional_frame == frame) shared->provisional.reset();
     shared->frame_bytes += bytes_of(made);
     gone.push_back(std::exchange(shared->frames[frame], std::move(made)));
     while (shared->frame_bytes > budget_bytes && shared->frames.size() > 1) {

@@ -1,9 +1,12 @@
 #include "app/preview/preview_scenes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "engine/core/hash.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
 
 namespace weft {
 
@@ -21,6 +24,14 @@ std::string amendments_text(const std::vector<PlaneAmendment>& amendments) {
     return hasher.finish().hex();
 }
 
+// The part of the plate, at most `shown`, whose plane has about this many texels.
+Size part_to_grow(const PlanePlacement& placement, Size shown, std::int64_t texels) {
+    const Size plane = plane_size(placement, shown);
+    const double all = static_cast<double>(plane.width) * plane.height;
+    const double share = std::min(1.0, std::sqrt(static_cast<double>(texels) / all));
+    return {static_cast<int>(share * shown.width), static_cast<int>(share * shown.height)};
+}
+
 }  // namespace
 
 std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
@@ -29,22 +40,27 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
     for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
         const RegionPlan& plan = shot.plan.regions[k];
         const Region& region = *shot.project.regions[shot.region_index[k]];
-        Hasher hasher;
+        Hasher hasher;  // first what the plane depends on, then the light
         for (const ShotTexture& further : shot.textures[k].also)
             hasher.text(further.id);
         hasher.text(shot.textures[k].id).text(shot.spaces.textures[k].name);
+        hasher.text(shot.spaces.working.name);
         hasher.value(plan.random_key).value(shot.plan.seed).value(static_cast<int>(plan.temporal));
         hasher.value(static_cast<int>(plan.seam)).value(plan.overlap_px).value(plan.feather_px);
         hasher.value(static_cast<int>(plan.seam_cost)).value(plan.refine_passes).value(plan.align);
         hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.text(amendments_text(plan.amendments));
         hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
+        const Size size = plane_size(plan.placement, shot.source->size());
+        const std::string size_key = plan.texture->is_plane ? std::string()
+                                                            : " " + std::to_string(size.width) +
+                                                                  "x" + std::to_string(size.height);
+        Keys key;
+        key.plane = hasher.finish().hex() + size_key;
         // The analysis determines the light to which the scene is relative.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
         hasher.value(plan.light.strength > 0);
-        Keys key;
         key.texture = hasher.finish().hex();
-        const Size size = plane_size(plan.placement, shot.source->size());
         // Seams between tracks depend on the texture's position.
         Hasher placed;
         if (plan.reference_frames.size() > 1) {
@@ -53,10 +69,7 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
             for (const Vec2 c : p.corners.value_or(std::array<Vec2, 4>{}))
                 placed.value(c.x).value(c.y);
         }
-        key.exact = placed.finish().hex() + key.texture +
-                    (plan.texture->is_plane
-                         ? std::string()
-                         : " " + std::to_string(size.width) + "x" + std::to_string(size.height));
+        key.exact = placed.finish().hex() + key.texture + size_key;
         keys.push_back(std::move(key));
     }
     return keys;
@@ -119,7 +132,8 @@ Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,
         constexpr std::int64_t kMostTexels = 6'000'000;
         const Size size = plane_size(plan.regions[k].placement, shot.source->size());
         plan.keep_planes = std::int64_t{size.width} * size.height <= kMostTexels;
-        auto scene = make_scene(*shot.source, plan, store, static_cast<int>(k), cancel, {});
+        auto scene = make_scene(*shot.source, plan, store, static_cast<int>(k), cancel, {}, nullptr,
+                                kept_plane(wanted[k].plane));
         if (!scene) {
             const Region& region = *shot.project.regions[shot.region_index[k]];
             return fail_in(std::move(scene).error(),
@@ -131,6 +145,63 @@ Status PreviewScenes::grow_one(const Shot& shot, const AnalysisStore& store,
     }
     exact_ = keys_ == wanted;
     return {};
+}
+
+std::optional<RegionPlane> PreviewScenes::kept_plane(const std::string& plane_key) const {
+    const auto plane_of = [](const RegionScene& scene) {
+        return RegionPlane{scene.plane, scene.stats, scene.plane_seams, scene.grown};
+    };
+    for (std::size_t k = 0; k < keys_.size(); ++k)
+        if (keys_[k].plane == plane_key && !scenes_[k].plane.empty()) return plane_of(scenes_[k]);
+    for (const Kept& kept : bank_)
+        if (kept.keys.plane == plane_key && !kept.scene.plane.empty()) return plane_of(kept.scene);
+    return std::nullopt;
+}
+
+Expected<RegionPlane> PreviewScenes::quick_plane(const ShotPlan& plan, std::size_t index,
+                                                 const std::string& plane_key, Size shown,
+                                                 const CancelToken& cancel) {
+    RegionPlan region = plan.regions[index];
+    region.refine_passes = 0;
+    if (region.seam == SeamMethod::kGraphCut) region.seam = SeamMethod::kDynamicProgramming;
+    region.amendments.clear();  // they refer to the whole plane
+    const Size size = plane_size(region.placement, shown);
+    const std::string key =
+        plane_key + " " + std::to_string(size.width) + "x" + std::to_string(size.height);
+    for (const KeptPlane& kept : quick_bank_)
+        if (kept.key == key) return kept.plane;
+    WEFT_TRY(plane, make_plane(plan, region, shown, cancel, {}));
+    constexpr std::size_t kMost = 8;
+    quick_bank_.push_front({key, plane});
+    if (quick_bank_.size() > kMost) quick_bank_.pop_back();
+    return plane;
+}
+
+Expected<std::vector<RegionScene>> PreviewScenes::quick(const Shot& shot, const ShotPlan& plan,
+                                                        const AnalysisStore& store, int frame,
+                                                        const std::vector<bool>& shown,
+                                                        std::int64_t texels,
+                                                        const CancelToken& cancel) {
+    const std::vector<Keys> wanted = keys_of(shot, {});
+    std::vector<RegionScene> out(plan.regions.size());
+    ShotPlan with_seams = plan;
+    with_seams.layers = true;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        if (!shown[k]) continue;
+        const int index = static_cast<int>(k);
+        std::optional<RegionPlane> plane = kept_plane(wanted[k].plane);
+        if (!plane && has_plane(plan.regions[k])) {
+            WEFT_TRY(matte, extent_matte(*shot.source, plan, store, index, frame));
+            const Size part =
+                part_to_grow(plan.regions[k].placement, matte_bounds(matte).size(), texels);
+            WEFT_TRY(grown, quick_plane(with_seams, k, wanted[k].plane, part, cancel));
+            plane = std::move(grown);
+        }
+        WEFT_TRY(scene, make_scene(*shot.source, with_seams, store, index, cancel, {}, nullptr,
+                                   std::move(plane)));
+        out[k] = std::move(scene);
+    }
+    return out;
 }
 
 }  // namespace weft

@@ -67,14 +67,16 @@ PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
 
 Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stages,
                                      std::optional<LayerKind> layer, const MakePicture& picture,
-                                     float& seam) {
+                                     float* seam) {
     PreviewFrame out;
     ShotPlan plan = in.plan;
-    plan.layers = true;  // also used to measure seam visibility
+    plan.layers = seam || layer;
     WEFT_TRY(lit, render_frame(in.source, plan, in.scenes, in.store, in.backend, frame));
     out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
-    seam = seam_prominence(lit);
-    out.seams = std::make_shared<const SeamPoints>(seam_points(lit));
+    if (seam) {
+        *seam = seam_prominence(lit);
+        out.seams = std::make_shared<const SeamPoints>(seam_points(lit));
+    }
     if (layer && lit.layers) {
         out.layer_kind = layer;
         out.layer = layer_picture(*lit.layers, *layer, *plan.out_from_working, picture);

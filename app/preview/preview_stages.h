@@ -26,10 +26,11 @@ struct StageInputs {
 /// Converts pixels of the output space for display.
 using MakePicture = std::function<PicturePtr(const ImageF3&)>;
 
-/// Renders the final picture; with `stages` also the earlier ones, and `layer` if set. `seam`:
-/// visibility of seams, 0–1. Errors: those of render_frame().
+/// Renders the final picture; with `stages` also the earlier ones, and `layer` if set. `seam`: the
+/// visibility of seams, 0–1; null: seams are not measured, which is faster. Errors: those of
+/// render_frame().
 [[nodiscard]] Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stages,
                                                    std::optional<LayerKind> layer,
-                                                   const MakePicture& picture, float& seam);
+                                                   const MakePicture& picture, float* seam);
 
 }  // namespace weft

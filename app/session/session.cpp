@@ -18,6 +18,19 @@ namespace fs = std::filesystem;
 
 constexpr double kToastSeconds = 6;
 
+// The indices first … last, those next to `at` first; while playing, in the order of playback.
+std::vector<int> fill_order(int at, int first, int last, bool playing) {
+    std::vector<int> out;
+    for (int k = at; k <= last; ++k)
+        out.push_back(k);
+    for (int k = first; k < at; ++k)
+        out.push_back(k);
+    if (!playing)
+        std::stable_sort(out.begin(), out.end(),
+                         [&](int a, int b) { return std::abs(a - at) < std::abs(b - at); });
+    return out;
+}
+
 }  // namespace
 
 Session::Session(SessionOptions options, EditorSettings* settings)
@@ -78,12 +91,25 @@ Project Session::project_to_preview(bool& any) const {
     return project;
 }
 
+// Painted mattes are carried to the other frames before a texture is chosen.
+void Session::carry_mattes() {
+    Project project = resolved();
+    project.settings.quality = preview_quality_;
+    for (Leaf<Region>& region : project.regions) {
+        const bool waits = region->enabled && !region->matte->keyframes.empty() &&
+                           region->texture.sample.empty() && region->texture.plane.empty();
+        region = region.with([&](Region& r) { r.enabled = waits; });
+    }
+    preview_.carry(project, shelf_.unwritten());
+}
+
 void Session::request_preview() {
     if (!request_pending_ || painting_.active()) return;
     if (!reader_) {
         request_pending_ = false;
         return;
     }
+    carry_mattes();
     PreviewRequest request;
     bool any = false;
     request.project = project_to_preview(any);
@@ -112,9 +138,7 @@ void Session::request_preview() {
     const int before = playback_.direction() != 0 ? 0 : kAround / 4;
     const int from = playback_.marked() ? first : std::max(first, at - before);
     const int to = playback_.marked() ? last : std::min(last, at + kAround);
-    for (int k = std::clamp(at, from, to); k <= to; ++k)
-        request.fill.push_back(frames[static_cast<std::size_t>(k)]);
-    for (int k = from; k < std::min(at, to); ++k)
+    for (const int k : fill_order(std::clamp(at, from, to), from, to, request.interactive))
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     if (!preview_.try_request(request)) return;  // retried in the next frame
     request_pending_ = false;

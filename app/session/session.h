@@ -151,6 +151,7 @@ class Session {
 
     // ---- preview, jobs ----
     void request_preview();
+    void carry_mattes();
     /// The document with only regions enabled that can be shown, at preview quality.
     [[nodiscard]] Project project_to_preview(bool& any) const;
     void apply_texture(const std::string& path, RegionId region);

@@ -53,6 +53,7 @@ void Session::show_strip() {
             made != preview_reading_.cards.end()) {
             card.picture = made->second.picture;
             card.error = made->second.error;
+            card.provisional = made->second.provisional;
         } else if (view_.preview.state == PreviewView::State::kFailed) {
             card.error = view_.preview.error;
         }

@@ -144,7 +144,7 @@ void Session::show_result() {
     view_.layer = shown_layer_;
     view_.stages = preview_reading_.frame;
     const PicturePtr& final = view_.stages.stages[static_cast<std::size_t>(Stage::kFinal)];
-    view_.result_current = final != nullptr;
+    view_.result_current = final && !view_.stages.provisional;
     if (final) {
         last_result_ = final;
         last_result_frame_ = playback_.frame();

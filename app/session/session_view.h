@@ -140,8 +140,9 @@ struct SessionView {
     StripView strip;
 
     PicturePtr plate_picture, result_picture;
-    bool result_current = false;  ///< result_picture is of this frame with these settings.
-    bool result_wanted = false;   ///< A region can be rendered.
+    /// result_picture is of this frame with these settings, and not provisional.
+    bool result_current = false;
+    bool result_wanted = false;  ///< A region can be rendered.
     PreviewFrame stages;
     std::string frame_error, frame_file;
     PreviewView preview;

@@ -16,6 +16,12 @@
 
 namespace weft {
 
+/// How a region's motion is known.
+[[nodiscard]] inline SurfaceTrack::Motion motion_of(const RegionPlan& region) {
+    if (!region.track.empty()) return SurfaceTrack::Motion::kKnown;
+    return region.true_motion ? SurfaceTrack::Motion::kExact : SurfaceTrack::Motion::kEstimated;
+}
+
 /// One region on its way through the sweeps. Belongs to one thread.
 struct SurfaceJob {
     int region = 0;
@@ -40,10 +46,6 @@ struct SurfaceJob {
 
     [[nodiscard]] bool is_reference(int frame) const {
         return std::binary_search(references.begin(), references.end(), frame);
-    }
-    [[nodiscard]] SurfaceTrack::Motion motion() const {
-        if (!plan->track.empty()) return SurfaceTrack::Motion::kKnown;
-        return plan->true_motion ? SurfaceTrack::Motion::kExact : SurfaceTrack::Motion::kEstimated;
     }
     // Light is estimated from several frames at once, after the legs.
     [[nodiscard]] bool gathers_light() const { return shading && !plan->light_evidence.empty(); }

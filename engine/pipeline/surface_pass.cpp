@@ -83,7 +83,7 @@ class Follower {
 
     Status start(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
                  const LatticeField* base) {
-        const SurfaceTrack::Motion motion = job.motion();
+        const SurfaceTrack::Motion motion = motion_of(*job.plan);
         std::optional<LatticeField> placed;
         if (const auto* pins = pins_at(job, at.frame); pins && !base) {
             const Size size = context_.source.size();

@@ -18,7 +18,6 @@ const std::vector<Untested> kThroughOthers{
     {"app/measure/measure_job.h", "tests/cli: weft measure"},
     {"app/measure/measure_report.h", "tests/cli: weft measure"},
     {"app/measure/truth_measure.h", "tests/cli: weft measure"},
-    {"app/preview/preview.h", "tests/ui, through session.h"},
     {"app/preview/preview_impl.h", "internal to the preview"},
     {"app/preview/preview_overlay.h", "internal to the preview"},
     {"app/preview/preview_scenes.h", "internal to the preview"},

@@ -179,9 +179,10 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
         std::ofstream script(sandbox.in("script.json"));
         script << "[" << begin;
         for (const Page& page : kPages)
-            script << R"(, {"workspace": ")" << page.workspace
-                   << R"("}, {"hover": "Top/File"}, {"wait": 0.7}, {"screenshot": ")"
-                   << sandbox.in(std::string(page.file) + ".png") << R"("})";
+            script
+                << R"(, {"workspace": ")" << page.workspace
+                << R"("}, {"hover": "Top/File"}, {"settle": true, "timeout": 20}, {"wait": 0.7}, )"
+                << R"({"screenshot": ")" << sandbox.in(std::string(page.file) + ".png") << R"("})";
         script << "]";
     }
     std::vector<std::string> all = arguments;
@@ -198,9 +199,10 @@ void expect_golden_pages(const Sandbox& sandbox, const std::vector<std::string>&
 // machine.
 TEST(Screenshots, EveryWorkspaceMatchesItsGoldenPicture) {
     const Sandbox sandbox;
-    expect_golden_pages(
-        sandbox, {"edit", "--demo", "--paused"},
-        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"}, {"wait": 1.5})", "");
+    expect_golden_pages(sandbox, {"edit", "--demo", "--paused"},
+                        R"({"wait_for": "cached", "timeout": 240}, {"wait_for": "mattes"},
+            {"wait_for": "provisional", "timeout": 60}, {"wait": 1.5})",
+                        "");
 }
 
 void write_plates(const Sandbox& sandbox) {

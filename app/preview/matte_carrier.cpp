@@ -1,0 +1,93 @@
+#include "app/preview/matte_carrier.h"
+
+#include <algorithm>
+
+#include "app/preview/preview.h"
+#include "app/preview/preview_impl.h"
+#include "engine/pipeline/matte_pass.h"
+
+namespace weft {
+namespace {
+
+constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
+
+}  // namespace
+
+void MatteCarrier::carry(const Project& project, const PaintedMattes& painted) {
+    const bool any = std::any_of(project.regions.begin(), project.regions.end(),
+                                 [](const Leaf<Region>& region) { return region->enabled; });
+    if (!any) return clear();
+    // Once a matte has been written, its file names what was carried.
+    std::string key = analysis_key(project);
+    for (const auto& [path, matte] : painted)
+        key += "\n" + path;
+    if (asked_ && asked_->key == key) return;
+    asked_ = std::make_shared<const Asked>(Asked{++serial_, std::move(key), project, painted});
+    start();
+}
+
+void MatteCarrier::start() {
+    if (paused_ || !asked_) return;
+    (void)worker_.ask(asked_->key, [this, asked = asked_](const CancelToken& cancel) {
+        work(*asked, cancel);
+        return cancel.cancelled() ? std::nullopt : std::optional(true);
+    });
+}
+
+void MatteCarrier::pause() {
+    paused_ = true;
+    // An empty request cancels the one before.
+    (void)worker_.ask({}, [](const CancelToken&) { return std::optional(true); });
+}
+
+void MatteCarrier::resume() {
+    paused_ = false;
+    start();
+}
+
+void MatteCarrier::clear() {
+    if (!asked_) return;
+    asked_.reset();
+    ++serial_;
+    (void)worker_.ask({}, [](const CancelToken&) { return std::optional(true); });
+}
+
+void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
+    const auto before = carried_.get();
+    if (before) before->store->mattes_written(*before->shot);
+    OpenShotOptions options;
+    options.textures = false;
+    options.painted = asked.painted;
+    options.cache_bytes = kCacheBytes;
+    if (before && before->shot->project.plate == asked.project.plate)
+        options.plate = before->shot->plate;
+    const auto shot = open_shot(asked.project, options);
+    if (!shot || cancel.cancelled()) return;
+    std::vector<std::string> warnings;
+    const auto store = open_analysis_cache(**shot, cache_, warnings);
+    if (!store) return;
+    carried_.put({*shot, *store, asked.serial});
+    ShotPlan plan = (*shot)->plan;
+    plan.frames = (*shot)->plate->frames();
+    (void)propagate_mattes(
+        {*(*shot)->source, plan, cancel, [&](int, double) { ++changes_; }, nullptr}, **store);
+    ++changes_;
+}
+
+Expected<Matte> MatteCarrier::matte(RegionId region, int layer, int frame) const {
+    const auto carried = carried_.get();
+    const Shot* shot = carried && carried->serial == serial_.load() ? carried->shot.get() : nullptr;
+    for (std::size_t k = 0; shot && k < shot->region_index.size(); ++k) {
+        const Region& of = *shot->project.regions[shot->region_index[k]];
+        const std::optional<int> stored = stored_layer(of, layer);
+        if (of.id != region || !stored) continue;
+        WEFT_TRY(bytes,
+                 carried->store->get({static_cast<int>(k), frame, AnalysisKind::kMatte, *stored}));
+        WEFT_TRY(found, decode_matte(bytes));
+        return std::move(found.matte);
+    }
+    return fail(ErrorCode::kMissingFrames,
+                "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
+}
+
+}  // namespace weft

@@ -1,0 +1,227 @@
+#include "engine/pipeline/provisional.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/composite/grain.h"
+#include "engine/lighting/shading.h"
+#include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/surface_job.h"
+#include "engine/pipeline/surface_pass.h"
+#include "engine/pipeline/sweep.h"
+#include "engine/pipeline/zone_kind.h"
+#include "engine/temporal/correction.h"
+
+namespace weft {
+namespace {
+
+bool is_history(AnalysisKind kind) {
+    return kind == AnalysisKind::kHistoryBefore || kind == AnalysisKind::kHistoryAfter;
+}
+
+// Seams between histories need the histories of all their frames, which a region that is still
+// being analysed does not have.
+class OverlayStore final : public AnalysisStore {
+  public:
+    OverlayStore(const AnalysisStore& known, std::set<int> unfinished)
+        : known_(known), unfinished_(std::move(unfinished)) {}
+
+    [[nodiscard]] bool has(const AnalysisKey& key) const override {
+        return beneath_.has(key) || (!hidden(key) && known_.has(key));
+    }
+    [[nodiscard]] Status put(const AnalysisKey&, const Bytes&) override {
+        return fail(ErrorCode::kRenderFailed, "A provisional picture keeps no analysis.");
+    }
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
+        if (hidden(key)) return beneath_.get(key);
+        if (auto bytes = known_.get(key)) return bytes;
+        return beneath_.get(key);
+    }
+    void put_beneath(const AnalysisKey& key, const Bytes& bytes) { (void)beneath_.put(key, bytes); }
+    // A matte that is to hold whatever the analysis finds meanwhile.
+    void leave_out(int region) { left_out_.insert(region); }
+
+  private:
+    [[nodiscard]] bool hidden(const AnalysisKey& key) const {
+        if (left_out_.contains(key.region)) return true;
+        return is_history(key.kind) && unfinished_.contains(key.region);
+    }
+
+    const AnalysisStore& known_;
+    std::set<int> unfinished_, left_out_;
+    MemoryAnalysisStore beneath_;
+};
+
+// The regions whose analysis for this frame is not complete.
+std::set<int> unfinished_regions(const ShotPlan& plan, const AnalysisStore& known, int frame) {
+    std::set<int> out;
+    ShotPlan one = plan;
+    one.frames = {frame};
+    for (const SurfaceJob& job : surface_jobs(one, known))
+        out.insert(job.region);
+    return out;
+}
+
+class FrameFiller {
+  public:
+    FrameFiller(const ShotSource& source, ShotPlan& plan, OverlayStore& store, int frame,
+                const CancelToken& cancel)
+        : source_(source), plan_(plan), store_(store), frame_(frame), cancel_(cancel) {}
+
+    // Returns false if the region cannot be shown on the frame.
+    Expected<bool> fill(int index) {
+        if (cancel_.cancelled()) return cancelled(cancel_);
+        const RegionPlan& region = region_at(index);
+        const int reference = region.reference_frames.front();
+        for (const int at : {frame_, reference}) {
+            WEFT_TRY(there, fill_mattes(index, at));
+            if (!there) return false;
+        }
+        fill_zones(index);
+        WEFT_TRY(placed, fill_texture(index, reference));
+        if (!placed) return false;
+        WEFT_CHECK_OK(fill_light(index, frame_));
+        WEFT_CHECK_OK(fill_light(index, reference));
+        fill_camera(index, reference);
+        return true;
+    }
+
+    // render_frame() skips a region with an empty matte.
+    void leave_out(int index) {
+        RegionPlan& region = region_at(index);
+        region.matte_keys = {frame_};
+        region.has_holdout = false;
+        region.painted_holdouts.clear();
+        region.zones.clear();
+        store_.leave_out(index);
+        store_.put_beneath({index, frame_, AnalysisKind::kMatte},
+                           encode(StoredMatte{Matte(source_.size()), 1.0f}));
+    }
+
+  private:
+    RegionPlan& region_at(int index) { return plan_.regions[static_cast<std::size_t>(index)]; }
+
+    // The matte of one layer, if it is known on the frame: propagated already, or painted there.
+    template <class ReadKey>
+    Expected<bool> fill_painted(const AnalysisKey& key, const std::vector<int>& painted_on,
+                                ReadKey&& read) {
+        if (store_.has(key)) return true;
+        if (!std::binary_search(painted_on.begin(), painted_on.end(), key.frame)) return false;
+        WEFT_TRY(matte, read());
+        store_.put_beneath(key, encode(StoredMatte{std::move(matte), 1.0f}));
+        return true;
+    }
+
+    Expected<bool> fill_mattes(int index, int frame) {
+        const RegionPlan& region = region_at(index);
+        if (region.propagated()) {
+            WEFT_TRY(there, fill_painted({index, frame, AnalysisKind::kMatte}, region.matte_keys,
+                                         [&] { return source_.matte_key(index, frame); }));
+            if (!there) return false;
+        }
+        for (int k = 0; k < static_cast<int>(region.painted_holdouts.size()); ++k) {
+            WEFT_TRY(there, fill_painted({index, frame, AnalysisKind::kMatte, k + 1},
+                                         region.painted_holdouts[static_cast<std::size_t>(k)].keys,
+                                         [&] { return source_.holdout_key(index, k, frame); }));
+            if (!there) return false;
+        }
+        return true;
+    }
+
+    // A zone whose matte is not known yet has no effect.
+    void fill_zones(int index) {
+        const std::vector<ZonePlan>& zones = region_at(index).zones;
+        for (int k = 0; k < static_cast<int>(zones.size()); ++k) {
+            const ZonePlan& zone = zones[static_cast<std::size_t>(k)];
+            if (!zone.propagated()) continue;
+            const AnalysisKey key{index, frame_, AnalysisKind::kMatte, zone_layer(k)};
+            const auto there = fill_painted(key, zone.painted.keys,
+                                            [&] { return source_.zone_key(index, k, frame_); });
+            if (!there || !*there)
+                store_.put_beneath(key, encode(StoredMatte{Matte(source_.size()), 1.0f}));
+        }
+    }
+
+    // Where the texture lies on the frame; in the paper mode the texture itself.
+    Expected<bool> fill_texture(int index, int reference) {
+        const RegionPlan& region = region_at(index);
+        if (region.temporal == TemporalMode::kNone || region.has_uv) return true;
+        const bool paper = region.temporal == TemporalMode::kPaper;
+        const AnalysisKey key{index, frame_,
+                              paper ? AnalysisKind::kPaperTexture : AnalysisKind::kCoords};
+        if (store_.has(key)) return true;
+        if (frame_ != reference) return false;
+        if (paper) {
+            PaperWalker painter(region, plan_.seed, source_.size(), nullptr);
+            WEFT_TRY(picture, painter.start(frame_, cancel_));
+            store_.put_beneath(key, encode(picture));
+            return true;
+        }
+        const LatticeField still(source_.size(),
+                                 SurfaceTrack::spacing_for(source_.size(), motion_of(region)));
+        const auto pins = region.corrections.find(frame_);
+        store_.put_beneath(
+            key, encode(pins == region.corrections.end() ? still : corrected(still, pins->second)));
+        return true;
+    }
+
+    Status fill_light(int index, int frame) {
+        const RegionPlan& region = region_at(index);
+        const AnalysisKey key{index, frame, AnalysisKind::kShading};
+        if (!region.estimates_light() || store_.has(key)) return {};
+        WEFT_TRY(plate, source_.plate(frame));
+        WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame));
+        WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame));
+        Matte visible = without_holdout(extent, holdout);
+        drop_nonfinite(visible, make_views(*plate, *plan_.display_from_plate).finite);
+        const ImageF3 working = transformed(*plate, *plan_.working_from_plate);
+        store_.put_beneath(key, encode(estimate_shading(working, visible,
+                                                        shading_options(plan_, source_.size()))));
+        return {};
+    }
+
+    // Grain and motion blur, which a single frame does not show.
+    void fill_camera(int index, int reference) {
+        RegionPlan& region = region_at(index);
+        if (const AnalysisKey grain{index, reference, AnalysisKind::kGrain}; !store_.has(grain))
+            store_.put_beneath(grain, encode(GrainModel()));
+        const int neighbour = frame_ > reference ? frame_ - 1 : frame_ + 1;
+        const bool measured =
+            !region.estimates_shutter() || store_.has({index, reference, AnalysisKind::kShutter});
+        if (measured && store_.has({index, neighbour, AnalysisKind::kCoords})) return;
+        region.shutter_deg = 0.0f;
+        region.shutter_evidence.clear();
+    }
+
+    const ShotSource& source_;
+    ShotPlan& plan_;
+    OverlayStore& store_;
+    int frame_;
+    const CancelToken& cancel_;
+};
+
+}  // namespace
+
+bool ProvisionalFrame::shows_anything() const {
+    return std::find(shown.begin(), shown.end(), true) != shown.end();
+}
+
+Expected<ProvisionalFrame> provisional_frame(const ShotSource& source, const ShotPlan& plan,
+                                             const AnalysisStore& known, int frame,
+                                             const CancelToken& cancel) {
+    ProvisionalFrame out;
+    out.plan = plan;
+    auto store = std::make_unique<OverlayStore>(known, unfinished_regions(plan, known, frame));
+    FrameFiller filler(source, out.plan, *store, frame, cancel);
+    for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {
+        WEFT_TRY(shown, filler.fill(k));
+        if (!shown) filler.leave_out(k);
+        out.shown.push_back(shown);
+    }
+    out.store = std::move(store);
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,187 @@
+#include "engine/pipeline/provisional.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/compute/backend_registry.h"
+#include "engine/pipeline/render_frame.h"
+#include "tests/pipeline/memory_shot.h"
+
+namespace weft {
+namespace {
+
+const MemoryAnalysisStore kNothing;
+
+// Notes what is stored.
+class WatchedStore final : public AnalysisStore {
+  public:
+    [[nodiscard]] bool has(const AnalysisKey& key) const override { return kept_.has(key); }
+    [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
+        ++puts;
+        return kept_.put(key, bytes);
+    }
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
+        return kept_.get(key);
+    }
+    int puts = 0;
+
+  private:
+    MemoryAnalysisStore kept_;
+};
+
+RegionPlan lit_region(std::vector<int> references = {kFirst}) {
+    RegionPlan region = make_region(sample_texture());
+    region.reference_frames = std::move(references);
+    region.light_source = LightSource::kPlate;
+    return region;
+}
+
+ImageF3 rendered(const ShotSource& shot, const ShotPlan& plan, const AnalysisStore& store,
+                 int frame, const std::vector<bool>& shown = {}) {
+    std::vector<RegionScene> scenes;
+    for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {
+        if (!shown.empty() && !shown[static_cast<std::size_t>(k)]) {
+            scenes.emplace_back();
+            continue;
+        }
+        auto scene = make_scene(shot, plan, store, k, {}, {});
+        EXPECT_TRUE(scene) << scene.error().text();
+        scenes.push_back(scene ? std::move(*scene) : RegionScene());
+    }
+    auto made = render_frame(shot, plan, scenes, store, *make_cpu_backend(), frame);
+    EXPECT_TRUE(made) << made.error().text();
+    return made ? std::move(made->pixels) : ImageF3();
+}
+
+ImageF3 provisionally(const ShotSource& shot, const ShotPlan& plan, const AnalysisStore& known,
+                      int frame) {
+    const auto made = provisional_frame(shot, plan, known, frame);
+    EXPECT_TRUE(made) << made.error().text();
+    return made ? rendered(shot, made->plan, *made->store, frame, made->shown) : ImageF3();
+}
+
+ImageF3 exactly(const ShotSource& shot, ShotPlan plan, int frame) {
+    MemoryAnalysisStore store;
+    EXPECT_TRUE(analyse_shot(shot, plan, store, {}, {}));
+    return rendered(shot, plan, store, frame);
+}
+
+float largest_difference(const ImageF3& a, const ImageF3& b) {
+    EXPECT_EQ(a.size(), b.size());
+    float most = 0;
+    for (std::size_t k = 0; a.size() == b.size() && k < a.size_bytes() / sizeof(float); ++k)
+        most = std::max(most, std::abs(a.data()[k] - b.data()[k]));
+    return most;
+}
+
+TEST(Provisional, OfTheReferenceFrameIsWhatARenderShowsIncludingPins) {
+    const MemoryShot shot = make_wall(true);
+    RegionPlan region = lit_region({4});
+    region.has_holdout = true;
+    region.corrections[4] = {{{40, 30}, {44, 31}}, {{60, 36}, {60, 36}}};
+    const ShotPlan plan = make_plan(region);
+    // With each frame's light estimated alone, it is the same light on the reference.
+    EXPECT_EQ(largest_difference(provisionally(shot, plan, kNothing, 4), exactly(shot, plan, 4)),
+              0.0f);
+}
+
+TEST(Provisional, DiffersInLightAloneFromAClipWhoseLightIsMeasuredTogether) {
+    const MemoryShot shot = make_wall();
+    RegionPlan region = lit_region();
+    region.light_evidence = {1, 4, 7, 10};
+    ShotPlan plan = make_plan(region);
+    const ImageF3 first = provisionally(shot, plan, kNothing, kFirst);
+    const ImageF3 exact = exactly(shot, plan, kFirst);
+    EXPECT_GT(largest_difference(first, exact), 0.0f);
+    plan.regions[0].light_source = LightSource::kNone;
+    EXPECT_EQ(largest_difference(provisionally(shot, plan, kNothing, kFirst),
+                                 exactly(shot, plan, kFirst)),
+              0.0f);
+}
+
+TEST(Provisional, LeavesOutWhatIsNotKnownOnTheFrame) {
+    MemoryShot shot = make_wall();
+    shot.mattes[{1, 3}] = shot.mattes[{0, 3}];
+    shot.keys[{2, kFirst}] = box_matte(kRegionBox);
+    ShotPlan plan = make_plan(lit_region());  // its reference is another frame
+    plan.regions.push_back(lit_region({3}));
+    plan.regions.push_back(lit_region({3}));  // its matte has not been carried to frame 3
+    plan.regions[2].matte_keys = {kFirst};
+    const auto made = provisional_frame(shot, plan, kNothing, 3);
+    ASSERT_TRUE(made) << made.error().text();
+    EXPECT_EQ(made->shown, (std::vector<bool>{false, true, false}));
+    EXPECT_TRUE(made->shows_anything());
+    // The picture is that of the one region.
+    MemoryShot alone = shot;
+    alone.mattes[{0, 3}] = shot.mattes[{1, 3}];
+    EXPECT_EQ(largest_difference(rendered(shot, made->plan, *made->store, 3, made->shown),
+                                 exactly(alone, make_plan(lit_region({3}), 3, 3), 3)),
+              0.0f);
+    const auto nothing = provisional_frame(shot, make_plan(lit_region()), kNothing, 3);
+    ASSERT_TRUE(nothing);
+    EXPECT_FALSE(nothing->shows_anything());
+}
+
+TEST(Provisional, ShowsAPaintedMatteOnItsKeyAndReadsNoOtherFrame) {
+    MemoryShot shot = make_wall();
+    shot.mattes.clear();
+    shot.keys[{0, 5}] = box_matte(kRegionBox);
+    RegionPlan region = lit_region({5});
+    region.matte_keys = {5};
+    region.grain = 1;
+    region.grain_frames = {5, 6, 7};
+    region.shutter_deg.reset();
+    region.shutter_evidence = {5, 6, 7};
+    for (int frame = kFirst; frame <= kLast; ++frame)
+        if (frame != 5) shot.plates.erase(frame);
+    const ShotPlan plan = make_plan(region);
+    const ImageF3 picture = provisionally(shot, plan, kNothing, 5);
+    EXPECT_GT(largest_difference(picture, **shot.plate(5)), 0.05f);
+}
+
+TEST(Provisional, UsesWhatIsKnownAndStoresNothing) {
+    const MemoryShot shot = make_wall();
+    const ShotPlan plan = make_plan(lit_region());
+    WatchedStore known;
+    ASSERT_TRUE(analyse_shot(shot, plan, known, {}, {}));
+    const int puts = known.puts;
+    const auto made = provisional_frame(shot, plan, known, 6);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->shown, std::vector<bool>{true}) << "its place is known";
+    EXPECT_EQ(*made->store->get({0, 6, AnalysisKind::kShading}),
+              *known.get({0, 6, AnalysisKind::kShading}));
+    EXPECT_FALSE(made->store->put({0, 6, AnalysisKind::kCoords}, {}));
+
+    // Where only the light is missing, it is estimated.
+    WatchedStore placed;
+    for (int frame = kFirst; frame <= kLast; ++frame) {
+        const AnalysisKey key{0, frame, AnalysisKind::kCoords};
+        ASSERT_TRUE(placed.put(key, *known.get(key)));
+    }
+    const int before = placed.puts;
+    const ImageF3 picture = provisionally(shot, plan, placed, 6);
+    EXPECT_LT(largest_difference(picture, exactly(shot, plan, 6)), 0.25f);
+    EXPECT_EQ(placed.puts, before);
+    EXPECT_FALSE(placed.has({0, 6, AnalysisKind::kShading}));
+    EXPECT_EQ(known.puts, puts);
+}
+
+TEST(Provisional, OfThePaperModeIsItsFirstPicture) {
+    const MemoryShot shot = make_wall();
+    RegionPlan region = lit_region({2});
+    region.temporal = TemporalMode::kPaper;
+    const ShotPlan plan = make_plan(region, 2, 3);
+    EXPECT_EQ(largest_difference(provisionally(shot, plan, kNothing, 2), exactly(shot, plan, 2)),
+              0.0f);
+    const auto other = provisional_frame(shot, plan, kNothing, 3);
+    ASSERT_TRUE(other);
+    EXPECT_FALSE(other->shows_anything());
+}
+
+TEST(Provisional, IsCancelled) {
+    const CancelToken stop;
+    stop.cancel();
+    EXPECT_FALSE(provisional_frame(make_wall(), make_plan(lit_region()), kNothing, 1, stop));
+}
+
+}  // namespace
+}  // namespace weft

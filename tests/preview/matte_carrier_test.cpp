@@ -1,0 +1,122 @@
+#include "app/preview/matte_carrier.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
+#include "engine/pipeline/matte_pass.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Size kPlate{96, 64};
+
+class MatteCarrierTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        fs::create_directories(folder_);
+        for (int frame = 1; frame <= 4; ++frame) {
+            ImageF3 plate(kPlate, 0.2f);
+            for (int y = 16; y < 48; ++y)
+                for (int x = 24; x < 64; ++x)
+                    plate.pixel(x, y)[0] = 0.5f + static_cast<float>((x + y) % 7) / 35.0f;
+            write("plate.000" + std::to_string(frame) + ".png", plate);
+        }
+        write("tile.png", ImageF3(64, 64, 0.4f));
+        write("key.png", painted(255));
+        options_.folder = (folder_ / "cache").string();
+        project_.plate.path = (folder_ / "plate.####.png").string();
+        Region region;
+        region.id = 1;
+        MatteSource matte;
+        matte.keyframes[1].path = (folder_ / "key.png").string();
+        region.matte = Leaf<MatteSource>(matte);
+        project_.regions.push_back(Leaf<Region>(region));
+        carrier_ = std::make_unique<MatteCarrier>(options_);
+    }
+    void TearDown() override {
+        carrier_.reset();
+        fs::remove_all(folder_);
+    }
+    void write(const std::string& name, const ImageF3& picture) const {
+        ASSERT_TRUE(write_image((folder_ / name).string(), picture, {}, {}));
+    }
+    static ImageF3 painted(int code) {
+        ImageF3 out(kPlate, 0.0f);
+        for (int y = 16; y < 48; ++y)
+            for (int x = 24; x < 64; ++x)
+                std::fill_n(out.pixel(x, y), 3, static_cast<float>(code) / 255.0f);
+        return out;
+    }
+    bool wait_for(int frame, std::chrono::milliseconds patience = std::chrono::minutes(1)) const {
+        const auto end = std::chrono::steady_clock::now() + patience;
+        while (std::chrono::steady_clock::now() < end) {
+            if (const auto matte = carrier_->matte(1, 0, frame))
+                return matte->at(44, 32) > 200 && matte->at(4, 4) == 0;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return false;
+    }
+    // The steps that are left once the region has a texture.
+    [[nodiscard]] int steps_left() {
+        project_.regions[0] = project_.regions[0].with(
+            [&](Region& r) { r.texture.sample = (folder_ / "tile.png").string(); });
+        const auto shot = open_shot(project_);
+        EXPECT_TRUE(shot) << shot.error().text();
+        std::vector<std::string> warnings;
+        const auto store = open_analysis_cache(**shot, options_, warnings);
+        EXPECT_TRUE(store) << store.error().text();
+        return count_matte_steps((*shot)->plan, **store);
+    }
+
+    const fs::path folder_ =
+        fs::temp_directory_path() / ("weft_carrier_" + std::to_string(getpid()));
+    AnalysisCacheOptions options_;
+    Project project_;
+    std::unique_ptr<MatteCarrier> carrier_;
+};
+
+TEST_F(MatteCarrierTest, MattesAreThereWhenATextureIsChosen) {
+    carrier_->carry(project_, {});
+    for (const int frame : {1, 3, 4})
+        EXPECT_TRUE(wait_for(frame)) << frame;
+    EXPECT_GT(carrier_->changes(), 0u);
+    carrier_.reset();  // waits
+    EXPECT_EQ(steps_left(), 0);
+}
+
+TEST_F(MatteCarrierTest, AMatteFromMemoryCountsOnceItsFileIsThere) {
+    const auto key = read_matte((folder_ / "key.png").string(), {}, kPlate);
+    ASSERT_TRUE(key);
+    fs::remove(folder_ / "key.png");
+    const std::string path = (folder_ / "key.png").string();
+    carrier_->carry(project_, {{path, std::make_shared<const Matte>(*key)}});
+    EXPECT_TRUE(wait_for(4));
+    write("key.png", painted(255));
+    carrier_->carry(project_, {});
+    EXPECT_TRUE(wait_for(4));
+    carrier_.reset();
+    EXPECT_EQ(steps_left(), 0);
+}
+
+TEST_F(MatteCarrierTest, PausesAndForgets) {
+    carrier_->pause();
+    carrier_->carry(project_, {});
+    EXPECT_FALSE(wait_for(4, std::chrono::milliseconds(150)));
+    carrier_->resume();
+    EXPECT_TRUE(wait_for(4));
+    carrier_->clear();
+    EXPECT_FALSE(carrier_->matte(1, 0, 4)) << "it may be another matte by now";
+    carrier_->carry(project_, {});
+    EXPECT_TRUE(wait_for(4));
+}
+
+}  // namespace
+}  // namespace weft
