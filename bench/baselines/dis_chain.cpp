@@ -11,10 +11,6 @@ cv::Mat as_mat(ViewU8x3 v) {
     return {v.height(), v.width(), CV_8UC3, const_cast<std::uint8_t*>(v.data()),
             static_cast<std::size_t>(v.stride())};
 }
-cv::Mat as_mat(ViewU8x1 v) {
-    return {v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
-            static_cast<std::size_t>(v.stride())};
-}
 
 cv::Mat grey_of(ViewU8x3 frame) {
     cv::Mat grey;
