@@ -29,7 +29,7 @@ target_compile_features(weft_api INTERFACE cxx_std_20)
 set_target_properties(weft_api PROPERTIES EXPORT_NAME weft)
 get_property(libraries GLOBAL PROPERTY WEFT_LIBRARIES)
 list(REMOVE_ITEM libraries weft_mattes weft_textures weft_preview weft_session weft_ui weft_editor weft_cli weft_study
-     weft_baselines weft_retrieval)
+     weft_baselines weft_retrieval weft_shot_bench)
 install(TARGETS weft_api ${libraries} EXPORT weft-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/weft COMPONENT development)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/weft)

@@ -225,16 +225,47 @@ CommandResult report_lighting(const BenchOptions& options, const ImageU8x3& samp
     return answer;
 }
 
+void print_shot_case(const std::string& name, const nlohmann::ordered_json& figures) {
+    const auto of = [&](const nlohmann::ordered_json& in, const char* key) {
+        return in[key].get<double>();
+    };
+    char text[200];
+    std::snprintf(text, sizeof text, "%-22s %6.2f frames/s  wall %6.2f s  cpu %6.2f s",
+                  name.c_str(), of(figures, "frames_per_s"), of(figures, "wall_s"),
+                  of(figures, "cpu_s"));
+    std::string line = text;
+    if (figures.contains("stages_s")) {
+        std::snprintf(text, sizeof text,
+                      "  %.2f cores  %5.0f MB  following %.2f s, rendering %.2f s",
+                      of(figures, "cores_busy"), of(figures, "peak_bytes") / 1e6,
+                      of(figures["stages_s"], "analyse"), of(figures["stages_s"], "render"));
+        line += text;
+    }
+    if (figures.contains("faster")) {
+        std::snprintf(text, sizeof text, "  %.2f times as fast (cpu %.2f)",
+                      of(figures["faster"], "wall"), of(figures["faster"], "cpu"));
+        line += text;
+    }
+    print(stdout, line + "\n");
+}
+
+CommandResult report_shot(const BenchOptions& options) {
+    if (options.shot.matte.empty())
+        return fail(ErrorCode::kUsage, "--shot needs the mattes of its frames. Add --matte.");
+    ShotBenchOptions shot = options.shot;
+    shot.texture = options.sample;
+    shot.program = "/proc/self/exe";
+    WEFT_TRY(figures, bench_shot(shot, json_output() ? ShotBenchCase() : print_shot_case));
+    Answer answer;
+    answer.json["shot"] = std::move(figures);
+    answer.json["threads"] = shot.threads > 0 ? shot.threads : thread_count();
+    return answer;
+}
+
 }  // namespace
 
 CommandResult bench_command(const BenchOptions& options) {
-    if (!options.shot.plate.empty()) {
-        if (options.shot.matte.empty())
-            return fail(ErrorCode::kUsage, "--shot needs the matte of its frames. Add --matte.");
-        ShotBenchOptions shot = options.shot;
-        shot.texture = options.sample;
-        return bench_shot(shot);
-    }
+    if (!options.shot.plate.empty()) return report_shot(options);
     WEFT_TRY(chosen, choose_engine(options.threads, options.isa, options.backend));
     const Backend& backend = *chosen.backend;
     WEFT_TRY(sample, middle_of(options.sample));

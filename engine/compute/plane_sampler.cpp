@@ -1,7 +1,6 @@
 #include "engine/compute/plane_sampler.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -12,12 +11,6 @@ namespace weft {
 namespace {
 
 using F4 = float __attribute__((vector_size(16)));
-
-F4 load(const float* p) {
-    F4 v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-}
 
 F4 spread(float v) {
     return F4{v, v, v, v};
@@ -49,32 +42,6 @@ F4 cubic_weights(float f) {
     const F4 constant{0, 1, 0, 0}, linear{-0.5f, 0, 0.5f, 0};
     const F4 square{1, -2.5f, 2, -0.5f}, cube{-0.5f, 1.5f, -1.5f, 0.5f};
     return constant + t * (linear + t * (square + t * cube));
-}
-
-F4 row_sum(const float* t0, const float* t1, const float* t2, const float* t3, F4 w) {
-    return spread(w[0]) * load(t0) + spread(w[1]) * load(t1) + spread(w[2]) * load(t2) +
-           spread(w[3]) * load(t3);
-}
-
-// Cubic lookup at level coordinates anywhere; W is the wrap mode.
-template <WrapMode W>
-F4 lookup(const PlanePyramid::Level& level, float u, float v) {
-    const float gx = u - 0.5f, gy = v - 0.5f;
-    const float bx = std::floor(gx), by = std::floor(gy);
-    const F4 wx = cubic_weights(gx - bx), wy = cubic_weights(gy - by);
-    std::array<int, 4> column{};
-    for (int k = 0; k < 4; ++k) {
-        column[static_cast<std::size_t>(k)] =
-            4 * wrapped_index(static_cast<int>(bx) + k - 1, level.width(), W);
-    }
-    F4 sum{};
-    for (int k = 0; k < 4; ++k) {
-        const float* row =
-            level.row(wrapped_index(static_cast<int>(by) + k - 1, level.height(), W));
-        sum += spread(wy[k]) *
-               row_sum(row + column[0], row + column[1], row + column[2], row + column[3], wx);
-    }
-    return sum;
 }
 
 // The coordinate reduced to one period of the plane, to keep its precision.

@@ -39,7 +39,35 @@ template <int Even>
     return a + b;
 }
 
-// Adds the cubic lookup at level coordinates whose sixteen texels lie inside.
+[[gnu::always_inline]] inline Pair load_two(const float* even, const float* odd) {
+    Pair v;
+    std::memcpy(&v, even, sizeof(F4));
+    std::memcpy(reinterpret_cast<char*>(&v) + sizeof(F4), odd, sizeof(F4));
+    return v;
+}
+
+// Adds the cubic lookup at level coordinates anywhere; W is the wrap mode.
+template <WrapMode W>
+void add_wrapped(const PlanePyramid::Level& level, float u, float v, Pair& sum) {
+    const float gx = u - 0.5f, gy = v - 0.5f;
+    const float bx = std::floor(gx), by = std::floor(gy);
+    const F4 wx = cubic_weights(gx - bx), wy = cubic_weights(gy - by);
+    const auto column = [&](int k) {
+        return 4 * wrapped_index(static_cast<int>(bx) + k - 1, level.width(), W);
+    };
+    const int c0 = column(0), c1 = column(1), c2 = column(2), c3 = column(3);
+    Pair left{}, right{};
+    for (int k = 0; k < 4; ++k) {
+        const float* row =
+            level.row(wrapped_index(static_cast<int>(by) + k - 1, level.height(), W));
+        add(wy[k], load_two(row + c0, row + c1), left);
+        add(wy[k], load_two(row + c2, row + c3), right);
+    }
+    add(weights_of<0>(wx), left, sum);
+    add(weights_of<2>(wx), right, sum);
+}
+
+// The same if all sixteen texels lie inside: no wrapping.
 [[gnu::always_inline]] inline void add_inside(const PlanePyramid::Level& level, float u, float v,
                                               Pair& sum) {
     const float gx = u - 0.5f, gy = v - 0.5f;
@@ -134,17 +162,16 @@ class Sampler {
                             at.x + reach_x < static_cast<float>(level.width()) &&
                             at.y + reach_y < static_cast<float>(level.height());
         Pair total{};
-        F4 beyond{};
         for (int j = 0; j < ny; ++j) {
             Vec2 p = first + step_y * static_cast<float>(j);
             for (int i = 0; i < nx; ++i, p += step_x) {
                 if (inside)
                     add_inside(level, p.x, p.y, total);
                 else
-                    beyond += lookup<W>(level, p.x, p.y);
+                    add_wrapped<W>(level, p.x, p.y, total);
             }
         }
-        return inside ? folded_sum(total) : beyond;
+        return folded_sum(total);
     }
 
     SampleRequest request_;

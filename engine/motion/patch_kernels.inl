@@ -175,7 +175,7 @@ WEFT_INLINE void vote(const float* patch, std::ptrdiff_t stride, const Place& pl
         load(pv, v);
         for (std::size_t k = 0; k < Row::kParts; ++k) {
             const Floats off = miss.part[k] - mean;
-            const Floats own = 1.0f / (1.0f + off * off);
+            const Floats own = 1.0f / (kGrain + off * off);
             w.part[k] += own;
             u.part[k] += own * d.x;
             v.part[k] += own * d.y;

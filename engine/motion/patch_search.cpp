@@ -18,7 +18,9 @@ constexpr int kPixels = kPatch * kPatch;
 constexpr float kShare = 1.0f / kPixels;
 // A patch that has moved further than its size from where it started is lost.
 constexpr float kFurthest_px = kPatch;
-constexpr float kSettled_px = 0.02f;
+constexpr float kSettled_px = 0.005f;
+// Differences of a few levels may be grain, and say nothing against a patch; levels².
+constexpr float kGrain = 6;
 
 // The source's patch: values, slopes, and the inverse of their normal equations.
 struct Patch {
@@ -31,7 +33,7 @@ struct Patch {
 void invert(Patch& patch, Vec2 sum_g, glm::vec3 sum_gg) {
     patch.sum_g = sum_g;
     // The slopes of grain alone: a blank patch stays where it starts.
-    constexpr float kNoise = 0.25f * kPixels;
+    constexpr float kNoise = 0.04f * kPixels;
     const float xx = sum_gg.x - sum_g.x * sum_g.x * kShare + kNoise;
     const float xy = sum_gg.y - sum_g.x * sum_g.y * kShare;
     const float yy = sum_gg.z - sum_g.y * sum_g.y * kShare + kNoise;

@@ -1,5 +1,5 @@
 #pragma once
-// Backend::sample_plane() for one pixel: the operations of engine/compute/plane_sampler.cpp in the
+// Backend::sample_plane() for one pixel: the operations of engine/compute/plane_sampler.inl in the
 // same order, one channel after the other, so that the same bits come out.
 
 #include <cmath>
@@ -105,17 +105,20 @@ class PixelSampler {
         return i < n ? i : 2 * n - 1 - i;
     }
 
-    // Cubic convolution (Keys 1981) with a = −0.5.
+    // Cubic convolution (Keys 1981) with a = −0.5, as polynomials in the fraction.
     WEFT_HD static void cubic_weights(float f, float* w) {
-        constexpr float kA = -0.5f;
-        const float g = 1 - f;
-        w[0] = kA * f * g * g;
-        w[1] = ((kA + 2) * f - (kA + 3)) * f * f + 1;
-        w[2] = ((kA + 2) * g - (kA + 3)) * g * g + 1;
-        w[3] = kA * g * f * f;
+        w[0] = 0.0f + f * (-0.5f + f * (1.0f + f * -0.5f));
+        w[1] = 1.0f + f * (0.0f + f * (-2.5f + f * 1.5f));
+        w[2] = 0.0f + f * (0.5f + f * (2.0f + f * -1.5f));
+        w[3] = 0.0f + f * (0.0f + f * (-0.5f + f * 0.5f));
     }
 
-    WEFT_HD void add_lookup(const Level& l, Float2 p, bool inside, float* total) const {
+    // Sums of the even and of the odd columns, which are added to each other at the end.
+    struct Pair {
+        float even[3], odd[3];
+    };
+
+    WEFT_HD void add_lookup(const Level& l, Float2 p, bool inside, Pair& total) const {
         const float gx = p.x - 0.5f, gy = p.y - 0.5f;
         const float bx = floorf(gx), by = floorf(gy);
         float wx[4], wy[4];
@@ -125,23 +128,26 @@ class PixelSampler {
         int column[4];
         for (int k = 0; k < 4; ++k)
             column[k] = inside ? x + k : wrapped(x + k, l.width);
-        float found[3] = {};
+        float found[4][3] = {};
         for (int k = 0; k < 4; ++k) {
             const int row = inside ? y + k : wrapped(y + k, l.height);
             const Texel* texels = l.texels + static_cast<u64>(row) * static_cast<u64>(l.width);
-            const Texel t0 = texels[column[0]], t1 = texels[column[1]], t2 = texels[column[2]],
-                        t3 = texels[column[3]];
-            for (int c = 0; c < 3; ++c) {
-                found[c] +=
-                    wy[k] * (wx[0] * t0.v[c] + wx[1] * t1.v[c] + wx[2] * t2.v[c] + wx[3] * t3.v[c]);
+            for (int i = 0; i < 4; ++i) {
+                const Texel t = texels[column[i]];
+                for (int c = 0; c < 3; ++c)
+                    found[i][c] += wy[k] * t.v[c];
             }
         }
-        for (int c = 0; c < 3; ++c)
-            total[c] += found[c];
+        for (int c = 0; c < 3; ++c) {
+            total.even[c] += wx[0] * found[0][c];
+            total.odd[c] += wx[1] * found[1][c];
+            total.even[c] += wx[2] * found[2][c];
+            total.odd[c] += wx[3] * found[3][c];
+        }
     }
 
     WEFT_HD void sum(const Level& l, Float2 at, Float2 first, Float2 step_x, Float2 step_y, int nx,
-                     int ny, float* total) const {
+                     int ny, float* rgb) const {
         const float reach_x = fabsf(at.x - first.x) + fabsf(step_x.x) * static_cast<float>(nx) +
                               fabsf(step_y.x) * static_cast<float>(ny) + 2;
         const float reach_y = fabsf(at.y - first.y) + fabsf(step_x.y) * static_cast<float>(nx) +
@@ -149,12 +155,15 @@ class PixelSampler {
         const bool inside = at.x - reach_x >= 0 && at.y - reach_y >= 0 &&
                             at.x + reach_x < static_cast<float>(l.width) &&
                             at.y + reach_y < static_cast<float>(l.height);
+        Pair total{};
         for (int j = 0; j < ny; ++j) {
             Float2 p{first.x + step_y.x * static_cast<float>(j),
                      first.y + step_y.y * static_cast<float>(j)};
             for (int i = 0; i < nx; ++i, p.x += step_x.x, p.y += step_x.y)
                 add_lookup(l, p, inside, total);
         }
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = total.even[c] + total.odd[c];
     }
 
     const SampleArgs& a_;

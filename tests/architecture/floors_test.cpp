@@ -74,6 +74,7 @@ const std::vector<Floor> kFloors{
      {"engine", "app/project", "app/base", "app/exchange", "app/shot", "app/render"}},
     // 5: the research harness, beside the product
     {"bench/baselines", {"engine/core", "engine/compute"}},
+    {"bench/shot", {"engine", "bench/baselines"}},
     {"bench/study",
      {"engine", "app/project", "app/base", "app/exchange", "app/shot", "app/render", "app/measure",
       "bench/baselines"}},
@@ -125,7 +126,7 @@ const std::vector<Library> kLibraries{
      {"nlohmann/"},
      {"app", "texture_db", "bench", "app/project/codec/json_codec.h",
       "app/measure/measure_report.h", "app/render/report.h", "app/cli/answer.h",
-      "app/cli/bench_lighting.h", "app/cli/texture/texture_json.h"}},
+      "app/cli/bench_lighting.h", "app/cli/texture/texture_json.h", "bench/shot/shot_bench.h"}},
     {"CLI11", {"CLI/"}, {"app/cli", "app/main.cpp"}, true},
     {"CUDA",
      {"cuda", "cub/", "thrust/", "cufft", "cooperative_groups", "device_launch_parameters"},

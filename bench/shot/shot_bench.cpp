@@ -1,19 +1,16 @@
-#include "app/cli/bench_shot.h"
+#include "bench/shot/shot_bench.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/cli/console.h"
 #include "bench/baselines/dis_chain.h"
 #include "engine/color/color_space.h"
 #include "engine/core/child_process.h"
+#include "engine/core/input_file.h"
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/media/atomic_file.h"
@@ -65,11 +62,11 @@ double median_of(const std::vector<Run>& runs, const F& value) {
 
 class ShotBench {
   public:
-    ShotBench(const ShotBenchOptions& options, std::string folder)
-        : options_(options), folder_(std::move(folder)) {}
+    ShotBench(const ShotBenchOptions& options, const ShotBenchCase& each, std::string folder)
+        : options_(options), each_(each), folder_(std::move(folder)) {}
 
     Expected<Json> run() {
-        std::vector<std::string> programs{"/proc/self/exe"};
+        std::vector<std::string> programs{options_.program};
         if (!options_.against.empty()) programs.push_back(options_.against);
         Json out = Json::object();
         for (const Case& what :
@@ -82,13 +79,13 @@ class ShotBench {
                 }
             }
             out[what.name()] = entry(runs);
-            tell(what.name(), out[what.name()]);
+            if (each_) each_(what.name(), out[what.name()]);
         }
         WEFT_TRY(floor, dis_chain());
         out["dis chain"] = {{"wall_s", floor.wall_s},
                             {"cpu_s", floor.cpu_s},
                             {"frames_per_s", frames_ / floor.wall_s}};
-        tell("DIS chain and lookup", out["dis chain"]);
+        if (each_) each_("dis chain", out["dis chain"]);
         return out;
     }
 
@@ -128,7 +125,8 @@ class ShotBench {
         WEFT_TRY(child, start_process(words, process));
         const int code = wait_for_process(child);
         Run run{seconds_since(began), cpu_of(RUSAGE_CHILDREN) - before, {}};
-        std::ifstream said(process.output);
+        constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
+        WEFT_TRY(said, read_file(process.output, "The program's report", kMostBytes));
         run.report = Json::parse(said, nullptr, false);
         if (code != 0) {
             std::string message = program + " ended with exit code " + std::to_string(code) + ".";
@@ -191,50 +189,25 @@ class ShotBench {
             ImageF3 pixels(result.size());
             std::transform(result.data(), result.data() + result.size_bytes(), pixels.data(),
                            [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
-            WEFT_CHECK_OK(write_image(folder_ + "/floor.png", pixels, {}, {}));
+            WEFT_CHECK_OK(
+                write_image(folder_ + "/floor_" + std::to_string(frame) + ".png", pixels, {}, {}));
         }
         frames_ = static_cast<double>(frames.size());
         return Run{seconds_since(began), cpu_of(RUSAGE_SELF) - before, {}};
     }
 
-    static void tell(const std::string& name, const Json& figures) {
-        if (json_output()) return;
-        char text[160];
-        std::snprintf(text, sizeof text, "%-22s %7.2f frames/s  wall %7.2f s  cpu %7.2f s",
-                      name.c_str(), figures["frames_per_s"].get<double>(),
-                      figures["wall_s"].get<double>(), figures["cpu_s"].get<double>());
-        std::string line = text;
-        if (figures.contains("stages_s")) {
-            std::snprintf(
-                text, sizeof text, "  %.2f cores  %5.0f MB  following %.2f s, rendering %.2f s",
-                figures["cores_busy"].get<double>(), figures["peak_bytes"].get<double>() / 1e6,
-                figures["stages_s"]["analyse"].get<double>(),
-                figures["stages_s"]["render"].get<double>());
-            line += text;
-        }
-        if (figures.contains("faster")) {
-            std::snprintf(text, sizeof text, "  %.2f times as fast (cpu %.2f)",
-                          figures["faster"]["wall"].get<double>(),
-                          figures["faster"]["cpu"].get<double>());
-            line += text;
-        }
-        print(stdout, line + "\n");
-    }
-
     const ShotBenchOptions& options_;
+    const ShotBenchCase& each_;
     std::string folder_;
     double frames_ = 0;
 };
 
 }  // namespace
 
-CommandResult bench_shot(const ShotBenchOptions& options) {
+Expected<nlohmann::ordered_json> bench_shot(const ShotBenchOptions& options,
+                                            const ShotBenchCase& each) {
     WEFT_TRY(folder, TemporaryFolder::create());
-    WEFT_TRY(shot, ShotBench(options, folder.path()).run());
-    Answer answer;
-    answer.json["shot"] = std::move(shot);
-    answer.json["threads"] = options.threads > 0 ? options.threads : thread_count();
-    return answer;
+    return ShotBench(options, each, folder.path()).run();
 }
 
 }  // namespace weft
