@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "engine/core/blur_inside.h"
@@ -159,6 +160,26 @@ float median_of(const std::vector<EdgeBlur>& edges) {
     return std::clamp(*at, kSharpest, kMostBlurred);
 }
 
+// The gradient from which edges count as strong; 0 if there are too few to tell.
+float strong_gradient(const ImageF1& length) {
+    std::vector<float> lengths;
+    for (int y = 0; y < length.height(); ++y) {
+        const float* row = length.row(y);
+        std::copy_if(row, row + length.width(), std::back_inserter(lengths),
+                     [](float v) { return v > 0; });
+    }
+    if (lengths.size() < kFewestEdges) return 0;
+    const auto strong =
+        lengths.begin() +
+        static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
+    std::nth_element(lengths.begin(), strong, lengths.end());
+    return std::max(kLeastGradient, *strong);
+}
+
+float blur_of(const std::vector<EdgeBlur>& strong) {
+    return strong.size() < kFewestEdges ? 0.0f : median_of(strong);
+}
+
 }  // namespace
 
 std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte, float least_gradient) {
@@ -182,19 +203,24 @@ float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
     const ImageF1 sharp = lightness(linear);
     if (sharp.width() < 9 || sharp.height() < 9) return 0;
     const ImageF1 length = gradient_lengths(sharp, matte);
-    std::vector<float> lengths;
-    for (int y = 0; y < length.height(); ++y) {
-        for (int x = 0; x < length.width(); ++x) {
-            if (length.row(y)[x] > 0) lengths.push_back(length.row(y)[x]);
-        }
-    }
-    if (lengths.size() < kFewestEdges) return 0;
-    const auto strong =
-        lengths.begin() +
-        static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
-    std::nth_element(lengths.begin(), strong, lengths.end());
-    const std::vector<EdgeBlur> edges = edges_of(sharp, length, std::max(kLeastGradient, *strong));
-    return edges.size() < kFewestEdges ? 0.0f : median_of(edges);
+    const float strong = strong_gradient(length);
+    return strong > 0 ? blur_of(edges_of(sharp, length, strong)) : 0;
+}
+
+PictureFocus picture_focus(ViewF3 linear, ViewU8x1 matte, float least_gradient) {
+    const ImageF1 sharp = lightness(linear);
+    if (sharp.width() < 9 || sharp.height() < 9) return {};
+    const ImageF1 length = gradient_lengths(sharp, matte);
+    const float strong = strong_gradient(length);
+    const float least = strong > 0 ? std::min(least_gradient, strong) : least_gradient;
+    const std::vector<EdgeBlur> all = edges_of(sharp, length, least);
+    const auto stronger_than = [&](float gradient) {
+        std::vector<EdgeBlur> out;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(out),
+                     [&](const EdgeBlur& edge) { return edge.strength >= gradient; });
+        return out;
+    };
+    return {stronger_than(least_gradient), strong > 0 ? blur_of(stronger_than(strong)) : 0};
 }
 
 float blur_between(float from_px, float to_px) {

@@ -29,6 +29,13 @@ struct EdgeBlur {
 /// inside the matte (their median). 0 where there are too few edges to tell.
 [[nodiscard]] float edge_blur_px(ViewF3 linear, ViewU8x1 matte);
 
+/// Both at once: edge_blurs() and edge_blur_px() of one picture.
+struct PictureFocus {
+    std::vector<EdgeBlur> edges;
+    float blur_px = 0;
+};
+[[nodiscard]] PictureFocus picture_focus(ViewF3 linear, ViewU8x1 matte, float least_gradient);
+
 /// The blur that takes edges of `from_px` to `to_px`; 0 if they are sharper by at most a tenth.
 [[nodiscard]] float blur_between(float from_px, float to_px);
 

@@ -25,7 +25,8 @@
 namespace weft {
 namespace {
 
-constexpr float kKnee = 0.9f;  // of the roll-off
+constexpr float kKnee = 0.9f;        // of the roll-off
+constexpr float kSoftEdge = 0.015f;  // gradient of an edge that is out of focus
 
 enum class Place { kDevice, kCpu };
 
@@ -63,9 +64,9 @@ class FrameRenderer {
     // Effects of the plate's camera: the blur before light, which is blurred already, and the grain
     // after it.
     Status match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
-    // The plate's blur over the box, if it varies over the picture.
-    [[nodiscard]] Expected<std::optional<ImageF1>> local_blur(int index, const Recti& box,
-                                                              ViewU8x1 matte) const;
+    // The plate's blur over the box, if it varies over the picture. `edges`: the plate's there.
+    [[nodiscard]] Expected<std::optional<ImageF1>> local_blur(
+        int index, const Recti& box, const std::vector<EdgeBlur>& edges) const;
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
     // The texture in the working space, finished and composited over the canvas. `matte` covers the
@@ -180,13 +181,10 @@ Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& bo
     return {};
 }
 
-Expected<std::optional<ImageF1>> FrameRenderer::local_blur(int index, const Recti& box,
-                                                           ViewU8x1 matte) const {
+Expected<std::optional<ImageF1>> FrameRenderer::local_blur(
+    int index, const Recti& box, const std::vector<EdgeBlur>& edges) const {
     using Found = Expected<std::optional<ImageF1>>;
-    constexpr float kSoftEdge = 0.015f;  // gradient of an edge that is out of focus
-    if (!region_of(plan_, index).has_depth)
-        return Found(
-            sloping_blur(edge_blurs(working_.view().crop(box), matte, kSoftEdge), box.size()));
+    if (!region_of(plan_, index).has_depth) return Found(sloping_blur(edges, box.size()));
     WEFT_TRY(nearness, source_.depth(index, frame_));
     // There is one lens, so the whole plate is measured; the region alone shows too little detail.
     const Matte everywhere(working_.size(), 255);
@@ -206,9 +204,9 @@ Status FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
     if (!(strength > 0)) return {};
     const float own_px = edge_blur_px(texture, matte);
     if (!(own_px > 0)) return {};
-    const float plate_px = edge_blur_px(working_.view().crop(box), matte);
+    const auto [edges, plate_px] = picture_focus(working_.view().crop(box), matte, kSoftEdge);
     const float needed_px = blur_to_match(texture, matte, own_px, plate_px);
-    WEFT_TRY(local, local_blur(index, box, matte));
+    WEFT_TRY(local, local_blur(index, box, edges));
     if (local) {
         const float even_px = blur_between(own_px, plate_px);
         const float again = even_px > 0 ? needed_px / even_px : 1.0f;
