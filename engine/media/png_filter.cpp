@@ -139,7 +139,7 @@ Shorts8 paeth(Shorts8 left, Shorts8 above, Shorts8 corner) {
     const Shorts8 to_left = magnitude(above - corner), to_above = magnitude(left - corner);
     const Shorts8 to_corner = magnitude(left + above - corner - corner);
     const Shorts8 second = to_above <= to_corner ? above : corner;
-    return (to_left <= to_above) & (to_left <= to_corner) ? left : second;
+    return ((to_left <= to_above) & (to_left <= to_corner)) ? left : second;
 }
 
 template <std::size_t kPixel>

@@ -11,8 +11,6 @@
 namespace weft {
 namespace {
 
-using std::string_view_literals::operator""sv;
-
 struct FreeDecompressor {
     void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
 };
@@ -61,7 +59,7 @@ std::optional<Chunk> chunk_at(const Bytes& file, std::size_t at) {
 // Text and times behind the pixels do not change how they look; libpng may refuse large ones.
 bool may_follow_pixels(const Chunk& chunk) {
     constexpr std::size_t kMost_bytes = 4096;
-    return (chunk.name == "tEXt"sv || chunk.name == "tIME"sv) && chunk.bytes <= kMost_bytes;
+    return (chunk.name == "tEXt" || chunk.name == "tIME") && chunk.bytes <= kMost_bytes;
 }
 
 // Moves the data of all IDAT chunks to the beginning of `file` and returns how many bytes they are.
@@ -72,9 +70,8 @@ std::optional<std::size_t> join_pixels(const Bytes& file) {
     for (int others = 0; others < 100;) {
         const auto chunk = chunk_at(file, at);
         if (!chunk) return std::nullopt;
-        if (chunk->name == "IEND"sv)
-            return chunk->bytes == 0 ? std::optional(joined) : std::nullopt;
-        if (chunk->name == "IDAT"sv && !behind_pixels) {
+        if (chunk->name == "IEND") return chunk->bytes == 0 ? std::optional(joined) : std::nullopt;
+        if (chunk->name == "IDAT" && !behind_pixels) {
             std::memmove(file.data.get() + joined, chunk->data, chunk->bytes);
             joined += chunk->bytes;
         } else if (may_follow_pixels(*chunk)) {

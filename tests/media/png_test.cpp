@@ -44,6 +44,7 @@ std::vector<Chunk> chunks_in(const std::vector<char>& file) {
 
 std::vector<std::string> names_of(const std::vector<Chunk>& chunks) {
     std::vector<std::string> names;
+    names.reserve(chunks.size());
     for (const Chunk& chunk : chunks)
         names.push_back(chunk.name);
     return names;
@@ -156,6 +157,7 @@ class Png : public MediaTest {
         png_set_filter(png, 0, filter);
         png_write_info(png, info);
         std::vector<png_bytep> lines;
+        lines.reserve(static_cast<std::size_t>(shape.size.height));
         for (int y = 0; y < shape.size.height; ++y)
             lines.push_back(const_cast<png_bytep>(rows.data()) +
                             static_cast<std::size_t>(y) * shape.row_bytes());

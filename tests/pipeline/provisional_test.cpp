@@ -59,7 +59,7 @@ ImageF3 provisionally(const ShotSource& shot, const ShotPlan& plan, const Analys
     return made ? rendered(shot, made->plan, *made->store, frame, made->shown) : ImageF3();
 }
 
-ImageF3 exactly(const ShotSource& shot, ShotPlan plan, int frame) {
+ImageF3 exactly(const ShotSource& shot, const ShotPlan& plan, int frame) {
     MemoryAnalysisStore store;
     EXPECT_TRUE(analyse_shot(shot, plan, store, {}, {}));
     return rendered(shot, plan, store, frame);
