@@ -13,7 +13,7 @@ constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
 
 }  // namespace
 
-void MatteCarrier::carry(const Project& project, const PaintedMattes& painted) {
+void MatteCarrier::carry(const Project& project, const PaintedMattes& painted, int frame) {
     const bool any = std::any_of(project.regions.begin(), project.regions.end(),
                                  [](const Leaf<Region>& region) { return region->enabled; });
     if (!any) return clear();
@@ -22,7 +22,8 @@ void MatteCarrier::carry(const Project& project, const PaintedMattes& painted) {
     for (const auto& [path, matte] : painted)
         key += "\n" + path;
     if (asked_ && asked_->key == key) return;
-    asked_ = std::make_shared<const Asked>(Asked{++serial_, std::move(key), project, painted});
+    asked_ =
+        std::make_shared<const Asked>(Asked{++serial_, std::move(key), project, painted, frame});
     start();
 }
 
@@ -69,8 +70,10 @@ void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
     carried_.put({*shot, *store, asked.serial});
     ShotPlan plan = (*shot)->plan;
     plan.frames = (*shot)->plate->frames();
-    (void)propagate_mattes(
-        {*(*shot)->source, plan, cancel, [&](int, double) { ++changes_; }, nullptr}, **store);
+    const PassContext context{*(*shot)->source, plan, cancel, [&](int, double) { ++changes_; },
+                              nullptr};
+    (void)propagate_mattes_at(context, **store, asked.frame);
+    (void)propagate_mattes(context, **store);
     ++changes_;
 }
 
@@ -81,10 +84,9 @@ Expected<Matte> MatteCarrier::matte(RegionId region, int layer, int frame) const
         const Region& of = *shot->project.regions[shot->region_index[k]];
         const std::optional<int> stored = stored_layer(of, layer);
         if (of.id != region || !stored) continue;
-        WEFT_TRY(bytes,
-                 carried->store->get({static_cast<int>(k), frame, AnalysisKind::kMatte, *stored}));
-        WEFT_TRY(found, decode_matte(bytes));
-        return std::move(found.matte);
+        if (auto found = newest_matte(*carried->store, static_cast<int>(k), *stored, frame))
+            return found;
+        break;
     }
     return fail(ErrorCode::kMissingFrames,
                 "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");

@@ -22,13 +22,14 @@ class MatteCarrier {
     explicit MatteCarrier(AnalysisCacheOptions cache) : cache_(std::move(cache)) {}
 
     /// Carries the painted mattes of the enabled regions; `project` as in PreviewRequest, except
-    /// that textures are not needed. Repeating a call does nothing. Failures are not reported: the
-    /// analysis will meet them too.
-    void carry(const Project& project, const PaintedMattes& painted);
+    /// that textures are not needed. Mattes between the keyframes around `frame` come first.
+    /// Repeating a call does nothing. Failures are not reported: the analysis will meet them too.
+    void carry(const Project& project, const PaintedMattes& painted, int frame);
     void pause();
     void resume();
     void clear();
-    /// A carried matte (`layer` 0) or holdout. Thread-safe, slow. Error: not carried yet.
+    /// A carried matte (`layer` 0) or holdout; between two keyframes at first as it comes from the
+    /// one before. Thread-safe, slow. Error: not carried yet.
     [[nodiscard]] Expected<Matte> matte(RegionId region, int layer, int frame) const;
     /// Increases when mattes may have been carried. Thread-safe.
     [[nodiscard]] std::uint64_t changes() const { return changes_.load(); }
@@ -44,6 +45,7 @@ class MatteCarrier {
         std::string key;
         Project project;
         PaintedMattes painted;
+        int frame = 0;
     };
     void start();
     void work(const Asked& asked, const CancelToken& cancel);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <shared_mutex>
 
 #include "app/render/analysis_key.h"
@@ -20,23 +21,29 @@ namespace {
 namespace fs = std::filesystem;
 
 // Creates the folders of the regions below `root` and marks them as just used.
-Status make_folders(const fs::path& root, const std::vector<std::string>& keys,
-                    std::vector<fs::path>& folders) {
-    folders.clear();
+Status make_folders(const fs::path& root, const std::set<std::string>& names) {
     std::error_code error;
-    for (const std::string& key : keys) {
-        folders.push_back(root / key);
-        fs::create_directories(folders.back(), error);
+    for (const std::string& name : names) {
+        const fs::path folder = root / name;
+        fs::create_directories(folder, error);
         if (error) {
-            return fail(ErrorCode::kNoSpace, "The folder " + folders.back().string() +
+            return fail(ErrorCode::kNoSpace, "The folder " + folder.string() +
                                                  " cannot be created: " + error.message() +
                                                  ". Free disk space, or choose another folder" +
                                                  by({{setting::kCache}}) + ".");
         }
-        fs::last_write_time(folders.back(), fs::file_time_type::clock::now(), error);
-        remove_stale_temporaries((folders.back() / "blob").string());
+        fs::last_write_time(folder, fs::file_time_type::clock::now(), error);
+        remove_stale_temporaries((folder / "blob").string());
     }
     return {};
+}
+
+std::set<std::string> folder_names(const std::vector<RegionKeys>& regions) {
+    std::set<std::string> out;
+    for (const RegionKeys& keys : regions)
+        for (const std::string& name : keys.all())
+            out.insert(name);
+    return out;
 }
 
 const char* kind_name(AnalysisKind kind) {
@@ -71,9 +78,10 @@ const char* kind_name(AnalysisKind kind) {
 
 class DiskStore final : public AnalysisCache {
   public:
-    DiskStore(std::vector<fs::path> folders, std::optional<TemporaryFolder> private_root,
-              bool required)
-        : folders_(std::move(folders)),
+    DiskStore(fs::path root, std::vector<RegionKeys> keys,
+              std::optional<TemporaryFolder> private_root, bool required)
+        : root_(std::move(root)),
+          keys_(std::move(keys)),
           private_root_(std::move(private_root)),
           may_overflow_(!private_root_ && !required) {}
 
@@ -108,27 +116,33 @@ class DiskStore final : public AnalysisCache {
 
     void mattes_written(const Shot& shot) override {
         const std::unique_lock names(names_);
-        for (std::size_t k = 0; k < folders_.size(); ++k) {
+        for (std::size_t k = 0; k < keys_.size(); ++k) {
             if (!all_written(shot, k)) continue;
-            const auto key = region_key(shot, k, {});
-            std::error_code error;
-            // An existing blob was computed from the same files.
-            const fs::path to = folders_[k].parent_path() / (key ? *key : std::string());
-            if (!key || to == folders_[k] || fs::exists(to, error)) continue;
-            fs::rename(folders_[k], to, error);
-            if (!error) folders_[k] = to;
+            const auto written = region_keys(shot, k, {});
+            if (!written) continue;
+            keys_[k].rename(*written, [this](const std::string& from, const std::string& to) {
+                return move_folder(from, to);
+            });
         }
     }
 
     [[nodiscard]] std::vector<std::string> remarks() const override {
         const std::shared_lock names(names_);
         if (overflow_folder().empty()) return {};
-        return {"The cache folder " + folders_.front().parent_path().string() +
+        return {"The cache folder " + root_.string() +
                 " cannot be written any more (is the disk full?); the rest of this analysis will "
                 "not be kept."};
     }
 
   private:
+    // Returns whether the results are in the folder `to` now. What is there already was computed
+    // from the same files; regions may share a folder.
+    [[nodiscard]] bool move_folder(const std::string& from, const std::string& to) const {
+        std::error_code error;
+        if (from == to || fs::exists(root_ / to, error)) return true;
+        fs::rename(root_ / from, root_ / to, error);
+        return !error;
+    }
     [[nodiscard]] static bool all_written(const Shot& shot, std::size_t index) {
         const Region& region = *shot.project.regions[shot.region_index[index]];
         const auto written = [&](const MatteSource& source) {
@@ -169,7 +183,7 @@ class DiskStore final : public AnalysisCache {
         return kind_name(key.kind) + layer + "." + std::to_string(key.frame);
     }
     [[nodiscard]] fs::path path_of(const AnalysisKey& key) const {
-        return folders_[static_cast<std::size_t>(key.region)] / blob_name(key);
+        return root_ / keys_[static_cast<std::size_t>(key.region)].of(key) / blob_name(key);
     }
     static tl::unexpected<Error> missing(const AnalysisKey& key) {
         return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " +
@@ -177,9 +191,10 @@ class DiskStore final : public AnalysisCache {
                                                   " is missing or damaged. Render again.");
     }
 
+    const fs::path root_;
     // protects the folder names; locked for writing while they are renamed
     mutable std::shared_mutex names_;
-    std::vector<fs::path> folders_;
+    std::vector<RegionKeys> keys_;
     std::optional<TemporaryFolder> private_root_;  // deleted with the store
     bool may_overflow_ = false;
     mutable std::mutex mutex_;
@@ -200,7 +215,7 @@ bool writable(const fs::path& folder) {
 }
 
 // Deletes the least recently used analyses until the rest fits the limit, except those in use.
-void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint64_t limit_bytes) {
+void prune(const fs::path& root, const std::set<std::string>& in_use, std::uint64_t limit_bytes) {
     struct Entry {
         fs::file_time_type used;
         std::uint64_t bytes;
@@ -216,8 +231,7 @@ void prune(const fs::path& root, const std::vector<fs::path>& in_use, std::uint6
             entry.bytes += file.is_regular_file(error) ? file.file_size(error) : 0;
         }
         total += entry.bytes;
-        if (std::find(in_use.begin(), in_use.end(), entry.path) == in_use.end())
-            entries.push_back(entry);
+        if (!in_use.contains(entry.path.filename().string())) entries.push_back(entry);
     }
     std::sort(entries.begin(), entries.end(),
               [](const Entry& a, const Entry& b) { return a.used < b.used; });
@@ -249,14 +263,14 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
         warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
         keep = false;
     }
-    std::vector<std::string> keys;
+    std::vector<RegionKeys> keys;
     for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
-        WEFT_TRY(key, region_key(shot, k, shot.painted));
-        keys.push_back(key);
+        WEFT_TRY(of_region, region_keys(shot, k, shot.painted));
+        keys.push_back(std::move(of_region));
     }
-    std::vector<fs::path> folders;
+    const std::set<std::string> folders = folder_names(keys);
     if (keep) {
-        const Status made = make_folders(root, keys, folders);
+        const Status made = make_folders(root, folders);
         if (!made && options.required) return tl::unexpected(made.error());
         if (!made) {
             warnings.push_back("The cache folder " + root.string() +
@@ -268,7 +282,8 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
     std::optional<TemporaryFolder> private_root;
     if (!keep) {
         WEFT_TRY(folder, TemporaryFolder::create());
-        WEFT_CHECK_OK(make_folders(folder.path(), keys, folders));
+        root = folder.path();
+        WEFT_CHECK_OK(make_folders(root, folders));
         private_root.emplace(std::move(folder));
     }
     if (keep) {
@@ -277,7 +292,7 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
         prune(root.parent_path() / "motion", {}, options.limit_bytes / 2);
         prune(root.parent_path() / "planes", {}, options.limit_bytes / 16);
     }
-    return std::make_shared<DiskStore>(std::move(folders), std::move(private_root),
+    return std::make_shared<DiskStore>(std::move(root), std::move(keys), std::move(private_root),
                                        options.required);
 }
 

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 15;
+constexpr int kAnalysisVersion = 16;
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -40,15 +40,16 @@ Status add_pattern(Hasher& hasher, const std::string& text) {
     return {};
 }
 
-Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& painted) {
-    WEFT_CHECK_OK(add_pattern(hasher, matte.files));
-    for (const auto& [frame, key] : matte.keyframes) {
-        hasher.value(frame);
-        if (const auto unwritten = painted.find(key.path); unwritten != painted.end())
-            hasher.text("in memory").text(key.path).image(*unwritten->second);
-        else
-            add_file(hasher, key.path);
-    }
+void add_keyframe(Hasher& hasher, int frame, const MatteKeyframe& key,
+                  const PaintedMattes& painted) {
+    hasher.value(frame);
+    if (const auto unwritten = painted.find(key.path); unwritten != painted.end())
+        hasher.text("in memory").text(key.path).image(*unwritten->second);
+    else
+        add_file(hasher, key.path);
+}
+
+void add_settings(Hasher& hasher, const MatteSource& matte) {
     hasher.value(matte.steadiness)
         .value(static_cast<int>(matte.propagate_direction))
         .value(matte.propagate_from.value_or(std::numeric_limits<int>::min()))
@@ -57,6 +58,13 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& 
         .text(matte.select.channel)
         .value(matte.select.invert)
         .text(matte.select.crypto);
+}
+
+Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& painted) {
+    WEFT_CHECK_OK(add_pattern(hasher, matte.files));
+    for (const auto& [frame, key] : matte.keyframes)
+        add_keyframe(hasher, frame, key, painted);
+    add_settings(hasher, matte);
     return {};
 }
 
@@ -64,31 +72,70 @@ Status add_mattes(Hasher& hasher, const Region& region, const PaintedMattes& pai
     WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
     for (const MatteSource& holdout : *region.holdouts)
         WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
-    // Of zones only what is propagated: their values are applied when a frame is rendered.
-    for (const Zone& zone : *region.zones)
-        if (zone.matte.files.empty()) WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
     return {};
 }
 
-}  // namespace
-
-Expected<std::string> region_key(const Shot& shot, std::size_t index,
-                                 const PaintedMattes& painted) {
-    const RegionPlan& plan = shot.plan.regions[index];
-    const Region& region = *shot.project.regions[shot.region_index[index]];
-    Hasher hasher;
+// What every part of the analysis depends on.
+void add_plate(Hasher& hasher, const Shot& shot) {
     hasher.value(kAnalysisVersion)
         .text(shot.project.plate.layer)
         .value(shot.project.plate.movie_start);
     add_plate_stamps(hasher, *shot.plate);
-    hasher.text(shot.spaces.plate.name).text(shot.spaces.working.name);
-    hasher.value(static_cast<int>(shot.plan.quality));
+    hasher.text(shot.spaces.plate.name)
+        .value(static_cast<int>(shot.project.plate.missing))
+        .value(static_cast<int>(shot.plan.quality));
+}
+
+// The keys of what is propagated from a layer's keyframes.
+RegionKeys::Layer matte_keys(const Shot& shot, const MatteSource& matte,
+                             const PaintedMattes& painted) {
+    Hasher common;
+    add_plate(common, shot);
+    add_settings(common.text("matte"), matte);
+    const Hash128 same = common.finish();
+    RegionKeys::Layer out;
+    const auto first = matte.keyframes.begin(), end = matte.keyframes.end();
+    for (auto after = first;; ++after) {
+        Hasher hasher;
+        hasher.value(same.high).value(same.low).value(after == first).value(after == end);
+        if (after != first) {
+            const auto& [frame, key] = *std::prev(after);
+            out.keyframes.push_back(frame);
+            add_keyframe(hasher, frame, key, painted);
+        }
+        if (after != end) add_keyframe(hasher, after->first, after->second, painted);
+        out.stretches.push_back(hasher.finish().hex());
+        if (after == end) return out;
+    }
+}
+
+std::map<int, RegionKeys::Layer> all_matte_keys(const Shot& shot, const Region& region,
+                                                const PaintedMattes& painted) {
+    std::map<int, RegionKeys::Layer> out;
+    const auto add = [&](int layer, const MatteSource& matte) {
+        if (!matte.keyframes.empty()) out[layer] = matte_keys(shot, matte, painted);
+    };
+    add(0, *region.matte);
+    int holdout = 0;
+    for (const MatteSource& matte : *region.holdouts)
+        if (matte.files.empty()) add(++holdout, matte);
+    for (int zone = 0; zone < static_cast<int>(region.zones->size()); ++zone)
+        add(zone_layer(zone), (*region.zones)[static_cast<std::size_t>(zone)].matte);
+    return out;
+}
+
+Expected<std::string> surface_key(const Shot& shot, std::size_t index,
+                                  const PaintedMattes& painted) {
+    const RegionPlan& plan = shot.plan.regions[index];
+    const Region& region = *shot.project.regions[shot.region_index[index]];
+    Hasher hasher;
+    add_plate(hasher, shot);
+    hasher.text(shot.spaces.working.name);
     WEFT_CHECK_OK(add_mattes(hasher, region, painted));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
     hasher.value(plan.motion_forward)
         .value(static_cast<int>(region.motion.convention))
-        .text(region.motion.layer)
-        .value(static_cast<int>(shot.project.plate.missing));
+        .text(region.motion.layer);
     for (const auto& [frame, quad] : plan.track) {
         hasher.value(frame);
         for (const glm::dvec2 corner : quad)
@@ -127,6 +174,48 @@ Expected<std::string> region_key(const Shot& shot, std::size_t index,
         }
     }
     return hasher.finish().hex();
+}
+
+}  // namespace
+
+const std::string& RegionKeys::Layer::at(int frame) const {
+    const auto after = std::upper_bound(keyframes.begin(), keyframes.end(), frame);
+    return stretches[static_cast<std::size_t>(after - keyframes.begin())];
+}
+
+const std::string& RegionKeys::of(const AnalysisKey& key) const {
+    const bool matte = key.kind == AnalysisKind::kMatte || key.kind == AnalysisKind::kMatteForward;
+    const auto layer = matte ? mattes.find(key.layer) : mattes.end();
+    return layer == mattes.end() ? surface : layer->second.at(key.frame);
+}
+
+std::vector<std::string> RegionKeys::all() const {
+    std::vector<std::string> out{surface};
+    for (const auto& [layer, keys] : mattes)
+        out.insert(out.end(), keys.stretches.begin(), keys.stretches.end());
+    return out;
+}
+
+void RegionKeys::rename(
+    const RegionKeys& now,
+    const std::function<bool(const std::string& from, const std::string& to)>& move) {
+    const auto take = [&](std::string& old, const std::string& other) {
+        if (move(old, other)) old = other;
+    };
+    take(surface, now.surface);
+    for (auto& [layer, keys] : mattes) {
+        const auto other = now.mattes.find(layer);
+        if (other == now.mattes.end() || other->second.keyframes != keys.keyframes) continue;
+        for (std::size_t i = 0; i < keys.stretches.size(); ++i)
+            take(keys.stretches[i], other->second.stretches[i]);
+    }
+}
+
+Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
+                                 const PaintedMattes& painted) {
+    WEFT_TRY(surface, surface_key(shot, index, painted));
+    const Region& region = *shot.project.regions[shot.region_index[index]];
+    return RegionKeys{std::move(surface), all_matte_keys(shot, region, painted)};
 }
 
 }  // namespace weft

@@ -100,7 +100,7 @@ void Session::carry_mattes() {
                            region->texture.sample.empty() && region->texture.plane.empty();
         region = region.with([&](Region& r) { r.enabled = waits; });
     }
-    preview_.carry(project, shelf_.unwritten());
+    preview_.carry(project, shelf_.unwritten(), playback_.frame());
 }
 
 void Session::request_preview() {

@@ -12,13 +12,13 @@
 namespace weft {
 namespace {
 
-// A painted matte to propagate, a region's, a holdout's or a zone's, with its walker on the present
-// sweep.
+// One stretch of a painted matte, a region's, a holdout's or a zone's: from a keyframe to the next
+// one, or beyond the first or last one. Nothing outside of a stretch changes its mattes.
 struct Job {
     int region = 0, layer = 0;  // as in AnalysisKey
-    std::vector<int> keys;
+    std::vector<int> keys;      // one or two
     MatteReach reach;
-    FrameSpan span;
+    FrameSpan own;  // the frames whose mattes it makes; a keyframe goes with the next
     MatteOptions options;
     std::optional<MatteWalker> walker;
 
@@ -33,62 +33,83 @@ struct Job {
         return reach.direction == PropagationDirection::kBoth && between_keys(frame) &&
                !is_key(frame);
     }
-    // The frames that the walk visits in each direction.
+    // The frames that the walk visits in each direction, from the keyframe on; empty: none.
     [[nodiscard]] FrameSpan forward() const {
-        return {keys.front(), reach.forward()
-                                  ? std::max(keys.back(), std::min(span.last, reach.last))
-                                  : keys.back()};
+        if (!is_key(own.first)) return kNone;
+        const int last = reach.forward() ? std::min(own.last, reach.last) : own.first;
+        return {own.first, std::max(own.first, last)};
     }
     [[nodiscard]] FrameSpan backward() const {
-        return {reach.backward() ? std::min(keys.front(), std::max(span.first, reach.first))
-                                 : keys.front(),
-                keys.back()};
+        const int first = std::max(is_key(own.first) ? own.first + 1 : own.first, reach.first);
+        return reach.backward() && first < keys.back() ? FrameSpan{first, keys.back()} : kNone;
     }
+    static constexpr FrameSpan kNone{0, -1};
 };
 
-std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store) {
+bool holds(FrameSpan span, int frame) {
+    return frame >= span.first && frame <= span.last;
+}
+
+// The stretches of one painted matte.
+std::vector<Job> stretches(int region, int layer, const PaintedMatte& painted, FrameSpan span) {
+    std::vector<Job> out;
+    const auto add = [&](std::vector<int> keys, int first, int last) {
+        if (first > last) return;
+        const MatteOptions options{painted.steadiness, false};
+        out.push_back({region, layer, std::move(keys), painted.reach, {first, last}, options, {}});
+    };
+    const std::vector<int>& keys = painted.keys;
+    add({keys.front()}, span.first, keys.front() - 1);
+    for (std::size_t k = 0; k + 1 < keys.size(); ++k)
+        add({keys[k], keys[k + 1]}, keys[k], keys[k + 1] - 1);
+    add({keys.back()}, keys.back(), span.last);
+    return out;
+}
+
+// `at`: only the stretches that hold this frame.
+std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store,
+                         std::optional<int> at = {}) {
     std::vector<Job> jobs;
-    const auto add = [&](Job job) {
-        bool complete = true;
-        for (int f = job.span.first; f <= job.span.last && complete; ++f)
-            complete = store.has({job.region, f, AnalysisKind::kMatte, job.layer});
-        if (!complete) jobs.push_back(std::move(job));
+    const auto missing = [&](const Job& job) {
+        for (int f = job.own.first; f <= job.own.last; ++f)
+            if (!store.has({job.region, f, AnalysisKind::kMatte, job.layer})) return true;
+        return false;
     };
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
         const RegionPlan& region = plan.regions[k];
         const FrameSpan span = analysed_span(plan, region);
-        const int index = static_cast<int>(k);
-        if (region.propagated())
-            add({index,
-                 0,
-                 region.matte_keys,
-                 region.matte_reach,
-                 span,
-                 {region.matte_steadiness, false},
-                 {}});
-        const auto add_painted = [&](int layer, const PaintedMatte& painted) {
-            add({index, layer, painted.keys, painted.reach, span, {painted.steadiness, false}, {}});
+        const auto add = [&](int layer, const PaintedMatte& painted) {
+            for (Job& job : stretches(static_cast<int>(k), layer, painted, span))
+                if ((!at || holds(job.own, *at)) && missing(job)) jobs.push_back(std::move(job));
         };
+        if (region.propagated())
+            add(0, {region.matte_keys, region.matte_steadiness, region.matte_reach});
         int layer = 0;
         for (const PaintedMatte& holdout : region.painted_holdouts)
-            add_painted(++layer, holdout);
+            add(++layer, holdout);
         for (int zone = 0; zone < static_cast<int>(region.zones.size()); ++zone)
             if (const ZonePlan& planned = region.zones[static_cast<std::size_t>(zone)];
                 planned.propagated())
-                add_painted(zone_layer(zone), planned.painted);
+                add(zone_layer(zone), planned.painted);
     }
     return jobs;
 }
 
-// The frames that the walks of all jobs visit.
+// The frames that the walks of all jobs visit; empty: none.
 FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
-    FrameSpan all = (jobs[0].*of)();
+    FrameSpan all = Job::kNone;
     for (const Job& job : jobs) {
-        const FrameSpan own = (job.*of)();
-        all.first = std::min(all.first, own.first);
-        all.last = std::max(all.last, own.last);
+        const FrameSpan one = (job.*of)();
+        if (one.first > one.last) continue;
+        const bool first = all.first > all.last;
+        all.first = first ? one.first : std::min(all.first, one.first);
+        all.last = first ? one.last : std::max(all.last, one.last);
     }
     return all;
+}
+
+int length(FrameSpan span) {
+    return span.last - span.first + 1;
 }
 
 Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
@@ -98,20 +119,17 @@ Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
                           : source.holdout_key(job.region, job.layer - 1, frame);
 }
 
-// Advances a job's walker to this frame. On a keyframe the estimate is the painted matte itself.
-Expected<std::optional<MatteEstimate>> walk(const PassContext& context, Job& job, FrameSpan within,
-                                            const SweepFrame& at) {
-    if (job.is_key(at.frame)) {
-        auto key = key_of(context.source, job, at.frame);
-        if (!key) return tl::unexpected<Error>(std::move(key).error());
-        job.walker.emplace(at.views->display, *key, job.options);
+// Advances a job's walker to this frame, which is one of `within`. On a keyframe the estimate is
+// the painted matte itself.
+Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
+                             const SweepFrame& at) {
+    if (!job.is_key(at.frame)) return job.walker->advance(at.views->display, *at.prev_from_cur);
+    WEFT_TRY(key, key_of(context.source, job, at.frame));
+    if (length(within) > 1) {
+        job.walker.emplace(at.views->display, key, job.options);
         job.options.soft_edges |= job.walker->has_soft_edges();
-        return std::optional<MatteEstimate>(MatteEstimate{std::move(*key), 1.0f});
     }
-    if (!job.walker || at.frame < within.first || at.frame > within.last || !at.prev_from_cur) {
-        return std::optional<MatteEstimate>();
-    }
-    return std::optional<MatteEstimate>(job.walker->advance(at.views->display, *at.prev_from_cur));
+    return MatteEstimate{std::move(key), 1.0f};
 }
 
 Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
@@ -123,12 +141,13 @@ Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
 Status visit_forward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                      const SweepFrame& at) {
     for (Job& job : jobs) {
-        const bool walks = job.reach.forward() || job.is_key(at.frame);
-        if (!walks) continue;
-        WEFT_TRY(estimate, walk(context, job, job.forward(), at));
-        if (!estimate || !job.reach.covers(at.frame, job.keys)) continue;
+        const FrameSpan within = job.forward();
+        if (!holds(within, at.frame)) continue;
+        WEFT_TRY(estimate, walk(context, job, within, at));
+        if (at.frame == within.last) job.walker.reset();
+        if (!job.reach.covers(at.frame, job.keys)) continue;
         const auto kind = job.merged(at.frame) ? AnalysisKind::kMatteForward : AnalysisKind::kMatte;
-        WEFT_CHECK_OK(put(store, job, at.frame, kind, std::move(*estimate)));
+        WEFT_CHECK_OK(put(store, job, at.frame, kind, std::move(estimate)));
     }
     return {};
 }
@@ -136,23 +155,21 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                       const SweepFrame& at) {
     for (Job& job : jobs) {
-        if (!job.reach.backward()) continue;
-        WEFT_TRY(estimate, walk(context, job, job.backward(), at));
-        if (!estimate || job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
+        const FrameSpan within = job.backward();
+        if (!holds(within, at.frame)) continue;
+        WEFT_TRY(estimate, walk(context, job, within, at));
+        if (at.frame == within.first) job.walker.reset();
+        if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
         if (!job.merged(at.frame)) {
-            if (at.frame < job.keys.back()) {
-                WEFT_CHECK_OK(
-                    put(store, job, at.frame, AnalysisKind::kMatte, std::move(*estimate)));
-            }
+            WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(estimate)));
             continue;
         }
         WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward, job.layer}));
         WEFT_TRY(forward, decode_matte(bytes));
-        const auto after = std::lower_bound(job.keys.begin(), job.keys.end(), at.frame);
-        const float position =
-            static_cast<float>(at.frame - *(after - 1)) / static_cast<float>(*after - *(after - 1));
+        const float position = static_cast<float>(at.frame - job.keys.front()) /
+                               static_cast<float>(job.keys.back() - job.keys.front());
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
-                          merge_estimates({std::move(forward.matte), forward.confidence}, *estimate,
+                          merge_estimates({std::move(forward.matte), forward.confidence}, estimate,
                                           position, at.views->display, job.options)));
     }
     return {};
@@ -162,7 +179,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
 Status fill_the_rest(const PassContext& context, AnalysisStore& store,
                      const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {
-        for (int frame = job.span.first; frame <= job.span.last; ++frame) {
+        for (int frame = job.own.first; frame <= job.own.last; ++frame) {
             if (job.reach.covers(frame, job.keys)) continue;
             WEFT_CHECK_OK(
                 put(store, job, frame, AnalysisKind::kMatte, {Matte(context.source.size()), 1.0f}));
@@ -171,19 +188,7 @@ Status fill_the_rest(const PassContext& context, AnalysisStore& store,
     return {};
 }
 
-}  // namespace
-
-int count_matte_steps(const ShotPlan& plan, const AnalysisStore& store) {
-    const std::vector<Job> jobs = jobs_of(plan, store);
-    if (jobs.empty()) return 0;
-    const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
-    return there.last - there.first + 1 + back.last - back.first + 1;
-}
-
-Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
-    std::vector<Job> jobs = jobs_of(context.plan, store);
-    if (jobs.empty()) return {};
-    const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
+Status propagate(const PassContext& context, AnalysisStore& store, std::vector<Job> jobs) {
     using Visit =
         Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const SweepFrame&);
     const auto walk_mattes = [&](const SweepOptions& options, Visit visit) {
@@ -197,11 +202,26 @@ Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
             return visit(context, store, jobs, at);
         });
     };
-    WEFT_CHECK_OK(walk_mattes({there.first, there.last, true}, visit_forward));
-    for (Job& job : jobs)
-        job.walker.reset();
-    WEFT_CHECK_OK(walk_mattes({back.last, back.first, true}, visit_backward));
+    const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
+    if (length(there) > 0)
+        WEFT_CHECK_OK(walk_mattes({there.first, there.last, true}, visit_forward));
+    if (length(back) > 0) WEFT_CHECK_OK(walk_mattes({back.last, back.first, true}, visit_backward));
     return fill_the_rest(context, store, jobs);
+}
+
+}  // namespace
+
+int count_matte_steps(const ShotPlan& plan, const AnalysisStore& store) {
+    const std::vector<Job> jobs = jobs_of(plan, store);
+    return length(walked(jobs, &Job::forward)) + length(walked(jobs, &Job::backward));
+}
+
+Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
+    return propagate(context, store, jobs_of(context.plan, store));
+}
+
+Status propagate_mattes_at(const PassContext& context, AnalysisStore& store, int frame) {
+    return propagate(context, store, jobs_of(context.plan, store, frame));
 }
 
 }  // namespace weft

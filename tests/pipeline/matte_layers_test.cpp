@@ -73,6 +73,63 @@ TEST(PaintedHoldouts, HaveAKeyOfTheirOwnInTheStore) {
     }
 }
 
+Status propagate(const ShotSource& shot, const ShotPlan& plan, AnalysisStore& store) {
+    return propagate_mattes({shot, plan, {}, [](int, double) {}, nullptr}, store);
+}
+
+class Stretches : public testing::Test {
+  protected:
+    Stretches() {
+        for (const int key : {2, 5, 8})
+            shot_.keys[{0, key}] = box_matte(kRegionBox);
+        RegionPlan region = make_region(flat_texture({1, 0, 0}));
+        region.matte_keys = {2, 5, 8};
+        region.reference_frames = {2};
+        plan_ = make_plan(region);
+    }
+
+    MemoryShot shot_ = make_wall();
+    ShotPlan plan_;
+};
+
+TEST_F(Stretches, AStrokeLeavesWhatLiesBeyondItsNeighboursAsItIs) {
+    MemoryAnalysisStore before, after, anew;
+    expect_ok(propagate(shot_, plan_, before));
+    shot_.keys[{0, 8}] = box_matte({20, 16, 90, 96});
+    expect_ok(propagate(shot_, plan_, anew));
+    for (int frame = kFirst; frame < 5; ++frame)
+        expect_ok(after.put({0, frame, AnalysisKind::kMatte},
+                            *before.get({0, frame, AnalysisKind::kMatte})));
+    EXPECT_EQ(count_matte_steps(plan_, after), 6 + 3) << "forwards from 5 to 10, back from 8 to 6";
+    expect_ok(propagate(shot_, plan_, after));
+    for (int frame = kFirst; frame <= kLast; ++frame)
+        EXPECT_EQ(stored_matte(after, frame, 0), stored_matte(anew, frame, 0)) << frame;
+    EXPECT_NE(stored_matte(anew, 7, 0), stored_matte(before, 7, 0));
+}
+
+TEST_F(Stretches, ThatOfOneFrameCanBeMadeAlone) {
+    MemoryAnalysisStore one, all;
+    expect_ok(propagate_mattes_at({shot_, plan_, {}, [](int, double) {}, nullptr}, one, 6));
+    expect_ok(propagate(shot_, plan_, all));
+    for (int frame = kFirst; frame <= kLast; ++frame) {
+        ASSERT_EQ(one.has({0, frame, AnalysisKind::kMatte}), frame >= 5 && frame < 8) << frame;
+        if (frame >= 5 && frame < 8) {
+            EXPECT_EQ(stored_matte(one, frame, 0), stored_matte(all, frame, 0)) << frame;
+        }
+    }
+}
+
+TEST_F(Stretches, KeyframesBesideEachOtherAreKeptAsPainted) {
+    shot_.keys[{0, 3}] = box_matte({30, 20, 80, 60});
+    plan_.regions[0].matte_keys = {2, 3, 5, 8};
+    MemoryAnalysisStore store;
+    expect_ok(propagate(shot_, plan_, store));
+    for (const int key : plan_.regions[0].matte_keys)
+        EXPECT_EQ(stored_matte(store, key, 0), (shot_.keys[{0, key}])) << key;
+    for (int frame = kFirst; frame <= kLast; ++frame)
+        EXPECT_TRUE(any(stored_matte(store, frame, 0))) << frame;
+}
+
 struct Way {
     PropagationDirection direction;
     int first, last;

@@ -64,6 +64,13 @@ class MatteCarrierTest : public testing::Test {
         }
         return false;
     }
+    void set_keys(const std::vector<int>& frames) {
+        MatteSource matte;
+        for (const int frame : frames)
+            matte.keyframes[frame].path = (folder_ / "key.png").string();
+        project_.regions[0] =
+            project_.regions[0].with([&](Region& r) { r.matte = Leaf<MatteSource>(matte); });
+    }
     // The steps that are left once the region has a texture.
     [[nodiscard]] int steps_left() {
         project_.regions[0] = project_.regions[0].with(
@@ -84,7 +91,7 @@ class MatteCarrierTest : public testing::Test {
 };
 
 TEST_F(MatteCarrierTest, MattesAreThereWhenATextureIsChosen) {
-    carrier_->carry(project_, {});
+    carrier_->carry(project_, {}, 1);
     for (const int frame : {1, 3, 4})
         EXPECT_TRUE(wait_for(frame)) << frame;
     EXPECT_GT(carrier_->changes(), 0u);
@@ -97,24 +104,41 @@ TEST_F(MatteCarrierTest, AMatteFromMemoryCountsOnceItsFileIsThere) {
     ASSERT_TRUE(key);
     fs::remove(folder_ / "key.png");
     const std::string path = (folder_ / "key.png").string();
-    carrier_->carry(project_, {{path, std::make_shared<const Matte>(*key)}});
+    carrier_->carry(project_, {{path, std::make_shared<const Matte>(*key)}}, 1);
     EXPECT_TRUE(wait_for(4));
     write("key.png", painted(255));
-    carrier_->carry(project_, {});
+    carrier_->carry(project_, {}, 1);
     EXPECT_TRUE(wait_for(4));
     carrier_.reset();
     EXPECT_EQ(steps_left(), 0);
 }
 
+TEST_F(MatteCarrierTest, AStrokeChangesWhatLiesBetweenItsNeighboursOnly) {
+    set_keys({1, 2, 4});
+    carrier_->carry(project_, {}, 3);
+    for (const int frame : {1, 2, 3, 4})
+        EXPECT_TRUE(wait_for(frame)) << frame;
+    carrier_.reset();
+    write("other.png", painted(200));
+    project_.regions[0] = project_.regions[0].with([&](Region& r) {
+        r.matte = r.matte.with(
+            [&](MatteSource& m) { m.keyframes[4].path = (folder_ / "other.png").string(); });
+    });
+    // Forwards from 2 to 4, back from 4 to 3; frame 1 is kept.
+    EXPECT_EQ(steps_left(), 3 + 2);
+    set_keys({1, 2, 4});
+    EXPECT_EQ(steps_left(), 0) << "undone";
+}
+
 TEST_F(MatteCarrierTest, PausesAndForgets) {
     carrier_->pause();
-    carrier_->carry(project_, {});
+    carrier_->carry(project_, {}, 1);
     EXPECT_FALSE(wait_for(4, std::chrono::milliseconds(150)));
     carrier_->resume();
     EXPECT_TRUE(wait_for(4));
     carrier_->clear();
     EXPECT_FALSE(carrier_->matte(1, 0, 4)) << "it may be another matte by now";
-    carrier_->carry(project_, {});
+    carrier_->carry(project_, {}, 1);
     EXPECT_TRUE(wait_for(4));
 }
 

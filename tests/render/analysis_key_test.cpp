@@ -11,16 +11,19 @@ namespace {
 
 class AnalysisKeyTest : public ShotTest {
   protected:
-    std::string key_after(const std::function<void(Region&)>& change) const {
+    RegionKeys keys_after(const std::function<void(Region&)>& change) const {
         JobSpec job = spec("out");
         Region region = *job.project.regions[0];
         change(region);
         job.project.regions[0] = region;
         const auto shot = open_shot(job.project);
         EXPECT_TRUE(shot) << (shot ? "" : shot.error().text());
-        const auto key = shot ? region_key(**shot, 0, {}) : Expected<std::string>(std::string());
-        EXPECT_TRUE(key) << (key ? "" : key.error().text());
-        return key.value_or("");
+        const auto keys = shot ? region_keys(**shot, 0, {}) : Expected<RegionKeys>(RegionKeys());
+        EXPECT_TRUE(keys) << (keys ? "" : keys.error().text());
+        return keys.value_or(RegionKeys());
+    }
+    std::string surface_after(const std::function<void(Region&)>& change) const {
+        return keys_after(change).surface;
     }
     static Zone zone(double value, MatteSource matte) {
         Zone out;
@@ -31,15 +34,15 @@ class AnalysisKeyTest : public ShotTest {
 };
 
 TEST_F(AnalysisKeyTest, NamesWhatTheAnalysisDependsOnAndNothingElse) {
-    const std::string plain = key_after([](Region&) {});
+    const std::string plain = surface_after([](Region&) {});
     EXPECT_EQ(plain.size(), 32u);
-    EXPECT_EQ(key_after([](Region& r) { r.placement.scale = 3; }), plain);
-    EXPECT_EQ(key_after([](Region& r) { r.light.strength = 0.2; }), plain);
-    EXPECT_NE(key_after([](Region& r) {
+    EXPECT_EQ(surface_after([](Region& r) { r.placement.scale = 3; }), plain);
+    EXPECT_EQ(surface_after([](Region& r) { r.light.strength = 0.2; }), plain);
+    EXPECT_NE(surface_after([](Region& r) {
                   r.matte = r.matte.with([](MatteSource& m) { m.select.invert = true; });
               }),
               plain);
-    EXPECT_NE(key_after([](Region& r) { r.reference_frames = {3}; }), plain);
+    EXPECT_NE(surface_after([](Region& r) { r.reference_frames = {3}; }), plain);
 }
 
 TEST_F(AnalysisKeyTest, OfZonesItNamesWhatIsPropagated) {
@@ -48,13 +51,45 @@ TEST_F(AnalysisKeyTest, OfZonesItNamesWhatIsPropagated) {
     files.files = in("zone.png");
     painted.keyframes[2] = {in("zone.png")};
     elsewhere.keyframes[3] = {in("zone.png")};
-    const auto key = [&](double value, const MatteSource& matte) {
-        return key_after([&](Region& r) { r.zones = std::vector<Zone>{zone(value, matte)}; });
+    const auto keys = [&](double value, const MatteSource& matte) {
+        return keys_after([&](Region& r) { r.zones = std::vector<Zone>{zone(value, matte)}; });
     };
-    EXPECT_EQ(key(0, files), key_after([](Region&) {}));
-    EXPECT_NE(key(0, painted), key(0, files));
-    EXPECT_EQ(key(1.5, painted), key(0, painted)) << "values are applied when a frame is rendered";
-    EXPECT_NE(key(0, elsewhere), key(0, painted));
+    const std::string plain = surface_after([](Region&) {});
+    EXPECT_EQ(keys(0, files), (RegionKeys{plain, {}}));
+    const RegionKeys of_painted = keys(0, painted);
+    EXPECT_EQ(of_painted.surface, plain) << "the surface does not follow its zones";
+    EXPECT_EQ(of_painted.mattes.size(), 1u);
+    EXPECT_EQ(keys(1.5, painted), of_painted) << "values are applied when a frame is rendered";
+    EXPECT_NE(keys(0, elsewhere), of_painted);
+}
+
+TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
+    for (const char* name : {"a.png", "b.png", "c.png"})
+        ASSERT_TRUE(write_matte(in(name), card_matte(1), WriteRule::own()));
+    const auto keys = [&](const std::map<int, std::string>& painted) {
+        return keys_after([&](Region& r) {
+            MatteSource matte;
+            for (const auto& [frame, name] : painted)
+                matte.keyframes[frame] = {in(name)};
+            r.matte = matte;
+            r.reference_frames = {1};
+        });
+    };
+    const auto matte_on = [](int frame) { return AnalysisKey{0, frame, AnalysisKind::kMatte}; };
+    const RegionKeys before = keys({{1, "a.png"}, {3, "a.png"}, {5, "a.png"}});
+    const RegionKeys stroke = keys({{1, "a.png"}, {3, "a.png"}, {5, "b.png"}});
+    const RegionKeys more = keys({{1, "a.png"}, {3, "a.png"}, {4, "c.png"}, {5, "a.png"}});
+    const auto same = [&](const RegionKeys& other) {
+        std::vector<int> out;
+        for (int frame = 1; frame <= kFrames; ++frame)
+            if (before.of(matte_on(frame)) == other.of(matte_on(frame))) out.push_back(frame);
+        return out;
+    };
+    EXPECT_EQ(same(stroke), (std::vector<int>{1, 2}));
+    EXPECT_EQ(same(more), (std::vector<int>{1, 2, 5, 6}));
+    EXPECT_NE(stroke.surface, before.surface) << "its motion depends on all of them";
+    EXPECT_EQ(before.of({0, 3, AnalysisKind::kCoords}), before.surface);
+    EXPECT_EQ(before.all().size(), 1u + 4u);
 }
 
 }  // namespace
