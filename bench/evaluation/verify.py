@@ -82,7 +82,7 @@ def against_rays(scene, data, checks):
     checks.at_most("Position against rays, 99 %", high(off), 2 * DATA_FILTER_PX, "px")
     checks.at_most("Depth against rays, 99 %", high(depth), 2 * DATA_FILTER_PX, "px")
     checks.at_most("UV against rays, 95 %", high(uv, 95), 3 * DATA_FILTER_PX, "px")
-    checks.at_most("Normal (smooth) against the facets hit, 90 %", high(turned, 90), 12, "degrees")
+    checks.at_most("Normal against the hit triangles' corners, 99 %", high(turned), 0.1, "degrees")
     checks.at_most("Vector against the hit triangles' motion, 99 %", high(moved), 2 * DATA_FILTER_PX, "px")
     checks.at_most("visibility against rays: share that differ", unseen / max(1, asked), 0.02, "")
 

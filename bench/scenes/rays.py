@@ -11,7 +11,7 @@ class Meshes:
     def __init__(self, stage, frame):
         stage.scene.frame_set(frame)
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        vertices, triangles, owners, uv, first = [], [], [], [], 0
+        vertices, triangles, owners, uv, normals, first = [], [], [], [], [], 0
         for part in stage.parts:
             if part.hidden:
                 continue
@@ -22,6 +22,7 @@ class Meshes:
             data.vertices.foreach_get("co", local)
             world = np.array(o.matrix_world)
             vertices.append(local.reshape(-1, 3) @ world[:3, :3].T + world[:3, 3])
+            normals.append(corner_normals(data, world))
             o.to_mesh_clear()
             triangles.append(part.mesh.triangles + first)
             owners.append(np.full(len(part.mesh.triangles), part.id))
@@ -29,6 +30,7 @@ class Meshes:
             first += count
         self.vertices, self.triangles = np.concatenate(vertices), np.concatenate(triangles)
         self.owners, self.uv = np.concatenate(owners), np.concatenate(uv)
+        self.normals = np.concatenate(normals)
         self.tree = BVHTree.FromPolygons(self.vertices.tolist(), self.triangles.tolist(), all_triangles=True)
         self.pose = np.array(stage.camera.matrix_world)
 
@@ -43,6 +45,15 @@ class Meshes:
         far = np.linalg.norm(to)
         hit = self.cast(to / far)
         return hit is None or np.linalg.norm(hit[0] - self.pose[:3, 3]) > far - tolerance
+
+
+def corner_normals(data, world):
+    """(triangles, 3, 3): the normals that shading interpolates, in the world."""
+    data.calc_normals_split()
+    normals = np.empty(3 * len(data.loops), np.float32)
+    data.loops.foreach_get("normal", normals)
+    turned = normals.reshape(-1, 3) @ np.linalg.inv(world[:3, :3])  # by the inverse, transposed
+    return (turned / np.linalg.norm(turned, axis=1, keepdims=True)).reshape(-1, 3, 3)
 
 
 def weights(corners, point):
@@ -80,7 +91,7 @@ def seen_by_ray(now, last, next_, hit, focal, size):
     place, triangle = hit
     corners = now.vertices[now.triangles[triangle]]
     share = weights(corners, place)
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    normal = share @ now.normals[triangle]
     found = {"id": int(now.owners[triangle]), "position": place.tolist(), "depth": project(now.pose, focal, size, place)[2],
              "normal": (normal / np.linalg.norm(normal)).tolist(), "uv": (share @ now.uv[triangle]).tolist()}
     for name, other in (("forward", next_), ("backward", last)):
