@@ -29,6 +29,9 @@ bool Preview::try_request(const PreviewRequest& request) {
         shared->failed_pixels.clear();
         shared->grow_cancel.cancel();
     }
+    if (!shared->wanted || shared->wanted->frame != request.frame ||
+        shared->wanted_analysis != analysis)
+        shared->draft_cancel.cancel();
     shared->card_cancel.cancel();
     if (!shared->analysing_key.empty() && shared->analysing_key != analysis)
         shared->analysis_cancel.cancel();
@@ -40,8 +43,8 @@ bool Preview::try_request(const PreviewRequest& request) {
     return true;
 }
 
-void Preview::carry(const Project& project, const PaintedMattes& painted) {
-    impl_->carrier.carry(project, painted);
+void Preview::carry(const Project& project, const PaintedMattes& painted, int frame) {
+    impl_->carrier.carry(project, painted, frame);
 }
 
 void Preview::clear() {
@@ -54,6 +57,7 @@ void Preview::clear() {
     shared->failed_pixels.clear();
     shared->analysis_cancel.cancel();
     shared->grow_cancel.cancel();
+    shared->draft_cancel.cancel();
     shared->card_cancel.cancel();
     old.swap(shared->frames);
     old_cards.swap(shared->cards);
@@ -115,11 +119,9 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame)
     if (const auto [now, k] = impl_->find_opened(region); now) {
         const std::optional<int> kept =
             stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
-        const AnalysisKey key{static_cast<int>(k), frame, AnalysisKind::kMatte, kept.value_or(0)};
-        if (kept && now->store->has(key)) {
-            WEFT_TRY(bytes, now->store->get(key));
-            WEFT_TRY(stored, decode_matte(bytes));
-            return std::move(stored.matte);
+        if (kept) {
+            if (auto found = newest_matte(*now->store, static_cast<int>(k), *kept, frame))
+                return found;
         }
     }
     return impl_->carrier.matte(region, layer, frame);

@@ -159,7 +159,7 @@ class Preview {
     bool try_request(const PreviewRequest& request);
     /// Carries the painted mattes of regions without a texture (MatteCarrier::carry()). Never
     /// blocks.
-    void carry(const Project& project, const PaintedMattes& painted);
+    void carry(const Project& project, const PaintedMattes& painted, int frame);
     /// Closes the shot and stops all work except carry().
     void clear();
     /// Pauses the analysis until resume(), or until a request changes it.

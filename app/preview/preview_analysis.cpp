@@ -43,6 +43,28 @@ std::optional<int> stored_layer(const Region& region, int layer) {
     return painted;
 }
 
+Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer, int frame) {
+    AnalysisKey key{region, frame, AnalysisKind::kMatte, layer};
+    auto bytes = store.get(key);
+    key.kind = AnalysisKind::kMatteForward;
+    if (!bytes) bytes = store.get(key);
+    if (!bytes) return tl::unexpected(bytes.error());
+    WEFT_TRY(found, decode_matte(*bytes));
+    return std::move(found.matte);
+}
+
+// What the artist has just painted is looked at before its texture is.
+void Preview::Impl::carry_mattes_at(const OpenedShot& work, int frame, const CancelToken& token) {
+    const ShotPlan plan = plan_for(work, work.shot->plate->frames());
+    const auto step = [&](int, double) {
+        const auto shared = guarded.lock();
+        changed(*shared);
+        ++mattes;
+    };
+    // A failure meets the analysis too, which shows it.
+    (void)propagate_mattes_at({*work.shot->source, plan, token, step, nullptr}, *work.store, frame);
+}
+
 void Preview::Impl::analyse_loop() {
     lower_thread_priority();
     for (;;) {
@@ -63,6 +85,7 @@ void Preview::Impl::analyse_loop() {
             shared->analysis_cancel = token;
             shared->analysing_key = work->analysis;
         }
+        if (!first.empty()) carry_mattes_at(*work, first.front(), token);
         // Analyse the visible frame first, unless that is most of the work anyway.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
         if (for_first > 0 && 2 * for_first < for_all) analyse(work, first, token);

@@ -22,6 +22,7 @@
 #include "app/shot/shot.h"
 #include "engine/compute/backend.h"
 #include "engine/core/cancel.h"
+#include "engine/pipeline/draft_analysis.h"
 #include "engine/pipeline/provisional.h"
 
 namespace weft {
@@ -60,6 +61,11 @@ struct KeptProvisional {
 /// holdouts are counted among themselves. Nothing: not stored.
 [[nodiscard]] std::optional<int> stored_layer(const Region& region, int layer);
 
+/// A propagated matte as far as it is known: final, or carried from the keyframe before. Error:
+/// neither is there.
+[[nodiscard]] Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer,
+                                           int frame);
+
 /// The track of a region's texture, before_from_now, in plate pixels. Error: not analysed, or the
 /// region's mode has no track.
 [[nodiscard]] Expected<LatticeField> track_between(const OpenedShot& opened, std::size_t region,
@@ -96,6 +102,8 @@ struct Preview::Impl {
     void keep(const PreviewRequest& wanted, int frame, PreviewFrame made, double seconds);
     void keep_provisional(const PreviewRequest& wanted, PreviewFrame made);
     bool step_provisional(const PreviewRequest& wanted);
+    bool step_draft(const PreviewRequest& wanted);
+    [[nodiscard]] std::vector<EarlierAnalysis> stand_ins(const OpenedShot& of) const;
     [[nodiscard]] Expected<ProvisionalFrame> provisional_of(const OpenedShot& of, int frame,
                                                             const CancelToken& cancel);
     bool shows_already(const PreviewRequest& wanted, const std::vector<bool>& shown);
@@ -117,6 +125,7 @@ struct Preview::Impl {
     // ---- the analysis thread (preview_analysis.cpp) ----
     void analyse_loop();
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, const CancelToken& token);
+    void carry_mattes_at(const OpenedShot& opened, int frame, const CancelToken& token);
     void collect_confidence(const OpenedShot& opened);
     void collect_health(const OpenedShot& opened, const CancelToken& token);
 
@@ -154,7 +163,7 @@ struct Preview::Impl {
         bool analysis_held = false;  // until the first picture, which it would slow down
         std::uint64_t visits = 0;    // how often the analysis has passed the requested frame
         std::string analysing_key;
-        CancelToken analysis_cancel, grow_cancel, card_cancel;
+        CancelToken analysis_cancel, grow_cancel, draft_cancel, card_cancel;
     };
     void changed(Shared& of) { of.shown.changes = ++changes; }
     void begin_analysis(Shared& of, int frame, const std::vector<int>& range);
@@ -185,7 +194,10 @@ struct Preview::Impl {
     std::string tried_provisional;          // key of the last provisional picture that was tried
     std::vector<bool> shown_provisionally;  // its regions
     std::optional<KeptProvisional> kept_provisional;
-    OpenedPtr unwritten;  // opened while its mattes were not on disk
+    OpenedPtr settled;  // the last one of the same plate whose analysis had come to an end
+    std::unique_ptr<const DraftAnalysis> draft;
+    std::string draft_of, tried_draft;  // its analysis; with its frame the last one that was tried
+    OpenedPtr unwritten;                // opened while its mattes were not on disk
     std::shared_ptr<const ColorTransform> srgb_from_out, linear_from_out;
     std::shared_ptr<const CachedReader> reader;  // reads the plate `reader_of`
     Plate reader_of;

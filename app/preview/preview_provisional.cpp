@@ -1,4 +1,6 @@
 // First pictures: of a frame that has not been analysed, or whose texture has not been synthesized.
+#include <algorithm>
+
 #include "app/preview/preview_impl.h"
 
 namespace weft {
@@ -16,6 +18,27 @@ void Preview::Impl::note_first(Shared& of, int frame) {
     of.shown.first_seconds = std::chrono::duration<double>(Clock::now() - of.requested_at).count();
 }
 
+// What stands in for a frame's analysis: that of the settings before the last edits, and a draft.
+std::vector<EarlierAnalysis> Preview::Impl::stand_ins(const OpenedShot& of) const {
+    std::vector<EarlierAnalysis> out;
+    if (settled) {
+        const Shot& then = *settled->shot;
+        EarlierAnalysis& earlier = out.emplace_back();
+        earlier = {&then.plan, settled->store.get(), {}};
+        for (const std::size_t index : of.shot->region_index) {
+            const RegionId id = of.shot->project.regions[index]->id;
+            const auto same =
+                std::find_if(then.region_index.begin(), then.region_index.end(),
+                             [&](std::size_t k) { return then.project.regions[k]->id == id; });
+            earlier.region_of.push_back(same == then.region_index.end()
+                                            ? -1
+                                            : static_cast<int>(same - then.region_index.begin()));
+        }
+    }
+    if (draft && draft_of == of.analysis) out.push_back(draft->as_earlier());
+    return out;
+}
+
 // Light that was estimated for other textures of the same analysis is used again.
 Expected<ProvisionalFrame> Preview::Impl::provisional_of(const OpenedShot& of, int frame,
                                                          const CancelToken& cancel) {
@@ -25,11 +48,12 @@ Expected<ProvisionalFrame> Preview::Impl::provisional_of(const OpenedShot& of, i
                         kept_provisional->frame == frame && kept_provisional->visits == visits;
     if (!served) {
         kept_provisional.reset();
-        WEFT_TRY(made, provisional_frame(*shot.source, shot.plan, *of.store, frame, cancel));
+        WEFT_TRY(made, provisional_frame(*shot.source, shot.plan, *of.store, frame, stand_ins(of),
+                                         cancel));
         kept_provisional = KeptProvisional{of.analysis, frame, visits, of.store, std::move(made)};
     }
     const ProvisionalFrame& before = kept_provisional->made;
-    WEFT_TRY(made, provisional_frame(*shot.source, shot.plan, *before.store, frame, cancel));
+    WEFT_TRY(made, provisional_frame(*shot.source, shot.plan, *before.store, frame, {}, cancel));
     // What was left out has an empty matte in that store.
     for (std::size_t k = 0; k < made.shown.size(); ++k)
         made.shown[k] = made.shown[k] && before.shown[k];
@@ -89,6 +113,35 @@ bool Preview::Impl::step_provisional(const PreviewRequest& now) {
     if (made && made->stages[static_cast<std::size_t>(Stage::kFinal)])
         keep_provisional(now, std::move(*made));
     release_analysis();
+    return true;
+}
+
+// Regions that a provisional picture of the requested frame lacks are followed to it in draft
+// quality, which takes a fraction of the time of their analysis. Once for each frame.
+bool Preview::Impl::step_draft(const PreviewRequest& now) {
+    const std::string key = current->analysis + " " + std::to_string(now.frame);
+    if (key == tried_draft || now.interactive || !kept_provisional ||
+        kept_provisional->analysis != current->analysis || kept_provisional->frame != now.frame)
+        return false;
+    std::vector<bool> missing = kept_provisional->made.shown;
+    missing.flip();
+    tried_draft = key;
+    if (std::find(missing.begin(), missing.end(), true) == missing.end()) return false;
+    CancelToken token;
+    {
+        const auto shared = guarded.lock();
+        if (!shared->wanted || shared->wanted->frame != now.frame ||
+            shared->wanted_analysis != current->analysis)
+            return true;
+        shared->draft_cancel = token;
+    }
+    const Shot& shot = *current->shot;
+    auto made = draft_analysis(*shot.source, shot.plan, now.frame, missing, token);
+    if (!made) return true;
+    draft = std::move(*made);
+    draft_of = current->analysis;
+    kept_provisional.reset();
+    tried_provisional.clear();
     return true;
 }
 

@@ -48,6 +48,7 @@ Preview::Impl::~Impl() {
         shared->stop = true;
         shared->analysis_cancel.cancel();
         shared->grow_cancel.cancel();
+        shared->draft_cancel.cancel();
         shared->card_cancel.cancel();
     }
     wake.notify_all();
@@ -100,7 +101,7 @@ bool Preview::Impl::step() {
     if (!current || current->pixels != pixels) return open_shot_of(now, pixels);
     if (!ready(now.frame)) {
         set_state(PreviewView::State::kAnalysing);
-        if (step_provisional(now)) return true;
+        if (step_provisional(now) || step_draft(now)) return true;
     } else if (step_frame(now)) {
         return true;
     }
@@ -202,8 +203,13 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     if (auto t = make_color_transform((*shot)->spaces.out, {"linear"})) linear_from_out = *t;
     const bool same_analysis = current && current->analysis == fresh->analysis;
     // If the analysis is unchanged, the store is still that of the shot opened before.
+    if (!same_analysis && current && !ready_frames.empty()) settled = current;
+    if (settled && settled->shot->project.plate != now.project.plate) settled.reset();
     if (!same_analysis) unwritten = fresh->shot->painted.empty() ? nullptr : fresh;
-    if (!same_analysis) ready_frames.clear();
+    if (!same_analysis) {
+        ready_frames.clear();
+        draft.reset();
+    }
     // Destroyed after the lock is released, because pictures are large.
     std::map<int, PreviewFrame> old_frames;
     OpenedPtr old_opened;

@@ -67,8 +67,13 @@ std::set<int> unfinished_regions(const ShotPlan& plan, const AnalysisStore& know
 class FrameFiller {
   public:
     FrameFiller(const ShotSource& source, ShotPlan& plan, OverlayStore& store, int frame,
-                const CancelToken& cancel)
-        : source_(source), plan_(plan), store_(store), frame_(frame), cancel_(cancel) {}
+                const std::vector<EarlierAnalysis>& earlier, const CancelToken& cancel)
+        : source_(source),
+          plan_(plan),
+          store_(store),
+          frame_(frame),
+          earlier_(earlier),
+          cancel_(cancel) {}
 
     // Returns false if the region cannot be shown on the frame.
     Expected<bool> fill(int index) {
@@ -103,12 +108,57 @@ class FrameFiller {
   private:
     RegionPlan& region_at(int index) { return plan_.regions[static_cast<std::size_t>(index)]; }
 
+    // Puts what an earlier analysis has under this key, if one does whose region is `alike`.
+    template <class Alike>
+    bool fill_from_earlier(const AnalysisKey& key, Alike&& alike) {
+        for (const EarlierAnalysis& earlier : earlier_) {
+            const int index = earlier.region_of[static_cast<std::size_t>(key.region)];
+            if (index < 0 || !alike(earlier.plan->regions[static_cast<std::size_t>(index)]))
+                continue;
+            const auto bytes = earlier.store->get({index, key.frame, key.kind, key.layer});
+            if (!bytes) continue;
+            store_.put_beneath(key, *bytes);
+            return true;
+        }
+        return false;
+    }
+    bool fill_from_earlier(const AnalysisKey& key) {
+        return fill_from_earlier(key, [](const RegionPlan&) { return true; });
+    }
+
+    // The same, of where the texture lies, with the pins of now.
+    bool fill_track_from_earlier(const AnalysisKey& key) {
+        const RegionPlan& now = region_at(key.region);
+        std::vector<SurfacePin> before;
+        const auto alike = [&](const RegionPlan& then) {
+            const auto pins = then.corrections.find(key.frame);
+            before = pins == then.corrections.end() ? std::vector<SurfacePin>() : pins->second;
+            return then.temporal == now.temporal && motion_of(then) == motion_of(now) &&
+                   then.reference_frames.front() == now.reference_frames.front();
+        };
+        if (!fill_from_earlier(key, alike)) return false;
+        const auto pins = now.corrections.find(key.frame);
+        const std::vector<SurfacePin> after =
+            pins == now.corrections.end() ? std::vector<SurfacePin>() : pins->second;
+        if (before == after) return true;
+        const auto bytes = store_.get(key);
+        const auto field = bytes ? decode_lattice(*bytes) : tl::unexpected(bytes.error());
+        if (!field) return false;
+        store_.put_beneath(key, encode(recorrected(*field, before, after)));
+        return true;
+    }
+
     // The matte of one layer, if it is known on the frame: propagated already, or painted there.
     template <class ReadKey>
     Expected<bool> fill_painted(const AnalysisKey& key, const std::vector<int>& painted_on,
                                 ReadKey&& read) {
         if (store_.has(key)) return true;
-        if (!std::binary_search(painted_on.begin(), painted_on.end(), key.frame)) return false;
+        if (!std::binary_search(painted_on.begin(), painted_on.end(), key.frame)) {
+            const std::size_t holdouts = region_at(key.region).painted_holdouts.size();
+            return fill_from_earlier(key, [&](const RegionPlan& then) {
+                return key.layer <= 0 || then.painted_holdouts.size() == holdouts;
+            });
+        }
         WEFT_TRY(matte, read());
         store_.put_beneath(key, encode(StoredMatte{std::move(matte), 1.0f}));
         return true;
@@ -152,7 +202,7 @@ class FrameFiller {
         const AnalysisKey key{index, frame_,
                               paper ? AnalysisKind::kPaperTexture : AnalysisKind::kCoords};
         if (store_.has(key)) return true;
-        if (frame_ != reference) return false;
+        if (frame_ != reference) return !paper && fill_track_from_earlier(key);
         if (paper) {
             PaperWalker painter(region, plan_.seed, source_.size(), nullptr);
             WEFT_TRY(picture, painter.start(frame_, cancel_));
@@ -170,7 +220,7 @@ class FrameFiller {
     Status fill_light(int index, int frame) {
         const RegionPlan& region = region_at(index);
         const AnalysisKey key{index, frame, AnalysisKind::kShading};
-        if (!region.estimates_light() || store_.has(key)) return {};
+        if (!region.estimates_light() || store_.has(key) || fill_from_earlier(key)) return {};
         WEFT_TRY(plate, source_.plate(frame));
         WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame));
         WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame));
@@ -185,12 +235,17 @@ class FrameFiller {
     // Grain and motion blur, which a single frame does not show.
     void fill_camera(int index, int reference) {
         RegionPlan& region = region_at(index);
-        if (const AnalysisKey grain{index, reference, AnalysisKind::kGrain}; !store_.has(grain))
-            store_.put_beneath(grain, encode(GrainModel()));
+        const auto known = [&](int frame, AnalysisKind kind) {
+            const AnalysisKey key{index, frame, kind};
+            return store_.has(key) || fill_from_earlier(key);
+        };
+        if (!known(reference, AnalysisKind::kGrain))
+            store_.put_beneath({index, reference, AnalysisKind::kGrain}, encode(GrainModel()));
         const int neighbour = frame_ > reference ? frame_ - 1 : frame_ + 1;
+        const AnalysisKey beside{index, neighbour, AnalysisKind::kCoords};
         const bool measured =
-            !region.estimates_shutter() || store_.has({index, reference, AnalysisKind::kShutter});
-        if (measured && store_.has({index, neighbour, AnalysisKind::kCoords})) return;
+            !region.estimates_shutter() || known(reference, AnalysisKind::kShutter);
+        if (measured && (store_.has(beside) || fill_track_from_earlier(beside))) return;
         region.shutter_deg = 0.0f;
         region.shutter_evidence.clear();
     }
@@ -199,6 +254,7 @@ class FrameFiller {
     ShotPlan& plan_;
     OverlayStore& store_;
     int frame_;
+    const std::vector<EarlierAnalysis>& earlier_;
     const CancelToken& cancel_;
 };
 
@@ -210,11 +266,12 @@ bool ProvisionalFrame::shows_anything() const {
 
 Expected<ProvisionalFrame> provisional_frame(const ShotSource& source, const ShotPlan& plan,
                                              const AnalysisStore& known, int frame,
+                                             const std::vector<EarlierAnalysis>& earlier,
                                              const CancelToken& cancel) {
     ProvisionalFrame out;
     out.plan = plan;
     auto store = std::make_unique<OverlayStore>(known, unfinished_regions(plan, known, frame));
-    FrameFiller filler(source, out.plan, *store, frame, cancel);
+    FrameFiller filler(source, out.plan, *store, frame, earlier, cancel);
     for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {
         WEFT_TRY(shown, filler.fill(k));
         if (!shown) filler.leave_out(k);

@@ -40,11 +40,8 @@ Point source_of(Point p, const std::vector<SurfacePin>& pins) {
     return turn * (p - to_mean) + from_mean;
 }
 
-}  // namespace
-
-LatticeField corrected(const LatticeField& ref_from_cur, const std::vector<SurfacePin>& pins) {
-    if (pins.empty()) return ref_from_cur;
-    LatticeField bend(ref_from_cur.full_size(), ref_from_cur.spacing());
+LatticeField bend_by(const std::vector<SurfacePin>& pins, Size size, int spacing) {
+    LatticeField bend(size, spacing);
     for (int j = 0; j < bend.nodes().height(); ++j) {
         for (int i = 0; i < bend.nodes().width(); ++i) {
             const Vec2 p = bend.node_position(i, j);
@@ -53,7 +50,22 @@ LatticeField corrected(const LatticeField& ref_from_cur, const std::vector<Surfa
                           Vec2(static_cast<float>(q.real()), static_cast<float>(q.imag())) - p);
         }
     }
-    return compose(bend, ref_from_cur);
+    return bend;
+}
+
+}  // namespace
+
+LatticeField corrected(const LatticeField& ref_from_cur, const std::vector<SurfacePin>& pins) {
+    if (pins.empty()) return ref_from_cur;
+    return compose(bend_by(pins, ref_from_cur.full_size(), ref_from_cur.spacing()), ref_from_cur);
+}
+
+LatticeField recorrected(const LatticeField& ref_from_cur, const std::vector<SurfacePin>& before,
+                         const std::vector<SurfacePin>& after) {
+    if (before == after) return ref_from_cur;
+    if (before.empty()) return corrected(ref_from_cur, after);
+    const LatticeField bend = bend_by(before, ref_from_cur.full_size(), ref_from_cur.spacing());
+    return corrected(compose(inverse(bend), ref_from_cur), after);
 }
 
 }  // namespace weft

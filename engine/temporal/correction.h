@@ -21,4 +21,11 @@ struct SurfacePin {
 [[nodiscard]] LatticeField corrected(const LatticeField& ref_from_cur,
                                      const std::vector<SurfacePin>& pins);
 
+/// A field that was corrected by the pins `before`, with the pins `after` in their place: while
+/// pins are moved, nothing has to be tracked again on their frame. Exact but for the inverse of the
+/// first correction. Pure.
+[[nodiscard]] LatticeField recorrected(const LatticeField& ref_from_cur,
+                                       const std::vector<SurfacePin>& before,
+                                       const std::vector<SurfacePin>& after);
+
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/compute/backend_registry.h"
+#include "engine/pipeline/draft_analysis.h"
 #include "engine/pipeline/render_frame.h"
 #include "tests/pipeline/memory_shot.h"
 
@@ -177,10 +178,99 @@ TEST(Provisional, OfThePaperModeIsItsFirstPicture) {
     EXPECT_FALSE(other->shows_anything());
 }
 
+EarlierAnalysis stand_in(const ShotPlan& plan, const AnalysisStore& store) {
+    return {&plan, &store, {0}};
+}
+
+TEST(Provisional, TakesFromAnEarlierAnalysisWhatIsNotKnown) {
+    const MemoryShot shot = make_wall();
+    const ShotPlan before = make_plan(lit_region());
+    MemoryAnalysisStore then;
+    ASSERT_TRUE(analyse_shot(shot, before, then, {}, {}));
+    ShotPlan now = before;
+    now.regions[0].reference_frames = {kFirst, 6};
+    now.regions[0].corrections[6] = {{{60, 40}, {66, 42}}};
+    const auto made = provisional_frame(shot, now, kNothing, 6, {stand_in(before, then)});
+    ASSERT_TRUE(made) << made.error().text();
+    EXPECT_EQ(made->shown, std::vector<bool>{true});
+    // The pin moves the track of before; on its frame nothing else enters the exact one.
+    MemoryAnalysisStore exact;
+    ASSERT_TRUE(analyse_shot(shot, now, exact, {}, {}));
+    const AnalysisKey track{0, 6, AnalysisKind::kCoords};
+    EXPECT_EQ(decode_lattice(*made->store->get(track))->nodes(),
+              decode_lattice(*exact.get(track))->nodes());
+    EXPECT_EQ(*made->store->get({0, 6, AnalysisKind::kShading}),
+              *then.get({0, 6, AnalysisKind::kShading}));
+    // A surface that is followed from another frame lies elsewhere.
+    now.regions[0].reference_frames = {2, 6};
+    const auto other = provisional_frame(shot, now, kNothing, 6, {stand_in(before, then)});
+    ASSERT_TRUE(other);
+    EXPECT_FALSE(other->shows_anything());
+    // So does another region.
+    EarlierAnalysis none = stand_in(before, then);
+    none.region_of = {-1};
+    now.regions[0].reference_frames = {kFirst, 6};
+    EXPECT_FALSE(provisional_frame(shot, now, kNothing, 6, {none})->shows_anything());
+}
+
+TEST(Provisional, TakesMattesFromBeforeAStroke) {
+    MemoryShot shot = make_wall();
+    shot.mattes.clear();
+    for (const int key : {kFirst, 5})
+        shot.keys[{0, key}] = box_matte(kRegionBox);
+    RegionPlan region = lit_region();
+    region.matte_keys = {kFirst};
+    const ShotPlan before = make_plan(region);
+    MemoryAnalysisStore then;
+    ASSERT_TRUE(analyse_shot(shot, before, then, {}, {}));
+    ShotPlan now = before;
+    now.regions[0].matte_keys = {kFirst, 5};
+    shot.keys[{0, 5}] = box_matte({20, 16, 100, 96});
+    const auto matte = [&](int frame) {
+        const auto made = provisional_frame(shot, now, kNothing, frame, {stand_in(before, then)});
+        EXPECT_TRUE(made && made->shows_anything()) << frame;
+        return decode_matte(*made->store->get({0, frame, AnalysisKind::kMatte}))->matte;
+    };
+    EXPECT_EQ(matte(5), (shot.keys[{0, 5}])) << "the stroke";
+    EXPECT_EQ(matte(6), decode_matte(*then.get({0, 6, AnalysisKind::kMatte}))->matte);
+}
+
+TEST(DraftAnalysis, LeadsToAFrameOnTheShortestWay) {
+    MemoryShot shot = make_wall();
+    shot.mattes.clear();
+    for (const int key : {3, 9})
+        shot.keys[{0, key}] = box_matte(kRegionBox);
+    RegionPlan region = lit_region({3});
+    region.matte_keys = {3, 9};
+    region.light_evidence = {1, 4, 7, 10};
+    ShotPlan plan = make_plan(region);
+    plan.regions.push_back(lit_region());
+    for (const int beyond : {1, 2, 6, 7, 8, 9, 10})
+        shot.plates.erase(beyond);  // only what lies on the way is read
+    const auto draft = draft_analysis(shot, plan, 5, {true, false});
+    ASSERT_TRUE(draft) << draft.error().text();
+    const AnalysisStore& store = (*draft)->store;
+    for (const int frame : {3, 4, 5}) {
+        EXPECT_TRUE(store.has({0, frame, AnalysisKind::kMatte})) << frame;
+        EXPECT_TRUE(store.has({0, frame, AnalysisKind::kCoords})) << frame;
+    }
+    EXPECT_FALSE(store.has({1, 5, AnalysisKind::kCoords})) << "it was not asked for";
+    const auto made = provisional_frame(shot, plan, kNothing, 5, {(*draft)->as_earlier()});
+    ASSERT_TRUE(made) << made.error().text();
+    EXPECT_EQ(made->shown, (std::vector<bool>{true, false}));
+    const auto field = decode_lattice(*made->store->get({0, 5, AnalysisKind::kCoords}));
+    ASSERT_TRUE(field);
+    const Vec2 wanted = wall_moved({0, 0}, 3) - wall_moved({0, 0}, 5);
+    EXPECT_LT(distance(field->at({80, 56}), wanted), 0.3f);
+    const CancelToken stop;
+    stop.cancel();
+    EXPECT_FALSE(draft_analysis(shot, plan, 5, {true, false}, stop));
+}
+
 TEST(Provisional, IsCancelled) {
     const CancelToken stop;
     stop.cancel();
-    EXPECT_FALSE(provisional_frame(make_wall(), make_plan(lit_region()), kNothing, 1, stop));
+    EXPECT_FALSE(provisional_frame(make_wall(), make_plan(lit_region()), kNothing, 1, {}, stop));
 }
 
 }  // namespace

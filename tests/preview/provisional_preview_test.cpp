@@ -29,7 +29,7 @@ class ProvisionalPreview : public testing::Test {
             ImageF3 plate(kPlate, 0.2f);
             for (int y = 0; y < kPlate.height; ++y)
                 for (int x = 0; x < kPlate.width; ++x)
-                    plate.pixel(x, y)[1] = 0.3f + static_cast<float>((x - frame + 3 * y) % 11) / 40;
+                    plate.pixel(x, y)[1] = plate_at(x, y, frame, 1);
             write("plate/" + file, plate);
             write("left/" + file, box(kLeft));
             write("right/" + file, box(kRight));
@@ -105,12 +105,33 @@ class ProvisionalPreview : public testing::Test {
     static bool shows_exact(const PreviewReading& reading) {
         return final_of(reading) && !reading.frame.provisional && !reading.frame.approximate;
     }
+    // The first frame as it is.
+    static ImageU8x3 plate_alone() {
+        ImageU8x3 out(kPlate);
+        for (int y = 0; y < kPlate.height; ++y)
+            for (int x = 0; x < kPlate.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    out.pixel(x, y)[c] =
+                        static_cast<std::uint8_t>(255 * plate_at(x, y, 1, c) + 0.5f);
+        return out;
+    }
+    static float plate_at(int x, int y, int frame, int c) {
+        return c == 1 ? 0.3f + static_cast<float>((x - frame + 3 * y) % 11) / 40 : 0.2f;
+    }
     static int different(const ImageU8x3& a, const ImageU8x3& b, const Recti& in) {
         int count = 0;
         for (int y = in.y0; y < in.y1; ++y)
             for (int x = in.x0; x < in.x1; ++x)
                 count += !std::equal(a.pixel(x, y), a.pixel(x, y) + 3, b.pixel(x, y));
         return count;
+    }
+    static double mean_difference(const ImageU8x3& a, const ImageU8x3& b, const Recti& in) {
+        double sum = 0;
+        for (int y = in.y0; y < in.y1; ++y)
+            for (int x = in.x0; x < in.x1; ++x)
+                for (int c = 0; c < 3; ++c)
+                    sum += std::abs(a.pixel(x, y)[c] - b.pixel(x, y)[c]);
+        return sum / (3.0 * in.width() * in.height());
     }
     // The exact picture from a preview that does nothing else.
     ImageU8x3 alone() {
@@ -145,38 +166,75 @@ TEST_F(ProvisionalPreview, ComesBeforeTheAnalysisAndIsReplacedByItsResult) {
     EXPECT_EQ(different(shown, alone(), rect_of(kPlate)), 0);
 }
 
-TEST_F(ProvisionalPreview, LeavesOutARegionOfWhichNothingIsKnown) {
+TEST_F(ProvisionalPreview, ARegionOfWhichNothingIsKnownIsFollowedInDraft) {
     add_region("right", 4);
     preview_->pause();
     ask();
-    ASSERT_TRUE(wait(shows_provisional)) << now_.view.error;
-    const ImageU8x3 first = final_of(now_)->srgb;
+    // The left one at once, and the right one when it has been followed from frame 4.
+    const auto shows_right = [&](const PreviewReading& r) {
+        return shows_provisional(r) && different(final_of(r)->srgb, plate_alone(), kRight) > 1000;
+    };
+    ASSERT_TRUE(wait(shows_right)) << now_.view.error;
+    EXPECT_GT(different(final_of(now_)->srgb, plate_alone(), kLeft), 1000);
+    EXPECT_TRUE(now_.rendered.empty());
     preview_->resume();
     ASSERT_TRUE(wait(shows_exact)) << now_.view.error;
     const ImageU8x3 exact = final_of(now_)->srgb;
-    EXPECT_GT(different(first, exact, kRight), 1000) << "the second region was left out";
+    EXPECT_EQ(different(exact, alone(), rect_of(kPlate)), 0);
     request_.project.regions.pop_back();
-    const ImageU8x3 one = alone();
-    EXPECT_EQ(different(first, one, kRight), 0) << "as the plate shows it";
-    EXPECT_EQ(different(exact, one, kLeft), 0);
+    EXPECT_EQ(different(exact, alone(), kLeft), 0);
 }
 
-TEST_F(ProvisionalPreview, IsOfNoFrameBesideTheReference) {
+TEST_F(ProvisionalPreview, FollowsToAFrameBesideTheReference) {
     preview_->pause();
     request_.frame = 3;
     ask();
-    EXPECT_FALSE(wait([](const PreviewReading& r) { return final_of(r) != nullptr; },
-                      std::chrono::milliseconds(500)));
+    ASSERT_TRUE(wait(shows_provisional)) << now_.view.error;
+    EXPECT_TRUE(now_.rendered.empty());
+    const ImageU8x3 third = final_of(now_)->srgb;
     request_.frame = 1;
     ask();
     ASSERT_TRUE(wait(shows_provisional)) << now_.view.error;
-    // The picture is that of frame 1 only.
+    EXPECT_GT(different(final_of(now_)->srgb, third, kLeft), 100) << "it moves with the plate";
     request_.frame = 3;
     ask();
-    EXPECT_FALSE(wait([](const PreviewReading& r) { return final_of(r) != nullptr; },
-                      std::chrono::milliseconds(200)));
     preview_->resume();
     EXPECT_TRUE(wait(shows_exact)) << now_.view.error;
+}
+
+TEST_F(ProvisionalPreview, AMovedPinIsSeenBeforeAnythingIsFollowedAgain) {
+    // Where the texture lies, alone: a plane that is given, without the light of other frames.
+    request_.project.regions[0] = request_.project.regions[0].with([&](Region& r) {
+        r.texture.sample.clear();
+        r.texture.plane = (folder_ / "tile.png").string();
+        r.light.source = LightSource::kNone;
+        r.finish.focus = 0;
+    });
+    ask();
+    ASSERT_TRUE(wait(shows_exact)) << now_.view.error;
+    request_.frame = 4;
+    ask();
+    ASSERT_TRUE(wait(shows_exact)) << now_.view.error;
+    const ImageU8x3 before = final_of(now_)->srgb;
+    preview_->pause();
+    ImageU8x3 last = before;
+    for (const double moved : {3.0, 7.0}) {
+        request_.project.regions[0] = request_.project.regions[0].with([&](Region& r) {
+            r.reference_frames = {1, 4};
+            r.corrections[4] = {{{40, 40}, {40 + moved, 40}}};
+        });
+        ask();
+        ASSERT_TRUE(wait(shows_provisional)) << now_.view.error;
+        const ImageU8x3 shown = final_of(now_)->srgb;
+        EXPECT_GT(different(shown, last, kLeft), 500) << moved;
+        last = shown;
+    }
+    preview_->resume();
+    ASSERT_TRUE(wait(shows_exact)) << now_.view.error;
+    const ImageU8x3 exact = final_of(now_)->srgb;
+    EXPECT_LT(mean_difference(exact, last, kLeft), 0.2) << "its pin settles it on this frame";
+    EXPECT_GT(mean_difference(exact, before, kLeft), 4.0);
+    EXPECT_EQ(different(exact, alone(), rect_of(kPlate)), 0);
 }
 
 TEST_F(ProvisionalPreview, NeverReplacesAnExactPicture) {

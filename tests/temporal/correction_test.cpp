@@ -55,5 +55,16 @@ TEST(Correction, ManyPinsAreKeptAndHoldWhatTheyHold) {
     EXPECT_LT(distance(reference_of(after, {66, 54}), reference_of(before, {66, 54})), 0.8f);
 }
 
+TEST(Correction, MovedPinsGiveWhatTheyWouldHaveGivenAtOnce) {
+    const std::vector<SurfacePin> before{{{60, 50}, {64, 48}}, {{200, 120}, {195, 124}}};
+    const std::vector<SurfacePin> after{{{60, 50}, {70, 52}}, {{200, 120}, {195, 124}}};
+    const LatticeField walked = sliding(), direct = corrected(walked, after);
+    const LatticeField moved = recorrected(corrected(walked, before), before, after);
+    for (const Vec2 p : {Vec2(70, 52), Vec2(30, 40), Vec2(280, 160)})
+        EXPECT_LT(distance(reference_of(moved, p), reference_of(direct, p)), 0.05f);
+    EXPECT_EQ(recorrected(direct, after, after).nodes(), direct.nodes());
+    EXPECT_EQ(recorrected(walked, {}, after).nodes(), direct.nodes());
+}
+
 }  // namespace
 }  // namespace weft

@@ -1,0 +1,83 @@
+#include "engine/pipeline/draft_analysis.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "engine/pipeline/analyse.h"
+#include "engine/pipeline/region_mattes.h"
+
+namespace weft {
+namespace {
+
+// The keyframes that the frames of `span` are reached from soonest. In one direction of time they
+// may come from far away.
+std::vector<int> nearest_keys(const std::vector<int>& keys, const MatteReach& reach,
+                              FrameSpan span) {
+    if (reach.direction != PropagationDirection::kBoth) return keys;
+    std::vector<int> inside;
+    std::copy_if(keys.begin(), keys.end(), std::back_inserter(inside),
+                 [&](int key) { return key >= span.first && key <= span.last; });
+    if (!inside.empty() || keys.empty()) return inside;
+    const auto distance = [&](int key) {
+        return std::min(std::abs(key - span.first), std::abs(key - span.last));
+    };
+    return {*std::min_element(keys.begin(), keys.end(),
+                              [&](int a, int b) { return distance(a) < distance(b); })};
+}
+
+// Nothing to propagate but the region's own mattes, no light, and no finish.
+void keep_motion_only(RegionPlan& region) {
+    region.zones.clear();
+    region.light_source = LightSource::kNone;
+    region.light_evidence.clear();
+    region.grain = 0;
+    region.grain_frames.clear();
+    region.shutter_deg = 0.0f;
+    region.shutter_evidence.clear();
+}
+
+void shorten(RegionPlan& region, int frame) {
+    const int reference = region.reference_frames.front();
+    const FrameSpan span{std::min(frame, reference), std::max(frame, reference)};
+    region.reference_frames = {reference};
+    region.matte_keys = nearest_keys(region.matte_keys, region.matte_reach, span);
+    for (PaintedMatte& holdout : region.painted_holdouts)
+        holdout.keys = nearest_keys(holdout.keys, holdout.reach, span);
+}
+
+void leave_out(RegionPlan& region) {
+    region.temporal = TemporalMode::kNone;
+    region.matte_keys.clear();
+    region.painted_holdouts.clear();
+}
+
+}  // namespace
+
+EarlierAnalysis DraftAnalysis::as_earlier() const {
+    EarlierAnalysis out{&plan, &store, std::vector<int>(plan.regions.size())};
+    std::iota(out.region_of.begin(), out.region_of.end(), 0);
+    return out;
+}
+
+Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(const ShotSource& source,
+                                                        const ShotPlan& plan, int frame,
+                                                        const std::vector<bool>& wanted,
+                                                        const CancelToken& cancel) {
+    auto out = std::make_unique<DraftAnalysis>();
+    out->plan = plan;
+    out->plan.frames = {frame};
+    out->plan.quality = FlowQuality::kDraft;
+    for (std::size_t k = 0; k < plan.regions.size(); ++k) {
+        RegionPlan& region = out->plan.regions[k];
+        keep_motion_only(region);
+        if (wanted[k])
+            shorten(region, frame);
+        else
+            leave_out(region);
+    }
+    WEFT_CHECK_OK(analyse_shot(source, out->plan, out->store, cancel, {}));
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,28 @@
+#pragma once
+// The shortest way to regions of which nothing is known on a frame yet.
+
+#include <memory>
+#include <vector>
+
+#include "engine/core/cancel.h"
+#include "engine/pipeline/provisional.h"
+
+namespace weft {
+
+/// Mattes and motion of some regions from the reference frame to one other, in draft quality;
+/// neither light nor grain.
+struct DraftAnalysis {
+    ShotPlan plan;  ///< Of all regions; the others have nothing to analyse.
+    MemoryAnalysisStore store;
+    /// Refers to this.
+    [[nodiscard]] EarlierAnalysis as_earlier() const;
+};
+
+/// Propagates the mattes of the `wanted` regions (one flag a region) from the nearest keyframes and
+/// follows their surfaces from the reference frame with the placement to `frame`. Reads the frames
+/// in between. Errors: those of the source; cancellation, which is checked between frames.
+[[nodiscard]] Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(
+    const ShotSource& source, const ShotPlan& plan, int frame, const std::vector<bool>& wanted,
+    const CancelToken& cancel = {});
+
+}  // namespace weft
