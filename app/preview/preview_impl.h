@@ -160,14 +160,15 @@ struct Preview::Impl {
         OpenedPtr to_analyse;
         std::vector<int> analyse_frames, analyse_first;
         bool analysis_pending = false;
-        bool analysis_held = false;  // until the first picture, which it would slow down
+        // Until the first picture of every region, which it would slow down.
+        bool analysis_held = false;
         std::uint64_t visits = 0;    // how often the analysis has passed the requested frame
         std::string analysing_key;
         CancelToken analysis_cancel, grow_cancel, draft_cancel, card_cancel;
     };
     void changed(Shared& of) { of.shown.changes = ++changes; }
     void begin_analysis(Shared& of, int frame, const std::vector<int>& range);
-    // Measures how long the artist has waited, and lets the analysis go on.
+    // Measures how long the artist has waited.
     void note_first(Shared& of, int frame);
     void signal(Shared& of) {
         ++of.signals;

@@ -13,7 +13,6 @@ void Preview::Impl::release_analysis() {
 
 void Preview::Impl::note_first(Shared& of, int frame) {
     if (!of.wanted || of.wanted->frame != frame) return;
-    if (std::exchange(of.analysis_held, false)) wake.notify_all();
     if (std::exchange(of.first_shown, true)) return;
     of.shown.first_seconds = std::chrono::duration<double>(Clock::now() - of.requested_at).count();
 }
@@ -112,7 +111,6 @@ bool Preview::Impl::step_provisional(const PreviewRequest& now) {
     tried_provisional = std::move(key);
     if (made && made->stages[static_cast<std::size_t>(Stage::kFinal)])
         keep_provisional(now, std::move(*made));
-    release_analysis();
     return true;
 }
 

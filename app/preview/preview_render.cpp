@@ -102,6 +102,7 @@ bool Preview::Impl::step() {
     if (!ready(now.frame)) {
         set_state(PreviewView::State::kAnalysing);
         if (step_provisional(now) || step_draft(now)) return true;
+        release_analysis();
     } else if (step_frame(now)) {
         return true;
     }
@@ -347,6 +348,7 @@ void Preview::Impl::keep(const PreviewRequest& now, int frame, PreviewFrame made
     // Full-size pictures only: reduced ones say little about render time.
     if (made.proxy == 1 && !made.stages[0]) shared->shown.frame_seconds = seconds;
     note_first(*shared, frame);
+    if (std::exchange(shared->analysis_held, false)) wake.notify_all();
     if (const auto before = shared->frames.find(frame); before != shared->frames.end()) {
         shared->frame_bytes -= bytes_of(before->second);
         // Keep the small picture, so that neighbours are compared at one size.

@@ -197,8 +197,7 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
             const Size plate = at.views->display.size();
             if (!at.prev_from_cur || at.prev_from_cur->size() == plate)
                 return visit(context, store, jobs, at);
-            const FlowField motion = resized(*at.prev_from_cur, plate);
-            at.prev_from_cur = &motion;
+            at.prev_from_cur = std::make_shared<const FlowField>(resized(*at.prev_from_cur, plate));
             return visit(context, store, jobs, at);
         });
     };

@@ -11,7 +11,6 @@
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/surface_pass.h"
 #include "engine/pipeline/surface_track.h"
-#include "engine/temporal/held_frames.h"
 #include "engine/temporal/shutter.h"
 
 namespace weft {
@@ -33,12 +32,10 @@ struct SurfaceJob {
 
     std::optional<SurfaceTrack> track;
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
-    HeldFrames held;
-    bool held_now = false;
     std::set<int> held_frames;  // frames that repeat the drawing of the frame before in time
     std::optional<Shading> last_shading;
     std::optional<PaperWalker> painter;
-    Matte last_visible, extent_now;
+    Matte last_visible;
     ShutterMeter shutter_meter;
     std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
     ImageF3 last_display;

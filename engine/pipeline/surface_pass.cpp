@@ -4,12 +4,11 @@
 #include <optional>
 #include <set>
 
-#include "engine/core/parallel.h"
+#include "engine/core/follow_up.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/region_mattes.h"
-#include "engine/pipeline/surface_job.h"
-#include "engine/temporal/held_frames.h"
+#include "engine/pipeline/surface_stop.h"
 #include "engine/temporal/history_seam.h"
 #include "engine/temporal/shutter.h"
 
@@ -21,29 +20,54 @@ class Follower {
   public:
     Follower(const PassContext& context, AnalysisStore& store) : context_(context), store_(store) {}
 
-    void begin_leg(const SweepOptions& leg, std::vector<SurfaceJob>& jobs) {
-        walking_back_ = leg.last < leg.first;
-        for (SurfaceJob& job : jobs)
-            job.held = HeldFrames();
+    // Goes through a leg, one frame behind its preparation.
+    Status run(const std::optional<SweepOptions>& options, SurfaceLeg leg,
+               std::vector<SurfaceJob>& jobs) {
+        if (!options) return {};
+        leg_ = leg;
+        SurfaceStops stops(context_, store_, jobs, leg);
+        const auto prepare = [&](const SweepFrame& at) { return stops.prepare(at); };
+        const auto visit_all = [&](const SweepFrame& at) -> Status {
+            const std::vector<std::optional<SurfaceStop>> here = stops.take();
+            std::vector<Status> done(jobs.size());
+            for_each_job(jobs.size(), [&](std::size_t k) {
+                if (here[k]) done[k] = visit(jobs[k], at, *here[k]);
+            });
+            for (Status& status : done)
+                WEFT_CHECK_OK(std::move(status));
+            return measure_later(jobs, at, here);
+        };
+        WEFT_CHECK_OK(sweep(context_, *options, visit_all, prepare));
+        return measuring_.finish();
+    }
+
+  private:
+    [[nodiscard]] bool walking_back() const { return leg_ == SurfaceLeg::kBackward; }
+
+    Status visit(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        if (stop.held) job.held_frames.insert(walking_back() ? at.frame + 1 : at.frame);
+        switch (leg_) {
+            case SurfaceLeg::kForward:
+                return forward(job, at, stop);
+            case SurfaceLeg::kBackward:
+                return backward(job, at, stop);
+            case SurfaceLeg::kAgain:
+                return again(job, at, stop);
+        }
+        return {};
     }
 
     // Leg 1: forwards from the primary reference.
-    Status forward(SurfaceJob& job, const SweepFrame& at) {
-        if (at.frame < job.primary || at.frame > job.span.last) return {};
-        WEFT_TRY(visible, visible_at(job, at));
-        WEFT_CHECK_OK(at.frame == job.primary ? start(job, at, visible, nullptr)
-                                              : advance(job, at, visible));
-        WEFT_CHECK_OK(measure_grain(job, at));
-        WEFT_CHECK_OK(measure_shutter(job, at, visible));
-        return keep_all(job, at, visible);
+    Status forward(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        WEFT_CHECK_OK(begins(job, leg_, at.frame) ? start(job, at, stop, nullptr)
+                                                  : advance(job, at, stop));
+        return keep_track(job, at, stop);
     }
 
     // Leg 2: backwards from the references after the primary one, through it, to the beginning.
-    Status backward(SurfaceJob& job, const SweepFrame& at) {
-        if (at.frame > job.references.back() || at.frame < job.span.first) return {};
-        WEFT_TRY(visible, visible_at(job, at));
-        if (at.frame >= job.primary && job.is_reference(at.frame)) {
-            WEFT_CHECK_OK(restart(job, at, visible));
+    Status backward(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        if (begins(job, leg_, at.frame)) {
+            WEFT_CHECK_OK(restart(job, at, stop));
             // Shading before the primary reference continues from what leg 1 stored there.
             if (at.frame == job.primary && job.shading && !job.gathers_light()) {
                 WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kShading}));
@@ -52,36 +76,58 @@ class Follower {
             }
             return {};
         }
-        WEFT_CHECK_OK(advance(job, at, visible));
-        return at.frame > job.primary ? blend(job, at.frame, visible, job.track->ref_from_cur())
-                                      : keep_all(job, at, visible);
+        WEFT_CHECK_OK(advance(job, at, stop));
+        return at.frame > job.primary
+                   ? blend(job, at.frame, stop.visible, job.track->ref_from_cur())
+                   : keep_track(job, at, stop);
     }
 
     // Leg 3: forwards from the references before the primary one.
-    Status again(SurfaceJob& job, const SweepFrame& at) {
-        if (at.frame < job.references.front() || at.frame >= job.primary) return {};
-        WEFT_TRY(visible, visible_at(job, at));
-        if (job.is_reference(at.frame)) return restart(job, at, visible);
-        WEFT_CHECK_OK(advance(job, at, visible));
-        return blend(job, at.frame, visible, job.track->ref_from_cur());
+    Status again(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        if (begins(job, leg_, at.frame)) return restart(job, at, stop);
+        WEFT_CHECK_OK(advance(job, at, stop));
+        return blend(job, at.frame, stop.visible, job.track->ref_from_cur());
     }
 
-  private:
-    // Also sets job.held_now: whether the drawing of the frame before is held.
-    [[nodiscard]] Expected<Matte> visible_at(SurfaceJob& job, const SweepFrame& at) const {
-        WEFT_TRY(extent,
-                 extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
-        WEFT_TRY(holdout,
-                 holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
-        job.held_now = job.held.advance({at.views->display, extent, holdout});
-        if (job.held_now) job.held_frames.insert(walking_back_ ? at.frame + 1 : at.frame);
-        Matte visible = without_holdout(extent, holdout);
-        job.extent_now = std::move(extent);
-        drop_nonfinite(visible, at.views->finite);
-        return visible;
+    // What is measured on a frame from the step that led to it, in the order of the frames: light,
+    // grain and shutter. Nothing waits for it, so the next frame is visited meanwhile.
+    Status measure_later(std::vector<SurfaceJob>& jobs, const SweepFrame& at,
+                         const std::vector<std::optional<SurfaceStop>>& here) {
+        struct Measured {
+            SurfaceJob* job;
+            Matte visible;
+            LatticeField prev_from_cur;
+        };
+        auto all = std::make_shared<std::vector<Measured>>();
+        for (std::size_t k = 0; k < jobs.size(); ++k) {
+            const bool whole = leg_ == SurfaceLeg::kForward ||
+                               (leg_ == SurfaceLeg::kBackward && at.frame < jobs[k].primary);
+            if (here[k] && whole)
+                all->push_back({&jobs[k], here[k]->visible, jobs[k].track->prev_from_cur()});
+        }
+        if (all->empty()) return {};
+        return measuring_.run([this, at, all]() -> Status {
+            std::vector<Status> done(all->size());
+            for_each_job(all->size(), [&](std::size_t k) {
+                const Measured& m = (*all)[k];
+                done[k] = measure(*m.job, at, m.visible, m.prev_from_cur);
+            });
+            for (Status& status : done)
+                WEFT_CHECK_OK(std::move(status));
+            return {};
+        });
     }
 
-    Status start(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
+    Status measure(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
+                   const LatticeField& prev_from_cur) {
+        if (leg_ == SurfaceLeg::kForward) {
+            WEFT_CHECK_OK(measure_grain(job, at, prev_from_cur));
+            WEFT_CHECK_OK(measure_shutter(job, at, visible, prev_from_cur));
+        }
+        return measure_light(job, at, visible, prev_from_cur);
+    }
+
+    Status start(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop,
                  const LatticeField* base) {
         const SurfaceTrack::Motion motion = motion_of(*job.plan);
         std::optional<LatticeField> placed;
@@ -90,10 +136,10 @@ class Follower {
             placed = corrected(LatticeField(size, SurfaceTrack::spacing_for(size, motion)), *pins);
             base = &*placed;
         }
-        job.track.emplace(*at.views, visible, job.extent_now, motion, context_.plan.quality, base);
+        job.track.emplace(*at.views, stop.visible, stop.extent, motion, context_.plan.quality,
+                          base);
         job.walked_to = job.anchored_at = at.frame;
-        job.last_shading.reset();
-        job.last_visible = visible;
+        job.last_visible = stop.visible;
         if (job.paper && at.frame == job.primary) {
             job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size(),
                                 context_.backend);
@@ -110,26 +156,27 @@ class Follower {
     }
 
     // At a reference frame whose coordinates an earlier leg has found.
-    Status restart(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
-        if (!job.coords || at.frame == job.primary) return start(job, at, visible, nullptr);
+    Status restart(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        if (!job.coords || at.frame == job.primary) return start(job, at, stop, nullptr);
         WEFT_TRY(bytes, store_.get({job.region, at.frame, AnalysisKind::kCoords}));
         WEFT_TRY(base, decode_lattice(bytes));
-        return start(job, at, visible, &base);
+        return start(job, at, stop, &base);
     }
 
-    Status advance(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
+    Status advance(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        const Matte& visible = stop.visible;
         if (!job.plan->track.empty()) {
             follow_track(job, at, visible);
         } else if (job.plan->true_motion) {
             WEFT_TRY(motion, true_motion(job, at.frame));
-            job.track->advance(*at.views, visible, motion, job.extent_now);
-        } else if (job.held_now) {
+            job.track->advance(*at.views, visible, motion, stop.extent);
+        } else if (stop.held) {
             job.track->hold();
         } else {
             const bool between =
                 at.frame > job.references.front() && at.frame < job.references.back();
             job.track->hide_reanchoring(job.coords && !between);
-            job.track->advance(*at.views, visible, *at.prev_from_cur, job.extent_now);
+            job.track->advance(*stop.step);
         }
         job.last_visible = visible;
         WEFT_CHECK_OK(keep_found_late(job, at.frame));
@@ -155,9 +202,9 @@ class Follower {
         const auto found = job.track->take_found_late();
         if (!job.coords && !job.gathers_light()) return {};
         for (const LatticeField& ref_from_frame : found) {
-            frame += walking_back_ ? 1 : -1;
+            frame += walking_back() ? 1 : -1;
             // Legs 2 and 3 blend their result with that of leg 1.
-            const bool between = walking_back_ ? frame > job.primary : frame < job.primary;
+            const bool between = walking_back() ? frame > job.primary : frame < job.primary;
             if (!between) {
                 WEFT_CHECK_OK(keep(job, frame, job.coords_kind(frame), encode(ref_from_frame)));
                 continue;
@@ -185,22 +232,22 @@ class Follower {
     // inverted, using what was visible of the surface in the frame before; otherwise an occluder's
     // motion would land on it.
     [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame) const {
-        const bool direct = job.plan->motion_forward == walking_back_;
+        const bool direct = job.plan->motion_forward == walking_back();
         if (direct) return context_.source.motion(job.region, frame);
         WEFT_TRY(cur_from_prev,
-                 context_.source.motion(job.region, frame + (walking_back_ ? 1 : -1)));
+                 context_.source.motion(job.region, frame + (walking_back() ? 1 : -1)));
         drop_nonfinite(cur_from_prev.valid, job.last_visible);
         return invert_flow(cur_from_prev);
     }
 
     // While a seam hides that a stretched texture returned to its shape, both tracks are stored for
     // it.
-    Status keep_stretched(const SurfaceJob& job, int frame) {
+    Status keep_stretched(const SurfaceJob& job, int frame, bool held) {
         const LatticeField* stretched = job.track->stretched();
         if (!stretched || !job.coords) return {};
         const LatticeField& relaxed = job.track->ref_from_cur();
-        const bool back = walking_back_;
-        if (job.held_now)
+        const bool back = walking_back();
+        if (held)
             WEFT_CHECK_OK(
                 keep(job, back ? frame + 1 : frame, AnalysisKind::kHeldBetween, encode(1.0f)));
         WEFT_CHECK_OK(
@@ -208,12 +255,14 @@ class Follower {
         return keep(job, frame, AnalysisKind::kHistoryAfter, encode(back ? *stretched : relaxed));
     }
 
-    Status keep_all(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
-        WEFT_CHECK_OK(keep_stretched(job, at.frame));
-        if (job.coords || job.gathers_light()) {
-            WEFT_CHECK_OK(
-                keep(job, at.frame, job.coords_kind(at.frame), encode(job.track->ref_from_cur())));
-        }
+    Status keep_track(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
+        WEFT_CHECK_OK(keep_stretched(job, at.frame, stop.held));
+        if (!job.coords && !job.gathers_light()) return {};
+        return keep(job, at.frame, job.coords_kind(at.frame), encode(job.track->ref_from_cur()));
+    }
+
+    Status measure_light(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
+                         const LatticeField& prev_from_cur) {
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
         const Size size = working.size();
@@ -223,9 +272,9 @@ class Follower {
                         encode(light_sample(working, visible, options)));
         }
         Shading shading = estimate_shading(working, visible, options);
-        if (job.last_shading) {
-            shading = steady_shading(shading, *job.last_shading,
-                                     job.track->prev_from_cur().dense(rect_of(size)));
+        if (job.last_shading && at.frame != job.primary) {
+            shading =
+                steady_shading(shading, *job.last_shading, prev_from_cur.dense(rect_of(size)));
         }
         WEFT_CHECK_OK(keep(job, at.frame, AnalysisKind::kShading, encode(shading)));
         job.last_shading = std::move(shading);
@@ -233,7 +282,7 @@ class Follower {
     }
 
     // Grain comes from the camera, so the whole plate is measured.
-    Status measure_grain(SurfaceJob& job, const SweepFrame& at) {
+    Status measure_grain(SurfaceJob& job, const SweepFrame& at, const LatticeField& prev_from_cur) {
         if (!job.grain || at.frame > job.plan->grain_frames.back()) return {};
         ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
         Matte metered(display.size(), 255);
@@ -242,7 +291,7 @@ class Follower {
             job.meter.emplace(context_.plan.plate_quantum);
         } else {
             job.meter->add(display, job.last_display, metered, job.last_metered,
-                           job.track->prev_from_cur().dense(rect_of(display.size())));
+                           prev_from_cur.dense(rect_of(display.size())));
         }
         job.last_display = std::move(display);
         job.last_metered = std::move(metered);
@@ -253,11 +302,11 @@ class Follower {
         return keep(job, job.primary, AnalysisKind::kGrain, encode(grain));
     }
 
-    Status measure_shutter(SurfaceJob& job, const SweepFrame& at, const Matte& visible) {
+    Status measure_shutter(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
+                           const LatticeField& prev_from_cur) {
         const std::vector<int>& frames = job.plan->shutter_evidence;
         if (!job.shutter || at.frame > frames.back()) return {};
-        if (at.frame > job.primary)
-            job.shutter_meter.add(at.views->luma, visible, job.track->prev_from_cur());
+        if (at.frame > job.primary) job.shutter_meter.add(at.views->luma, visible, prev_from_cur);
         if (at.frame < frames.back()) return {};
         return keep(job, job.primary, AnalysisKind::kShutter, encode(job.shutter_meter.degrees()));
     }
@@ -283,8 +332,8 @@ class Follower {
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
         // Walking backwards, the walker comes from the reference after.
-        const LatticeField& from_before = walking_back_ ? other : mine;
-        const LatticeField& from_after = walking_back_ ? mine : other;
+        const LatticeField& from_before = walking_back() ? other : mine;
+        const LatticeField& from_after = walking_back() ? mine : other;
         constexpr float kSlowestPx = 0.2f;  // per frame, at a plate 854 px wide: not visible
         const float limit_px = kSlowestPx * static_cast<float>(context_.source.size().width) /
                                854.0f * static_cast<float>(*after - *(after - 1));
@@ -306,7 +355,8 @@ class Follower {
 
     const PassContext& context_;
     AnalysisStore& store_;
-    bool walking_back_ = false;
+    SurfaceLeg leg_ = SurfaceLeg::kForward;
+    FollowUp measuring_;  // destroyed first
 };
 
 }  // namespace
@@ -330,29 +380,9 @@ Status follow_surfaces(const PassContext& context, AnalysisStore& store) {
     if (jobs.empty()) return {};
     const SurfaceLegs legs = surface_legs(jobs);
     Follower follower(context, store);
-    using Stop = Status (Follower::*)(SurfaceJob&, const SweepFrame&);
-    const auto run = [&](const std::optional<SweepOptions>& leg, Stop stop) -> Status {
-        if (!leg) return {};
-        follower.begin_leg(*leg, jobs);
-        return sweep(context, *leg, [&](const SweepFrame& at) -> Status {
-            std::vector<Status> done(jobs.size());
-            const auto one = [&](std::size_t k) { done[k] = (follower.*stop)(jobs[k], at); };
-            // Few regions leave more to gain inside of each.
-            const bool side_by_side = thread_count() <= 2 * static_cast<int>(jobs.size());
-            if (jobs.size() > 1 && side_by_side) {
-                parallel_for(jobs.size(), one);
-            } else {
-                for (std::size_t k = 0; k < jobs.size(); ++k)
-                    one(k);
-            }
-            for (Status& status : done)
-                WEFT_CHECK_OK(std::move(status));
-            return {};
-        });
-    };
-    WEFT_CHECK_OK(run(legs.forward, &Follower::forward));
-    WEFT_CHECK_OK(run(legs.backward, &Follower::backward));
-    WEFT_CHECK_OK(run(legs.again, &Follower::again));
+    WEFT_CHECK_OK(follower.run(legs.forward, SurfaceLeg::kForward, jobs));
+    WEFT_CHECK_OK(follower.run(legs.backward, SurfaceLeg::kBackward, jobs));
+    WEFT_CHECK_OK(follower.run(legs.again, SurfaceLeg::kAgain, jobs));
     for (const SurfaceJob& job : jobs) {
         if (job.gathers_light())
             WEFT_CHECK_OK(

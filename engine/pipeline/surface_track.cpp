@@ -48,6 +48,20 @@ SurfaceWalker walker_at(const PlateViews& views, const Matte& visible, const Mat
 
 }  // namespace
 
+WalkStep prepare_step(const PlateViews& views, const Matte& visible, const Matte& extent,
+                      const FlowField* prev_from_cur, const StepFrame* prev) {
+    const Size followed = views.followed().size();
+    const SurfaceWalkerOptions options =
+        walker_options(followed, SurfaceTrack::Motion::kEstimated, FlowQuality::kFinal);
+    WalkStep out{std::make_shared<const StepFrame>(views.followed(), Followed(visible, followed),
+                                                   Followed(extent, followed)),
+                 {}};
+    static_cast<void>(out.frame->picture());  // the walk registers it
+    if (prev && prev_from_cur)
+        out.evidence = gather_evidence(*prev, *out.frame, *prev_from_cur, options.spacing_px);
+    return out;
+}
+
 int SurfaceTrack::spacing_for(Size plate, Motion motion) {
     const Size followed = followed_size(plate, motion);
     const int spacing = walker_options(followed, motion, FlowQuality::kFinal).spacing_px;
@@ -84,6 +98,11 @@ void SurfaceTrack::advance(const PlateViews& views, const Matte& visible,
                            const FlowField& prev_from_cur, const Matte& extent) {
     walker_.advance(luma_of(views), Followed(visible, followed_), prev_from_cur,
                     Followed(extent, followed_));
+    take_over();
+}
+
+void SurfaceTrack::advance(const WalkStep& step) {
+    walker_.advance(step);
     take_over();
 }
 

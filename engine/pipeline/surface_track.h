@@ -9,6 +9,13 @@
 
 namespace weft {
 
+/// Prepares the step to a frame from raw motion, for SurfaceTrack::advance(). `prev`: the frame
+/// that it leads from; null: it begins here, and there is no evidence. Mattes of the plate's size,
+/// raw motion of that of PlateViews::followed(). Pure as gather_evidence().
+[[nodiscard]] WalkStep prepare_step(const PlateViews& views, const Matte& visible,
+                                    const Matte& extent, const FlowField* prev_from_cur,
+                                    const StepFrame* prev);
+
 /// All mattes and lattices are of the plate's size; motion that was estimated from frame to frame
 /// is of the size of PlateViews::followed(). A surface whose motion is known is not followed and
 /// walks at the plate's size. Not thread-safe.
@@ -28,6 +35,7 @@ class SurfaceTrack {
 
     void advance(const PlateViews& views, const Matte& visible, const FlowField& prev_from_cur,
                  const Matte& extent);
+    void advance(const WalkStep& step);  ///< Of prepare_step(); for estimated motion.
     void advance_known(const PlateViews& views, const Matte& visible, LatticeField prev_from_cur,
                        LatticeField anchor_from_cur);
     void hold();

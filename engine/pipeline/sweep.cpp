@@ -1,34 +1,114 @@
 #include "engine/pipeline/sweep.h"
 
+#include <cstdlib>
+#include <deque>
 #include <future>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
+#include "engine/core/work_thread.h"
 
 namespace weft {
-namespace {
-
-struct Loaded {
-    int frame = 0;
-    std::shared_ptr<const ImageF3> plate;
-    PlateViews views;
-    FlowField motion;  // to the frame before, once it has been estimated
-};
-
-Expected<Loaded> load(const PassContext& context, int frame) {
-    WEFT_TRY(plate, context.source.plate(frame));
-    Loaded loaded{frame, plate, make_views(*plate, *context.plan.display_from_plate), {}};
-    return loaded;
-}
-
-}  // namespace
 
 tl::unexpected<Error> cancelled(const CancelToken& cancel) {
     return cancel.reason() == 130 ? fail(ErrorCode::kInterrupted, "Interrupted.")
                                   : fail(ErrorCode::kTerminated, "Stopped on request.");
 }
+
+namespace {
+
+Expected<SweepFrame> load(const PassContext& context, int frame) {
+    WEFT_TRY(plate, context.source.plate(frame));
+    auto views =
+        std::make_shared<const PlateViews>(make_views(*plate, *context.plan.display_from_plate));
+    return SweepFrame{frame, plate, std::move(views), nullptr};
+}
+
+// Several frames on their way to the visitor: one is being read and its motion estimated, one is
+// being prepared. With one thread in all, only reading runs beside the visitor.
+class Conveyor {
+  public:
+    Conveyor(const PassContext& context, const SweepOptions& options, const SweepVisitor& prepare)
+        : context_(context),
+          options_(options),
+          prepare_(prepare),
+          step_(options.last >= options.first ? 1 : -1),
+          count_(std::abs(options.last - options.first) + 1),
+          ahead_(thread_count() > 1) {
+        read(0);
+        if (ahead_) prepare_ahead(0);
+        read(1);
+    }
+
+    [[nodiscard]] int count() const { return count_; }
+
+    // The next frame, prepared.
+    Expected<SweepFrame> next() {
+        const int k = next_++;
+        if (!ahead_) {
+            WEFT_TRY(frame, reading_[0].get());
+            reading_.pop_front();
+            read(k + 2);
+            add_motion(frame);
+            return prepared(std::move(frame));
+        }
+        auto frame = preparing_.get();
+        prepare_ahead(k + 1);
+        read(k + 2);
+        return frame;
+    }
+
+  private:
+    using Coming = std::future<Expected<SweepFrame>>;
+
+    // Of the frame after the one of the last call.
+    void add_motion(SweepFrame& frame) {
+        if (options_.motion && before_.views && !context_.cancel.cancelled()) {
+            frame.prev_from_cur = std::make_shared<const FlowField>(motion_between(
+                context_.plan, frame.frame, *frame.views, before_.frame, *before_.views));
+        }
+        before_ = frame;
+    }
+
+    Expected<SweepFrame> prepared(Expected<SweepFrame> frame) {
+        if (frame && prepare_ && !context_.cancel.cancelled()) WEFT_CHECK_OK(prepare_(*frame));
+        return frame;
+    }
+
+    void read(int k) {
+        if (k >= count_) return;
+        reading_.push_back(reader_.run([this, k]() -> Expected<SweepFrame> {
+            if (context_.cancel.cancelled()) return cancelled(context_.cancel);
+            auto frame = load(context_, options_.first + step_ * k);
+            if (frame && ahead_) add_motion(*frame);
+            return frame;
+        }));
+    }
+
+    // Frame number k, which is the only one that has been read or is being read.
+    void prepare_ahead(int k) {
+        if (k >= count_) return;
+        auto coming = std::make_shared<Coming>(std::move(reading_.front()));
+        reading_.pop_front();
+        preparing_ = preparer_.run([this, coming] { return prepared(coming->get()); });
+    }
+
+    const PassContext& context_;
+    const SweepOptions& options_;
+    const SweepVisitor& prepare_;
+    const int step_, count_;
+    const bool ahead_;
+    int next_ = 0;
+    SweepFrame before_;
+    std::deque<Coming> reading_;
+    Coming preparing_;
+    WorkThread reader_, preparer_;  // use the members above until they are destroyed
+};
+
+}  // namespace
 
 FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& current, int previous,
                          const PlateViews& previous_views) {
@@ -45,7 +125,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
     if (!plan.stages) return {};
     const PassContext context{source, plan, cancel, {}, nullptr};
     ProgressEvent event{"motion", 0, static_cast<std::int64_t>(frames.size()), 0, 0};
-    std::optional<std::pair<int, Loaded>> last;
+    std::optional<std::pair<int, SweepFrame>> last;
     for (const int frame : frames) {
         const auto start = Clock::now();
         if (cancel.cancelled()) return cancelled(cancel);
@@ -55,11 +135,11 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
                 last.emplace(frame - 1, std::move(before));
             }
             WEFT_TRY(here, load(context, frame));
-            const PlateViews& before = last->second.views;
+            const PlateViews& before = *last->second.views;
             if (!plan.stages->motion(frame, frame - 1) || !plan.stages->motion(frame - 1, frame)) {
                 // One estimate in each direction serves sweeps both ways.
                 auto [down, up] =
-                    estimate_flows(here.views.followed(), before.followed(), plan.quality);
+                    estimate_flows(here.views->followed(), before.followed(), plan.quality);
                 check_consistency(down, up);
                 plan.stages->keep_motion(frame, frame - 1, down);
                 plan.stages->keep_motion(frame - 1, frame, up);
@@ -74,38 +154,17 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
     return {};
 }
 
-Status sweep(const PassContext& context, const SweepOptions& options, const SweepVisitor& visit) {
-    const int step = options.last >= options.first ? 1 : -1;
-    // With one thread, only reading runs beside the visitor.
-    const bool ahead = thread_count() > 1;
-    const auto motion_from = [&](const Loaded& current, const Loaded& previous) {
-        return options.motion ? motion_between(context.plan, current.frame, current.views,
-                                               previous.frame, previous.views)
-                              : FlowField{};
-    };
-    const auto load_next = [&](int frame, const Loaded* previous) -> Expected<Loaded> {
-        WEFT_TRY(loaded, load(context, frame));
-        if (ahead && previous && !context.cancel.cancelled())
-            loaded.motion = motion_from(loaded, *previous);
-        return loaded;
-    };
-    Loaded previous, current;
-    auto next = std::async(std::launch::async, load_next, options.first, nullptr);
-    for (int frame = options.first;; frame += step) {
+Status sweep(const PassContext& context, const SweepOptions& options, const SweepVisitor& visit,
+             const SweepVisitor& prepare) {
+    Conveyor conveyor(context, options, prepare);
+    for (int k = 0; k < conveyor.count(); ++k) {
         const auto start = Clock::now();
-        WEFT_TRY(here, next.get());
-        current = std::move(here);
+        WEFT_TRY(at, conveyor.next());
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        // `current` must not move until the task has finished.
-        if (frame != options.last)
-            next = std::async(std::launch::async, load_next, frame + step, &current);
-        if (!ahead && previous.plate) current.motion = motion_from(current, previous);
-        WEFT_CHECK_OK(visit({frame, current.plate, &current.views,
-                             current.motion.empty() ? nullptr : &current.motion}));
-        if (context.step) context.step(frame, seconds_since(start));
-        if (frame == options.last) return {};
-        if (!ahead) previous = std::move(current);
+        WEFT_CHECK_OK(visit(at));
+        if (context.step) context.step(at.frame, seconds_since(start));
     }
+    return {};
 }
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 // Visits a shot's frames in order, with the motion between neighbours.
 
 #include <functional>
+#include <memory>
 
 #include "engine/core/cancel.h"
 #include "engine/core/fields.h"
@@ -17,10 +18,10 @@ namespace weft {
 struct SweepFrame {
     int frame = 0;
     std::shared_ptr<const ImageF3> plate;
-    const PlateViews* views = nullptr;
+    std::shared_ptr<const PlateViews> views;
     /// Estimated motion to the frame before (of the sweep) with its consistency, of follow_size();
-    /// empty on the first frame and if the sweep uses no motion.
-    const FlowField* prev_from_cur = nullptr;
+    /// null on the first frame and if the sweep uses no motion.
+    std::shared_ptr<const FlowField> prev_from_cur;
 };
 
 /// From frame `first` to `last`, both inclusive, in either direction of time.
@@ -40,11 +41,12 @@ struct PassContext {
 
 using SweepVisitor = std::function<Status(const SweepFrame&)>;
 
-/// Visits the frames in order. While one is processed, the next plate is read and, with more than
-/// one thread, its motion estimated; the results are the same without. Errors: those of the source
-/// and of the visitor, and cancellation.
+/// Visits the frames in order. `prepare`, if any, gets every frame before `visit` does and must not
+/// depend on what that does. With more than one thread, one frame is visited while the next one is
+/// prepared, and the motion of the one after it estimated; the results are the same without.
+/// Errors: those of the source, of `prepare` and of `visit`, and cancellation.
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
-                           const SweepVisitor& visit);
+                           const SweepVisitor& visit, const SweepVisitor& prepare = {});
 
 /// prev_from_cur between two neighbours of a sweep, of follow_size(), estimated or taken from
 /// ShotPlan::stages.

@@ -69,7 +69,7 @@ StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
     : luma_(copy_of(luma)), extent_(copy_of(extent)), visible_(copy_of(visible)) {}
 
 const RegistrationPicture& StepFrame::picture() const {
-    if (!picture_) picture_ = registration_picture(luma_, visible_);
+    std::call_once(picture_made_, [&] { picture_ = registration_picture(luma_, visible_); });
     return *picture_;
 }
 
@@ -78,21 +78,28 @@ const OutlineShape& StepFrame::outline() const {
     return *outline_;
 }
 
-StepMotion measure_step(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
-                        int spacing_px, MotionChoice& choice) {
+StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
+                             const FlowField& prev_from_cur, int spacing_px) {
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
-    LatticeField picture = by_picture(now, prev_from_cur, spacing_px);
+    StepEvidence out{by_picture(now, prev_from_cur, spacing_px), {}, 0, 0};
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
-        return {std::move(picture), false};
+        return out;
     }
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
-    LatticeField outline = by_outline(prev, cur, spacing_px);
-    choice.note(registration_evidence(prev.picture(), cur.picture(), picture),
-                registration_evidence(prev.picture(), cur.picture(), outline));
-    return {choice.by_outline() ? std::move(outline) : std::move(picture), choice.by_outline()};
+    out.by_outline = by_outline(prev, cur, spacing_px);
+    out.for_picture = registration_evidence(prev.picture(), cur.picture(), out.by_picture);
+    out.for_outline = registration_evidence(prev.picture(), cur.picture(), *out.by_outline);
+    return out;
+}
+
+StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
+    if (!evidence.by_outline) return {evidence.by_picture, false};
+    choice.note(evidence.for_picture, evidence.for_outline);
+    const bool outline = choice.by_outline();
+    return {outline ? *evidence.by_outline : evidence.by_picture, outline};
 }
 
 LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,

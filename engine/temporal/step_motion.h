@@ -1,6 +1,8 @@
 #pragma once
 // A surface's motion from one frame to the next: by the picture inside it, or by its outline.
 
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include "engine/motion/lattice_field.h"
@@ -10,10 +12,9 @@
 namespace weft {
 
 /// One frame of a walk: copies of its pictures, and what registration makes of them, computed when
-/// it is first asked for. Not thread-safe.
+/// it is first asked for. Thread-safe except for outline().
 class StepFrame {
   public:
-    StepFrame() = default;
     /// `luma`, `visible` (the matte without holdouts), `extent` (the full matte): H×W.
     StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent);
 
@@ -24,9 +25,24 @@ class StepFrame {
 
   private:
     Matte luma_, extent_, visible_;
+    mutable std::once_flag picture_made_;
     mutable std::optional<RegistrationPicture> picture_;
     mutable std::optional<OutlineShape> outline_;
 };
+
+/// What two neighbouring frames of a walk say of the step between them. It does not depend on where
+/// the walk has led, so it can be gathered ahead of it.
+struct StepEvidence {
+    LatticeField by_picture;                  ///< prev_from_cur of the picture inside.
+    std::optional<LatticeField> by_outline;   ///< The outline's, where structure is faint;
+    double for_picture = 0, for_outline = 0;  ///< then registration_evidence() for either.
+};
+
+/// Gathers it from raw motion `prev_from_cur`. Where the structure inside stands out of its noise
+/// (structure_to_noise()), that is the picture's alone. Pure, but for the caches of the frames:
+/// outlines are compared, so one thread at a time may use a frame.
+[[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
+                                           const FlowField& prev_from_cur, int spacing_px);
 
 /// Whether a surface with little structure follows the picture inside it or its outline. One frame
 /// says little, so leads are averaged, and a choice changes only where the other one leads clearly.
@@ -48,12 +64,9 @@ struct StepMotion {
     bool by_outline = false;  ///< There is nothing inside to register either.
 };
 
-/// The surface's motion from raw motion `prev_from_cur`. Where the structure inside stands out of
-/// its noise (structure_to_noise()), that is the picture's; else both the picture's and the
-/// outline's are measured, and `choice` takes the one that the pictures bear out.
-[[nodiscard]] StepMotion measure_step(const StepFrame& prev, const StepFrame& cur,
-                                      const FlowField& prev_from_cur, int spacing_px,
-                                      MotionChoice& choice);
+/// The surface's motion: the picture's, or where both were measured the one that `choice` takes
+/// after what the pictures bear out.
+[[nodiscard]] StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice);
 
 /// The surface's motion by motion that is exact, followed closely.
 [[nodiscard]] LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible,

@@ -28,7 +28,7 @@ std::int64_t count_of(ViewU8x1 visible) {
 struct SurfaceWalker::State {
     SurfaceWalkerOptions options;
     LatticeField ref_from_cur, prev_from_cur;
-    StepFrame last;
+    std::shared_ptr<const StepFrame> last;
 
     AnchorSet anchors;
     LatticeField anchor_from_cur;  // of the present anchor
@@ -62,7 +62,7 @@ struct SurfaceWalker::State {
         anchors.add({std::move(picture), ref_from_cur, generation});
         anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
     }
-    [[nodiscard]] Size frame_size() const { return last.size(); }
+    [[nodiscard]] Size frame_size() const { return last->size(); }
 
     // The position of the frame on an anchor, from the positions of both on the reference frame.
     [[nodiscard]] LatticeField predicted(const Anchor& anchor) const {
@@ -255,8 +255,8 @@ SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalke
     state_->options = options;
     state_->ref_from_cur = ref_from_start ? *ref_from_start : still;
     state_->prev_from_cur = still;
-    state_->last = StepFrame(luma, visible, extent.empty() ? visible : extent);
-    state_->become_anchor(state_->last.picture());
+    state_->last = std::make_shared<StepFrame>(luma, visible, extent.empty() ? visible : extent);
+    state_->become_anchor(state_->last->picture());
 }
 
 SurfaceWalker::~SurfaceWalker() = default;
@@ -266,15 +266,24 @@ SurfaceWalker& SurfaceWalker::operator=(SurfaceWalker&&) noexcept = default;
 const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
                                            const FlowField& prev_from_cur, ViewU8x1 extent) {
     State& s = *state_;
-    StepFrame cur(luma, visible, extent.empty() ? visible : extent);
-    const auto keep = [&]() -> const LatticeField& {
-        s.last = std::move(cur);
-        return s.ref_from_cur;
-    };
+    auto cur = std::make_shared<const StepFrame>(luma, visible, extent.empty() ? visible : extent);
     if (s.options.exact_motion) {
         s.follow(fit_exact_motion(luma, visible, prev_from_cur, s.options.spacing_px));
-        return keep();
+        s.last = std::move(cur);
+        return s.ref_from_cur;
     }
+    StepEvidence evidence = gather_evidence(*s.last, *cur, prev_from_cur, s.options.spacing_px);
+    return advance({std::move(cur), std::move(evidence)});
+}
+
+const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
+    State& s = *state_;
+    const StepFrame& cur = *to.frame;
+    const ViewU8x1 visible = cur.view().visible;
+    const auto keep = [&]() -> const LatticeField& {
+        s.last = to.frame;
+        return s.ref_from_cur;
+    };
     const bool hiding = s.hiding_left > 0;
     const std::int64_t visible_px = count_of(visible);
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
@@ -290,8 +299,7 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
     };
     // A part that has just come into view has no motion yet, and says nothing for either choice.
     MotionChoice unchanged = s.choice;
-    StepMotion step = measure_step(s.last, cur, prev_from_cur, s.options.spacing_px,
-                                   was_hidden ? unchanged : s.choice);
+    StepMotion step = choose_motion(to.evidence, was_hidden ? unchanged : s.choice);
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     // Without structure inside there is nothing to register: the chain continues alone.
     if (!step.by_outline) {
@@ -320,7 +328,7 @@ void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField 
     State& s = *state_;
     s.prev_from_cur = std::move(prev_from_cur);
     s.correct(s.anchors.present_index(), std::move(anchor_from_cur));
-    s.last = StepFrame(luma, visible, visible);
+    s.last = std::make_shared<StepFrame>(luma, visible, visible);
 }
 
 void SurfaceWalker::hold() {

@@ -8,6 +8,7 @@
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
 #include "engine/motion/optical_flow.h"
+#include "engine/temporal/step_motion.h"
 
 namespace weft {
 
@@ -17,15 +18,21 @@ struct SurfaceWalkerOptions {
     int spacing_px = 8;         ///< Of the lattices.
 };
 
+/// A step of a walk as far as it does not depend on where the walk has led.
+struct WalkStep {
+    std::shared_ptr<const StepFrame> frame;  ///< The frame that it leads to.
+    StepEvidence evidence;
+};
+
 /// Walks away from a reference frame, forwards or backwards in time, and keeps the position of
 /// every pixel on it (method: "Temporal consistency", surface-locked mode).
 ///
 /// Motion from frame to frame is fitted and chained: that of the picture inside, or where little
 /// structure stands out of its noise and the outline bears it out better, the outline's
-/// (measure_step()). A chain drifts, so each frame is also registered against an *anchor*, at first
-/// the reference frame itself: by a homography where one explains the picture, else by a smooth
-/// field (register_planar(), register_lattice()). When too little of the anchor is visible, the
-/// current frame becomes the next anchor. Not thread-safe; several walkers may run in several
+/// (gather_evidence()). A chain drifts, so each frame is also registered against an *anchor*, at
+/// first the reference frame itself: by a homography where one explains the picture, else by a
+/// smooth field (register_planar(), register_lattice()). When too little of the anchor is visible,
+/// the current frame becomes the next anchor. Not thread-safe; several walkers may run in several
 /// threads.
 class SurfaceWalker {
   public:
@@ -44,6 +51,9 @@ class SurfaceWalker {
     /// continued.
     const LatticeField& advance(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
                                 ViewU8x1 extent = {});
+    /// The same, prepared: `step` leads from the frame to which the last advance() led, or from the
+    /// first one. Not for exact motion.
+    const LatticeField& advance(const WalkStep& step);
     /// Better positions on the reference frame for frames that were passed. A surface that returns
     /// into view shows too little of itself at first and is found some frames later. The latest
     /// first: the frame before the current one, the one before that, and so on. Empties the list.

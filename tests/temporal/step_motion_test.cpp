@@ -72,8 +72,9 @@ TEST(StepMotion, GrainAloneIsNoEvidence) {
     const Matte last = frame_of(0, 0, 2.5f), luma = frame_of(1, 0, 2.5f);
     MotionChoice choice;
     const StepMotion step =
-        measure_step(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
-                     flow_between(luma, last), 8, choice);
+        choose_motion(gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                                      flow_between(luma, last), 8),
+                      choice);
     EXPECT_TRUE(step.by_outline);
 }
 
