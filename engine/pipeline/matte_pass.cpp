@@ -66,9 +66,9 @@ std::vector<Job> stretches(int region, int layer, const PaintedMatte& painted, F
     return out;
 }
 
-// `at`: only the stretches that hold this frame.
-std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store,
-                         std::optional<int> at = {}) {
+// The stretches that `wanted` holds for and that are not complete.
+template <class Wanted>
+std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store, Wanted&& wanted) {
     std::vector<Job> jobs;
     const auto missing = [&](const Job& job) {
         for (int f = job.own.first; f <= job.own.last; ++f)
@@ -80,7 +80,7 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store,
         const FrameSpan span = analysed_span(plan, region);
         const auto add = [&](int layer, const PaintedMatte& painted) {
             for (Job& job : stretches(static_cast<int>(k), layer, painted, span))
-                if ((!at || holds(job.own, *at)) && missing(job)) jobs.push_back(std::move(job));
+                if (wanted(job) && missing(job)) jobs.push_back(std::move(job));
         };
         if (region.propagated())
             add(0, {region.matte_keys, region.matte_steadiness, region.matte_reach});
@@ -94,6 +94,8 @@ std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store,
     }
     return jobs;
 }
+
+constexpr auto kAll = [](const Job&) { return true; };
 
 // The frames that the walks of all jobs visit; empty: none.
 FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
@@ -211,16 +213,21 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
 }  // namespace
 
 int count_matte_steps(const ShotPlan& plan, const AnalysisStore& store) {
-    const std::vector<Job> jobs = jobs_of(plan, store);
+    const std::vector<Job> jobs = jobs_of(plan, store, kAll);
     return length(walked(jobs, &Job::forward)) + length(walked(jobs, &Job::backward));
 }
 
 Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
-    return propagate(context, store, jobs_of(context.plan, store));
+    return propagate(context, store, jobs_of(context.plan, store, kAll));
 }
 
 Status propagate_mattes_at(const PassContext& context, AnalysisStore& store, int frame) {
-    return propagate(context, store, jobs_of(context.plan, store, frame));
+    const auto after = [&](const Job& job) { return holds(job.own, frame); };
+    const auto before = [&](const Job& job) {
+        return job.own.first < frame && job.keys.back() == frame;
+    };
+    WEFT_CHECK_OK(propagate(context, store, jobs_of(context.plan, store, after)));
+    return propagate(context, store, jobs_of(context.plan, store, before));
 }
 
 }  // namespace weft

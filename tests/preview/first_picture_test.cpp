@@ -44,6 +44,13 @@ class FirstPicture : public testing::Test {
         fs::remove_all(cache_);
     }
     void keep_regions(std::size_t count) { request_.project.regions.resize(count); }
+    void keep_only(std::size_t region) {
+        request_.project.regions = {request_.project.regions[region]};
+    }
+    template <class Change>
+    void change(Change&& change) {
+        request_.project.regions[0] = request_.project.regions[0].with(change);
+    }
     void set_texture(std::size_t region, const std::string& name) {
         request_.project.regions[region] = request_.project.regions[region].with([&](Region& r) {
             r.texture.sample = test::source_folder() + "/assets/demo/textures/" + name;
@@ -98,6 +105,52 @@ TEST_F(FirstPicture, DISABLED_OfAnotherTexture) {
 TEST_F(FirstPicture, DISABLED_OfThreeRegions) {
     request_.frame = 1038;
     measure("three regions on frame 1038");
+}
+
+TEST_F(FirstPicture, DISABLED_OfAMovedPin) {
+    keep_only(1);
+    request_.frame = 1030;
+    measure("cape, empty cache");
+    for (const double moved : {5.0, 9.0}) {
+        change([&](Region& r) { r.corrections[1030] = {{{480, 300}, {480 + moved, 300}}}; });
+        measure("a pin moved");
+    }
+}
+
+// A stroke on frame 1030 between two keyframes, and the mattes of the frames beside it.
+TEST_F(FirstPicture, DISABLED_OfAStroke) {
+    keep_only(1);
+    const std::string mattes = test::source_folder() + "/assets/demo/mattes/cape/";
+    const auto paint = [&](const std::vector<int>& frames) {
+        change([&](Region& r) {
+            MatteSource matte;
+            for (const int frame : frames)
+                matte.keyframes[frame].path = mattes + std::to_string(frame) + ".png";
+            r.matte = Leaf<MatteSource>(matte);
+        });
+    };
+    paint({1020, 1040});
+    request_.frame = 1030;
+    measure("cape of two keyframes");
+    const RegionId region = request_.project.regions[0]->id;
+    const auto matte_on = [&](int frame) {
+        auto matte = preview_->propagated_matte(region, 0, frame);
+        return matte ? std::move(*matte) : Matte();
+    };
+    const std::vector<int> frames{1030, 1031, 1029};
+    std::vector<Matte> before;
+    for (const int frame : frames)
+        before.push_back(matte_on(frame));
+    paint({1020, 1030, 1040});
+    while (!preview_->try_request(request_))
+        std::this_thread::yield();
+    const auto start = Clock::now();
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        for (Matte now; now.empty() || now == before[k]; now = matte_on(frames[k]))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::printf("matte on %d after %.2f s\n", frames[k], seconds_since(start));
+    }
+    measure("a stroke");
 }
 
 TEST_F(FirstPicture, DISABLED_OfSixCards) {
