@@ -36,7 +36,7 @@ class ReflectanceGatherer {
   private:
     struct Part {
         Recti box;
-        ImageF1 luma, paint;  // of the frame, ln
+        ImageF1 luma, paint;  // of the frame, ln; without the shade that its colours tell
         ImageF1 weight;
         float level = 0;  // ln light that the whole frame has beyond others
     };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -189,19 +190,25 @@ float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) 
 SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
     SurfaceSample sample = sample_surface(linear, visible, std::clamp(options.downscale, 1, 16));
     if (options.chromaticity && !sample.box.empty()) {
-        sample.paint = chromatic_reflectance(
+        ColourCues cues = colour_cues(
             sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1);
+        sample.paint = std::move(cues.paint);
+        sample.shade = std::move(cues.shade);
     }
     return sample;
 }
 
 ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
     const float pattern_px = small_pattern(sample, options);
-    if (sample.paint.empty()) return without_pattern(sample.luma, sample.weight, pattern_px);
-    ImageF1 unpainted = sample.luma;
-    for (std::size_t i = 0; i < unpainted.size_bytes() / sizeof(float); ++i)
-        unpainted.data()[i] -= sample.paint.data()[i];
-    return without_pattern(unpainted, sample.weight, pattern_px);
+    ImageF1 rest = sample.luma;
+    for (const ImageF1* known : {&sample.paint, &sample.shade}) {
+        for (std::size_t i = 0; i < known->size_bytes() / sizeof(float); ++i)
+            rest.data()[i] -= known->data()[i];
+    }
+    ImageF1 light = without_pattern(rest, sample.weight, pattern_px);
+    for (std::size_t i = 0; i < sample.shade.size_bytes() / sizeof(float); ++i)
+        light.data()[i] += sample.shade.data()[i];
+    return light;
 }
 
 ImageF1 light_beyond_period(const ImageF1& still, const ImageF1& weight, const ImageF1& pattern,

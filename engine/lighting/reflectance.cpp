@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/core/linear_system.h"
@@ -174,7 +175,7 @@ void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
 
 }  // namespace
 
-ImageF1 chromatic_reflectance(const SurfaceSample& sample, int window_px) {
+ColourCues colour_cues(const SurfaceSample& sample, int window_px) {
     ImageF1 weight_mean = sample.weight;
     box_blur(weight_mean, window_px);
     const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
@@ -202,7 +203,7 @@ ImageF1 chromatic_reflectance(const SurfaceSample& sample, int window_px) {
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
         explained.data()[i] = sample.weight.data()[i] > 0 ? explained.data()[i] - mean : 0.0f;
     }
-    return explained;
+    return {std::move(explained), shade.light_taken(sample)};
 }
 
 }  // namespace weft

@@ -20,11 +20,21 @@ class SkyShade {
     /// Removes the colour of this shade from chromaticities (ln R/G and ln B/G, of the sample's
     /// size), so that they are equal in sun and shade.
     void take_out(ImageF1& red_green, ImageF1& blue_green) const;
+    /// ln of the light that the shade takes away, relative to its mean, by the pixels' colours:
+    /// how much of the sun's light is missing changes colour and lightness together, and how dark
+    /// the paint is changes the colour of neither light. Empty if there is no such shade, or if it
+    /// does not explain the lightness. Noise is averaged along the luma's own edges.
+    [[nodiscard]] ImageF1 light_taken(const SurfaceSample& sample) const;
 
   private:
+    void fit_luma(const SurfaceSample& sample, const ImageF1& luma, const ImageF1& red,
+                  const ImageF1& blue);
+
     ImageF1 weight_of_paint_;
     float red_ = 0, blue_ = 0;  // unit vector; 0 if there is no such shade
     float presence_ = 0;        // 0 to 1
+    float luma_slope_ = 0;      // ln luma for each unit along it
+    float explains_ = 0;        // 0 to 1: how far that explains the differences of luma
 };
 
 }  // namespace weft
