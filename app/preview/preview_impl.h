@@ -162,7 +162,7 @@ struct Preview::Impl {
         bool analysis_pending = false;
         // Until the first picture of every region, which it would slow down.
         bool analysis_held = false;
-        std::uint64_t visits = 0;    // how often the analysis has passed the requested frame
+        std::uint64_t visits = 0;  // how often the analysis has passed the requested frame
         std::string analysing_key;
         CancelToken analysis_cancel, grow_cancel, draft_cancel, card_cancel;
     };
