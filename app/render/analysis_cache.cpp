@@ -120,7 +120,7 @@ class DiskStore final : public AnalysisCache {
             if (!all_written(shot, k)) continue;
             const auto written = region_keys(shot, k, {});
             if (!written) continue;
-            keys_[k].rename(*written, [this](const std::string& from, const std::string& to) {
+            keys_[k].adopt(*written, [this](const std::string& from, const std::string& to) {
                 return move_folder(from, to);
             });
         }

@@ -196,7 +196,7 @@ std::vector<std::string> RegionKeys::all() const {
     return out;
 }
 
-void RegionKeys::rename(
+void RegionKeys::adopt(
     const RegionKeys& now,
     const std::function<bool(const std::string& from, const std::string& to)>& move) {
     const auto take = [&](std::string& old, const std::string& other) {

@@ -31,8 +31,8 @@ struct RegionKeys {
     [[nodiscard]] std::vector<std::string> all() const;
     /// Takes over each key of `now`, the keys of the same region, for which moving what is kept
     /// under the old one succeeds.
-    void rename(const RegionKeys& now,
-                const std::function<bool(const std::string& from, const std::string& to)>& move);
+    void adopt(const RegionKeys& now,
+               const std::function<bool(const std::string& from, const std::string& to)>& move);
 };
 
 /// The keys of a region; `index`: into ShotPlan::regions. `painted`: mattes without a file. Errors:

@@ -1,0 +1,165 @@
+// Sunlit leaves over a surface: the sky still lights what the sun does not, and bluer.
+#include "engine/lighting/sky_shade.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "engine/lighting/masked_filters.h"
+#include "engine/lighting/reflectance.h"
+#include "engine/lighting/shading.h"
+#include "tests/lighting/lighting_scene.h"
+
+namespace weft {
+namespace {
+
+const Recti kAll{8, 8, 312, 232};
+constexpr std::array<float, 3> kSun{0.78f, 0.70f, 0.60f}, kSky{0.17f, 0.20f, 0.26f};
+
+// How much of the sun comes through, 0 to 1: blobs of some 20 px with soft edges.
+float sun_at(int x, int y) {
+    const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+    const float leaves = std::sin(0.21f * fx + 2 * std::sin(0.07f * fy)) +
+                         std::sin(0.17f * fy + 1.5f * std::sin(0.09f * fx));
+    return 1 / (1 + std::exp(-3 * leaves));
+}
+
+float light_at(int x, int y) {
+    const float sun = sun_at(x, y);
+    return 0.2126f * (sun * kSun[0] + kSky[0]) + 0.7152f * (sun * kSun[1] + kSky[1]) +
+           0.0722f * (sun * kSun[2] + kSky[2]);
+}
+
+// `paint(x, y)`: reflectance, R, G and B. With grain of half a per cent.
+template <class Paint>
+ImageF3 plate_of(const Paint& paint) {
+    ImageF3 plate(scene::kSize);
+    unsigned state = 1;
+    for (int y = 0; y < plate.height(); ++y) {
+        for (int x = 0; x < plate.width(); ++x) {
+            const std::array<float, 3> colour = paint(x, y);
+            for (std::size_t c = 0; c < 3; ++c) {
+                state = state * 1664525u + 1013904223u;
+                const float grain =
+                    1 + 0.01f * (static_cast<float>(state >> 9) / 8388608.0f - 0.5f);
+                plate.pixel(x, y)[c] = grain * colour[c] * (sun_at(x, y) * kSun[c] + kSky[c]);
+            }
+        }
+    }
+    return plate;
+}
+
+// ln of the light that missing sunlight takes, and where it lies.
+struct Shade {
+    ImageF1 ln;
+    Recti box;
+};
+
+Shade shade_of(const ImageF3& plate) {
+    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+    return {colour_cues(sample, 28).shade, sample.box};
+}
+
+double correlation_with_light(const ImageF1& ln, const Recti& box) {
+    double a = 0, b = 0, aa = 0, bb = 0, ab = 0, n = 0;
+    for (int y = 8; y < ln.height() - 8; ++y) {
+        for (int x = 8; x < ln.width() - 8; ++x) {
+            const double u = ln.at(x, y), v = std::log(light_at(x + box.x0, y + box.y0));
+            a += u, b += v, aa += u * u, bb += v * v, ab += u * v, n += 1;
+        }
+    }
+    return (ab - a * b / n) / std::sqrt((aa - a * a / n) * (bb - b * b / n));
+}
+
+std::array<float, 3> plain(int, int) {
+    return {0.5f, 0.48f, 0.45f};
+}
+
+// Joints and tiles of one colour, of twice the lightness.
+std::array<float, 3> tiles(int x, int y) {
+    const float v = x % 20 < 4 || y % 20 < 4 ? 0.6f : 0.3f;
+    return {v, 0.97f * v, 0.92f * v};
+}
+
+TEST(SkyShade, GivesTheSunThatIsMissingOnAPlainWall) {
+    const Shade shade = shade_of(plate_of(plain));
+    ASSERT_FALSE(shade.ln.empty());
+    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.99);
+}
+
+TEST(SkyShade, GivesItOnTilesOfOneColourAndNotTheTiles) {
+    const Shade shade = shade_of(plate_of(tiles));
+    ASSERT_FALSE(shade.ln.empty());
+    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.95);
+}
+
+// Red and green tiles, of a third of the lightness or more.
+std::array<float, 3> coloured(int x, int y) {
+    return (x / 12 + y / 12) % 2 ? std::array<float, 3>{0.45f, 0.12f, 0.10f}
+                                 : std::array<float, 3>{0.35f, 0.50f, 0.25f};
+}
+
+TEST(SkyShade, GivesItOnTilesOfTwoColours) {
+    const ImageF3 plate = plate_of(coloured);
+    const Shade shade = shade_of(plate);
+    ASSERT_FALSE(shade.ln.empty());
+    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.89);
+    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+    EXPECT_LT(correlation_with_light(sample.luma, sample.box), 0.85) << "the tiles are too faint";
+}
+
+TEST(SkyShade, SeesNoneWithoutSky) {
+    const auto white = [](int x, int y) {
+        const float v = x % 20 < 4 || y % 20 < 4 ? 0.6f : 0.3f;
+        return std::array<float, 3>{v, v, v};
+    };
+    ImageF3 plate(scene::kSize);
+    for (int y = 0; y < plate.height(); ++y) {
+        for (int x = 0; x < plate.width(); ++x) {
+            for (std::size_t c = 0; c < 3; ++c)
+                plate.pixel(x, y)[c] = white(x, y)[c] * light_at(x, y);
+        }
+    }
+    EXPECT_TRUE(shade_of(plate).ln.empty());
+}
+
+// The wide stripes of an awning, indigo on white under an even sky: darker and bluer, but by more
+// than any shade.
+TEST(SkyShade, DoesNotTakeIndigoStripesForShade) {
+    ImageF3 plate(scene::kSize);
+    for (int y = 0; y < plate.height(); ++y) {
+        for (int x = 0; x < plate.width(); ++x) {
+            const bool indigo = x % 40 < 20;
+            plate.pixel(x, y)[0] = indigo ? 0.10f : 0.8f;
+            plate.pixel(x, y)[1] = indigo ? 0.14f : 0.8f;
+            plate.pixel(x, y)[2] = indigo ? 0.42f : 0.8f;
+        }
+    }
+    EXPECT_TRUE(shade_of(plate).ln.empty());
+}
+
+// A single frame is enough for leaves on a plain wall, which were taken for its pattern.
+TEST(SkyShade, KeepsTheLeavesOfASingleFrame) {
+    ShadingOptions options;
+    options.downscale = 1;
+    const ImageF3 plate = plate_of(plain);
+    const Matte matte = scene::box_matte(kAll);
+    const Shading shading = estimate_shading(plate, matte, options);
+    ImageF1 ln(kAll.size());
+    for (int y = 0; y < ln.height(); ++y) {
+        for (int x = 0; x < ln.width(); ++x)
+            ln.at(x, y) = std::log(shading.value.at(x + kAll.x0, y + kAll.y0));
+    }
+    EXPECT_GT(correlation_with_light(ln, kAll), 0.985);
+    options.chromaticity = false;
+    const Shading without = estimate_shading(plate, matte, options);
+    for (int y = 0; y < ln.height(); ++y) {
+        for (int x = 0; x < ln.width(); ++x)
+            ln.at(x, y) = std::log(without.value.at(x + kAll.x0, y + kAll.y0));
+    }
+    EXPECT_LT(correlation_with_light(ln, kAll), 0.985) << "the scene must need the colour";
+}
+
+}  // namespace
+}  // namespace weft
