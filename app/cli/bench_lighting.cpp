@@ -47,7 +47,8 @@ double light_frames(const std::vector<ImageF3>& plates, FlowQuality quality, Ima
     const Matte matte(size, 255);
     ShotPlan plan;
     plan.quality = quality;
-    const ShadingOptions options = shading_options(plan, size);
+    ShadingOptions options = shading_options(plan, size);
+    options.daylight = find_daylight(plates.front());  // once for a shot
     const double start = cpu_s();
     std::vector<SurfaceSample> samples;
     ReflectanceGatherer gatherer(options);

@@ -91,7 +91,8 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
                 continue;
             const int i = static_cast<int>(u), j = static_cast<int>(v);
             const float fx = u - static_cast<float>(i), fy = v - static_cast<float>(j);
-            const float luma = s.luma.row(y)[x] - (s.shade.empty() ? 0.0f : s.shade.row(y)[x]);
+            const float luma =
+                s.luma.row(y)[x] - (s.daylight.empty() ? 0.0f : s.daylight.row(y)[x]);
             const float paint = s.paint.empty() ? 0.0f : s.paint.row(y)[x];
             const auto put = [&](int a, int b, float share) {
                 share *= w;

@@ -191,9 +191,10 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
     SurfaceSample sample = sample_surface(linear, visible, std::clamp(options.downscale, 1, 16));
     if (options.chromaticity && !sample.box.empty()) {
         ColourCues cues = colour_cues(
-            sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1);
+            sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1,
+            options.daylight ? *options.daylight : find_daylight(linear));
         sample.paint = std::move(cues.paint);
-        sample.shade = std::move(cues.shade);
+        sample.daylight = std::move(cues.light);
     }
     return sample;
 }
@@ -201,13 +202,13 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
 ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
     const float pattern_px = small_pattern(sample, options);
     ImageF1 rest = sample.luma;
-    for (const ImageF1* known : {&sample.paint, &sample.shade}) {
+    for (const ImageF1* known : {&sample.paint, &sample.daylight}) {
         for (std::size_t i = 0; i < known->size_bytes() / sizeof(float); ++i)
             rest.data()[i] -= known->data()[i];
     }
     ImageF1 light = without_pattern(rest, sample.weight, pattern_px);
-    for (std::size_t i = 0; i < sample.shade.size_bytes() / sizeof(float); ++i)
-        light.data()[i] += sample.shade.data()[i];
+    for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
+        light.data()[i] += sample.daylight.data()[i];
     return light;
 }
 

@@ -175,11 +175,11 @@ void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
 
 }  // namespace
 
-ColourCues colour_cues(const SurfaceSample& sample, int window_px) {
+ColourCues colour_cues(const SurfaceSample& sample, int window_px, const Daylight& daylight) {
     ImageF1 weight_mean = sample.weight;
     box_blur(weight_mean, window_px);
     const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
-    const SkyShade shade(sample, weight_mean, target, window_px);
+    const SkyShade shade(sample, weight_mean, target, window_px, daylight);
     const Terms terms = terms_of(sample, shade);
     Terms differences;
     for (std::size_t k = 0; k < kTerms; ++k)
@@ -203,7 +203,7 @@ ColourCues colour_cues(const SurfaceSample& sample, int window_px) {
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
         explained.data()[i] = sample.weight.data()[i] > 0 ? explained.data()[i] - mean : 0.0f;
     }
-    return {std::move(explained), shade.light_taken()};
+    return {std::move(explained), shade.light()};
 }
 
 }  // namespace weft

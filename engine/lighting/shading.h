@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/core/image.h"
+#include "engine/lighting/daylight.h"
 #include "engine/lighting/surface_sample.h"
 
 namespace weft {
@@ -33,6 +34,8 @@ struct ShadingOptions {
     int downscale = 2;
     /// Removes the part of the lightness that the surface's own colour explains.
     bool chromaticity = true;
+    /// The shot's sun and sky. Empty: from the plate itself.
+    std::optional<Daylight> daylight = {};
 };
 
 /// The plate's shading: H/d × W/d, d the downscale (rounded up), linear light, > 0 everywhere;

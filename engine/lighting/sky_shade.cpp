@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "engine/core/linear_system.h"
@@ -15,28 +16,21 @@
 namespace weft {
 namespace {
 
-// From sky to sun, in ln R/G and ln B/G of linear sRGB (unit vector): daylight of 2,500 K to
-// 6,500 K over a sky of 7,000 K to 20,000 K.
-constexpr float kRed = 0.559f, kBlue = -0.829f;
-
 // How much ln R/G falls and ln B/G rises per unit of ln luma when the sun's light is missing. Paint
 // seldom does both; white beside indigo rises by more.
 constexpr float kFaintestSky = 0.03f, kSky = 0.08f, kBluestSky = 0.35f, kBluerThanSky = 0.5f;
 constexpr float kFaintShade = 0.08f, kShade = 0.2f;  // ln luma: not reliable below
-// The same along the locus.
-constexpr double kFaintestAlong = 0.05, kAlong = 0.11, kBluestAlong = 0.4, kBluerAlong = 0.55;
-// The share of the wide differences of luma that go with such colours; both are regressed on the
-// colours across the locus first.
-constexpr double kChance = 0.5, kShadeAlone = 0.75;
-// Of the wide differences of luma, what the colours across the locus leave: less is paint's rest.
-constexpr double kLittleLeft = 0.1, kMuchLeft = 0.25;
-constexpr int kDetail = 4;  // of the window: paint may be finer
+constexpr int kDetail = 4;                           // of the window: paint may be finer
 constexpr float kLeastWeight = 1e-3f;
-// Deviation of a chromaticity across the locus (ln) that is too little to tell paints apart.
-constexpr double kOnePaint = 0.08;
-constexpr double kLeastLight = 1e-4;  // of that ridge: keeps the equations solvable
-// What averages the noise of the colours: small pixels, and ln luma.
-constexpr float kShadeSpace = 5.0f, kShadeRange = 0.15f, kGuideSigma = 0.8f;
+// Deviations that are too little to tell paints apart: of a chromaticity across daylight (ln), and
+// of what along it does not go with the light.
+constexpr double kOnePaint = 0.08, kNoRest = 0.05;
+constexpr double kOfSquares = 0.25;
+// The share of the colours' energy along daylight that the light explains, and how far its slope
+// is from the shot's, in proportion.
+constexpr double kChance = 0.3, kShared = 0.6, kSameSlope = 0.25, kOtherSlope = 0.5;
+// What averages the noise of colours: small pixels, and ln luma.
+constexpr float kSpace = 3.0f, kRange = 0.1f, kGuideSigma = 0.8f;
 
 std::size_t count_of(const ImageF1& plane) {
     return plane.size_bytes() / sizeof(float);
@@ -89,30 +83,11 @@ Moments<N> moments_of(const std::array<const ImageF1*, N>& planes, const ImageF1
     return all;
 }
 
-// Coefficients of the first planes for plane `target`.
-template <std::size_t K, std::size_t N>
-std::array<double, K> regressed(const Moments<N>& m, std::size_t target,
-                                const std::array<double, K>& ridge) {
-    LinearSystem<K> system{};
-    for (std::size_t i = 0; i < K; ++i) {
-        for (std::size_t j = 0; j < K; ++j)
-            system[i][j] = m[i][j];
-        system[i][i] += ridge[i];
-        system[i][K] = m[i][target];
-    }
-    return solve(system);
-}
-
 double total_of(const ImageF1& plane) {
     double sum = 0;
     for (std::size_t i = 0; i < count_of(plane); ++i)
         sum += plane.data()[i];
     return sum;
-}
-
-// Damps what few and faint colours would explain by chance.
-double ridge_of(const SurfaceSample& s) {
-    return kOnePaint * kOnePaint * std::max(total_of(s.weight), 1.0);
 }
 
 void subtract_mean(ImageF1& plane, const ImageF1& weight) {
@@ -124,11 +99,7 @@ void subtract_mean(ImageF1& plane, const ImageF1& weight) {
         plane.data()[i] = weight.data()[i] > 0 ? plane.data()[i] - mean : 0.0f;
 }
 
-ImageF1 squared(const ImageF1& plane) {
-    return weighted(plane, plane);
-}
-
-// Turned by the locus: along it and across it, means 0.
+// The chromaticities in one direction; its mean is 0.
 ImageF1 turned(const SurfaceSample& s, float of_red, float of_blue) {
     ImageF1 out(s.box.size());
     for (std::size_t i = 0; i < count_of(out); ++i)
@@ -165,148 +136,149 @@ class Window {
     ImageF1 near_;
 };
 
-// A surface's colours, turned by the locus.
-struct Turned {
-    ImageF1 along, across, across_squared;
-};
-
-// Paint's part of another plane for its colour across the locus, and that squared.
-using PaintPart = std::array<double, 2>;
-
-void subtract(ImageF1& plane, const PaintPart& part, const Turned& colours) {
-    for (std::size_t i = 0; i < count_of(plane); ++i)
-        plane.data()[i] -= static_cast<float>(part[0] * colours.across.data()[i] +
-                                              part[1] * colours.across_squared.data()[i]);
-}
-
-// Without noise, along the edges of the luma.
-ImageF1 along_edges(const ImageF1& plane, const SurfaceSample& s) {
-    ImageF1 guide = weighted(s.luma, s.weight), weight = s.weight;
-    gaussian_blur(guide, kGuideSigma);
-    gaussian_blur(weight, kGuideSigma);
-    for (std::size_t i = 0; i < count_of(guide); ++i)
-        guide.data()[i] /= std::max(weight.data()[i], kLeastWeight);
-    return joint_bilateral(weighted(plane, s.weight), s.weight, guide, {kShadeSpace, kShadeRange});
-}
-
 // The sample's weight, less where a wide difference looks like shade.
-ImageF1 paint_weight(const SurfaceSample& s, const ImageF1& luma, const Turned& wide) {
-    ImageF1 weight(s.box.size());
-    parallel_rows(s.box.height(), 16, [&](int y0, int y1) {
+ImageF1 paint_weight(const ImageF1& weight, const ImageF1& luma, const ImageF1& along,
+                     const ImageF1& across) {
+    ImageF1 out(weight.size());
+    parallel_rows(out.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < s.box.width(); ++x) {
-                const float a = wide.along.row(y)[x], c = wide.across.row(y)[x];
+            for (int x = 0; x < out.width(); ++x) {
+                const float a = along.row(y)[x], c = across.row(y)[x];
                 const float shade =
-                    looks_like_shade(luma.row(y)[x], kRed * a - kBlue * c, kBlue * a + kRed * c);
-                weight.row(y)[x] = s.weight.row(y)[x] * (1.0f - shade);
+                    looks_like_shade(luma.row(y)[x], kDaylightRed * a - kDaylightBlue * c,
+                                     kDaylightBlue * a + kDaylightRed * c);
+                out.row(y)[x] = weight.row(y)[x] * (1.0f - shade);
             }
         }
     });
-    return weight;
-}
-
-// From all differences: fine patterns tell paints apart best.
-PaintPart paint_part(const ImageF1& detail, const Turned& details, const SurfaceSample& s) {
-    const auto m = moments_of<3>({&details.across, &details.across_squared, &detail}, s.weight);
-    const double ridge = ridge_of(s);
-    return regressed<2>(m, 2, {ridge, ridge});
-}
-
-// Whether lightness goes with the colour along the locus, as it does between sun and sky, when what
-// goes with the colour across it is left out of both; 0 to 1.
-float presence_of_shade(const SurfaceSample& s, const ImageF1& wide_luma, const Turned& wide,
-                        const PaintPart& paint) {
-    enum : std::size_t { kAcross, kAcross2, kAlongIt, kLuma, kPlanes };
-    const auto m = moments_of<kPlanes>(
-        {&wide.across, &wide.across_squared, &wide.along, &wide_luma}, s.weight);
-    const double ridge = ridge_of(s);
-    const PaintPart of_luma = regressed<2>(m, kLuma, {ridge, ridge});
-    const auto left = [&](std::size_t i, const PaintPart& a, std::size_t j, const PaintPart& b) {
-        double product = m[i][j];
-        for (std::size_t k = 0; k < 2; ++k) {
-            product -= a[k] * m[k][j] + b[k] * m[k][i];
-            for (std::size_t l = 0; l < 2; ++l)
-                product += a[k] * m[k][l] * b[l];
-        }
-        return product;
-    };
-    const double luma2 = left(kLuma, of_luma, kLuma, of_luma);
-    const double along2 = left(kAlongIt, paint, kAlongIt, paint);
-    const double both = left(kAlongIt, paint, kLuma, of_luma);
-    if (!(luma2 > 0 && along2 > 0)) return 0;
-    const double slope = both / luma2, share = both * both / (luma2 * along2);
-    return static_cast<float>(smooth_step(luma2 / m[kLuma][kLuma], kLittleLeft, kMuchLeft) *
-                              smooth_step(share, kChance, kShadeAlone) *
-                              smooth_step(slope, kFaintestAlong, kAlong) *
-                              (1.0 - smooth_step(slope, kBluestAlong, kBluerAlong)));
-}
-
-// ln light for the colour along the locus (`colours` without noise): a quadratic, because the sky's
-// colour gives way to the sun's with the first of its light.
-ImageF1 light_of(const SurfaceSample& s, const Window& window, const Turned& colours,
-                 const ImageF1& wide_luma) {
-    const ImageF1& sunlit = colours.along;
-    const ImageF1 linear = window.wide(window.fine(sunlit)),
-                  square = window.wide(window.fine(squared(sunlit))),
-                  across = window.wide(window.fine(colours.across)),
-                  across_squared = window.wide(window.fine(colours.across_squared));
-    const auto m =
-        moments_of<5>({&linear, &square, &across, &across_squared, &wide_luma}, s.weight);
-    const double paint = ridge_of(s), light = kLeastLight * paint;
-    const auto c = regressed<4>(m, 4, {light, light, paint, paint});
-    const auto slope = static_cast<float>(c[0]), bend = static_cast<float>(c[1]);
-    ImageF1 out(s.box.size());
-    for (std::size_t i = 0; i < count_of(out); ++i) {
-        float t = sunlit.data()[i];
-        // More of the sun's colour is never less light: beyond the vertex the curve stays level.
-        if (bend != 0) {
-            const float vertex = -slope / (2 * bend);
-            t = bend < 0 ? std::min(t, vertex) : std::max(t, vertex);
-        }
-        out.data()[i] = t * (slope + bend * t);
-    }
     return out;
+}
+
+// Without noise, along the edges of the luma.
+class EdgeFilter {
+  public:
+    explicit EdgeFilter(const SurfaceSample& s)
+        : weight_(s.weight), guide_(weighted(s.luma, s.weight)) {
+        ImageF1 total = s.weight;
+        gaussian_blur(guide_, kGuideSigma);
+        gaussian_blur(total, kGuideSigma);
+        for (std::size_t i = 0; i < count_of(guide_); ++i)
+            guide_.data()[i] /= std::max(total.data()[i], kLeastWeight);
+    }
+    [[nodiscard]] ImageF1 filtered(const ImageF1& plane) const {
+        return joint_bilateral(weighted(plane, weight_), weight_, guide_, {kSpace, kRange});
+    }
+
+  private:
+    const ImageF1& weight_;
+    ImageF1 guide_;
+};
+
+// What light does not change.
+struct Term {
+    ImageF1 value, detail;  // detail: its fine differences
+    double ridge = 0;       // variance that is noise
+};
+
+// `plane` less its regression on the terms; the relation is that of fine differences.
+template <std::size_t N>
+void regress_out(ImageF1& plane, const std::array<const Term*, N>& terms, const Window& window,
+                 const ImageF1& weight) {
+    const ImageF1 detail = window.fine(plane);
+    std::array<const ImageF1*, N + 1> planes{};
+    for (std::size_t k = 0; k < N; ++k)
+        planes[k] = &terms[k]->detail;
+    planes[N] = &detail;
+    const auto m = moments_of<N + 1>(planes, weight);
+    const double area = std::max(total_of(weight), 1.0);
+    LinearSystem<N> system{};
+    for (std::size_t i = 0; i < N; ++i) {
+        std::copy_n(m[i].begin(), N + 1, system[i].begin());
+        system[i][i] += terms[i]->ridge * area;
+    }
+    const std::array<double, N> c = solve(system);
+    for (std::size_t i = 0; i < count_of(plane); ++i) {
+        double explained = 0;
+        for (std::size_t k = 0; k < N; ++k)
+            explained += c[k] * terms[k]->value.data()[i];
+        plane.data()[i] -= static_cast<float>(explained);
+    }
+    subtract_mean(plane, weight);
+}
+
+// How far the light explains the colours along daylight, less paint's part, as the shot's light
+// does: 0 to 1. Wide differences only.
+float trust_in(const ImageF1& light, const ImageF1& sunlit, const Window& window,
+               const ImageF1& weight, float slope) {
+    const ImageF1 wide_light = window.wide(window.fine(light));
+    const ImageF1 wide_sunlit = window.wide(window.fine(sunlit));
+    const auto m = moments_of<2>({&wide_light, &wide_sunlit}, weight);
+    if (!(m[0][0] > 0 && m[1][1] > 0)) return 0;
+    const double share = m[0][1] * m[0][1] / (m[0][0] * m[1][1]);
+    const double off = std::abs(m[0][1] / m[0][0] / slope - 1);
+    return static_cast<float>(smooth_step(share, kChance, kShared) *
+                              (1.0 - smooth_step(off, kSameSlope, kOtherSlope)));
+}
+
+struct Found {
+    ImageF1 light;
+    float trust = 0;
+};
+
+// The light is the luma less its regression on the colour across daylight and on what is left of
+// the colour along it when the light's part, slope times luma, is taken out; squares and product
+// for several paints. On a plain surface nothing is left, and all of the luma is light; where one
+// paint has two lightnesses, the rest is in proportion to them.
+Found find_light(const SurfaceSample& s, const ImageF1& along, const ImageF1& across,
+                 const Window& window, float slope) {
+    constexpr double kPaint = kOnePaint * kOnePaint, kRest = kNoRest * kNoRest;
+    const EdgeFilter edges(s);
+    const auto term = [&](ImageF1 value, double ridge) {
+        ImageF1 detail = window.fine(value);
+        return Term{std::move(value), std::move(detail), ridge};
+    };
+    ImageF1 sunlit = edges.filtered(along), light = s.luma;
+    subtract_mean(light, s.weight);
+    ImageF1 left = sunlit;
+    for (std::size_t i = 0; i < count_of(left); ++i)
+        left.data()[i] -= slope * light.data()[i];
+    const Term hue = term(edges.filtered(across), kPaint);
+    const Term hue2 = term(weighted(hue.value, hue.value), kOfSquares * kPaint);
+    const Term rest = term(std::move(left), kRest);
+    const Term rest2 = term(weighted(rest.value, rest.value), kOfSquares * kRest);
+    const Term both = term(weighted(rest.value, hue.value), kOfSquares * kPaint);
+    regress_out<5>(light, {&rest, &hue, &rest2, &both, &hue2}, window, s.weight);
+    regress_out<2>(sunlit, {&hue, &hue2}, window, s.weight);
+    const float trust = trust_in(light, sunlit, window, s.weight, slope);
+    return {std::move(light), trust};
 }
 
 }  // namespace
 
 SkyShade::SkyShade(const SurfaceSample& s, const ImageF1& weight_mean, const ImageF1& luma_detail,
-                   int window_px) {
+                   int window_px, const Daylight& daylight) {
     const Window window(s, weight_mean, window_px);
-    const auto fine = [&](const Turned& of) {
-        return Turned{window.fine(of.along), window.fine(of.across),
-                      window.fine(of.across_squared)};
-    };
-    Turned colours{turned(s, kRed, kBlue), turned(s, -kBlue, kRed), {}};
-    colours.across_squared = squared(colours.across);
-    const Turned details = fine(colours);
-    const Turned wide{window.wide(details.along), window.wide(details.across),
-                      window.wide(details.across_squared)};
-    const ImageF1 wide_luma = window.wide(luma_detail);
-    weight_of_paint_ = paint_weight(s, wide_luma, wide);
-    const PaintPart paint = paint_part(details.along, details, s);
-    presence_ = presence_of_shade(s, wide_luma, wide, paint);
-    if (presence_ == 0) return;
-
-    subtract(colours.along, paint, colours);
-    for (ImageF1* plane : {&colours.along, &colours.across})
-        *plane = along_edges(*plane, s);
-    colours.across_squared = squared(colours.across);
-    const Turned smooth = fine(colours);
-    subtract(colours.along, paint_part(smooth.along, smooth, s), colours);
-    light_taken_ = light_of(s, window, colours, wide_luma);
-    subtract_mean(light_taken_, s.weight);
-    for (std::size_t i = 0; i < count_of(light_taken_); ++i)
-        light_taken_.data()[i] *= presence_;
+    const ImageF1 along = turned(s, kDaylightRed, kDaylightBlue);
+    const ImageF1 across = turned(s, -kDaylightBlue, kDaylightRed);
+    weight_of_paint_ =
+        paint_weight(s.weight, window.wide(luma_detail), window.wide(window.fine(along)),
+                     window.wide(window.fine(across)));
+    if (daylight.confidence == 0) return;
+    Found found = find_light(s, along, across, window, daylight.slope);
+    confidence_ = daylight.confidence * found.trust;
+    if (confidence_ == 0) return;
+    light_ = std::move(found.light);
+    for (std::size_t i = 0; i < count_of(light_); ++i)
+        light_.data()[i] *= confidence_;
 }
 
 void SkyShade::take_out(ImageF1& red_green, ImageF1& blue_green) const {
-    if (presence_ == 0) return;
+    if (confidence_ == 0) return;
     for (std::size_t i = 0; i < count_of(red_green); ++i) {
         float& r = red_green.data()[i];
         float& b = blue_green.data()[i];
-        const float along = presence_ * (r * kRed + b * kBlue);
-        r -= along * kRed, b -= along * kBlue;
+        const float along = confidence_ * (r * kDaylightRed + b * kDaylightBlue);
+        r -= along * kDaylightRed, b -= along * kDaylightBlue;
     }
 }
 

@@ -11,7 +11,7 @@ struct SurfaceSample {
     ImageF1 weight;      ///< Confidence, 0 to 1; 0 where the surface is not visible.
     ImageF1 luma;        ///< ln(Y + floor); 0 where weight is 0.
     ImageF1 paint;       ///< The part of luma that the surface's own colour explains; empty: none.
-    ImageF1 shade;       ///< The part of luma that missing sunlight explains; empty: none.
+    ImageF1 daylight;    ///< The part of luma that is light, by its colour; empty: none.
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
     float floor = 0;     ///< Added before the logarithm: damps black; linear light.

@@ -125,8 +125,8 @@ Bytes encode(const SurfaceSample& s) {
     const std::vector<std::int16_t> luma = luma_codes(s.luma);
     const std::vector<std::int16_t> paint =
         luma_codes(s.paint.empty() ? ImageF1(s.luma.size()) : s.paint);
-    const std::vector<std::int16_t> shade =
-        luma_codes(s.shade.empty() ? ImageF1(s.luma.size()) : s.shade);
+    const std::vector<std::int16_t> daylight =
+        luma_codes(s.daylight.empty() ? ImageF1(s.luma.size()) : s.daylight);
     return ByteWriter()
         .value(s.full)
         .value(s.downscale)
@@ -134,7 +134,7 @@ Bytes encode(const SurfaceSample& s) {
         .value(s.floor)
         .raw(luma.data(), luma.size() * sizeof luma[0])
         .raw(paint.data(), paint.size() * sizeof paint[0])
-        .raw(shade.data(), shade.size() * sizeof shade[0])
+        .raw(daylight.data(), daylight.size() * sizeof daylight[0])
         .raw(weight.data(), weight.size())
         .take();
 }
@@ -211,18 +211,18 @@ Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
     }
     s.weight = ImageF1(s.box.size());
     const std::size_t n = s.weight.size_bytes() / sizeof(float);
-    std::vector<std::int16_t> luma(n), paint(n), shade(n);
+    std::vector<std::int16_t> luma(n), paint(n), daylight(n);
     std::vector<std::uint8_t> weight(n);
     if (!reader.raw(luma.data(), n * sizeof luma[0])
              .raw(paint.data(), n * sizeof paint[0])
-             .raw(shade.data(), n * sizeof shade[0])
+             .raw(daylight.data(), n * sizeof daylight[0])
              .raw(weight.data(), n)
              .complete()) {
         return damaged("light");
     }
     s.luma = from_luma_codes(luma, s.box.size());
     s.paint = from_luma_codes(paint, s.box.size());
-    s.shade = from_luma_codes(shade, s.box.size());
+    s.daylight = from_luma_codes(daylight, s.box.size());
     std::transform(weight.begin(), weight.end(), s.weight.data(),
                    [](std::uint8_t w) { return static_cast<float>(w) / 255.0f; });
     return s;

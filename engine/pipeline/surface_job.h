@@ -34,6 +34,7 @@ struct SurfaceJob {
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
     std::set<int> held_frames;  // frames that repeat the drawing of the frame before in time
     std::optional<Shading> last_shading;
+    std::optional<Daylight> daylight;  // of the first frame
     std::optional<PaperWalker> painter;
     Matte last_visible;
     ShutterMeter shutter_meter;

@@ -266,7 +266,9 @@ class Follower {
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
         const Size size = working.size();
-        const ShadingOptions options = shading_options(context_.plan, size);
+        if (!job.daylight) job.daylight = find_daylight(working);
+        ShadingOptions options = shading_options(context_.plan, size);
+        options.daylight = job.daylight;
         if (job.gathers_light()) {
             return keep(job, at.frame, AnalysisKind::kLightSample,
                         encode(light_sample(working, visible, options)));

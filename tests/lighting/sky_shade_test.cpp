@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "engine/lighting/masked_filters.h"
 #include "engine/lighting/reflectance.h"
 #include "engine/lighting/shading.h"
 #include "tests/lighting/lighting_scene.h"
@@ -50,15 +51,15 @@ ImageF3 plate_of(const Paint& paint) {
     return plate;
 }
 
-// ln of the light that missing sunlight takes, and where it lies.
+// ln of the light, and where it lies.
 struct Shade {
     ImageF1 ln;
     Recti box;
 };
 
-Shade shade_of(const ImageF3& plate) {
+Shade shade_of(const ImageF3& plate, const Daylight& daylight) {
     const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
-    return {colour_cues(sample, 28).shade, sample.box};
+    return {colour_cues(sample, 28, daylight).light, sample.box};
 }
 
 double correlation_with_light(const ImageF1& ln, const Recti& box) {
@@ -82,51 +83,25 @@ std::array<float, 3> tiles(int x, int y) {
     return {v, 0.97f * v, 0.92f * v};
 }
 
-TEST(SkyShade, GivesTheSunThatIsMissingOnAPlainWall) {
-    const Shade shade = shade_of(plate_of(plain));
-    ASSERT_FALSE(shade.ln.empty());
-    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.99);
-}
-
-TEST(SkyShade, GivesItOnTilesOfOneColourAndNotTheTiles) {
-    const Shade shade = shade_of(plate_of(tiles));
-    ASSERT_FALSE(shade.ln.empty());
-    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.95);
-}
-
 // Red and green tiles, of a third of the lightness or more.
 std::array<float, 3> coloured(int x, int y) {
     return (x / 12 + y / 12) % 2 ? std::array<float, 3>{0.45f, 0.12f, 0.10f}
                                  : std::array<float, 3>{0.35f, 0.50f, 0.25f};
 }
 
-TEST(SkyShade, GivesItOnTilesOfTwoColours) {
-    const ImageF3 plate = plate_of(coloured);
-    const Shade shade = shade_of(plate);
-    ASSERT_FALSE(shade.ln.empty());
-    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.89);
-    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
-    EXPECT_LT(correlation_with_light(sample.luma, sample.box), 0.85) << "the tiles are too faint";
-}
-
-TEST(SkyShade, SeesNoneWithoutSky) {
-    const auto white = [](int x, int y) {
-        const float v = x % 20 < 4 || y % 20 < 4 ? 0.6f : 0.3f;
-        return std::array<float, 3>{v, v, v};
-    };
+// The light's strength without its colour.
+ImageF3 tiles_in_white_light() {
     ImageF3 plate(scene::kSize);
     for (int y = 0; y < plate.height(); ++y) {
-        for (int x = 0; x < plate.width(); ++x) {
-            for (std::size_t c = 0; c < 3; ++c)
-                plate.pixel(x, y)[c] = white(x, y)[c] * light_at(x, y);
-        }
+        for (int x = 0; x < plate.width(); ++x)
+            std::fill_n(plate.pixel(x, y), 3, tiles(x, y)[0] * light_at(x, y));
     }
-    EXPECT_TRUE(shade_of(plate).ln.empty());
+    return plate;
 }
 
 // The wide stripes of an awning, indigo on white under an even sky: darker and bluer, but by more
 // than any shade.
-TEST(SkyShade, DoesNotTakeIndigoStripesForShade) {
+ImageF3 awning() {
     ImageF3 plate(scene::kSize);
     for (int y = 0; y < plate.height(); ++y) {
         for (int x = 0; x < plate.width(); ++x) {
@@ -136,7 +111,72 @@ TEST(SkyShade, DoesNotTakeIndigoStripesForShade) {
             plate.pixel(x, y)[2] = indigo ? 0.42f : 0.8f;
         }
     }
-    EXPECT_TRUE(shade_of(plate).ln.empty());
+    return plate;
+}
+
+Daylight of_the_shot() {
+    return find_daylight(plate_of(plain));
+}
+
+TEST(Daylight, IsFoundOnShadows) {
+    const Daylight daylight = of_the_shot();
+    EXPECT_EQ(daylight.confidence, 1);
+    // The regression of the two lights' colours on their sum's luma, over this scene.
+    EXPECT_NEAR(daylight.slope, 0.237f, 0.02f);
+}
+
+TEST(Daylight, IsTheSameOnAnotherPaint) {
+    const auto rust = [](int, int) { return std::array<float, 3>{0.42f, 0.20f, 0.12f}; };
+    const Daylight daylight = find_daylight(plate_of(rust));
+    EXPECT_EQ(daylight.confidence, 1);
+    EXPECT_NEAR(daylight.slope, of_the_shot().slope, 0.02f);
+}
+
+TEST(Daylight, IsNotSeenWhereThereIsNone) {
+    for (const ImageF3& plate : {tiles_in_white_light(), awning(), ImageF3(scene::kSize)}) {
+        const Daylight none = find_daylight(plate);
+        EXPECT_EQ(none.confidence, 0);
+        EXPECT_EQ(none.slope, 0);
+    }
+}
+
+TEST(Daylight, BearsPlatesThatAreSmallOrNotFinite) {
+    EXPECT_EQ(find_daylight(ImageF3(Size{3, 2})).confidence, 0);
+    ImageF3 plate = plate_of(plain);
+    for (int y = 100; y < 140; ++y)
+        plate.pixel(160, y)[1] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NEAR(find_daylight(plate).slope, of_the_shot().slope, 0.02f);
+}
+
+TEST(SkyShade, GivesTheLightOnAPlainWall) {
+    const Shade shade = shade_of(plate_of(plain), of_the_shot());
+    ASSERT_FALSE(shade.ln.empty());
+    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.995);
+}
+
+TEST(SkyShade, GivesItOnTilesOfOneColourAndNotTheTiles) {
+    const Shade shade = shade_of(plate_of(tiles), of_the_shot());
+    ASSERT_FALSE(shade.ln.empty());
+    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.95);
+}
+
+TEST(SkyShade, GivesItOnTilesOfTwoColours) {
+    const ImageF3 plate = plate_of(coloured);
+    const Shade shade = shade_of(plate, of_the_shot());
+    ASSERT_FALSE(shade.ln.empty());
+    EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.93);
+    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+    EXPECT_LT(correlation_with_light(sample.luma, sample.box), 0.85) << "the tiles are too faint";
+}
+
+// The shot has sun and sky, but not this surface.
+TEST(SkyShade, IsNotTrustedWhereTheColoursDoNotFollow) {
+    EXPECT_TRUE(shade_of(tiles_in_white_light(), of_the_shot()).ln.empty());
+    EXPECT_TRUE(shade_of(awning(), of_the_shot()).ln.empty());
+}
+
+TEST(SkyShade, IsNotSoughtWithoutDaylight) {
+    EXPECT_TRUE(shade_of(plate_of(plain), {}).ln.empty());
 }
 
 // A single frame is enough for leaves on a plain wall, which were taken for its pattern.
