@@ -59,7 +59,7 @@ bool ScriptRunner::reached(const std::string& what) const {
             if (matte.kind == RegionMatteView::Kind::kLoading) return false;
         return !v.matte_busy;
     }
-    if (what == "provisional") return v.stages.provisional;
+    if (what == "provisional") return v.stages.provisional && !v.stages.partial;
     if (what == "result") return v.result_current && !v.stages.approximate;
     if (what == "stages") return v.stages.stages[0] && !v.stages.provisional;
     if (what == "full_result")

@@ -79,10 +79,11 @@ struct PreviewFrame {
     /// The texture was synthesized for another scale, or quickly for this frame; the exact one is
     /// in progress.
     bool approximate = false;
-    /// From this frame alone, because the analysis that it needs is in progress. Regions of which
-    /// nothing is known yet are missing. Never counted among PreviewReading::rendered.
+    /// From this frame alone, because the analysis that it needs is in progress. Never counted
+    /// among PreviewReading::rendered.
     bool provisional = false;
-    int proxy = 1;  ///< Reduction factor of the pictures relative to the plate.
+    bool partial = false;  ///< Regions are missing of which nothing is known yet.
+    int proxy = 1;         ///< Reduction factor of the pictures relative to the plate.
     std::optional<LayerKind> layer_kind;
     PicturePtr layer;  ///< PreviewRequest::layer, converted for display.
     /// The final picture at reduced size, kept after refining, so that neighbouring frames are

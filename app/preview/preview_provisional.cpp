@@ -89,6 +89,7 @@ Expected<PreviewFrame> Preview::Impl::quick_picture(const PreviewRequest& now, i
              pictures_of({shot, store, made}, now.frame, now.stages, factor, now.layer, nullptr));
     picture.approximate = true;
     picture.provisional = provisional;
+    picture.partial = std::find(shown.begin(), shown.end(), false) != shown.end();
     return picture;
 }
 

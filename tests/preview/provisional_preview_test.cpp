@@ -174,7 +174,11 @@ TEST_F(ProvisionalPreview, ARegionOfWhichNothingIsKnownIsFollowedInDraft) {
     const auto shows_right = [&](const PreviewReading& r) {
         return shows_provisional(r) && different(final_of(r)->srgb, plate_alone(), kRight) > 1000;
     };
-    ASSERT_TRUE(wait(shows_right)) << now_.view.error;
+    ASSERT_TRUE(wait([&](const PreviewReading& r) {
+        EXPECT_TRUE(!shows_provisional(r) || r.frame.partial || shows_right(r));
+        return shows_right(r);
+    })) << now_.view.error;
+    EXPECT_FALSE(now_.frame.partial);
     EXPECT_GT(different(final_of(now_)->srgb, plate_alone(), kLeft), 1000);
     EXPECT_TRUE(now_.rendered.empty());
     preview_->resume();
