@@ -156,8 +156,7 @@ SurfaceSample known_part(const SurfaceSample& sample, const ImageF1& share) {
 
 Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflectance,
                      const ImageF2& ref_from_cur, const ShadingOptions& options) {
-    if (sample.box.empty()) return shading_from_log(ImageF1(), sample);
-    if (reflectance.box.empty()) return shading_from_log(log_shading(sample, options), sample);
+    if (sample.box.empty() || reflectance.box.empty()) return shading_of(sample, options);
     const Seen seen = moved_here(sample, reflectance, ref_from_cur);
     const ImageF1 share = agreement(sample, seen);
     ImageF1 lit = sample.luma;

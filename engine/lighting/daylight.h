@@ -9,10 +9,18 @@ namespace weft {
 /// 6,500 K over a sky of 7,000 K to 20,000 K. Nearly the same at all times of the day.
 constexpr float kDaylightRed = 0.559f, kDaylightBlue = -0.829f;
 
+/// How a surface's colours go with its light: energies of wide differences, and their product.
+struct DaylightEvidence {
+    double light = 0, both = 0, colour = 0;
+};
+
 /// Where the sun does not reach, the sky still does, and it is bluer.
 struct Daylight {
     float slope = 0;       ///< ln chromaticity along that direction for each unit of ln luma.
     float confidence = 0;  ///< 0 to 1; 0: the plate shows no such light, and slope is 0.
+    /// Of the surface's frames before, so that what is decided does not pop:
+    /// SurfaceSample::evidence of the last one.
+    DaylightEvidence before = {};
 };
 
 /// `linear`: a whole plate in linear light, H×W×3; NaN and infinity are ignored. Blocks of the

@@ -195,6 +195,7 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
             options.daylight ? *options.daylight : find_daylight(linear));
         sample.paint = std::move(cues.paint);
         sample.daylight = std::move(cues.light);
+        sample.evidence = cues.evidence;
     }
     return sample;
 }
@@ -255,9 +256,12 @@ Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample) {
     return shading;
 }
 
-Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
-    const SurfaceSample sample = light_sample(linear, visible, options);
+Shading shading_of(const SurfaceSample& sample, const ShadingOptions& options) {
     return shading_from_log(sample.box.empty() ? ImageF1() : log_shading(sample, options), sample);
+}
+
+Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {
+    return shading_of(light_sample(linear, visible, options), options);
 }
 
 }  // namespace weft

@@ -203,7 +203,7 @@ ColourCues colour_cues(const SurfaceSample& sample, int window_px, const Dayligh
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
         explained.data()[i] = sample.weight.data()[i] > 0 ? explained.data()[i] - mean : 0.0f;
     }
-    return {std::move(explained), shade.light()};
+    return {std::move(explained), shade.light(), shade.evidence()};
 }
 
 }  // namespace weft

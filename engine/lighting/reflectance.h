@@ -10,6 +10,7 @@ namespace weft {
 struct ColourCues {
     ImageF1 paint;  ///< The part of luma that follows the surface's chromaticity; its mean is 0.
     ImageF1 light;  ///< The part that is light, by its colour (SkyShade::light()); or empty.
+    DaylightEvidence evidence = {};  ///< SkyShade::evidence().
 };
 
 /// In a red and black carpet or an orange and white fur, colour separates paint from shade. The

@@ -59,6 +59,7 @@ struct Shading {
 /// luma that is paint; and the light in it.
 [[nodiscard]] SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible,
                                          const ShadingOptions& options);
+[[nodiscard]] Shading shading_of(const SurfaceSample& sample, const ShadingOptions& options);
 /// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
 [[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
 /// The light in `still` (ln light without fine pattern): structures that are wider than `period_px`

@@ -28,7 +28,8 @@ constexpr double kOnePaint = 0.08, kNoRest = 0.05;
 constexpr double kOfSquares = 0.25;
 // The share of the colours' energy along daylight that the light explains, and how far its slope
 // is from the shot's, in proportion.
-constexpr double kChance = 0.3, kShared = 0.6, kSameSlope = 0.25, kOtherSlope = 0.5;
+constexpr double kChance = 0.4, kShared = 0.65, kSameSlope = 0.25, kOtherSlope = 0.5;
+constexpr double kOfBefore = 0.9;  // what earlier frames still say, for each frame
 // What averages the noise of colours: small pixels, and ln luma.
 constexpr float kSpace = 3.0f, kRange = 0.1f, kGuideSigma = 0.8f;
 
@@ -206,23 +207,33 @@ void regress_out(ImageF1& plane, const std::array<const Term*, N>& terms, const 
     subtract_mean(plane, weight);
 }
 
-// How far the light explains the colours along daylight, less paint's part, as the shot's light
-// does: 0 to 1. Wide differences only.
-float trust_in(const ImageF1& light, const ImageF1& sunlit, const Window& window,
-               const ImageF1& weight, float slope) {
+// Of wide differences only: fine ones are more likely paint.
+DaylightEvidence evidence_of(const ImageF1& light, const ImageF1& sunlit, const Window& window,
+                             const ImageF1& weight) {
     const ImageF1 wide_light = window.wide(window.fine(light));
     const ImageF1 wide_sunlit = window.wide(window.fine(sunlit));
     const auto m = moments_of<2>({&wide_light, &wide_sunlit}, weight);
-    if (!(m[0][0] > 0 && m[1][1] > 0)) return 0;
-    const double share = m[0][1] * m[0][1] / (m[0][0] * m[1][1]);
-    const double off = std::abs(m[0][1] / m[0][0] / slope - 1);
+    return {m[0][0], m[0][1], m[1][1]};
+}
+
+// How far the light explains the colours along daylight, less paint's part, as the shot's light
+// does: 0 to 1.
+float trust_in(const DaylightEvidence& e, float slope) {
+    if (!(e.light > 0 && e.colour > 0)) return 0;
+    const double share = e.both * e.both / (e.light * e.colour);
+    const double off = std::abs(e.both / e.light / slope - 1);
     return static_cast<float>(smooth_step(share, kChance, kShared) *
                               (1.0 - smooth_step(off, kSameSlope, kOtherSlope)));
 }
 
+DaylightEvidence pooled(const DaylightEvidence& now, const DaylightEvidence& before) {
+    return {now.light + kOfBefore * before.light, now.both + kOfBefore * before.both,
+            now.colour + kOfBefore * before.colour};
+}
+
 struct Found {
     ImageF1 light;
-    float trust = 0;
+    DaylightEvidence evidence;
 };
 
 // The light is the luma less its regression on the colour across daylight and on what is left of
@@ -249,8 +260,8 @@ Found find_light(const SurfaceSample& s, const ImageF1& along, const ImageF1& ac
     const Term both = term(weighted(rest.value, hue.value), kOfSquares * kPaint);
     regress_out<5>(light, {&rest, &hue, &rest2, &both, &hue2}, window, s.weight);
     regress_out<2>(sunlit, {&hue, &hue2}, window, s.weight);
-    const float trust = trust_in(light, sunlit, window, s.weight, slope);
-    return {std::move(light), trust};
+    const DaylightEvidence evidence = evidence_of(light, sunlit, window, s.weight);
+    return {std::move(light), evidence};
 }
 
 }  // namespace
@@ -265,7 +276,8 @@ SkyShade::SkyShade(const SurfaceSample& s, const ImageF1& weight_mean, const Ima
                      window.wide(window.fine(across)));
     if (daylight.confidence == 0) return;
     Found found = find_light(s, along, across, window, daylight.slope);
-    confidence_ = daylight.confidence * found.trust;
+    evidence_ = pooled(found.evidence, daylight.before);
+    confidence_ = daylight.confidence * trust_in(evidence_, daylight.slope);
     if (confidence_ == 0) return;
     light_ = std::move(found.light);
     for (std::size_t i = 0; i < count_of(light_); ++i)

@@ -24,9 +24,12 @@ class SkyShade {
     /// ln of the light in the sample, relative to its mean: its luma, less what the part of its
     /// colours tells that such light does not change. Empty if the shot has no such light.
     [[nodiscard]] const ImageF1& light() const { return light_; }
+    /// For Daylight::before of the surface's next frame.
+    [[nodiscard]] const DaylightEvidence& evidence() const { return evidence_; }
 
   private:
     ImageF1 weight_of_paint_, light_;
+    DaylightEvidence evidence_;
     float confidence_ = 0;
 };
 

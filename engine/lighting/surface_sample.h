@@ -2,6 +2,7 @@
 // The plate as the shading estimate sees it: downscaled, logarithmic, and only inside the matte.
 
 #include "engine/core/image.h"
+#include "engine/lighting/daylight.h"
 
 namespace weft {
 
@@ -14,9 +15,10 @@ struct SurfaceSample {
     ImageF1 daylight;    ///< The part of luma that is light, by its colour; empty: none.
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
-    float floor = 0;     ///< Added before the logarithm: damps black; linear light.
-    int downscale = 1;   ///< Side of one pixel here, in plate pixels.
-    Size full;           ///< Size of the plate.
+    DaylightEvidence evidence = {};  ///< Of this frame and, ever less, of those before.
+    float floor = 0;                 ///< Added before the logarithm: damps black; linear light.
+    int downscale = 1;               ///< Side of one pixel here, in plate pixels.
+    Size full;                       ///< Size of the plate.
 };
 
 /// Size of the small picture.

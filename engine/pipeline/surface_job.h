@@ -9,6 +9,7 @@
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/surface_light.h"
 #include "engine/pipeline/surface_pass.h"
 #include "engine/pipeline/surface_track.h"
 #include "engine/temporal/shutter.h"
@@ -34,7 +35,7 @@ struct SurfaceJob {
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
     std::set<int> held_frames;  // frames that repeat the drawing of the frame before in time
     std::optional<Shading> last_shading;
-    std::optional<Daylight> daylight;  // of the first frame
+    SurfaceLight light;
     std::optional<PaperWalker> painter;
     Matte last_visible;
     ShutterMeter shutter_meter;

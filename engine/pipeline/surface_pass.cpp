@@ -266,14 +266,12 @@ class Follower {
         if (!job.shading) return {};
         const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
         const Size size = working.size();
-        if (!job.daylight) job.daylight = find_daylight(working);
-        ShadingOptions options = shading_options(context_.plan, size);
-        options.daylight = job.daylight;
-        if (job.gathers_light()) {
-            return keep(job, at.frame, AnalysisKind::kLightSample,
-                        encode(light_sample(working, visible, options)));
-        }
-        Shading shading = estimate_shading(working, visible, options);
+        const ShadingOptions options = shading_options(context_.plan, size);
+        const SurfaceSample sample =
+            job.light.measure(working, visible, options, at.frame, job.primary);
+        if (job.gathers_light())
+            return keep(job, at.frame, AnalysisKind::kLightSample, encode(sample));
+        Shading shading = shading_of(sample, options);
         if (job.last_shading && at.frame != job.primary) {
             shading =
                 steady_shading(shading, *job.last_shading, prev_from_cur.dense(rect_of(size)));

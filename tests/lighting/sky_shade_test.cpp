@@ -175,6 +175,22 @@ TEST(SkyShade, IsNotTrustedWhereTheColoursDoNotFollow) {
     EXPECT_TRUE(shade_of(awning(), of_the_shot()).ln.empty());
 }
 
+// What is decided must not pop on a frame that says something else, or nothing.
+TEST(SkyShade, IsTrustedByTheFramesBefore) {
+    const auto evidence_of = [](const ImageF3& plate, const Daylight& daylight) {
+        const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+        return colour_cues(sample, 28, daylight).evidence;
+    };
+    const ImageF3 lit = plate_of(plain), white = tiles_in_white_light();
+    Daylight daylight = of_the_shot();
+    for (int frame = 0; frame < 20; ++frame)
+        daylight.before = evidence_of(lit, daylight);
+    EXPECT_FALSE(shade_of(white, daylight).ln.empty()) << "one frame of twenty";
+    for (int frame = 0; frame < 60; ++frame)
+        daylight.before = evidence_of(white, daylight);
+    EXPECT_TRUE(shade_of(white, daylight).ln.empty());
+}
+
 TEST(SkyShade, IsNotSoughtWithoutDaylight) {
     EXPECT_TRUE(shade_of(plate_of(plain), {}).ln.empty());
 }

@@ -139,6 +139,7 @@ TEST_F(FirstPicture, DISABLED_OfAStroke) {
     };
     const std::vector<int> frames{1030, 1031, 1029};
     std::vector<Matte> before;
+    before.reserve(frames.size());
     for (const int frame : frames)
         before.push_back(matte_on(frame));
     paint({1020, 1030, 1040});

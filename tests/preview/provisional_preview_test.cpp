@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -112,7 +113,7 @@ class ProvisionalPreview : public testing::Test {
             for (int x = 0; x < kPlate.width; ++x)
                 for (int c = 0; c < 3; ++c)
                     out.pixel(x, y)[c] =
-                        static_cast<std::uint8_t>(255 * plate_at(x, y, 1, c) + 0.5f);
+                        static_cast<std::uint8_t>(std::lround(255 * plate_at(x, y, 1, c)));
         return out;
     }
     static float plate_at(int x, int y, int frame, int c) {
