@@ -244,6 +244,7 @@ Status GpuFrame::add_layer(const LayerRequest& layer) {
         args.least_gain = layer.gain->least_gain, args.most_gain = layer.gain->most_gain;
         args.strength = std::min(1.0f, layer.gain->strength);
     }
+    std::copy(layer.multiply.begin(), layer.multiply.end(), args.multiply);
     args.frame = p.frame.as<float>();
     args.touched = p.touched.as<std::uint8_t>();
     args.frame_w = size_.width;

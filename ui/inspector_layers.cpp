@@ -80,27 +80,44 @@ void back_to_matte(Ctx& c) {
 }
 
 // Button that adds a holdout or zone.
-void begin_layer(Ctx& c, const char* label, const char* tip, int layer) {
+void begin_layer(Ctx& c, const char* label, const char* tip, SelectMatteLayer begin) {
     if (!button(c, label,
                 {.icon = icons::kBrush,
                  .enabled = c.view.plate.state == PlateView::State::kOpen,
                  .tip = tip,
                  .width = -1}))
         return;
-    c.emit(SelectMatteLayer{layer});
+    c.emit(begin);
     if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
+}
+
+void begin_zones(Ctx& c, int layer) {
+    begin_layer(c, "Paint: this is light",
+                "Adds a zone: what the plate shows there falls on the new texture. It is "
+                "propagated like a matte",
+                {layer, ZoneKind::kDetail, 1});
+    begin_layer(c, "Paint: this is paint",
+                "Adds a zone: what the plate shows there belongs to the old surface and goes. It "
+                "is propagated like a matte",
+                {layer, ZoneKind::kDetail, 0});
+    begin_layer(c, "Paint a light zone",
+                "Adds a zone in which the texture takes less or more of the light. It is "
+                "propagated like a matte",
+                {layer, ZoneKind::kLight, 0});
 }
 
 void zone_value(Ctx& c, const Region& region, std::size_t zone) {
     const Zone& now = (*region.zones)[zone];
-    if (!now.value_keys.empty()) return info_row(c, "Light", "Animated");
+    const bool detail = now.kind == ZoneKind::kDetail;
+    if (!now.value_keys.empty()) return info_row(c, detail ? "Light detail" : "Light", "Animated");
     double value = now.value;
     SliderSpec spec;
-    spec.label = "Light";
-    spec.tip =
-        "How much of the light the texture takes inside the zone: 0 none, 1 as elsewhere, "
-        "2 twice the contrast";
-    spec.max = 2;
+    spec.label = detail ? "Light detail" : "Light";
+    spec.tip = detail ? "What counts as light inside the zone: 0 it is paint, 1 it is light, all "
+                        "that the plate shows"
+                      : "How much of the light the texture takes inside the zone: 0 none, 1 as "
+                        "elsewhere, 2 twice the contrast";
+    spec.max = detail ? 1 : 2;
     spec.standard = 0;
     const Change change = slider(c, spec, value);
     if (change == Change::kNone) return;
@@ -210,7 +227,7 @@ void holdouts_section(Ctx& c, const Region& region) {
         begin_layer(c, "Paint a holdout",
                     "Adds a layer: paint over what hides the surface. It is propagated like a "
                     "matte",
-                    last_layer(region));
+                    {last_layer(region)});
     other_regions(c, region);
     if (button(c, "Add matte files…##holdout", {.icon = icons::kFolderImage, .width = -1})) {
         c.state.browser.purpose = BrowserState::Purpose::kHoldout;
@@ -226,8 +243,8 @@ void zones_section(Ctx& c, const Region& region) {
     const PanelName panel(c, "Light zones");
     if (count == 0 && !painting)
         wrapped(c,
-                "Inside a zone the texture takes less or more of the plate's light, such as where "
-                "a stain was taken for a shadow.",
+                "Inside a zone you say what is light: where a stain was taken for a shadow, or a "
+                "shadow for paint.",
                 c.theme.quiet);
     const int begun = painting ? zone_of_layer(c.view.matte_layer) + 1 : 0;
     for (int zone = 0; zone < std::max(count, begun); ++zone) {
@@ -241,10 +258,7 @@ void zones_section(Ctx& c, const Region& region) {
     if (painting)
         back_to_matte(c);
     else
-        begin_layer(c, "Paint a light zone",
-                    "Adds a zone: paint where the light is to be changed. It is propagated like "
-                    "a matte",
-                    first_layer(region));
+        begin_zones(c, first_layer(region));
     section_gap(c);
 }
 

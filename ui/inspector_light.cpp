@@ -8,10 +8,29 @@
 
 namespace weft::ui {
 
+namespace {
+
+// The light's colour: as the plate shows it, or an amount of it.
+void light_tint(Ctx& c, const Region& region) {
+    const auto set = [&](ParameterValue value) {
+        c.edit(SetRegionParameter{{region.id, {}}, "light.cast", std::move(value)});
+    };
+    bool automatic = !region.light.cast;
+    if (checkbox(c, "Automatic light tint", automatic,
+                 "The texture takes the light's colour as far as the plate gives evidence of it"))
+        set(automatic ? ParameterValue{} : ParameterValue{1.0});
+    if (region.light.cast) region_parameter(c, region, "light.cast", "Light tint");
+}
+
+}  // namespace
+
 void light_inspector(Ctx& c) {
     const Region* region = c.view.selected_region();
     if (!region) return no_region(c);
     const Theme& t = c.theme;
+    // The settings of the tool in hand come first.
+    const bool keeping = c.state.tool == Tool::kKeep;
+    if (keeping) keep_section(c, *region);
     if (section(c, "Light")) {
         const PanelName panel(c, "Light");
         region_parameter(c, *region, "light.source", "Light");
@@ -20,9 +39,11 @@ void light_inspector(Ctx& c) {
         if (region->light.source == LightSource::kPainted) lamps_controls(c, *region);
         if (region->light.source != LightSource::kNone) {
             keyed_parameter(c, *region, "light.strength", "light.strength_keys");
-            region_parameter(c, *region, "light.form", "Blend mode");
-            region_parameter(c, *region, "light.cast", "Light tint");
+            region_parameter(c, *region, "light.detail");
+            region_parameter(c, *region, "light.keep_detail");
+            light_tint(c, *region);
             region_parameter(c, *region, "light.highlights", "Keep highlights");
+            region_parameter(c, *region, "light.form", "Light mode");
         }
         const Command* over = c.commands.find("view.light");
         bool on = over->checked(c);
@@ -54,14 +75,15 @@ void light_inspector(Ctx& c) {
         }
         section_gap(c);
     }
-    keep_section(c, *region);
+    if (!keeping) keep_section(c, *region);
+    grade_section(c, *region);
     time_section(c, *region);
     if (section(c, "Camera", false)) {
         const PanelName panel(c, "Camera");
-        quiet(c, "Visible at final quality");
         region_parameter(c, *region, "finish.grain", "Grain");
         region_parameter(c, *region, "finish.focus", "Focus");
         const bool own = region->finish.shutter_deg.has_value();
+        quiet(c, "Motion blur is visible at final quality");
         if (own) region_parameter(c, *region, "finish.shutter_deg", "Shutter");
         if (button(c, own ? "Match plate shutter" : "Set shutter…",
                    {.icon = icons::kCamera,
@@ -72,15 +94,6 @@ void light_inspector(Ctx& c) {
                                       "finish.shutter_deg",
                                       own ? ParameterValue{} : ParameterValue{180.0}});
         region_parameter(c, *region, "lines.extract", "Keep ink lines");
-        section_gap(c);
-    }
-    if (section(c, "Preview")) {
-        const PanelName panel(c, "Preview");
-        int quality = c.view.preview_quality == Quality::kDraft ? 0 : 1;
-        if (segments(c, "Quality", {"Draft", "Final"}, quality))
-            c.emit(SetPreviewQuality{quality == 0 ? Quality::kDraft : Quality::kFinal});
-        if (c.view.preview.frame_seconds > 0)
-            info_row(c, "Last frame", number_text(c.view.preview.frame_seconds, 2) + " s");
         section_gap(c);
     }
 }

@@ -26,6 +26,8 @@ void texture_inspector(Ctx& c);
 void motion_inspector(Ctx& c);
 void light_inspector(Ctx& c);
 void review_inspector(Ctx& c);
+/// The texture's colour, opacity and blend mode.
+void grade_section(Ctx& c, const Region& region);
 void keep_section(Ctx& c, const Region& region);
 /// Suggested keyframes; `mattes_only`: those of the matte only.
 void hints_section(Ctx& c, bool mattes_only);

@@ -27,9 +27,21 @@ constexpr Shape kShapes[] = {
     {"synthesis.refine", "Refinement", 0, 8, 0, false, ""},
     {"temporal.blend", "Temporal blend (α)", 0, 1, 2, false, ""},
     {"temporal.weight", "Temporal weight (λt)", 0, 10, 2, false, ""},
-    {"light.strength", "Strength", 0, 1, 2, false, ""},
+    {"light.strength", "Strength", 0, 2, 2, false, ""},
+    {"light.detail", "Light detail", 0, 1, 2, false, ""},
+    {"light.keep_detail", "Keep plate detail", 0, 2, 2, false, ""},
     {"light.cast", "Light tint", 0, 1, 2, false, ""},
     {"light.highlights", "Keep highlights", 0, 2, 2, false, ""},
+    {"grade.match", "Match exposure", 0, 1, 2, false, ""},
+    {"grade.exposure", "Exposure", -4, 4, 2, false, "stops"},
+    {"grade.temperature", "Temperature", -100, 100, 0, false, "mired"},
+    {"grade.multiply", "Multiply", 0, 2, 2, false, ""},
+    {"grade.contrast", "Contrast", 0, 2, 2, false, ""},
+    {"grade.gamma", "Gamma", 0.2, 4, 2, true, ""},
+    {"grade.saturation", "Saturation", 0, 2, 2, false, ""},
+    {"grade.hue_deg", "Hue", -180, 180, 0, false, "°"},
+    {"grade.offset", "Offset", -0.5, 0.5, 3, false, ""},
+    {"layer.opacity", "Opacity", 0, 1, 2, false, ""},
     {"finish.grain", "Grain", 0, 2, 2, false, ""},
     {"finish.focus", "Focus", 0, 2, 2, false, ""},
     {"finish.shutter_deg", "Shutter", 0, 360, 0, false, "°"},
@@ -59,6 +71,12 @@ constexpr Word kWords[] = {
     {"light.form", "gain", "Multiply"},
     {"light.form", "detail", "Match plate exposure"},
     {"light.form", "literal", "Plate shading only"},
+    {"layer.blend", "normal", "Normal"},
+    {"layer.blend", "multiply", "Multiply"},
+    {"layer.blend", "screen", "Screen"},
+    {"layer.blend", "overlay", "Overlay"},
+    {"layer.blend", "soft-light", "Soft light"},
+    {"layer.blend", "color", "Color"},
     {"texture.wrap", "repeat", "Repeat"},
     {"texture.wrap", "mirror", "Mirror"},
     {"texture.wrap", "clamp", "Clamp"},
@@ -87,6 +105,34 @@ std::string label_of(const ParameterInfo& info, const char* given) {
     if (!label.empty())
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
     return label;
+}
+
+std::vector<double> numbers_of(const ParameterValue& value, std::size_t count) {
+    const auto* numbers = std::get_if<std::vector<double>>(&value);
+    return numbers && numbers->size() == count ? *numbers : std::vector<double>(count);
+}
+
+SliderSpec tuple_spec(const ParameterInfo& info, const std::string& tip) {
+    SliderSpec spec;
+    spec.tip = tip.c_str();
+    spec.typed_min = info.min;
+    spec.typed_max = info.max;
+    return spec;
+}
+
+// A slider for each number of `value`; `usual`: what a double click gives back, or empty.
+template <class Emit>
+void tuple_sliders(Ctx& c, const std::string& label, std::initializer_list<const char*> names,
+                   SliderSpec spec, std::vector<double> value, const std::vector<double>& usual,
+                   Emit&& emit) {
+    std::size_t k = 0;
+    for (const char* name : names) {
+        const std::string row = label + name;
+        spec.label = row.c_str();
+        if (!usual.empty()) spec.standard = usual[k];
+        const Change change = slider(c, spec, value[k++]);
+        if (change != Change::kNone) emit(ParameterValue(value), change == Change::kDone);
+    }
 }
 
 // Draws the control; calls `emit(value, final)` with the new value.
@@ -163,23 +209,21 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
             return;
         }
         case ParameterKind::kPoint: {
-            const auto* xy = std::get_if<std::vector<double>>(&now);
-            std::vector<double> point = xy && xy->size() == 2 ? *xy : std::vector<double>{0, 0};
-            static constexpr const char* kAxis[] = {" X", " Y"};
-            for (std::size_t k = 0; k < 2; ++k) {
-                const std::string axis = label + kAxis[k];
-                SliderSpec spec;
-                spec.label = axis.c_str();
-                spec.tip = help.c_str();
-                spec.unit = "px";
-                spec.min = -500;
-                spec.max = 500;
-                spec.decimals = 1;
-                spec.typed_min = info.min;
-                spec.typed_max = info.max;
-                const Change change = slider(c, spec, point[k]);
-                if (change != Change::kNone) emit(ParameterValue(point), change == Change::kDone);
-            }
+            SliderSpec spec = tuple_spec(info, help);
+            spec.unit = "px";
+            spec.min = -500;
+            spec.max = 500;
+            spec.decimals = 1;
+            tuple_sliders(c, label, {" X", " Y"}, spec, numbers_of(now, 2), {}, emit);
+            return;
+        }
+        case ParameterKind::kRgb: {
+            SliderSpec spec = tuple_spec(info, help);
+            spec.min = shape ? shape->min : info.min;
+            spec.max = shape ? shape->max : info.max;
+            spec.decimals = shape ? shape->decimals : 2;
+            tuple_sliders(c, label, {" R", " G", " B"}, spec, numbers_of(now, 3),
+                          numbers_of(info.default_value, 3), emit);
             return;
         }
         case ParameterKind::kCorners:

@@ -28,6 +28,8 @@ std::string placeholder(const ParameterInfo& info) {
         case ParameterKind::kPoint:
         case ParameterKind::kCorners:
             return "X,Y";
+        case ParameterKind::kRgb:
+            return "R,G,B";
         case ParameterKind::kFrames:
             return "FRAMES";
         case ParameterKind::kPath:

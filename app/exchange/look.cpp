@@ -45,6 +45,8 @@ Region with_look_of(Region to, const Region& from) {
     to.light.lighting = passes.lighting;
     to.light.pass_layer = passes.pass_layer;
     to.light.exact = passes.exact;
+    to.grade = from.grade;
+    to.layer = from.layer;
     to.finish = from.finish;
     return to;
 }

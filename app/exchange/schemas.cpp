@@ -53,6 +53,9 @@ Json schema_of(const ParameterInfo& info) {
         case ParameterKind::kPoint:
             out = numbers(info, 2);
             break;
+        case ParameterKind::kRgb:
+            out = numbers(info, 3);
+            break;
         case ParameterKind::kPaths:
             out = {{"type", "array"}, {"items", any_of_type("string")}};
             break;

@@ -31,13 +31,13 @@ int last_layer(const Region& region) {
     return static_cast<int>(region.holdouts->size()) + 1;
 }
 
-Edit set_layer(const Region& region, int layer, MatteSource source) {
+Edit set_layer(const Region& region, int layer, MatteSource source, const Zone& begun) {
     const RegionRef ref{region.id, {}};
     if (layer == 0) return SetMatte{ref, std::move(source)};
     if (is_zone_layer(layer)) {
         std::vector<Zone> zones = *region.zones;
         const std::size_t at = zone_index(layer);
-        Zone& zone = at < zones.size() ? zones[at] : zones.emplace_back();
+        Zone& zone = at < zones.size() ? zones[at] : zones.emplace_back(begun);
         zone.matte = std::move(source);
         return SetZones{ref, std::move(zones)};
     }

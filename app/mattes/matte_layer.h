@@ -13,8 +13,9 @@ namespace weft {
 [[nodiscard]] int first_layer(const Region& region);
 [[nodiscard]] int last_layer(const Region& region);
 /// The edit that replaces this layer by `source`; a number beyond the last holdout or zone adds
-/// one.
-[[nodiscard]] Edit set_layer(const Region& region, int layer, MatteSource source);
+/// one, a zone with the kind and the value of `begun`.
+[[nodiscard]] Edit set_layer(const Region& region, int layer, MatteSource source,
+                             const Zone& begun = {});
 /// The edit that removes a painted keyframe; a holdout or zone without keyframes is removed too.
 [[nodiscard]] Edit without_layer_key(const Region& region, int layer, int frame);
 /// "wall", "holdout 2 of wall" or "zone 1 of wall".

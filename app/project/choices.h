@@ -47,8 +47,8 @@ struct Choices<PropagationDirection> {
 };
 template <>
 struct Choices<ZoneKind> {
-    static constexpr std::array<std::pair<ZoneKind, std::string_view>, 1> kNames{
-        {{ZoneKind::kLight, "light"}}};
+    static constexpr std::array<std::pair<ZoneKind, std::string_view>, 2> kNames{
+        {{ZoneKind::kLight, "light"}, {ZoneKind::kDetail, "detail"}}};
 };
 template <>
 struct Choices<MissingFrames> {
@@ -103,6 +103,17 @@ struct Choices<LightForm> {
          {LightForm::kLiteral, "literal"},
          {LightForm::kStatistics, "statistics"},
          {LightForm::kHistogram, "histogram"}}};
+};
+
+template <>
+struct Choices<BlendMode> {
+    static constexpr std::array<std::pair<BlendMode, std::string_view>, 6> kNames{
+        {{BlendMode::kNormal, "normal"},
+         {BlendMode::kMultiply, "multiply"},
+         {BlendMode::kScreen, "screen"},
+         {BlendMode::kOverlay, "overlay"},
+         {BlendMode::kSoftLight, "soft-light"},
+         {BlendMode::kColor, "color"}}};
 };
 
 template <>

@@ -25,6 +25,8 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kNumber;
     else if constexpr (std::same_as<T, PlatePoint>)
         return ParameterKind::kPoint;
+    else if constexpr (std::same_as<T, RgbNumbers>)
+        return ParameterKind::kRgb;
     else if constexpr (std::same_as<T, std::vector<int>>)
         return ParameterKind::kFrames;
     else if constexpr (std::same_as<T, std::vector<std::string>>)
@@ -81,6 +83,9 @@ inline ParameterValue to_value(const std::optional<double>& member) {
 inline ParameterValue to_value(const PlatePoint& member) {
     return std::vector<double>{member.x, member.y};
 }
+inline ParameterValue to_value(const RgbNumbers& member) {
+    return std::vector<double>{member.r, member.g, member.b};
+}
 inline ParameterValue to_value(const std::vector<int>& member) {
     return std::vector<double>(member.begin(), member.end());
 }
@@ -135,6 +140,10 @@ inline void from_value(const ParameterValue& value, std::optional<double>& membe
 inline void from_value(const ParameterValue& value, PlatePoint& member) {
     const auto& xy = std::get<std::vector<double>>(value);
     member = {xy[0], xy[1]};
+}
+inline void from_value(const ParameterValue& value, RgbNumbers& member) {
+    const auto& rgb = std::get<std::vector<double>>(value);
+    member = {rgb[0], rgb[1], rgb[2]};
 }
 inline void from_value(const ParameterValue& value, std::vector<int>& member) {
     const auto& frames = std::get<std::vector<double>>(value);

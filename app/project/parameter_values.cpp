@@ -38,6 +38,8 @@ std::string_view type_name(ParameterKind kind) {
             return "a list of paths";
         case ParameterKind::kPoint:
             return "two numbers, x and y";
+        case ParameterKind::kRgb:
+            return "three numbers, for red, green and blue";
         case ParameterKind::kCorners:
             return "four points (top left, top right, bottom right, bottom left)";
         case ParameterKind::kFrames:
@@ -156,6 +158,7 @@ Expected<ParameterValue> normalise_numbers(const ParameterInfo& info, ParameterV
                     display_name(info) + " contains strings, but must be numbers");
     if (!numbers) return wrong(info, value, std::string(type_name(info.kind)));
     const std::size_t wanted = info.kind == ParameterKind::kPoint     ? 2
+                               : info.kind == ParameterKind::kRgb     ? 3
                                : info.kind == ParameterKind::kCorners ? 8
                                                                       : numbers->size();
     if (numbers->size() != wanted) return wrong(info, value, std::string(type_name(info.kind)));
@@ -252,6 +255,11 @@ Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text)
             auto numbers = numbers_from(text);
             return numbers ? ParameterValue(std::move(*numbers)) : as_text;
         }
+        case ParameterKind::kRgb: {
+            auto numbers = numbers_from(text);
+            if (numbers && numbers->size() == 1) numbers->resize(3, numbers->front());
+            return numbers ? ParameterValue(std::move(*numbers)) : as_text;
+        }
         case ParameterKind::kPaths: {
             std::vector<std::string> paths;
             for (std::size_t from = 0; from < text.size();) {
@@ -276,23 +284,6 @@ Expected<ParameterValue> typed(const ParameterInfo& info, std::string_view text)
         default:
             return as_text;
     }
-}
-
-/// Levenshtein distance (1966); the names are short.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({row[j] + 1, diagonal + 1, changed});
-        }
-    }
-    return row.back();
 }
 
 template <class Owner>
@@ -341,6 +332,7 @@ Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue val
         case ParameterKind::kLamps:
             return normalise_list(info, std::move(value), parameter_lists::lamps);
         case ParameterKind::kPoint:
+        case ParameterKind::kRgb:
         case ParameterKind::kCorners:
         case ParameterKind::kFrames:
             return normalise_numbers(info, std::move(value));
@@ -349,7 +341,8 @@ Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue val
 }
 
 Expected<ParameterValue> parse_parameter(const ParameterInfo& info, std::string_view text) {
-    if (info.optional && (text.empty() || text == "none")) return ParameterValue();
+    if (info.optional && (text.empty() || text == "none" || text == "auto"))
+        return ParameterValue();
     auto value = typed(info, text);
     if (!value) return fail_in(std::move(value).error(), display_name(info));
     return normalise(info, std::move(*value));
@@ -377,7 +370,8 @@ std::string format_parameter(const ParameterInfo& info, const ParameterValue& va
         return out;
     }
     for (std::size_t i = 0; i < numbers->size(); ++i) {
-        if (i > 0) out += i % 2 == 1 ? "," : " ";
+        const bool inside = i % 2 == 1 || info.kind == ParameterKind::kRgb;
+        if (i > 0) out += inside ? "," : " ";
         out += fmt::format("{}", (*numbers)[i]);
     }
     return out;
@@ -404,30 +398,6 @@ std::string allowed_values(const ParameterInfo& info) {
             return range_text(info);
     }
 }
-
-template <class Owner>
-Expected<const Parameter<Owner>*> find_parameter(std::span<const Parameter<Owner>> table,
-                                                 std::string_view key_or_flag) {
-    std::string nearest;
-    std::size_t best = std::string_view::npos;
-    for (const Parameter<Owner>& parameter : table) {
-        const std::string key = parameter.full_key();
-        if (key == key_or_flag || (!parameter.flag.empty() && parameter.flag == key_or_flag))
-            return &parameter;
-        for (const std::string_view name : {std::string_view(key), parameter.key, parameter.flag}) {
-            // The length is limited, so that a hostile name costs little.
-            const std::size_t distance = edit_distance(name, key_or_flag.substr(0, 64));
-            if (distance < best) best = distance, nearest = key;
-        }
-    }
-    return fail(ErrorCode::kUsage,
-                fmt::format("Unknown parameter '{}'; check its name, the nearest is '{}'",
-                            key_or_flag.substr(0, 64), nearest));
-}
-template Expected<const Parameter<Region>*> find_parameter(std::span<const Parameter<Region>>,
-                                                           std::string_view);
-template Expected<const Parameter<Project>*> find_parameter(std::span<const Parameter<Project>>,
-                                                            std::string_view);
 
 Status set_parameter_text(Region& region, const Parameter<Region>& parameter,
                           std::string_view text) {

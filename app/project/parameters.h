@@ -24,6 +24,7 @@ enum class ParameterKind {
     kPath,     ///< std::string; relative paths refer to the project's folder
     kPoint,    ///< 2 numbers: x, y. On the command line "X,Y".
     kPaths,    ///< std::vector<std::string>, as kPath. On the command line, one per line.
+    kRgb,      ///< 3 numbers: R, G, B. On the command line "R,G,B", or one number for all three.
     kCorners,  ///< 8 numbers: TL, TR, BR, BL, or unset. On the command line "x,y x,y x,y x,y".
     kFrames,   ///< Frame numbers. On the command line a frame list.
     kNames,    ///< std::vector<std::string>, each one of `choices`. On the command line with commas

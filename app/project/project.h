@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/project/leaf.h"
+#include "engine/composite/blend_mode.h"
 #include "engine/compute/wrap_mode.h"
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
@@ -37,6 +38,12 @@ namespace weft {
 struct PlatePoint {
     double x = 0, y = 0;
     bool operator==(const PlatePoint&) const = default;
+};
+
+/// A number for each channel.
+struct RgbNumbers {
+    double r = 0, g = 0, b = 0;
+    bool operator==(const RgbNumbers&) const = default;
 };
 
 /// Stable id of a region inside its project, from 1; never reused. It keys random numbers and
@@ -130,7 +137,8 @@ struct MatteSource {
 };
 
 /// A part of a region in which a setting has another value: a matte like the region's own, painted
-/// or from files, and the value inside it. Several zones of one kind multiply.
+/// or from files, and the value inside it. Several zones on the light's strength multiply; of those
+/// on light detail the last one counts.
 struct Zone {
     ZoneKind kind = ZoneKind::kLight;
     double value = 0;
@@ -210,17 +218,42 @@ struct LightParams {
     LightSource source = LightSource::kPlate;
     std::string image;  ///< Illumination image for kImage.
     LightForm form = LightForm::kGain;
-    double strength = 1;         ///< λ
+    double strength = 1;         ///< λ, 0–2; above 1 the light's contrast is raised.
     KeyedNumbers strength_keys;  ///< λ over time; empty: `strength` throughout.
     std::vector<Lamp> lamps;     ///< Painted light, for kPainted.
-    double cast = 0;             ///< Light tint: how much of the light's colour the texture takes.
-    double highlights = 0;       ///< Keep highlights: how much of the old surface's gloss stays.
-    std::string albedo;          ///< Pattern of the albedo (unlit colour) pass.
-    std::string lighting;        ///< Pattern of the lighting pass.
-    std::string pass_layer;      ///< EXR layer of these two passes; empty: R, G, B.
-    bool exact = false;  ///< Uses their light unchanged, not relative to the reference frame's.
+    /// Light detail: 0 is broad light only, 0.5 the light as estimated, 1 all that the plate shows.
+    double detail = 0.5;
+    double keep_detail = 0;  ///< Keep plate detail: how much of the old surface's creases stays.
+    /// Light tint: how much of the light's colour the texture takes; unset: as far as the plate
+    /// gives evidence of it.
+    std::optional<double> cast;
+    double highlights = 0;   ///< Keep highlights: how much of the old surface's gloss stays.
+    std::string albedo;      ///< Pattern of the albedo (unlit colour) pass.
+    std::string lighting;    ///< Pattern of the lighting pass.
+    std::string pass_layer;  ///< EXR layer of these two passes; empty: R, G, B.
+    bool exact = false;      ///< Uses their light unchanged, not relative to the reference frame's.
     Extras extra;
     bool operator==(const LightParams&) const = default;
+};
+
+/// Colour correction of the texture before it is lit, in linear light of the working space.
+struct GradeParams {
+    double match = 1;        ///< Match plate: how far the exposure follows the plate's, 0–1.
+    double exposure = 0;     ///< Stops.
+    double temperature = 0;  ///< Mired; above 0 is warmer.
+    RgbNumbers multiply{1, 1, 1}, offset{0, 0, 0};
+    double contrast = 1, gamma = 1, saturation = 1;
+    double hue_deg = 0;
+    Extras extra;
+    bool operator==(const GradeParams&) const = default;
+};
+
+/// How the new surface goes over the old one.
+struct LayerParams {
+    double opacity = 1;
+    BlendMode blend = BlendMode::kNormal;
+    Extras extra;
+    bool operator==(const LayerParams&) const = default;
 };
 
 /// A correction on one frame: the texture at `from` belongs at `to`; plate pixels. Equal points pin
@@ -272,6 +305,8 @@ struct Region {
     SynthesisParams synthesis;
     TemporalParams temporal;
     LightParams light;
+    GradeParams grade;
+    LayerParams layer;
     FinishParams finish;
     LineParams lines;
     Extras extra;

@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "app/project/look_parameters.h"
 #include "app/project/parameter_entry.h"
 
 namespace weft {
@@ -304,135 +305,10 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "Weight of similarity to the previous frame in seam selection (λ_t)",
              .min = 0,
              .max = 100}),
-        entry<R, &R::light, &LightParams::source>({.group = "light",
-                                                   .key = "source",
-                                                   .flag = "--light",
-                                                   .help = "Source of the light on the new texture",
-                                                   .path_key = "image"}),
-        entry<R, &R::light, &LightParams::image>(
-            {.group = "light",
-             .key = "image",
-             .help = "Illumination image of the light source 'image'",
-             .is_path = true}),
-        entry<R, &R::light, &LightParams::form>(
-            {.group = "light",
-             .key = "form",
-             .flag = "--blend-mode",
-             .old_flag = "--light-form",
-             .help = "How the light is applied to the texture"}),
-        entry<R, &R::light, &LightParams::strength>({.group = "light",
-                                                     .key = "strength",
-                                                     .flag = "--light-strength",
-                                                     .help = "Strength of the light (λ)",
-                                                     .min = 0,
-                                                     .max = 1}),
-        entry<R, &R::light, &LightParams::strength_keys>(
-            {.group = "light",
-             .key = "strength_keys",
-             .flag = "--light-keys",
-             .help = "Animated strength of the light: FRAME:λ, separated by spaces",
-             .min = 0,
-             .max = 1}),
-        entry<R, &R::light, &LightParams::lamps>(
-            {.group = "light",
-             .key = "lamps",
-             .flag = "--lamps",
-             .help = "Painted light: point X,Y RADIUS GAIN; directional ANGLE GAIN; gradient X,Y "
-                     "X,Y GAIN GAIN; keys as FRAME: … | FRAME: …"}),
-        entry<R, &R::light, &LightParams::cast>(
-            {.group = "light",
-             .key = "cast",
-             .flag = "--light-tint",
-             .old_flag = "--light-cast",
-             .help = "How much of the light's colour the texture takes",
-             .min = 0,
-             .max = 1}),
-        entry<R, &R::light, &LightParams::highlights>(
-            {.group = "light",
-             .key = "highlights",
-             .flag = "--highlights",
-             .help = "How much of the old surface's gloss is kept",
-             .min = 0,
-             .max = 2}),
-        entry<R, &R::light, &LightParams::albedo>(
-            {.group = "light",
-             .key = "albedo",
-             .flag = "--albedo",
-             .help = "Pattern of the plate's albedo pass: gives the exact light",
-             .is_path = true}),
-        entry<R, &R::light, &LightParams::lighting>(
-            {.group = "light",
-             .key = "lighting",
-             .flag = "--lighting",
-             .help = "Pattern of the plate's lighting pass: gives the exact light",
-             .is_path = true}),
-        entry<R, &R::light, &LightParams::pass_layer>(
-            {.group = "light",
-             .key = "pass_layer",
-             .flag = "--light-layer",
-             .help = "EXR layer of the albedo or lighting pass"}),
-        entry<R, &R::light, &LightParams::exact>(
-            {.group = "light",
-             .key = "exact",
-             .flag = "--light-exact",
-             .help = "Use the pass's light unchanged, colour included, not relative to the "
-                     "reference frame's"}),
-        entry<R, &R::finish, &FinishParams::grain>(
-            {.group = "finish",
-             .key = "grain",
-             .flag = "--grain",
-             .help = "How much of the plate's grain is added to the texture (final quality)",
-             .min = 0,
-             .max = 2}),
-        entry<R, &R::finish, &FinishParams::focus>(
-            {.group = "finish",
-             .key = "focus",
-             .flag = "--defocus",
-             .old_flag = "--focus",
-             .help = "How much of the plate's defocus is applied to the texture (final quality)",
-             .min = 0,
-             .max = 2}),
-        entry<R, &R::finish, &FinishParams::depth>(
-            {.group = "finish",
-             .key = "depth",
-             .flag = "--depth-pass",
-             .help = "Pattern of a depth pass that guides defocus",
-             .is_path = true}),
-        entry<R, &R::finish, &FinishParams::shutter_deg>(
-            {.group = "finish",
-             .key = "shutter_deg",
-             .flag = "--shutter",
-             .unit = "deg",
-             .help =
-                 "Shutter angle of the motion blur; 180 is half a frame, 0 none; default measured "
-                 "on the plate (final quality)",
-             .min = 0,
-             .max = 720,
-             .optional = true}),
-        entry<R, &R::lines, &LineParams::files>(
-            {.group = "lines",
-             .key = "files",
-             .flag = "--lines",
-             .help = "Pattern of the ink lines' coverage; lines stay on top of the texture",
-             .is_path = true}),
-        entry<R, &R::lines, &LineParams::invert>({.group = "lines",
-                                                  .key = "invert",
-                                                  .flag = "--lines-invert",
-                                                  .help = "Ink is dark in the line pass"}),
-        entry<R, &R::lines, &LineParams::extract>(
-            {.group = "lines",
-             .key = "extract",
-             .flag = "--extract-lines",
-             .help = "Find the ink lines in the plate and keep them on top of the texture"}),
-        entry<R, &R::lines, &LineParams::width_px>({.group = "lines",
-                                                    .key = "width_px",
-                                                    .flag = "--line-width",
-                                                    .unit = "px",
-                                                    .help = "The widest stroke that counts as ink",
-                                                    .min = 1,
-                                                    .max = 64}),
     };
     table.insert(table.end(), std::begin(rest), std::end(rest));
+    for (Parameter<Region>& p : look_parameters())
+        table.push_back(std::move(p));
     return table;
 }
 

@@ -9,7 +9,9 @@ std::span<const Parameter<Zone>> zone_parameters() {
         entry<Zone, &Zone::kind>({.key = "kind", .help = "What the zone changes"}),
         entry<Zone, &Zone::value>(
             {.key = "value",
-             .help = "Inside the zone; of light: how much of it the texture takes",
+             .help =
+                 "Inside the zone; of light: how much of it the texture takes; of detail: 0 paint "
+                 "to 1 light",
              .min = 0,
              .max = 2}),
         entry<Zone, &Zone::value_keys>({.key = "value_keys",

@@ -22,6 +22,12 @@ struct DoEdit {
     Edit edit;
     bool operator==(const DoEdit&) const = default;
 };
+/// Several edits as one step.
+struct DoEdits {
+    std::vector<Edit> edits;
+    std::string label;  ///< In the history.
+    bool operator==(const DoEdits&) const = default;
+};
 /// The same while a control is being dragged: shown, but no step of the history until DoEdit.
 struct TryEdit {
     Edit edit;
@@ -115,9 +121,11 @@ struct MarkRange {
 
 // ---- mattes ----
 /// What is painted from now on: 0 the selected region's matte, k its holdout k − 1, −1 − k its zone
-/// k; one more than it has begins a new one with the first stroke.
+/// k; one more than it has begins a new one with the first stroke, a zone of this kind and value.
 struct SelectMatteLayer {
     int layer = 0;
+    ZoneKind zone_kind = ZoneKind::kLight;
+    double zone_value = 0;
     bool operator==(const SelectMatteLayer&) const = default;
 };
 struct BeginStroke {
@@ -307,8 +315,8 @@ struct MeasureResult {
 };
 
 using Action =
-    std::variant<DoEdit, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
-                 OpenAny, Save, SaveAs, CloseProject, Recover, TrustFolder, SelectRegion,
+    std::variant<DoEdit, DoEdits, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject,
+                 OpenDemo, OpenAny, Save, SaveAs, CloseProject, Recover, TrustFolder, SelectRegion,
                  SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, MarkRange,
                  BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer, FillPolygon, FloodSelect,
                  ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte,

@@ -205,7 +205,8 @@ class Session {
     double now_s_ = 0;
 
     RegionId selected_ = 0, solo_ = 0;
-    int layer_ = 0;  // of the selected region, as in SelectMatteLayer
+    int layer_ = 0;    // of the selected region, as in SelectMatteLayer
+    Zone begun_zone_;  // what a stroke beyond the last zone adds
     std::set<RegionId> locked_;
     MattePainting painting_;
     bool mattes_unwritten_ = false;  // as of the last update

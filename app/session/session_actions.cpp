@@ -12,6 +12,11 @@ struct Session::Actor {
 
     // ---- the document ----
     void operator()(const DoEdit& a) const { s.edit(a.edit, true); }
+    void operator()(const DoEdits& a) const {
+        auto changed = apply_edits(s.history_.current(), a.edits);
+        if (!changed) return s.notify(NoticeKind::kError, changed.error().text());
+        s.commit(std::move(*changed), a.label);
+    }
     void operator()(const TryEdit& a) const { s.edit(a.edit, false); }
     void operator()(const Undo&) const {
         moved_in_history([&] { return s.history_.undo(); });
@@ -62,6 +67,8 @@ struct Session::Actor {
         s.end_stroke();
         const Region* region = s.painted_region();
         s.layer_ = region ? std::clamp(a.layer, first_layer(*region), last_layer(*region)) : 0;
+        s.begun_zone_.kind = a.zone_kind;
+        s.begun_zone_.value = a.zone_value;
     }
 
     // ---- frames ----

@@ -137,7 +137,8 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
                 changed_names(before.select.crypto, picked->name, action.subtract);
             if (!before.select.crypto.empty()) matte.files = before.files;
             if (matte.select.crypto.empty()) matte.files.clear();
-            auto changed = apply_edit(history_.current(), set_layer(*now, layer, matte));
+            auto changed =
+                apply_edit(history_.current(), set_layer(*now, layer, matte, begun_zone_));
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
             commit(std::move(*changed), (action.subtract ? "Without " : "Pick ") + picked->name);
         };

@@ -198,7 +198,8 @@ void Session::keep_matte(MattePtr matte, const MattePlace& place, const std::str
     // The shape of an older keyframe does not describe the new matte.
     MatteSource source = layer_source(*target, place.layer);
     source.keyframes[place.frame] = {beside_project(path), shape};
-    auto changed = apply_edit(history_.current(), set_layer(*target, place.layer, source));
+    auto changed =
+        apply_edit(history_.current(), set_layer(*target, place.layer, source, begun_zone_));
     if (!changed) {
         notify(NoticeKind::kError, changed.error().text());
         return;
@@ -246,7 +247,7 @@ void Session::paint_instead() {
     MatteSource painted;
     painted.keyframes[playback_.frame()] = {beside_project(path), {}};
     const std::string name = layer_name(*region, layer_);
-    edit(set_layer(*region, layer_, painted), true);
+    edit(set_layer(*region, layer_, painted, begun_zone_), true);
     notify(NoticeKind::kInfo, "The matte of '" + name + "' is painted now: frame " +
                                   std::to_string(playback_.frame()) +
                                   " is its keyframe, the other frames follow from it.");
@@ -261,7 +262,7 @@ void Session::copy_keyframe(int from, int to) {
     // Files never change once written, so both keyframes may use the same one.
     MatteSource source = layer_source(*region, layer_);
     source.keyframes[to] = {source.keyframes.at(from).path, {}};
-    edit(set_layer(*region, layer_, source), true);
+    edit(set_layer(*region, layer_, source, begun_zone_), true);
 }
 
 }  // namespace weft

@@ -103,7 +103,8 @@ void Session::fill_between_shapes() {
                           [](const auto& key) { return key.second.shape_between; });
             for (const Made& one : list)
                 matte.keyframes[one.frame] = {beside_project(one.path), one.shape, true};
-            auto changed = apply_edit(history_.current(), set_layer(*now, layer, matte));
+            auto changed =
+                apply_edit(history_.current(), set_layer(*now, layer, matte, begun_zone_));
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
             commit(std::move(*changed), "Fill between the shapes of " + layer_name(*now, layer));
         };

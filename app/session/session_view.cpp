@@ -115,6 +115,7 @@ void Session::show_mattes() {
     // The layer may have been removed by undo.
     if (!region || layer_ < first_layer(*region) || layer_ > last_layer(*region)) layer_ = 0;
     view_.matte_layer = layer_;
+    view_.begun_zone = begun_zone_;
     if (region) {
         for (int layer = 1; layer < last_layer(*region) || layer <= layer_; ++layer)
             view_.holdouts.push_back(matte_of(*region, layer, playback_.frame()));

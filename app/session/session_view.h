@@ -133,6 +133,7 @@ struct SessionView {
     std::vector<RegionMatteView> holdouts;  ///< Of the selected region.
     std::vector<RegionMatteView> zones;     ///< Likewise.
     int matte_layer = 0;                    ///< As SelectMatteLayer::layer.
+    Zone begun_zone;                        ///< What a stroke beyond the last zone adds.
     bool painting = false, matte_busy = false;
     /// Shape of the selected region on this frame, or the last one before.
     std::optional<RotoShape> shape;

@@ -2,6 +2,7 @@
 #include "engine/core/setting.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace weft {
@@ -162,7 +163,10 @@ Status project_light(const LightParams& light, bool display_referred, RegionPlan
     if (light.source == LightSource::kPainted && plan.lamps.empty())
         return fail(ErrorCode::kUsage,
                     "Painted light needs lamps. Add one" + by({{setting::kLamps}}) + ".");
-    plan.cast = static_cast<float>(light.cast);
+    plan.detail = static_cast<float>(light.detail);
+    plan.keep_detail = static_cast<float>(light.keep_detail);
+    plan.cast.reset();
+    if (light.cast) plan.cast = static_cast<float>(*light.cast);
     plan.highlights = static_cast<float>(light.highlights);
     plan.light_pass = !light.lighting.empty() ? RegionPlan::Pass::kLighting
                       : !light.albedo.empty() ? RegionPlan::Pass::kAlbedo
@@ -176,13 +180,31 @@ Status project_light(const LightParams& light, bool display_referred, RegionPlan
     return {};
 }
 
+std::array<float, 3> rgb_of(const RgbNumbers& numbers) {
+    return {static_cast<float>(numbers.r), static_cast<float>(numbers.g),
+            static_cast<float>(numbers.b)};
+}
+
+void project_grade(const GradeParams& grade, const LayerParams& layer, RegionPlan& plan) {
+    plan.match = static_cast<float>(grade.match);
+    plan.grade = {.exposure = static_cast<float>(grade.exposure),
+                  .temperature = static_cast<float>(grade.temperature),
+                  .multiply = rgb_of(grade.multiply),
+                  .contrast = static_cast<float>(grade.contrast),
+                  .gamma = static_cast<float>(grade.gamma),
+                  .saturation = static_cast<float>(grade.saturation),
+                  .hue_deg = static_cast<float>(grade.hue_deg),
+                  .offset = rgb_of(grade.offset)};
+    plan.opacity = static_cast<float>(layer.opacity);
+    plan.blend_mode = layer.blend;
+}
+
 void project_finish(const FinishParams& finish, FlowQuality quality, RegionPlan& plan) {
-    const bool final = quality == FlowQuality::kFinal;
-    plan.grain = final ? static_cast<float>(finish.grain) : 0.0f;
-    plan.focus = final ? static_cast<float>(finish.focus) : 0.0f;
+    plan.grain = static_cast<float>(finish.grain);
+    plan.focus = static_cast<float>(finish.focus);
     plan.has_depth = plan.focus > 0 && !finish.depth.empty();
     plan.shutter_deg = 0.0f;
-    if (!final) return;
+    if (quality != FlowQuality::kFinal) return;
     plan.shutter_deg.reset();
     if (finish.shutter_deg) plan.shutter_deg = static_cast<float>(*finish.shutter_deg);
 }

@@ -34,7 +34,8 @@ void project_temporal(const TemporalParams& temporal, RegionPlan& plan);
 [[nodiscard]] Status project_light(const LightParams& light, bool display_referred,
                                    RegionPlan& plan);
 
-/// At draft quality there is no grain, defocus or motion blur.
+void project_grade(const GradeParams& grade, const LayerParams& layer, RegionPlan& plan);
+/// At draft quality there is no motion blur.
 void project_finish(const FinishParams& finish, FlowQuality quality, RegionPlan& plan);
 void project_lines(const LineParams& lines, RegionPlan& plan);
 

@@ -12,6 +12,7 @@
 #include "app/shot/shot_inputs.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
+#include "engine/core/luma.h"
 #include "engine/core/setting.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/synthesis/texture_plane.h"
@@ -136,7 +137,16 @@ class ShotOpener {
         plan.out_from_working = out_from_working;
         plan.out_from_plate = out_from_plate;
         working_from_display_ = working_from_display;
+        plan.exposure_greys = {working_grey(ExposureGreys::kOldSurface),
+                               working_grey(ExposureGreys::kBright)};
         return {};
+    }
+
+    // What a grey of this reflectance is in the working space.
+    [[nodiscard]] float working_grey(float reflectance) const {
+        ImageF3 grey(Size{1, 1}, linear_to_srgb(reflectance));
+        working_from_display_->apply(grey);
+        return luma_709(grey.data());
     }
 
     // Frozen frames become keyframes with files, except where one is painted.
@@ -191,6 +201,7 @@ class ShotOpener {
         plan.amendments = *region.amendments;
         project_temporal(region.temporal, plan);
         WEFT_CHECK_OK(project_light(region.light, shot_.plan.display_referred, plan));
+        project_grade(region.grade, region.layer, plan);
         project_finish(region.finish, shot_.plan.quality, plan);
         WEFT_CHECK_OK(add_evidence(region, plan));
         project_lines(region.lines, plan);

@@ -15,7 +15,7 @@ from truth import SurfaceTruth
 
 TILE_PX = 96    # the side of the tile on the reference frame, as it is delivered
 BASELINES = {"multiply": light.multiplied, "constant": light.constant}
-UNTOUCHED = ("--light", "none", "--grain", "0", "--defocus", "0", "--shutter", "0")
+UNTOUCHED = ("--light", "none", "--match-plate", "0", "--grain", "0", "--defocus", "0", "--shutter", "0")
 
 
 class RenderedSurface:

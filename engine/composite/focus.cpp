@@ -125,26 +125,38 @@ float edge_width(const ImageF1& sharp, const ImageF1& length, int x, int y, int 
     return (at(up) - at(-down)) / slope;
 }
 
-std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, float least) {
-    const int w = sharp.width(), h = sharp.height();
-    std::vector<EdgeBlur> edges;
-    for (int y = 4; y < h - 4; ++y) {
-        for (int x = 4; x < w - 4; ++x) {
-            const float here = length.row(y)[x];
-            if (here < least) continue;
-            // Only where the gradient is greatest across the edge, which is the edge's middle.
-            const Gradient g = gradient(sharp, x, y);
-            const int u = std::abs(g.x) > 0.4f * std::abs(g.y) ? (g.x > 0 ? 1 : -1) : 0;
-            const int v = std::abs(g.y) > 0.4f * std::abs(g.x) ? (g.y > 0 ? 1 : -1) : 0;
-            if (gradient(sharp, x + u, y + v).length() > here ||
-                gradient(sharp, x - u, y - v).length() > here)
-                continue;
-            const float width = edge_width(sharp, length, x, y, u, v);
-            if (!(width > 0)) continue;
-            const float step_px = u != 0 && v != 0 ? 1.41421356f : 1.0f;
-            edges.push_back({x, y, here, std::max(kSharpest, step_px * blur_of_width(width))});
-        }
+void edges_in_row(const ImageF1& sharp, const ImageF1& length, float least, int y,
+                  std::vector<EdgeBlur>& edges) {
+    const auto length_at = [&](int p, int q) {
+        const float known = length.row(q)[p];
+        return known > 0 ? known : gradient(sharp, p, q).length();
+    };
+    for (int x = 4; x < sharp.width() - 4; ++x) {
+        const float here = length.row(y)[x];
+        if (here < least) continue;
+        // Only where the gradient is greatest across the edge, which is the edge's middle.
+        const Gradient g = gradient(sharp, x, y);
+        const int u = std::abs(g.x) > 0.4f * std::abs(g.y) ? (g.x > 0 ? 1 : -1) : 0;
+        const int v = std::abs(g.y) > 0.4f * std::abs(g.x) ? (g.y > 0 ? 1 : -1) : 0;
+        if (length_at(x + u, y + v) > here || length_at(x - u, y - v) > here) continue;
+        const float width = edge_width(sharp, length, x, y, u, v);
+        if (!(width > 0)) continue;
+        const float step_px = u != 0 && v != 0 ? 1.41421356f : 1.0f;
+        edges.push_back({x, y, here, std::max(kSharpest, step_px * blur_of_width(width))});
     }
+}
+
+// In the order of the rows.
+std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, float least) {
+    const int h = sharp.height();
+    std::vector<std::vector<EdgeBlur>> rows(static_cast<std::size_t>(h));
+    parallel_rows(h, 16, [&](int y0, int y1) {
+        for (int y = std::max(4, y0); y < std::min(h - 4, y1); ++y)
+            edges_in_row(sharp, length, least, y, rows[static_cast<std::size_t>(y)]);
+    });
+    std::vector<EdgeBlur> edges;
+    for (const std::vector<EdgeBlur>& row : rows)
+        edges.insert(edges.end(), row.begin(), row.end());
     return edges;
 }
 

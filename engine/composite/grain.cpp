@@ -13,19 +13,62 @@ namespace {
 constexpr int kReach = GrainModel::kRadius;
 constexpr int kBins = GrainModel::kBins;
 
-// A random number of deviation 1 for a pixel and channel of the plate: the sum of four uniform ones
-// is normal enough, and needs no function whose last bit may differ between machines.
-float normal(std::uint64_t key, int x, int y, int channel) {
+// Random numbers of deviation 1 for the three channels of a pixel of the plate: the sum of four
+// uniform ones is normal enough, and needs no function whose last bit may differ between machines.
+std::array<float, 3> normals(std::uint64_t key, int x, int y) {
     const auto place = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) |
                        static_cast<std::uint32_t>(y);
-    const std::uint64_t bits =
-        mix64(mix64(key ^ mix64(place)) + static_cast<std::uint64_t>(channel));
-    std::uint32_t sum = 0;
-    for (int k = 0; k < 4; ++k)
-        sum += static_cast<std::uint32_t>((bits >> (16 * k)) & 0xffff);
-    constexpr float kMean = 4 * 32767.5f, kDeviation = 37837.2f;  // 2 · 65536 / √12
-    return (static_cast<float>(sum) - kMean) / kDeviation;
+    const std::uint64_t here = mix64(key ^ mix64(place));
+    std::array<float, 3> out;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint64_t bits = mix64(here + c);
+        std::uint32_t sum = 0;
+        for (int k = 0; k < 4; ++k)
+            sum += static_cast<std::uint32_t>((bits >> (16 * k)) & 0xffff);
+        constexpr float kMean = 4 * 32767.5f, kDeviation = 37837.2f;  // 2 · 65536 / √12
+        out[c] = (static_cast<float>(sum) - kMean) / kDeviation;
+    }
+    return out;
 }
+
+// Rows of grain for each channel: white noise, its channels mixed, and the same filtered.
+struct GrainRows {
+    GrainRows(int width, int rows)
+        : white{ImageF1(width + 2 * kReach, rows + 2 * kReach),
+                ImageF1(width + 2 * kReach, rows + 2 * kReach),
+                ImageF1(width + 2 * kReach, rows + 2 * kReach)},
+          shaped{ImageF1(width, 1), ImageF1(width, 1), ImageF1(width, 1)} {}
+
+    // (x0, y0): the plate's pixel of the first white one.
+    void draw(const GrainModel& model, std::uint64_t key, int x0, int y0) {
+        const auto& m = model.mix;
+        for (int y = 0; y < white[0].height(); ++y) {
+            for (int x = 0; x < white[0].width(); ++x) {
+                const std::array<float, 3> n = normals(key, x0 + x, y0 + y);
+                white[0].row(y)[x] = m[0] * n[0];
+                white[1].row(y)[x] = m[1] * n[0] + m[2] * n[1];
+                white[2].row(y)[x] = m[3] * n[0] + m[4] * n[1] + m[5] * n[2];
+            }
+        }
+    }
+
+    void filter(const GrainModel& model, int y) {
+        constexpr int kSide = GrainModel::kSide;
+        for (std::size_t c = 0; c < 3; ++c) {
+            float* out = shaped[c].row(0);
+            const int width = shaped[c].width();
+            std::fill_n(out, width, 0.0f);
+            for (int k = 0; k < kSide * kSide; ++k) {
+                const float tap = model.kernel[c][static_cast<std::size_t>(k)];
+                const float* in = white[c].row(y + k / kSide) + k % kSide;
+                for (int x = 0; x < width; ++x)
+                    out[x] += tap * in[x];
+            }
+        }
+    }
+
+    std::array<ImageF1, 3> white, shaped;
+};
 
 }  // namespace
 
@@ -41,35 +84,13 @@ bool GrainModel::present() const {
 void add_grain(ImageView<float, 3> display, ViewU8x1 matte, Vec2i origin, const GrainModel& model,
                float strength, std::uint64_t key) {
     if (!model.present() || !(strength > 0) || display.empty()) return;
-    constexpr int kSide = GrainModel::kSide;
-    const auto& m = model.mix;
-    const int width = display.width() + 2 * kReach;
     parallel_rows(display.height(), 16, [&](int y0, int y1) {
-        ImageF3 white(width, y1 - y0 + 2 * kReach);
-        for (int y = 0; y < white.height(); ++y) {
-            for (int x = 0; x < width; ++x) {
-                const auto fresh = [&](int c) {
-                    return normal(key, origin.x + x - kReach, origin.y + y0 + y - kReach, c);
-                };
-                const std::array<float, 3> n{fresh(0), fresh(1), fresh(2)};
-                float* w = white.pixel(x, y);
-                w[0] = m[0] * n[0];
-                w[1] = m[1] * n[0] + m[2] * n[1];
-                w[2] = m[3] * n[0] + m[4] * n[1] + m[5] * n[2];
-            }
-        }
+        GrainRows rows(display.width(), y1 - y0);
+        rows.draw(model, key, origin.x - kReach, origin.y + y0 - kReach);
         for (int y = y0; y < y1; ++y) {
+            rows.filter(model, y - y0);
             for (int x = 0; x < display.width(); ++x) {
                 if (matte.row(y)[x] == 0) continue;
-                std::array<float, 3> shaped{};
-                for (int v = 0; v < kSide; ++v) {
-                    const float* w = white.pixel(x, y - y0 + v);
-                    for (int u = 0; u < kSide; ++u, w += 3) {
-                        const auto k = static_cast<std::size_t>(v * kSide + u);
-                        for (std::size_t c = 0; c < 3; ++c)
-                            shaped[c] += model.kernel[c][k] * w[c];
-                    }
-                }
                 float* p = display.pixel(x, y);
                 const float at =
                     std::clamp(luma_601(p) * kBins - 0.5f, 0.0f, static_cast<float>(kBins) - 1.0f);
@@ -79,7 +100,7 @@ void add_grain(ImageView<float, 3> display, ViewU8x1 matte, Vec2i origin, const 
                 for (std::size_t c = 0; c < 3; ++c) {
                     const float deviation = model.deviation[c][b] +
                                             t * (model.deviation[c][next] - model.deviation[c][b]);
-                    p[c] += strength * deviation * shaped[c];
+                    p[c] += strength * deviation * rows.shaped[c].row(0)[x];
                 }
             }
         }

@@ -1,6 +1,7 @@
 #pragma once
 // Compositing a frame on a device; the frame is transferred once each way.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -37,6 +38,7 @@ struct LayerRequest {
     SampleRequest texture;  ///< Coordinates and matte of the layer's box.
     Vec2i origin{0, 0};     ///< Where the box's pixel (0, 0) lies on the frame; it lies inside.
     ViewF3 old_surface;     ///< B, of the box's size; read where the matte is soft.
+    std::array<float, 3> multiply{1, 1, 1};  ///< On the texture's R, G and B, before the light.
     std::optional<GainRequest> gain;
 };
 

@@ -123,6 +123,15 @@ void match_histogram(ImageView<float, 3> texture, ViewF3 plate, ViewU8x1 matte, 
     });
 }
 
+LightColour daylight_colour(const Daylight& daylight) {
+    LightColour out;
+    out.known = daylight.confidence > 0;
+    // Over G, which apply_cast() levels.
+    const float slope = daylight.confidence * daylight.slope;
+    out.slope = {slope * kDaylightRed, 0, slope * kDaylightBlue};
+    return out;
+}
+
 LightColour light_colour(ViewF3 plate, ViewU8x1 matte, const Shading& shading) {
     struct Sums {
         double n = 0, s = 0, ss = 0;

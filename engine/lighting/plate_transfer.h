@@ -24,6 +24,8 @@ struct LightColour {
     std::array<float, 3> mean{};
     bool known = false;
 };
+/// That of sun and sky, as far as the shot shows them; not known at a confidence of 0.
+[[nodiscard]] LightColour daylight_colour(const Daylight& daylight);
 /// `plate` and `matte` of the plate's size.
 [[nodiscard]] LightColour light_colour(ViewF3 plate, ViewU8x1 matte, const Shading& shading);
 

@@ -9,11 +9,15 @@
 #include <vector>
 
 #include "engine/color/color_space.h"
+#include "engine/color/grade.h"
+#include "engine/composite/blend_mode.h"
 #include "engine/compute/backend.h"
 #include "engine/core/image.h"
 #include "engine/core/keyed_numbers.h"
 #include "engine/lighting/lamp.h"
 #include "engine/lighting/light_source.h"
+#include "engine/lighting/plate_detail.h"
+#include "engine/lighting/plate_exposure.h"
 #include "engine/lighting/shading.h"
 #include "engine/mask/matte_reach.h"
 #include "engine/motion/corner_track.h"
@@ -110,10 +114,14 @@ struct RegionPlan {
     LightSource light_source = LightSource::kPlate;
     std::shared_ptr<const ImageF3> light_picture;  ///< Linear light; for kImage.
     LightOptions light;
-    KeyedNumbers strength_keys;  ///< λ over time, instead of light.strength.
-    std::vector<Lamp> lamps;     ///< For kPainted.
-    float cast = 0;              ///< How much of the light's colour the texture takes, 0–1.
-    float highlights = 0;        ///< How much of the old surface's gloss stays, 0–1.
+    KeyedNumbers strength_keys;       ///< λ over time, instead of light.strength.
+    std::vector<Lamp> lamps;          ///< For kPainted.
+    float detail = kEstimatedDetail;  ///< Light detail, 0–1.
+    float keep_detail = 0;            ///< How much of the old surface's fine detail stays, 0–2.
+    /// How much of the light's colour the texture takes, 0–1; empty: as far as there is evidence.
+    std::optional<float> cast = 0.0f;
+    [[nodiscard]] bool tints() const { return !cast || *cast > 0; }
+    float highlights = 0;  ///< How much of the old surface's gloss stays, 0–2.
     enum class Pass { kNone, kAlbedo, kLighting };
     Pass light_pass = Pass::kNone;  ///< A pass of the artist that gives the plate's light.
     /// Uses that light as it is, not relative to the reference frame's.
@@ -126,7 +134,7 @@ struct RegionPlan {
     }
     [[nodiscard]] bool lights() const {
         return light_source != LightSource::kNone &&
-               (light.strength > 0 || !strength_keys.empty() || cast > 0 || highlights > 0);
+               (light.strength > 0 || !strength_keys.empty() || tints() || highlights > 0);
     }
     /// Whether the plate's shading has to be estimated.
     [[nodiscard]] bool estimates_light() const {
@@ -136,6 +144,13 @@ struct RegionPlan {
     /// Frames that show what is old texture and what is light, ascending; empty: each frame is
     /// estimated alone. They do not depend on the part of the shot that is rendered.
     std::vector<int> light_evidence;
+    // Colour, and the way over the old surface.
+    float match = 0;  ///< How far the exposure follows the plate's, 0–1.
+    Grade grade;
+    [[nodiscard]] bool grades() const { return match > 0 || grade != Grade{}; }
+    float opacity = 1;
+    BlendMode blend_mode = BlendMode::kNormal;
+    [[nodiscard]] bool blends() const { return opacity < 1 || blend_mode != BlendMode::kNormal; }
     // Finish: effects of the plate's camera.
     float grain = 0, focus = 0;     ///< Strengths; 0: none.
     bool has_depth = false;         ///< Defocus follows a depth pass.
@@ -161,8 +176,9 @@ struct ShotPlan {
     bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,
         out_from_plate, display_from_working;
-    bool layers = false;       ///< Frames are rendered with their FrameLayers.
-    bool keep_planes = false;  ///< Scenes keep what their planes were made of.
+    ExposureGreys exposure_greys;  ///< In the working space.
+    bool layers = false;           ///< Frames are rendered with their FrameLayers.
+    bool keep_planes = false;      ///< Scenes keep what their planes were made of.
     /// The step of the plate's codes, as a share of white; 0: floating point.
     float plate_quantum = 0;
     std::vector<RegionPlan> regions;     ///< Lowest layer first.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/lighting/daylight.h"
+#include "engine/lighting/plate_exposure.h"
 #include "engine/lighting/plate_tint.h"
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/history_seams.h"
@@ -51,10 +53,22 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
-    if (region.cast > 0) {
-        scene.reference_colour = light_colour(working, visible, *shading);
+    if (region.tints()) {
+        scene.reference_colour = region.cast ? light_colour(working, visible, *shading)
+                                             : daylight_colour(find_daylight(working));
         scene.tint = plate_tint(working);
     }
+    return {};
+}
+
+Status take_exposure(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
+                     int index, int frame, RegionScene& scene) {
+    if (!(plan.regions[static_cast<std::size_t>(index)].match > 0)) return {};
+    WEFT_TRY(plate, source.plate(frame));
+    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
+    WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
+    scene.exposure = plate_exposure(working, without_holdout(extent, holdout), plan.exposure_greys);
     return {};
 }
 
@@ -164,6 +178,7 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         scene.shutter_deg = degrees;
     }
     WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
+    WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, reference, scene));
     if (region.light_source == LightSource::kImage) {
         WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
         scene.picture_light =

@@ -23,8 +23,13 @@ struct RegionScene {
     TextureMapping mapping;       ///< Of the still placement; with keys see mapping_on().
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
+    float exposure = 1;            ///< plate_exposure() of the reference frame.
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
     std::array<float, 3> tint{};   ///< plate_tint() of the reference frame.
+    /// Whether reference_colour or tint changes anything.
+    [[nodiscard]] bool light_has_colour() const {
+        return reference_colour.known || tint != std::array<float, 3>{};
+    }
     GrainModel grain;
     float shutter_deg = 0;
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.

@@ -50,6 +50,25 @@ Expected<ImageF1> zone_factor(const ShotSource& source, const ShotPlan& plan,
     return out;
 }
 
+Expected<ImageF1> light_detail(const ShotSource& source, const ShotPlan& plan,
+                               const AnalysisStore& store, int region, int frame) {
+    const RegionPlan& own = region_of(plan, region);
+    ImageF1 out;
+    if (own.detail != kEstimatedDetail) out = ImageF1(source.size(), own.detail);
+    for (int k = 0; k < static_cast<int>(own.zones.size()); ++k) {
+        const ZonePlan& zone = own.zones[static_cast<std::size_t>(k)];
+        if (zone.kind != ZoneKind::kDetail) continue;
+        WEFT_TRY(matte, zone_matte(source, plan, store, region, k, frame));
+        if (out.empty()) out = ImageF1(matte.size(), kEstimatedDetail);
+        const float value = std::clamp(zone.value_at(frame), 0.0f, 1.0f);
+        std::transform(matte.data(), matte.data() + matte.size_bytes(), out.data(), out.data(),
+                       [&](std::uint8_t m, float detail) {
+                           return detail + static_cast<float>(m) / 255.0f * (value - detail);
+                       });
+    }
+    return out;
+}
+
 void scale_light(Shading& shading, float reference, ViewF1 factor) {
     if (factor.empty()) return;
     constexpr float kLeast = 1e-4f;  // of the reference

@@ -21,6 +21,12 @@ namespace weft {
                                             const AnalysisStore& store, int region, ZoneKind kind,
                                             int frame);
 
+/// Light detail for each pixel of the plate: the region's own, replaced inside its zones of that
+/// kind (m of a zone's value, 1 − m of what is below it). Empty where it is kEstimatedDetail
+/// throughout. Errors: those of zone_matte().
+[[nodiscard]] Expected<ImageF1> light_detail(const ShotSource& source, const ShotPlan& plan,
+                                             const AnalysisStore& store, int region, int frame);
+
 /// Scales how far the shading departs from `reference` (S₀, > 0): S ← S₀ + k (S − S₀), k the mean
 /// of `factor` (H×W, of the plate) over each of the shading's blocks. The result stays above 0.
 void scale_light(Shading& shading, float reference, ViewF1 factor);

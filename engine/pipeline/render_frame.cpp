@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/composite/blend_mode.h"
 #include "engine/composite/composite.h"
 #include "engine/composite/focus.h"
 #include "engine/composite/focus_map.h"
@@ -11,15 +12,11 @@
 #include "engine/core/blur_inside.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
-#include "engine/lighting/exact_light.h"
-#include "engine/lighting/plate_tint.h"
-#include "engine/lighting/plate_transfer.h"
 #include "engine/mask/edge_softening.h"
+#include "engine/pipeline/frame_light.h"
 #include "engine/pipeline/plate_views.h"
-#include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_surface.h"
-#include "engine/pipeline/region_zones.h"
 #include "engine/pipeline/uv_coords.h"
 
 namespace weft {
@@ -57,10 +54,6 @@ class FrameRenderer {
 
   private:
     [[nodiscard]] Expected<Matte> composite_matte(int index);
-    // The light on the region; empty: none.
-    [[nodiscard]] Expected<std::optional<Shading>> shading(int index, const RegionScene& scene);
-    Status light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
-                 const std::optional<Shading>& shading, ImageF3& texture);
     // Effects of the plate's camera: the blur before light, which is blurred already, and the grain
     // after it.
     Status match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
@@ -73,13 +66,12 @@ class FrameRenderer {
     // frame, `inside` the box.
     Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
                       const RegionScene& scene, const Matte& matte, const Matte& inside,
-                      const std::optional<Shading>& shading);
+                      const FrameLight& light);
     // The region's contribution to the frame's layers, except for the patch.
     Status note_share(int index, const RegionSurface& surface, const Recti& box,
                       const RegionScene& scene, const Matte& inside, ViewF3 unlit, ViewF3 lit);
     Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
-                         const RegionScene& scene, const Matte& inside,
-                         const std::optional<Shading>& shading);
+                         const RegionScene& scene, const Matte& inside, const FrameLight& light);
     // Remembers that an error came from the device.
     template <class T>
     Expected<T> of_device(Expected<T> result) {
@@ -112,13 +104,23 @@ const RegionPlan& region_of(const ShotPlan& plan, int index) {
     return plan.regions[static_cast<std::size_t>(index)];
 }
 
+// The region's grade, on the plate's exposure.
+Grade grade_on(const RegionPlan& region, const RegionScene& scene) {
+    Grade grade = region.grade;
+    const float matched = std::pow(scene.exposure, region.match);
+    for (float& channel : grade.multiply)
+        channel *= matched;
+    return grade;
+}
+
 // True if a device supports all that a region needs: texture, a gain of light, composite.
 bool fits_device(const RegionPlan& region, const RegionScene& scene) {
-    const bool light = !region.lights() || (region.light.form == LightForm::kGain &&
-                                            region.cast <= 0 && region.highlights <= 0);
+    const bool tints = region.cast ? *region.cast > 0 : scene.light_has_colour();
+    const bool light = !region.lights() || (region.light.form == LightForm::kGain && !tints &&
+                                            region.highlights <= 0 && region.keep_detail <= 0);
     const bool grain = region.grain > 0 && scene.grain.present();
-    return light && !grain && !region.has_uv && !region.exact_light && !(region.focus > 0) &&
-           !region.has_lines && !region.extract_lines;
+    return light && region.grade == Grade{} && !region.blends() && !grain && !region.has_uv &&
+           !region.exact_light && !(region.focus > 0) && !region.has_lines && !region.extract_lines;
 }
 
 Expected<Matte> FrameRenderer::composite_matte(int index) {
@@ -129,56 +131,6 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
         extent = soften_hard_edge(views_->display, extent);
     }
     return without_holdout(extent, holdout);
-}
-
-Expected<std::optional<Shading>> FrameRenderer::shading(int index, const RegionScene& scene) {
-    const RegionPlan& region = region_of(plan_, index);
-    if (!region.lights() || is_transfer(region.light.form)) return std::nullopt;
-    std::optional<Shading> light = scene.picture_light;
-    if (!light) {
-        WEFT_TRY(found, region_shading(source_, region, store_, index, frame_, working_));
-        light = std::move(found);
-    }
-    if (!light || region.zones.empty()) return light;
-    WEFT_TRY(factor, zone_factor(source_, plan_, store_, index, ZoneKind::kLight, frame_));
-    scale_light(*light, scene.reference_shading, factor);
-    return light;
-}
-
-Status FrameRenderer::light(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
-                            const std::optional<Shading>& shading, ImageF3& texture) {
-    const RegionPlan& region = region_of(plan_, index);
-    if (!region.lights()) return {};
-    LightOptions options = region.light;
-    options.strength = region.strength_at(frame_);
-    const Vec2i origin(box.x0, box.y0);
-    const ViewF3 old_surface = working_.view().crop(box);
-    if (is_transfer(options.form)) {
-        if (options.form == LightForm::kStatistics)
-            transfer_statistics(texture, old_surface, matte, options.strength);
-        else
-            match_histogram(texture, old_surface, matte, options.strength);
-        return {};
-    }
-    if (region.exact_light && region.light_pass != RegionPlan::Pass::kNone) {
-        WEFT_TRY(pass, source_.light_pass(index, frame_));
-        const ViewF3 part = pass.view().crop(box);
-        const bool albedo = region.light_pass == RegionPlan::Pass::kAlbedo;
-        apply_exact_light(texture, old_surface, albedo ? part : ViewF3(), albedo ? ViewF3() : part,
-                          matte, options.strength);
-        return {};
-    }
-    if (!shading) return {};
-    apply_light(texture, origin, matte, *shading, scene.reference_shading, options);
-    if (scene.picture_light) return {};
-    if (region.cast > 0) {
-        apply_tint(texture, matte, scene.tint, region.cast);
-        WEFT_TRY(whole, composite_matte(index));
-        apply_cast(texture, origin, matte, *shading, scene.reference_shading,
-                   light_colour(working_, whole, *shading), scene.reference_colour, region.cast);
-    }
-    add_highlights(texture, origin, old_surface, matte, *shading, region.highlights);
-    return {};
 }
 
 Expected<std::optional<ImageF1>> FrameRenderer::local_blur(
@@ -253,15 +205,18 @@ Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, I
 
 Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
                                  const RegionScene& scene, const Matte& matte, const Matte& inside,
-                                 const std::optional<Shading>& shading) {
+                                 const FrameLight& light) {
     WEFT_TRY(texture, surface.texture(box, inside));
+    apply_grade(texture, inside, grade_on(region_of(plan_, index), scene));
     WEFT_CHECK_OK(match_focus(index, box, inside, texture));
     const ImageF3 unlit = layers_ ? texture : ImageF3();
-    WEFT_CHECK_OK(light(index, scene, box, inside, shading, texture));
+    WEFT_CHECK_OK(light.apply(inside, texture));
     if (layers_) WEFT_CHECK_OK(note_share(index, surface, box, scene, inside, unlit, texture));
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
     ImageF3 old_surface = unmix_surface(area, inside);
+    blend_layer(texture, old_surface, inside, region_of(plan_, index).blend_mode,
+                region_of(plan_, index).opacity);
     // The ink already has the plate's grain.
     WEFT_CHECK_OK(lay_ink(index, box, matte, texture, old_surface));
     if (layers_) add_patch(*layers_, box, inside, texture);
@@ -293,7 +248,7 @@ Status FrameRenderer::note_share(int index, const RegionSurface& surface, const 
 
 Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, const Recti& box,
                                     const RegionScene& scene, const Matte& inside,
-                                    const std::optional<Shading>& shading) {
+                                    const FrameLight& light) {
     WEFT_TRY(lookup, surface.lookup(box));
     const ImageView<float, 3> area = canvas_.view().crop(box);
     // Over another region, the old surface is what that region shows.
@@ -308,11 +263,12 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
     layer.texture.quality = surface.quality();
     layer.origin = {box.x0, box.y0};
     layer.old_surface = old_surface;
-    if (shading) {
+    layer.multiply = grade_on(region_of(plan_, index), scene).multiply;
+    if (const auto& shading = light.shading()) {
         layer.gain = GainRequest{shading->value,
                                  shading->downscale,
                                  scene.reference_shading,
-                                 region_of(plan_, index).strength_at(frame_),
+                                 light.strength(),
                                  region_of(plan_, index).light.least_gain,
                                  region_of(plan_, index).light.most_gain};
     }
@@ -329,8 +285,9 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
         const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
         std::copy(row, row + box.width(), inside.row(y));
     }
-    lit_ = lit_ || region_of(plan_, index).lights();
-    WEFT_TRY(falling, shading(index, scene));
+    lit_ = lit_ || region_of(plan_, index).lights() || region_of(plan_, index).grades();
+    WEFT_TRY(light, FrameLight::find(
+                        {source_, plan_, store_, index, frame_, working_, scene, matte, box}));
     RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
     TextureCoords exact;
     if (region_of(plan_, index).has_uv) {
@@ -340,9 +297,9 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
         surface.use_coords(exact);
     }
     if (device_) {
-        WEFT_CHECK_OK(add_on_device(index, surface, box, scene, inside, falling));
+        WEFT_CHECK_OK(add_on_device(index, surface, box, scene, inside, light));
     } else {
-        WEFT_CHECK_OK(add_on_cpu(index, surface, box, scene, matte, inside, falling));
+        WEFT_CHECK_OK(add_on_cpu(index, surface, box, scene, matte, inside, light));
     }
     std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(),
                    touched_.data(), [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });

@@ -6,7 +6,9 @@ namespace weft {
 enum class ZoneKind {
     /// How much of the light the texture takes: a factor on the light's strength, 0 to 2. 0 leaves
     /// the texture unlit, 1 changes nothing.
-    kLight
+    kLight,
+    /// What there counts as light: light detail, 0 (paint) to 1 (light, all that the plate shows).
+    kDetail
 };
 
 /// The number under which the matte of a region's zone number `zone` goes where those of its mattes

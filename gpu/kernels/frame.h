@@ -18,6 +18,7 @@ struct LayerArgs {
     float* frame;
     u8* touched;  ///< The highest matte so far, of the frame's size.
     int frame_w, origin_x, origin_y;
+    float multiply[3];     ///< On the texture, before the light.
     const float* shading;  ///< Null: no light.
     int shading_w, shading_h;
     float shading_scale, inverse_reference, strength, least_gain, most_gain;
@@ -48,6 +49,8 @@ WEFT_HD float shading_at(const LayerArgs& a, int x, int y) {
 /// The lit texture at pixel (x, y) of the layer's box.
 WEFT_HD void lit_texture(const LayerArgs& a, int x, int y, float* rgb) {
     PixelSampler(a.texture).sample(x, y, rgb);
+    for (int c = 0; c < 3; ++c)
+        rgb[c] *= a.multiply[c];
     if (!a.shading) return;
     const float light = shading_at(a, a.origin_x + x, a.origin_y + y);
     if (!(finite(light) && light > 0)) return;

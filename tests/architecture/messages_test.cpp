@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kAllowed{
     "app/exchange/schemas.cpp",  // describe the output of --json
     "app/main.cpp",              // parses the editor's command line
+    "app/project/look_parameters.cpp",
     "app/project/project_parameters.cpp",
     "app/project/region_parameters.cpp",
     "app/render/farm_engines.cpp",      // writes a farm's scripts

@@ -160,8 +160,8 @@ ImageF3 quadrants() {
 TEST_F(CliTest, CornersPlaceThePlaneOntoTheCard) {
     make_shot(2);
     put_picture("quadrants.png", quadrants());
-    expect_success(run_replace({"--plane", "quadrants.png", "--light", "none", "--corners", "30,25",
-                                "110,25", "110,85", "30,85"}));
+    expect_success(run_replace({"--plane", "quadrants.png", "--light", "none", "--match-plate", "0",
+                                "--corners", "30,25", "110,25", "110,85", "30,85"}));
     const ImageF3 result = picture("out/0001.png").rgb;
     EXPECT_NEAR(result.at(50, 40, 0), 0.8f, 0.01f);
     EXPECT_NEAR(result.at(50, 40, 1), 0.8f, 0.01f);

@@ -151,7 +151,7 @@ TEST_F(ProjectFile, RegionsAreLayersLaterOnesOnTop) {
     put_matte("all.png", all);
     const auto add = [&](const char* name, const char* matte, const char* plane) {
         expect_success(run({"region", "add", kProject, "--name", name, "--matte", matte, "--plane",
-                            plane, "--light", "none"}));
+                            plane, "--light", "none", "--match-plate", "0"}));
     };
     add("under", "../all.png", "../red.png");
     add("over", "../left.png", "../blue.png");

@@ -18,6 +18,7 @@ try:
     import mattes
     import textures
     from layout import Scene
+    from rendered import UNTOUCHED
     from runs import Runs, frame_file
     from truth import SurfaceTruth
 except ImportError as missing:
@@ -61,14 +62,15 @@ class Mini(unittest.TestCase):
     def motion(self, scene, runs, plate, matte):
         texture = textures.followed(runs.work / "followed.png")
         shared = (*matte, "--plane", texture)
-        _, frames, _ = runs.render("followed", plate, (*shared, "--quality", "draft", "--light", "none"))
+        _, frames, _ = runs.render("followed", plate, (*shared, *UNTOUCHED, "--quality", "draft"))
         said = runs("measured", "measure", "--result", frames, "--plate", plate, *shared, "--motion",
                     scene.pattern("motion", ending="png"), "--reference-frame", 1, "--frames", "1-6")
         return {"tde_over_floor": said["tde_over_floor"], "drift_px": said["drift_px"]}
 
     def light(self, scene, truth, runs, plate, matte):
         grey = textures.grey(runs.work / "grey.png", scene.facts["grey"])
-        _, frames, _ = runs.render("grey", plate, (*matte, "--plane", grey, "--quality", "draft"), ending="exr")
+        _, frames, _ = runs.render("grey", plate, (*matte, "--plane", grey, "--quality", "draft", "--grain", "0"),
+                                  ending="exr")
         inside = []
         for frame in scene.truth_frames:
             core = truth.core(frame, light.MARGIN_PX)

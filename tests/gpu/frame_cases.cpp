@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "engine/color/grade.h"
 #include "engine/composite/composite.h"
 #include "engine/compute/plane_sampler.h"
 #include "engine/core/rng.h"
@@ -98,6 +99,7 @@ std::vector<FrameCase> frame_cases() {
     out.push_back(c);
 
     c.name = "LitAndRolledOff";
+    c.layers[0].multiply = {1.3f, 0.8f, 0.45f};
     c.layers[0].shading = light({42, 34}, 3, 1.4f);
     c.knee = 0.9f;
     out.push_back(c);
@@ -152,6 +154,7 @@ LayerRequest request_of(const FrameLayer& l, ViewF3 old_surface) {
     r.texture = {&l.plane, l.coords, l.matte, l.quality};
     r.origin = l.origin;
     r.old_surface = old_surface;
+    r.multiply = l.multiply;
     if (!l.shading.empty()) r.gain = GainRequest{l.shading, l.downscale, l.reference, l.strength};
     return r;
 }
@@ -162,6 +165,7 @@ FrameResult composited_on_cpu(const FrameCase& c) {
     for (const FrameLayer& l : c.layers) {
         ImageF3 texture(l.matte.size());
         sample_plane_cpu({&l.plane, l.coords, l.matte, l.quality}, texture);
+        apply_grade(texture, l.matte, {.multiply = l.multiply});
         if (!l.shading.empty()) {
             apply_light(texture, l.origin, l.matte, {l.shading, l.downscale, c.frame.size(), {}},
                         l.reference, {LightForm::kGain, l.strength});

@@ -1,6 +1,7 @@
 #pragma once
 // A frame with layers, and what the CPU makes of it.
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct FrameLayer {
     Vec2i origin{0, 0};
     ImageF2 coords;
     Matte matte;
+    std::array<float, 3> multiply{1, 1, 1};
     ImageF1 shading;  ///< Empty: no light.
     int downscale = 2;
     float reference = 0.5f, strength = 1;

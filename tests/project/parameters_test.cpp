@@ -233,19 +233,38 @@ TEST_P(WrongText, NamesParameterValueAndRange) {
 
 INSTANTIATE_TEST_SUITE_P(
     Parameters, WrongText,
-    testing::Values(Wrong{"--scale", "0", "must be 0.001 to 1000 plate px per sample px, not 0"},
-                    Wrong{"--scale", "nan", "0.001 to 1000"},
-                    Wrong{"--scale", "inf", "0.001 to 1000"}, Wrong{"--scale", "2,5", "'2,5'"},
-                    Wrong{"--scale", "", "a number"}, Wrong{"--scale", "1e999", "a number"},
-                    Wrong{"--overlap", "11", "12 to 2048 px"},
-                    Wrong{"--overlap", "12.5", "whole number"},
-                    Wrong{"--overlap", "99999999999999999999", "whole number"},
-                    Wrong{"--seam", "graph", "graphcut, dp or none"},
-                    Wrong{"--light-strength", "1.5", "0 to 1"},
-                    Wrong{"--offset", "3", "two numbers"}, Wrong{"--offset", "3,x", "two numbers"},
-                    Wrong{"--corners", "0,0 1,1", "four points"},
-                    Wrong{"--matte-invert", "maybe", "true or false"},
-                    Wrong{"--reference-frame", "9-1", "9-1"}));
+    testing::Values(
+        Wrong{"--scale", "0", "must be 0.001 to 1000 plate px per sample px, not 0"},
+        Wrong{"--scale", "nan", "0.001 to 1000"}, Wrong{"--scale", "inf", "0.001 to 1000"},
+        Wrong{"--scale", "2,5", "'2,5'"}, Wrong{"--scale", "", "a number"},
+        Wrong{"--scale", "1e999", "a number"}, Wrong{"--overlap", "11", "12 to 2048 px"},
+        Wrong{"--overlap", "12.5", "whole number"},
+        Wrong{"--overlap", "99999999999999999999", "whole number"},
+        Wrong{"--seam", "graph", "graphcut, dp or none"},
+        Wrong{"--light-strength", "2.5", "0 to 2"}, Wrong{"--light-detail", "1.5", "0 to 1"},
+        Wrong{"--multiply", "1,2", "three numbers"}, Wrong{"--multiply", "-1", "0 to 100"},
+        Wrong{"--layer-blend", "add", "normal, multiply"}, Wrong{"--offset", "3", "two numbers"},
+        Wrong{"--offset", "3,x", "two numbers"}, Wrong{"--corners", "0,0 1,1", "four points"},
+        Wrong{"--matte-invert", "maybe", "true or false"},
+        Wrong{"--reference-frame", "9-1", "9-1"}));
+
+TEST(Parameters, ColoursAreThreeNumbersOrOneForAll) {
+    const auto& p = region_parameter("--multiply");
+    Region region;
+    ASSERT_TRUE(set_parameter_text(region, p, "0.5, 1 2"));
+    EXPECT_EQ(region.grade.multiply, (RgbNumbers{0.5, 1, 2}));
+    EXPECT_EQ(format_parameter(p, p.read(region)), "0.5,1,2");
+    ASSERT_TRUE(set_parameter_text(region, p, "0.25"));
+    EXPECT_EQ(region.grade.multiply, (RgbNumbers{0.25, 0.25, 0.25}));
+}
+
+TEST(Parameters, AutoUnsetsWhatMayBeUnset) {
+    Region region;
+    ASSERT_TRUE(set_parameter_text(region, region_parameter("--light-tint"), "0.5"));
+    EXPECT_EQ(region.light.cast, 0.5);
+    ASSERT_TRUE(set_parameter_text(region, region_parameter("--light-tint"), "auto"));
+    EXPECT_FALSE(region.light.cast);
+}
 
 TEST(Parameters, AnUnknownNameGetsTheNearest) {
     const auto found = find_parameter(region_parameters(), "--scael");

@@ -67,11 +67,15 @@ Region full_region() {
     r.light.lamps = {{LampKind::kPoint, {{{0, {320, 180, 200, 1.5}}}}},
                      {LampKind::kGradient, {{{1, {0, 0, 0, 9, 1, 2}}, {11, {0, 0, 0, 9, 1, 4}}}}}};
     r.light.cast = 0.25;
+    r.light.detail = 0.8;
+    r.light.keep_detail = 0.4;
     r.light.highlights = 0.5;
     r.light.albedo = "albedo/####.exr";
     r.light.lighting = "lighting/####.exr";
     r.light.pass_layer = "shot.DiffCol";
     r.light.exact = true;
+    r.grade = {0.5, -1, 20, {1, 0.9, 0.8}, {0.01, 0, -0.02}, 1.2, 0.9, 0.7, 15, {}};
+    r.layer = {0.8, BlendMode::kSoftLight, {}};
     r.finish = {0.5, 0.25, "depth/####.exr", 172.8, {}};
     r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
@@ -105,7 +109,7 @@ Project full_project() {
 
 std::string json_with_unknown_keys() {
     return R"({
-  "schema": "weft.project/2",
+  "schema": "weft.project/3",
   "future_top": {"deep": [1, {"x": null}], "big": 1e300},
   "plate": {"path": "frames/####.png", "future_plate": "p"},
   "color": {"future_color": 0.1},

@@ -114,7 +114,7 @@ TEST(RegionProjection, LightNeedsWhatItsSourceIsMadeOf) {
     EXPECT_EQ(plan.light_pass, RegionPlan::Pass::kLighting);
 }
 
-TEST(RegionProjection, DraftsHaveNoFinish) {
+TEST(RegionProjection, DraftsHaveGrainAndFocusButNoMotionBlur) {
     FinishParams finish;
     finish.grain = 0.5;
     finish.depth = "depth.####.exr";
@@ -124,8 +124,9 @@ TEST(RegionProjection, DraftsHaveNoFinish) {
     EXPECT_TRUE(final.has_depth);
     EXPECT_EQ(final.shutter_deg, std::nullopt) << "to be measured";
     project_finish(finish, FlowQuality::kDraft, draft);
-    EXPECT_EQ(draft.grain, 0);
-    EXPECT_FALSE(draft.has_depth);
+    EXPECT_FLOAT_EQ(draft.grain, 0.5f);
+    EXPECT_FLOAT_EQ(draft.focus, 1.0f);
+    EXPECT_TRUE(draft.has_depth);
     EXPECT_EQ(draft.shutter_deg, 0.0f);
     finish.shutter_deg = 180;
     project_finish(finish, FlowQuality::kFinal, final);

@@ -138,6 +138,29 @@ TEST_F(PaintedLayers, ALightZoneIsPaintedAndItsValueChanges) {
     EXPECT_THAT(*region().zones, IsEmpty());
 }
 
+TEST_F(PaintedLayers, WhatIsLightAndWhatIsPaintIsPainted) {
+    open();
+    ASSERT_TRUE(robot->click("Light zones"));
+    robot->wheel(-30);
+    robot->frames(3);
+    ASSERT_TRUE(robot->click("Light zones/Paint: this is light"));
+    robot->frames(3);
+    robot->stroke({at(40, 25), at(60, 40)});
+    robot->frames(3);
+    ASSERT_THAT(*region().zones, SizeIs(1));
+    EXPECT_EQ(region().zones->front().kind, ZoneKind::kDetail);
+    EXPECT_EQ(region().zones->front().value, 1.0);
+    ASSERT_TRUE(robot->click("Light zones/Back to the matte"));
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Light zones/Paint: this is paint"));
+    robot->frames(3);
+    robot->stroke({at(20, 25), at(30, 40)});
+    robot->frames(3);
+    ASSERT_THAT(*region().zones, SizeIs(2));
+    EXPECT_EQ(region().zones->back().kind, ZoneKind::kDetail);
+    EXPECT_EQ(region().zones->back().value, 0.0);
+}
+
 TEST(MatteLayer, ZonesHaveNumbersBelowZero) {
     Region region;
     region.id = 4;

@@ -168,9 +168,28 @@ Status upgrade_from_1(Json& document) {
     return {};
 }
 
+/// 2 → 3. A new region takes the light's colour and the plate's exposure; one that was saved keeps
+/// its look.
+Status upgrade_from_2(Json& document) {
+    const auto regions = document.find("regions");
+    if (regions == document.end() || !regions->is_array()) return {};
+    const auto keep = [](Json& region, const char* group, const char* key) {
+        if (!region.contains(group)) region[group] = Json::object();
+        Json& object = region[group];
+        if (object.is_object() && !object.contains(key)) object[key] = 0.0;
+    };
+    for (Json& region : *regions) {
+        if (!region.is_object()) continue;
+        keep(region, "light", "cast");
+        keep(region, "grade", "match");
+    }
+    return {};
+}
+
 using Upgrade = Status (*)(Json&);
 /// kUpgrades[n] upgrades version n to n + 1.
-constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1};
+constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1,
+                                                               upgrade_from_2};
 
 /// The n of "weft.project/n".
 std::optional<int> version_of(std::string_view schema) {

@@ -1,0 +1,113 @@
+#include "engine/pipeline/frame_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/lighting/exact_light.h"
+#include "engine/lighting/plate_detail.h"
+#include "engine/lighting/plate_tint.h"
+#include "engine/lighting/plate_transfer.h"
+#include "engine/pipeline/region_light.h"
+#include "engine/pipeline/region_zones.h"
+
+namespace weft {
+namespace {
+
+// S ← S₀ (S / S₀)^λ: more contrast than the light has.
+void raise_light(Shading& shading, float reference, float strength) {
+    if (!(reference > 0)) return;
+    for (std::size_t i = 0; i < shading.value.size_bytes() / sizeof(float); ++i) {
+        float& s = shading.value.data()[i];
+        if (s > 0) s = reference * std::pow(s / reference, strength);
+    }
+}
+
+}  // namespace
+
+Expected<FrameLight> FrameLight::find(const FrameLightInputs& inputs) {
+    FrameLight out(inputs);
+    const RegionPlan& region = out.region();
+    out.strength_ = region.strength_at(inputs.frame);
+    if (!region.lights() || is_transfer(region.light.form)) return out;
+    out.shading_ = inputs.scene.picture_light;
+    if (!out.shading_) {
+        WEFT_TRY(found, region_shading(inputs.source, region, inputs.store, inputs.index,
+                                       inputs.frame, inputs.working));
+        out.shading_ = std::move(found);
+    }
+    if (out.shading_) WEFT_CHECK_OK(out.change());
+    return out;
+}
+
+Status FrameLight::change() {
+    const RegionPlan& plan = region();
+    if (plan.light_source == LightSource::kPlate) {
+        WEFT_TRY(detail, light_detail(in_.source, in_.plan, in_.store, in_.index, in_.frame));
+        if (!detail.empty())
+            shading_ = with_light_detail(*shading_, in_.working, in_.matte, in_.box, detail);
+    }
+    if (!plan.zones.empty()) {
+        WEFT_TRY(factor, zone_factor(in_.source, in_.plan, in_.store, in_.index, ZoneKind::kLight,
+                                     in_.frame));
+        scale_light(*shading_, in_.scene.reference_shading, factor);
+    }
+    if (strength_ > 1) {
+        raise_light(*shading_, in_.scene.reference_shading, strength_);
+        strength_ = 1;
+    }
+    return {};
+}
+
+void FrameLight::tint(ViewU8x1 inside, ImageF3& texture) const {
+    const RegionPlan& plan = region();
+    const RegionScene& scene = in_.scene;
+    if (!plan.tints()) return;
+    apply_tint(texture, inside, scene.tint, plan.cast.value_or(1.0f));
+    // Of its own accord the texture takes the colours that the whole shot's sun and sky show; what
+    // one region's colours follow may be its paint.
+    const LightColour here =
+        plan.cast ? light_colour(in_.working, in_.matte, *shading_) : scene.reference_colour;
+    apply_cast(texture, {in_.box.x0, in_.box.y0}, inside, *shading_, scene.reference_shading, here,
+               scene.reference_colour, plan.cast.value_or(1.0f));
+}
+
+Status FrameLight::put_light(ViewU8x1 inside, ImageF3& texture) const {
+    const RegionPlan& plan = region();
+    if (!plan.lights()) return {};
+    const Vec2i origin(in_.box.x0, in_.box.y0);
+    const ViewF3 old_surface = in_.working.view().crop(in_.box);
+    LightOptions options = plan.light;
+    options.strength = strength_;
+    if (is_transfer(options.form)) {
+        const float share = std::min(1.0f, strength_);
+        if (options.form == LightForm::kStatistics)
+            transfer_statistics(texture, old_surface, inside, share);
+        else
+            match_histogram(texture, old_surface, inside, share);
+        return {};
+    }
+    if (plan.exact_light && plan.light_pass != RegionPlan::Pass::kNone) {
+        WEFT_TRY(pass, in_.source.light_pass(in_.index, in_.frame));
+        const ViewF3 part = pass.view().crop(in_.box);
+        const bool albedo = plan.light_pass == RegionPlan::Pass::kAlbedo;
+        apply_exact_light(texture, old_surface, albedo ? part : ViewF3(), albedo ? ViewF3() : part,
+                          inside, options.strength);
+        return {};
+    }
+    if (!shading_) return {};
+    apply_light(texture, origin, inside, *shading_, in_.scene.reference_shading, options);
+    if (in_.scene.picture_light) return {};
+    tint(inside, texture);
+    add_highlights(texture, origin, old_surface, inside, *shading_, plan.highlights);
+    return {};
+}
+
+Status FrameLight::apply(ViewU8x1 inside, ImageF3& texture) const {
+    WEFT_CHECK_OK(put_light(inside, texture));
+    keep_plate_detail(texture, {in_.box.x0, in_.box.y0}, in_.working, inside,
+                      shading_ ? &*shading_ : nullptr, region().keep_detail);
+    return {};
+}
+
+}  // namespace weft

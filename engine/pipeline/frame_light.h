@@ -1,0 +1,52 @@
+#pragma once
+// One region's light on one frame: found, changed as the artist asks, and put on the texture.
+
+#include <optional>
+
+#include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/region_scene.h"
+#include "engine/pipeline/shot_source.h"
+
+namespace weft {
+
+/// What the light of a region on a frame follows from. All of it outlives the FrameLight.
+struct FrameLightInputs {
+    const ShotSource& source;
+    const ShotPlan& plan;
+    const AnalysisStore& store;
+    int index;  ///< Of the region.
+    int frame;
+    const ImageF3& working;  ///< The plate in the working space.
+    const RegionScene& scene;
+    const Matte& matte;  ///< The region's, of the plate's size.
+    Recti box;           ///< That bounds it.
+};
+
+class FrameLight {
+  public:
+    /// Errors: those of the source and of the store.
+    [[nodiscard]] static Expected<FrameLight> find(const FrameLightInputs& inputs);
+
+    /// With light detail, zones and strengths above 1 in it; empty: none.
+    [[nodiscard]] const std::optional<Shading>& shading() const { return shading_; }
+    /// λ that is left to be applied, 0–1.
+    [[nodiscard]] float strength() const { return strength_; }
+    /// Lights the texture over the box; `inside` is the matte there. Errors: those of the source.
+    [[nodiscard]] Status apply(ViewU8x1 inside, ImageF3& texture) const;
+
+  private:
+    explicit FrameLight(const FrameLightInputs& inputs) : in_(inputs) {}
+    [[nodiscard]] const RegionPlan& region() const {
+        return in_.plan.regions[static_cast<std::size_t>(in_.index)];
+    }
+    [[nodiscard]] Status change();
+    void tint(ViewU8x1 inside, ImageF3& texture) const;
+    [[nodiscard]] Status put_light(ViewU8x1 inside, ImageF3& texture) const;
+
+    FrameLightInputs in_;
+    std::optional<Shading> shading_;
+    float strength_ = 0;
+};
+
+}  // namespace weft

@@ -1,0 +1,158 @@
+// What the artist asks of the light, and of the new surface's colour and its way over the old one.
+#include "engine/pipeline/frame_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "engine/color/color_space.h"
+#include "engine/compute/backend_registry.h"
+#include "engine/pipeline/region_zones.h"
+#include "engine/pipeline/render_frame.h"
+#include "tests/pipeline/memory_shot.h"
+
+namespace weft {
+namespace {
+
+constexpr int kFrame = 5;
+constexpr Recti kZoneBox{40, 30, 90, 70};
+constexpr Vec2i kInZone{60, 50}, kBeside{120, 80};
+
+class Wall : public MemoryShot {
+  public:
+    Wall() : MemoryShot(make_wall(false, false)) {}
+    [[nodiscard]] Expected<Matte> zone(int, int, int) const override { return box_matte(kZoneBox); }
+};
+
+ZonePlan detail_zone(float value) {
+    ZonePlan zone;
+    zone.kind = ZoneKind::kDetail;
+    zone.value = value;
+    return zone;
+}
+
+RegionPlan lamp_lit() {
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    region.light_source = LightSource::kPainted;
+    region.lamps = {{LampKind::kPoint, {{{0, {80, 56, 200, 2}}}}}};
+    return region;
+}
+
+RegionPlan plate_lit() {
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    region.light_source = LightSource::kPlate;
+    return region;
+}
+
+ImageF3 rendered(const RegionPlan& region) {
+    const Wall shot;
+    const ShotPlan plan = make_plan(region, kFrame, kFrame);
+    MemoryAnalysisStore store;
+    const Status done = analyse_shot(shot, plan, store, {}, {});
+    EXPECT_TRUE(done) << (done ? "" : done.error().text());
+    auto scene = make_scene(shot, plan, store, 0, {}, {});
+    EXPECT_TRUE(scene) << (scene ? "" : scene.error().text());
+    const std::vector<RegionScene> scenes{std::move(*scene)};
+    auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kFrame);
+    EXPECT_TRUE(frame) << (frame ? "" : frame.error().text());
+    return std::move(frame->pixels);
+}
+
+float linear_at(const ImageF3& picture, Vec2i at, int channel = 1) {
+    return srgb_to_linear(picture.pixel(at.x, at.y)[channel]);
+}
+
+// The texture's own light is that of the reference: without strength there is no gain.
+TEST(FrameLight, AStrengthAboveOneRaisesTheContrast) {
+    RegionPlan region = lamp_lit();
+    const float once = linear_at(rendered(region), kBeside);
+    region.light.strength = 0;
+    const float none = linear_at(rendered(region), kBeside);
+    region.light.strength = 1.5f;
+    const float more = linear_at(rendered(region), kBeside);
+    ASSERT_GT(once, 1.05f * none);
+    EXPECT_NEAR(std::log(more / none), 1.5f * std::log(once / none), 0.02f);
+}
+
+// How far the lit texture's detail goes with the plate's, over a line of the surface.
+float detail_of(const ImageF3& picture, int x0, int x1, int y) {
+    float sum = 0;
+    for (int x = x0 + 1; x < x1; ++x)
+        sum += std::abs(std::log(linear_at(picture, {x, y}) / linear_at(picture, {x - 1, y})));
+    return sum;
+}
+
+TEST(FrameLight, LightDetailGoesFromBroadLightToAllThatThePlateShows) {
+    RegionPlan region = plate_lit();
+    const auto detail = [&](float amount) {
+        region.detail = amount;
+        return detail_of(rendered(region), 30, 130, 60);
+    };
+    const float broad = detail(0), estimated = detail(0.5f), all = detail(1);
+    EXPECT_LT(broad, estimated);
+    EXPECT_GT(all, 1.5f * estimated);
+}
+
+TEST(FrameLight, AZoneSaysWhatIsLightAndWhatIsPaint) {
+    RegionPlan region = plate_lit();
+    const ImageF3 before = rendered(region);
+    region.zones = {detail_zone(1)};
+    const ImageF3 light = rendered(region);
+    region.zones = {detail_zone(1), detail_zone(0)};
+    const ImageF3 paint = rendered(region);
+    const auto inside = [](const ImageF3& p) { return detail_of(p, 42, 88, 50); };
+    EXPECT_GT(inside(light), 1.3f * inside(before));
+    EXPECT_LT(inside(paint), inside(before)) << "the last one counts";
+    EXPECT_NEAR(light.pixel(kBeside.x, kBeside.y)[1], before.pixel(kBeside.x, kBeside.y)[1], 2e-3f);
+}
+
+TEST(FrameLight, KeptDetailIsAFactorOfItsOwn) {
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    const float flat = detail_of(rendered(region), 30, 130, 60);
+    EXPECT_LT(flat, 1e-3f);
+    region.keep_detail = 1;
+    EXPECT_GT(detail_of(rendered(region), 30, 130, 60), 0.5f) << "without any light";
+}
+
+TEST(FrameLight, TheGradeAndTheMatchAreOnTheTexture) {
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    const float before = linear_at(rendered(region), kBeside);
+    region.grade.exposure = -1;
+    region.grade.multiply = {1, 0.5f, 1};
+    EXPECT_NEAR(linear_at(rendered(region), kBeside), before / 4, 1e-3f);
+    EXPECT_NEAR(linear_at(rendered(region), kBeside, 0), before / 2, 1e-3f);
+    region.grade = {};
+    region.match = 1;
+    const float matched = linear_at(rendered(region), kBeside);
+    region.match = 0.5f;
+    EXPECT_NE(matched, before);
+    EXPECT_NEAR(linear_at(rendered(region), kBeside), std::sqrt(before * matched), 2e-3f);
+}
+
+TEST(FrameLight, OpacityAndBlendModeGoOverTheOldSurface) {
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    const Wall shot;
+    const float plate = srgb_to_linear(shot.plates.at(kFrame)->pixel(kBeside.x, kBeside.y)[1]);
+    const float texture = linear_at(rendered(region), kBeside);
+    region.opacity = 0.25f;
+    EXPECT_NEAR(linear_at(rendered(region), kBeside), plate + 0.25f * (texture - plate), 1e-3f);
+    region.opacity = 1;
+    region.blend_mode = BlendMode::kMultiply;
+    EXPECT_NEAR(linear_at(rendered(region), kBeside), plate * texture, 1e-3f);
+}
+
+TEST(FrameLight, DetailIsEmptyWhereItIsAsEstimated) {
+    const Wall shot;
+    const MemoryAnalysisStore store;
+    RegionPlan region = plate_lit();
+    EXPECT_TRUE(light_detail(shot, make_plan(region), store, 0, kFrame)->empty());
+    region.zones = {detail_zone(3)};
+    const auto found = light_detail(shot, make_plan(region), store, 0, kFrame);
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_EQ(found->at(kInZone.x, kInZone.y), 1.0f) << "at most all of it";
+    EXPECT_EQ(found->at(kBeside.x, kBeside.y), kEstimatedDetail);
+}
+
+}  // namespace
+}  // namespace weft
