@@ -65,7 +65,7 @@ void light_inspector(Ctx& c) {
             region_parameter(c, *region, "synthesis.mirror", "Allow mirroring");
             region_parameter(c, *region, "synthesis.align", "Align rows");
             region_parameter(c, *region, "synthesis.seam_cost", "Seam cost");
-            region_parameter(c, *region, "texture.also", "Additional samples");
+            region_parameter(c, *region, "texture.also", "More samples");
             project_parameter(c, "settings.seed", "Seed");
             const Command* over = c.commands.find("view.seams");
             bool on = over->checked(c);

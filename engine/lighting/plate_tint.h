@@ -18,6 +18,11 @@ namespace weft {
 /// exchanged.
 [[nodiscard]] std::array<float, 3> plate_tint(ViewF3 plate);
 
+/// The most probable colour of the plate's light, as plate_tint() gives it, under the second
+/// condition only, and shrunk towards white, because most cameras are balanced. Unlike the first
+/// condition it hardly differs between the frames of a shot.
+[[nodiscard]] std::array<float, 3> likely_tint(ViewF3 plate);
+
 /// Colours the texture (linear light, in place) by `strength` × `tint`. The luminance of a grey is
 /// kept. A strength or a tint of 0 changes no bit. Pixels whose matte is 0 may be left as they are.
 void apply_tint(ImageView<float, 3> texture, ViewU8x1 matte, const std::array<float, 3>& tint,

@@ -56,7 +56,7 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     if (region.tints()) {
         scene.reference_colour = region.cast ? light_colour(working, visible, *shading)
                                              : daylight_colour(find_daylight(working));
-        scene.tint = plate_tint(working);
+        scene.tint = region.cast ? plate_tint(working) : likely_tint(working);
     }
     return {};
 }

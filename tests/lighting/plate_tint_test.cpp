@@ -52,6 +52,19 @@ TEST(PlateTint, OneWarmMaterialIsNoEvening) {
     EXPECT_EQ(plate_tint(paints({0.9f, 0.9f, 0.9f}, {0.2f, 0.2f, 0.2f}, brick)), (Colour{0, 0, 0}));
 }
 
+TEST(LikelyTint, IsALargePartOfALampsColourAndNoneOfOneMaterials) {
+    const Colour lamp{0.9f, 0.75f, 0.6f}, shade{0.2f, 0.2f, 0.22f};
+    const Colour tint = likely_tint(paints(lamp, shade));
+    const float red = std::log(lamp[0] / lamp[1]), blue = std::log(lamp[2] / lamp[1]);
+    EXPECT_GT(tint[0] - tint[1], 0.3f * red);
+    EXPECT_LT(tint[0] - tint[1], red);
+    EXPECT_LT(tint[2] - tint[1], 0.3f * blue);
+    EXPECT_GT(tint[2] - tint[1], blue);
+    const Colour brick{0.1f, 0.05f, 0.01f};
+    EXPECT_EQ(likely_tint(paints({0.9f, 0.9f, 0.9f}, {0.2f, 0.2f, 0.2f}, brick)),
+              (Colour{0, 0, 0}));
+}
+
 TEST(PlateTint, AnEveningSunIsOrangeWhateverItsStrength) {
     // So orange that the bluest of these paints is not blue any more; the sky lights the shade.
     for (const float strength : {1.0f, 20.0f}) {
