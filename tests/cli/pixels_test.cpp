@@ -179,8 +179,9 @@ TEST_F(CliTest, SceneLinearLightUpTo100IsNeitherClippedNorTinted) {
         }(),
         PixelDepth::kFloat);
     for (const char* quality : {"draft", "final"}) {
-        expect_success(run_replace({"--plate", "frames/####.exr", "-o", "out/####.exr", "--plane",
-                                    "ochre.exr", "--quality", quality, "--overwrite"}));
+        expect_success(
+            run_replace({"--plate", "frames/####.exr", "-o", "out/####.exr", "--plane", "ochre.exr",
+                         "--quality", quality, "--light-tint", "0", "--overwrite"}));
         for (int frame = 1; frame <= 3; ++frame) {
             const std::string name = "000" + std::to_string(frame) + ".exr";
             const PlateFrame plate = picture("frames/" + name), result = picture("out/" + name);
