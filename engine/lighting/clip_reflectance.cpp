@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "engine/core/parallel.h"
+#include "engine/core/smooth_step.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -13,9 +14,11 @@ namespace weft {
 namespace {
 
 constexpr int kFewestFrames = 3;
-constexpr float kSplatKnown = 0.2f;              // of a pixel's weight
-constexpr int kLongestPeriod = 64;               // small pixels
-constexpr float kPeriods = 1.0f;                 // features up to this many periods wide are paint
+constexpr float kSplatKnown = 0.2f;  // of a pixel's weight
+constexpr int kLongestPeriod = 64;   // small pixels
+constexpr float kPeriods = 1.0f;     // features up to this many periods wide are paint
+// Of the pattern's deviation: what a blur may leave of it, and what is light for certain.
+constexpr double kRemainsOfPattern = 2.0, kMoreThanPattern = 3.0;
 constexpr int kLevelRounds = 3, kLevelStep = 3;  // rounds, and pixels between samples
 
 // Quantiles, as a share of the values below.
@@ -65,6 +68,20 @@ ImageF1 difference_of(const ImageF1& a, const ImageF1& b, const ImageF1& known) 
         if (known.data()[i] > 0) out.data()[i] = a.data()[i] - b.data()[i];
     }
     return out;
+}
+
+double energy(const ImageF1& plane) {
+    double sum = 0;
+    for (std::size_t i = 0; i < plane.size_bytes() / sizeof(float); ++i)
+        sum += static_cast<double>(plane.data()[i]) * plane.data()[i];
+    return sum;
+}
+
+// How far `rest` may be remains of the pattern, 0 to 1. Shadows are stronger than a faint pattern:
+// what would leave more behind than there is of it was never a part of it.
+float remains_share(const ImageF1& rest, const ImageF1& pattern) {
+    const double ratio = std::sqrt(energy(rest) / std::max(energy(pattern), 1e-9));
+    return static_cast<float>(1.0 - smooth_step(ratio, kRemainsOfPattern, kMoreThanPattern));
 }
 
 }  // namespace
@@ -194,8 +211,11 @@ ClipReflectance ReflectanceGatherer::finish() {
     if (period > 0) {
         // Here larger features of the pattern can be separated from light than in a single frame:
         // up to the pattern's period.
-        light = light_beyond_period(light, out.confidence, out.value,
-                                    static_cast<float>(period) * kPeriods);
+        const ImageF1 wide = light_beyond_period(light, out.confidence, out.value,
+                                                 static_cast<float>(period) * kPeriods);
+        const float share = remains_share(difference_of(light, wide, out.confidence), out.value);
+        for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
+            light.data()[i] += share * (wide.data()[i] - light.data()[i]);
         out.value = difference_of(still.luma, light, out.confidence);
     }
     return out;

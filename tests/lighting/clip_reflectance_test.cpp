@@ -173,6 +173,39 @@ TEST(ClipReflectance, WhereABodyTurnsAwayFromTheLightItIsDark) {
     EXPECT_LT(s.value.at(140, 60) / s.value.at(80, 60), 0.2f);
 }
 
+// Soft bars of shadow that never move, narrower than the pavers they lie on.
+float still_shade(int x, int y) {
+    const auto u = static_cast<float>(x), v = static_cast<float>(y);
+    return 0.65f - 0.2f * std::tanh(2 * std::sin(0.1f * u + 2 * std::sin(0.023f * v)) +
+                                    std::cos(0.031f * u - 0.04f * v));
+}
+
+TEST(ClipReflectance, AStillShadowOnAFaintPatternIsLight) {
+    // Pavers of 88 px with joints of 4 px that are a little darker.
+    ImageF3 plate(scene::plate().size());
+    for (int y = 0; y < plate.height(); ++y)
+        for (int x = 0; x < plate.width(); ++x)
+            for (int c = 0; c < 3; ++c)
+                plate.at(x, y, c) =
+                    0.4f * (x % 88 < 4 || y % 88 < 4 ? 0.8f : 1.0f) * still_shade(x, y);
+    const Matte matte = scene::box_matte({10, 10, 310, 230});
+    ReflectanceGatherer gatherer({});
+    const SurfaceSample sample = light_sample(plate, matte, {});
+    for (int f = 0; f < 5; ++f)
+        gatherer.add(sample, ImageF2(sample.box.size()));
+    const Shading s = shading_with(sample, gatherer.finish(), ImageF2(sample.box.size()), {});
+    double real2 = 0, both = 0;
+    for (int y = 20; y < 100; ++y) {
+        for (int x = 20; x < 140; ++x) {
+            const double found = std::log(s.value.at(x, y)) - std::log(s.value.at(80, 60));
+            const double real =
+                std::log(still_shade(2 * x, 2 * y)) - std::log(still_shade(160, 120));
+            real2 += real * real, both += found * real;
+        }
+    }
+    EXPECT_NEAR(both / real2, 1.0, 0.15) << "the share of the shadow that is in the light";
+}
+
 TEST(ClipReflectance, ALightThatDimsIsFollowed) {
     const Clip c = clip(0.6f);
     const float first = shading_at(c, 0).value.at(140, 60);
