@@ -43,6 +43,7 @@ void light_inspector(Ctx& c) {
             region_parameter(c, *region, "light.keep_detail");
             light_tint(c, *region);
             region_parameter(c, *region, "light.highlights", "Keep highlights");
+            if (region->light.highlights > 0) region_parameter(c, *region, "light.roughness");
             region_parameter(c, *region, "light.form", "Light mode");
         }
         const Command* over = c.commands.find("view.light");

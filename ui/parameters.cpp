@@ -32,6 +32,7 @@ constexpr Shape kShapes[] = {
     {"light.keep_detail", "Keep detail", 0, 2, 2, false, ""},
     {"light.cast", "Light tint", 0, 1, 2, false, ""},
     {"light.highlights", "Keep highlights", 0, 2, 2, false, ""},
+    {"light.roughness", "Roughness", 0, 1, 2, false, ""},
     {"grade.match", "Match exposure", 0, 1, 2, false, ""},
     {"grade.exposure", "Exposure", -4, 4, 2, false, "stops"},
     {"grade.temperature", "Temperature", -100, 100, 0, false, "mired"},

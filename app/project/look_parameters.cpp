@@ -82,6 +82,13 @@ Table light_entries() {
              .help = "How much of the old surface's gloss is kept",
              .min = 0,
              .max = 2}),
+        entry<R, &R::light, &LightParams::roughness>(
+            {.group = "light",
+             .key = "roughness",
+             .flag = "--highlight-roughness",
+             .help = "Blurs the gloss that is kept: 0 as sharp as the plate, 1 very rough",
+             .min = 0,
+             .max = 1}),
         entry<R, &R::light, &LightParams::albedo>(
             {.group = "light",
              .key = "albedo",

@@ -228,6 +228,7 @@ struct LightParams {
     /// gives evidence of it.
     std::optional<double> cast;
     double highlights = 0;   ///< Keep highlights: how much of the old surface's gloss stays.
+    double roughness = 0;    ///< Of these highlights, 0–1.
     std::string albedo;      ///< Pattern of the albedo (unlit colour) pass.
     std::string lighting;    ///< Pattern of the lighting pass.
     std::string pass_layer;  ///< EXR layer of these two passes; empty: R, G, B.

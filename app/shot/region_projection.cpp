@@ -168,6 +168,7 @@ Status project_light(const LightParams& light, bool display_referred, RegionPlan
     plan.cast.reset();
     if (light.cast) plan.cast = static_cast<float>(*light.cast);
     plan.highlights = static_cast<float>(light.highlights);
+    plan.highlight_roughness = static_cast<float>(light.roughness);
     plan.light_pass = !light.lighting.empty() ? RegionPlan::Pass::kLighting
                       : !light.albedo.empty() ? RegionPlan::Pass::kAlbedo
                                               : RegionPlan::Pass::kNone;

@@ -17,8 +17,6 @@ namespace {
 constexpr int kCovered = 128;
 constexpr int kLevels = 1024;  // of a histogram over encoded luma from 0 to kBrightest
 constexpr float kBrightest = 4.0f;
-constexpr float kPaintQuantile = 0.98f;  // of plate / shading: values above may be gloss
-constexpr float kGlossAbove = 1.15f;
 constexpr float kMaxCast = 1.0f;  // ln units
 constexpr float kDark = 1e-4f;
 
@@ -190,41 +188,6 @@ void apply_cast(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const
                 float* p = texture.pixel(x, y);
                 for (std::size_t c = 0; c < 3; ++c)
                     p[c] *= gain[c] / grey;
-            }
-        }
-    });
-}
-
-void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                    const Shading& shading, float strength) {
-    if (!(strength > 0)) return;
-    std::vector<float> ratios;
-    std::vector<float> scratch, light(static_cast<std::size_t>(texture.width()));
-    for (int y = 0; y < texture.height(); ++y) {
-        shading_row(shading, origin.x, origin.y + y, scratch, light);
-        for (int x = 0; x < texture.width(); ++x) {
-            const float* p = plate.pixel(x, y);
-            if (matte.row(y)[x] >= kCovered && finite(p) && light[static_cast<std::size_t>(x)] > 0)
-                ratios.push_back(luma_709(p) / light[static_cast<std::size_t>(x)]);
-        }
-    }
-    if (ratios.size() < 64) return;
-    const auto at = ratios.begin() + static_cast<std::ptrdiff_t>(
-                                         kPaintQuantile * static_cast<float>(ratios.size() - 1));
-    std::nth_element(ratios.begin(), at, ratios.end());
-    const float paint = kGlossAbove * *at;
-    parallel_rows(texture.height(), 8, [&](int y0, int y1) {
-        std::vector<float> row_scratch, row(static_cast<std::size_t>(texture.width()));
-        for (int y = y0; y < y1; ++y) {
-            shading_row(shading, origin.x, origin.y + y, row_scratch, row);
-            for (int x = 0; x < texture.width(); ++x) {
-                const float* p = plate.pixel(x, y);
-                if (matte.row(y)[x] == 0 || !finite(p)) continue;
-                const float luma = luma_709(p);
-                const float excess = luma - paint * row[static_cast<std::size_t>(x)];
-                if (!(excess > 0)) continue;
-                for (int c = 0; c < 3; ++c)
-                    texture.pixel(x, y)[c] += strength * p[c] * (excess / luma);
             }
         }
     });

@@ -35,9 +35,4 @@ void apply_cast(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, const
                 float reference, const LightColour& colour, const LightColour& reference_colour,
                 float strength);
 
-/// Adds the old surface's gloss: `strength` × the excess of the plate over the brightest paint
-/// under its shading. `plate` and `matte` have the texture's size.
-void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                    const Shading& shading, float strength);
-
 }  // namespace weft

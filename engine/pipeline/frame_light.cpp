@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/lighting/exact_light.h"
+#include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_detail.h"
 #include "engine/lighting/plate_tint.h"
 #include "engine/lighting/plate_transfer.h"
@@ -99,7 +100,8 @@ Status FrameLight::put_light(ViewU8x1 inside, ImageF3& texture) const {
     apply_light(texture, origin, inside, *shading_, in_.scene.reference_shading, options);
     if (in_.scene.picture_light) return {};
     tint(inside, texture);
-    add_highlights(texture, origin, old_surface, inside, *shading_, plan.highlights);
+    add_highlights(texture, origin, old_surface, inside, *shading_, in_.scene.colours,
+                   {plan.highlights, plan.highlight_roughness, in_.working.width()});
     return {};
 }
 

@@ -121,7 +121,8 @@ struct RegionPlan {
     /// How much of the light's colour the texture takes, 0–1; empty: as far as there is evidence.
     std::optional<float> cast = 0.0f;
     [[nodiscard]] bool tints() const { return !cast || *cast > 0; }
-    float highlights = 0;  ///< How much of the old surface's gloss stays, 0–2.
+    float highlights = 0;           ///< How much of the old surface's gloss stays, 0–2.
+    float highlight_roughness = 0;  ///< 0–1, see HighlightOptions.
     enum class Pass { kNone, kAlbedo, kLighting };
     Pass light_pass = Pass::kNone;  ///< A pass of the artist that gives the plate's light.
     /// Uses that light as it is, not relative to the reference frame's.

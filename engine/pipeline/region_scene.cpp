@@ -58,6 +58,8 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
                                              : daylight_colour(find_daylight(working));
         scene.tint = region.cast ? plate_tint(working) : likely_tint(working);
     }
+    if (region.highlights > 0)
+        scene.colours = surface_colours(working, visible, likely_tint(working));
     return {};
 }
 

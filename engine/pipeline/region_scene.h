@@ -9,6 +9,7 @@
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
+#include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
@@ -25,7 +26,8 @@ struct RegionScene {
     std::optional<Shading> picture_light;
     float exposure = 1;            ///< plate_exposure() of the reference frame.
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
-    std::array<float, 3> tint{};   ///< plate_tint() of the reference frame.
+    std::array<float, 3> tint{};   ///< plate_tint() or likely_tint() of the reference frame.
+    SurfaceColours colours;        ///< Of the old surface there, where its highlights are kept.
     /// Whether reference_colour or tint changes anything.
     [[nodiscard]] bool light_has_colour() const {
         return reference_colour.known || tint != std::array<float, 3>{};

@@ -82,17 +82,6 @@ TEST(PlateTransfer, TheColourOfLightIsTakenOver) {
     EXPECT_NEAR(0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2], 0.5f, 1e-3f);
 }
 
-TEST(PlateTransfer, GlossIsAddedAndPaintIsNot) {
-    ImageF3 plate(kSide, kSide, 0.2f);
-    for (int c = 0; c < 3; ++c)
-        plate.at(10, 10, c) = 3.0f;
-    const Shading shading{ImageF1(kSide, kSide, 1.0f), 1, plate.size()};
-    ImageF3 texture(kSide, kSide, 0.1f);
-    add_highlights(texture, {0, 0}, plate, Matte(plate.size(), 255), shading, 1);
-    EXPECT_NEAR(texture.at(10, 10, 1), 0.1f + 3.0f - 1.15f * 0.2f, 1e-3f);
-    EXPECT_EQ(texture.at(30, 30, 1), 0.1f);
-}
-
 TEST(PlateTransfer, AnArtistsPassIsTheExactShading) {
     ImageF3 plate(8, 8, 0.06f), albedo(8, 8, 0.2f);
     albedo.at(3, 3, 0) = albedo.at(3, 3, 1) = albedo.at(3, 3, 2) = 0;  // says nothing

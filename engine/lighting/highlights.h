@@ -1,0 +1,42 @@
+#pragma once
+// The old surface's gloss, kept on top of the new texture.
+
+#include <array>
+
+#include "engine/core/image.h"
+#include "engine/lighting/shading.h"
+
+namespace weft {
+
+/// The two colours that a glossy surface of one paint shows (the dichromatic model, Shafer 1985):
+/// its body's, under the light, and the light's own, which it mirrors. Both have luminance 1.
+struct SurfaceColours {
+    std::array<float, 3> body{1, 1, 1}, light{1, 1, 1};
+    /// 0 where the surface is as colourless as its light, or of several paints: then the two cannot
+    /// be told apart. 1 where they surely can.
+    float confidence = 0;
+};
+
+/// Those of the surface where `matte` is at least 128, of the plate's size. The body's colour is
+/// that of its most saturated tenth: gloss makes paler. `light_tint`: ln of the light's R, G and B
+/// at luminance 1, as plate_tint(). `plate`: linear light; what is not finite does not count.
+/// Thread-safe.
+[[nodiscard]] SurfaceColours surface_colours(ViewF3 plate, ViewU8x1 matte,
+                                             const std::array<float, 3>& light_tint);
+
+struct HighlightOptions {
+    float amount = 0;     ///< 0 none, 1 as on the plate, to 2.
+    float roughness = 0;  ///< 0 as sharp as the plate, 1 blurred by 3 % of `plate_width`.
+    int plate_width = 0;  ///< px
+};
+
+/// Puts the old surface's gloss on a texture that is lit. As far as its colours are trusted, gloss
+/// is what of the plate has the light's colour and not the body's; that share of the light is taken
+/// from the texture, so that nothing is lit twice. For the rest it is the excess of the plate over
+/// the brightest paint under its shading. `plate` and `matte` have the texture's size, whose pixel
+/// (0, 0) lies at `origin`. Amount 0 changes no bit. Thread-safe.
+void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
+                    const Shading& shading, const SurfaceColours& colours,
+                    const HighlightOptions& options);
+
+}  // namespace weft
