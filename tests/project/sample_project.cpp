@@ -70,6 +70,7 @@ Region full_region() {
     r.light.detail = 0.8;
     r.light.keep_detail = 0.4;
     r.light.highlights = 0.5;
+    r.light.roughness = 0.25;
     r.light.albedo = "albedo/####.exr";
     r.light.lighting = "lighting/####.exr";
     r.light.pass_layer = "shot.DiffCol";
