@@ -25,10 +25,13 @@ void isolate(ImageF3& pixels, const Matte& touched) {
 PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                          const ColorTransform& out_from_working, const MakePicture& picture) {
     const Size size = layers.alpha.size();
-    if (kind == LayerKind::kPatch || kind == LayerKind::kEdge || kind == LayerKind::kLight) {
-        ImageF3 pixels = kind == LayerKind::kPatch  ? layers.patch
-                         : kind == LayerKind::kEdge ? layers.edge
-                                                    : layers.light;
+    const ImageF3* const colours = kind == LayerKind::kPatch   ? &layers.patch
+                                   : kind == LayerKind::kEdge  ? &layers.edge
+                                   : kind == LayerKind::kLight ? &layers.light
+                                   : kind == LayerKind::kGloss ? &layers.gloss
+                                                               : nullptr;
+    if (colours) {
+        ImageF3 pixels = *colours;
         // A gain of 1 is neutral and shown as middle grey.
         constexpr float kMiddle = 0.18f;
         if (kind == LayerKind::kLight)

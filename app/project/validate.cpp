@@ -127,6 +127,16 @@ void check_light(Finder& find, const LightParams& light) {
             "Set the light source to image, or remove the image");
 }
 
+void check_zone(Finder& find, const std::string& key, const Zone& zone) {
+    double most = zone.value;
+    for (const auto& [frame, values] : zone.value_keys.keys)
+        most = std::max(most, values.front());
+    if (zone.kind == ZoneKind::kDetail && most > 1)
+        find.warning(
+            key, fmt::format("Its light detail is {:g}, and 1 is all that the plate shows", most),
+            "Set it to a value from 0 (paint) to 1 (light)");
+}
+
 void check_region(std::vector<Issue>& issues, const Region& region, std::size_t index) {
     Finder find(issues, region.name.empty() ? fmt::format("regions[{}]", index)
                                             : fmt::format("regions[{}] '{}'", index, region.name));
@@ -143,6 +153,7 @@ void check_region(std::vector<Issue>& issues, const Region& region, std::size_t 
         find.check_ranges(zone, zone_parameters());
         find.check_ranges(zone.matte, matte_parameters());
         check_matte(find, key + ".matte", zone.matte);
+        check_zone(find, key, zone);
     }
     check_texture(find, region);
     check_placement(find, region.placement);

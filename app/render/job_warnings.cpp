@@ -64,6 +64,15 @@ void warn_untouched(const std::vector<FrameResult>& frames, std::vector<std::str
 
 }  // namespace
 
+std::string unsure_highlights_text(const std::string& region) {
+    return fmt::format(
+        "The highlights of region '{}' are unsure: its old surface has the colour of the light, or "
+        "several paints, so that bright paint may be taken for gloss. Look at the layer gloss{}, "
+        "or "
+        "lower the highlights{}.",
+        region, by({{setting::kLayers, "gloss"}}), by({{setting::kHighlights}}));
+}
+
 std::vector<std::string> warnings_of(const std::vector<FrameResult>& frames) {
     std::vector<std::string> warnings;
     warn_above_one(frames, warnings);

@@ -114,6 +114,14 @@ void warn_of_samples(JobRun& job, std::size_t region) {
     }
 }
 
+void warn_of_gloss(JobRun& job, std::size_t region, const RegionScene& scene) {
+    constexpr float kUnsure = 0.5f;
+    if (!(job.plan.regions[region].highlights > 0) || scene.colours.confidence >= kUnsure) return;
+    const Shot& shot = job.shot();
+    const Region& of = *shot.project.regions[shot.region_index[region]];
+    job.setup.result.warnings.push_back(unsure_highlights_text(of.name));
+}
+
 // If the surface is not visible on the reference frame, there is no light to compare with and
 // nothing to track.
 Status check_reference(JobRun& job, std::size_t region) {
@@ -158,6 +166,7 @@ Status plane_stage(JobRun& job, std::optional<PlanesAhead>& planes) {
                            "Region '" + shot.project.regions[shot.region_index[k]]->name +
                                "' with " + shot.textures[k].path);
         }
+        warn_of_gloss(job, k, *scene);
         job.setup.result.planes.push_back(scene->stats);
         job.scenes.push_back(std::move(*scene));
     }

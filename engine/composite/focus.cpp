@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "engine/core/blur_inside.h"
@@ -14,16 +15,21 @@ namespace {
 
 constexpr float kLeastGradient = 0.03f;  // of the display range per px; below this it may be grain
 constexpr float kStrongShare = 0.7f;     // quantile of gradients from which edges are strong
-constexpr float kMiddle = 0.5f;          // quantile of the edges' blur
-constexpr float kEdgeEnds = 0.15f;       // of its slope, where an edge ends
-constexpr int kFarthest = 12;            // steps
-constexpr std::size_t kFewestEdges = 60;
+// Quantiles of the edges' blur. A lens leaves no edge sharper than its own blur, while paint and
+// shade have edges that are softer; a place has too few edges for so low a quantile.
+constexpr float kSharpestEdges = 0.1f, kSharpEdges = 0.15f, kSharpEdgesOfPlace = 0.25f;
+// The median blur over that of the sharpest tenth: of edges under one lens, and of penumbras.
+constexpr float kAsOneLens = 1.8f, kUnalike = 2.6f;
+constexpr float kEdgeEnds = 0.15f;  // of its slope, where an edge ends
+constexpr int kFarthest = 12;       // steps
+constexpr int kMostRows = 270;
+constexpr std::size_t kFewestEdges = 60, kManyEdges = 180;
 constexpr std::size_t kFewestOfPlace = 12;
 constexpr float kNoBlur = 0.3f;  // px; a smaller blur widens no step
 // The sharpest edge that pixels allow, along the grid or diagonal to it.
 constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;
-constexpr float kAlike = 1.1f;
-constexpr float kMostAgain = 1.5f;  // times the first trial
+constexpr float kAlike = 1.1f, kSofter = 1.4f;  // ratios of blurs
+constexpr float kMostAgain = 1.2f;              // times the first trial
 
 // Approximate perceived lightness: the square root.
 ImageF1 lightness(ViewF3 linear) {
@@ -107,22 +113,29 @@ float blur_of_width(float width) {
     return 0.5f * (low + high);
 }
 
-// The width of the edge through a pixel: it extends to both sides while it rises by more than
-// kEdgeEnds of its slope, within the matte. (u, v): the direction across it. 0: no edge.
-float edge_width(const ImageF1& sharp, const ImageF1& length, int x, int y, int u, int v) {
+// How far an edge extends to either side of a pixel, in steps across it, and its width in such
+// steps.
+struct EdgeExtent {
+    int up = 0, down = 0;
+    float width = 0;  // 0: no edge
+};
+
+// It extends while it rises by more than kEdgeEnds of its slope, within the matte. (u, v): the
+// direction across it.
+EdgeExtent edge_extent(const ImageF1& sharp, const ImageF1& length, int x, int y, int u, int v) {
     const auto at = [&](int k) { return sharp.row(y + k * v)[x + k * u]; };
     const auto known = [&](int k) {
         const int p = x + k * u, q = y + k * v;
         return p >= 0 && q >= 0 && p < sharp.width() && q < sharp.height() && length.row(q)[p] > 0;
     };
     const float slope = 0.5f * (at(1) - at(-1));
-    if (!(slope > 0)) return 0;
+    if (!(slope > 0)) return {};
     int up = 0, down = 0;
     while (up < kFarthest && known(up + 1) && at(up + 1) - at(up) > kEdgeEnds * slope)
         ++up;
     while (down < kFarthest && known(-down - 1) && at(-down) - at(-down - 1) > kEdgeEnds * slope)
         ++down;
-    return (at(up) - at(-down)) / slope;
+    return {up, down, (at(up) - at(-down)) / slope};
 }
 
 void edges_in_row(const ImageF1& sharp, const ImageF1& length, float least, int y,
@@ -139,20 +152,32 @@ void edges_in_row(const ImageF1& sharp, const ImageF1& length, float least, int 
         const int u = std::abs(g.x) > 0.4f * std::abs(g.y) ? (g.x > 0 ? 1 : -1) : 0;
         const int v = std::abs(g.y) > 0.4f * std::abs(g.x) ? (g.y > 0 ? 1 : -1) : 0;
         if (length_at(x + u, y + v) > here || length_at(x - u, y - v) > here) continue;
-        const float width = edge_width(sharp, length, x, y, u, v);
-        if (!(width > 0)) continue;
+        const EdgeExtent extent = edge_extent(sharp, length, x, y, u, v);
+        if (!(extent.width > 0)) continue;
         const float step_px = u != 0 && v != 0 ? 1.41421356f : 1.0f;
-        edges.push_back({x, y, here, std::max(kSharpest, step_px * blur_of_width(width))});
+        edges.push_back({x,
+                         y,
+                         here,
+                         std::max(kSharpest, step_px * blur_of_width(extent.width)),
+                         {x - extent.down * u, y - extent.down * v},
+                         {x + extent.up * u, y + extent.up * v}});
     }
+}
+
+// Every how many rows edges are looked for: a delivery at twice the size has no more to tell.
+int row_step(int height) {
+    return 1 + (height - 1) / kMostRows;
 }
 
 // In the order of the rows.
 std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, float least) {
-    const int h = sharp.height();
+    const int h = sharp.height(), step = row_step(h);
     std::vector<std::vector<EdgeBlur>> rows(static_cast<std::size_t>(h));
     parallel_rows(h, 16, [&](int y0, int y1) {
-        for (int y = std::max(4, y0); y < std::min(h - 4, y1); ++y)
-            edges_in_row(sharp, length, least, y, rows[static_cast<std::size_t>(y)]);
+        for (int y = std::max(4, y0); y < std::min(h - 4, y1); ++y) {
+            if (y % step == 0)
+                edges_in_row(sharp, length, least, y, rows[static_cast<std::size_t>(y)]);
+        }
     });
     std::vector<EdgeBlur> edges;
     for (const std::vector<EdgeBlur>& row : rows)
@@ -160,22 +185,31 @@ std::vector<EdgeBlur> edges_of(const ImageF1& sharp, const ImageF1& length, floa
     return edges;
 }
 
-// The median of the blurs.
-float median_of(const std::vector<EdgeBlur>& edges) {
+// A quantile of their blurs.
+float blur_at(float quantile, const std::vector<EdgeBlur>& edges) {
     std::vector<float> blurs;
     blurs.reserve(edges.size());
     for (const EdgeBlur& e : edges)
         blurs.push_back(e.blur_px);
-    const auto at =
-        blurs.begin() + static_cast<std::ptrdiff_t>(kMiddle * static_cast<float>(blurs.size() - 1));
+    const auto at = blurs.begin() +
+                    static_cast<std::ptrdiff_t>(quantile * static_cast<float>(blurs.size() - 1));
     std::nth_element(blurs.begin(), at, blurs.end());
     return std::clamp(*at, kSharpest, kMostBlurred);
+}
+
+std::vector<EdgeBlur> strong_edges(const PictureEdges& picture) {
+    std::vector<EdgeBlur> strong;
+    if (picture.strong > 0) {
+        std::copy_if(picture.edges.begin(), picture.edges.end(), std::back_inserter(strong),
+                     [&](const EdgeBlur& edge) { return edge.strength >= picture.strong; });
+    }
+    return strong;
 }
 
 // The gradient from which edges count as strong; 0 if there are too few to tell.
 float strong_gradient(const ImageF1& length) {
     std::vector<float> lengths;
-    for (int y = 0; y < length.height(); ++y) {
+    for (int y = 0; y < length.height(); y += row_step(length.height())) {
         const float* row = length.row(y);
         std::copy_if(row, row + length.width(), std::back_inserter(lengths),
                      [](float v) { return v > 0; });
@@ -186,10 +220,6 @@ float strong_gradient(const ImageF1& length) {
         static_cast<std::ptrdiff_t>(kStrongShare * static_cast<float>(lengths.size() - 1));
     std::nth_element(lengths.begin(), strong, lengths.end());
     return std::max(kLeastGradient, *strong);
-}
-
-float blur_of(const std::vector<EdgeBlur>& strong) {
-    return strong.size() < kFewestEdges ? 0.0f : median_of(strong);
 }
 
 }  // namespace
@@ -208,36 +238,45 @@ float sharper_blur_px(std::vector<EdgeBlur> edges) {
         return a.y != b.y ? a.y < b.y : a.x < b.x;
     });
     edges.erase(rest, edges.end());
-    return median_of(edges);
+    return blur_at(kSharpEdgesOfPlace, edges);
 }
 
-float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
-    const ImageF1 sharp = lightness(linear);
-    if (sharp.width() < 9 || sharp.height() < 9) return 0;
-    const ImageF1 length = gradient_lengths(sharp, matte);
-    const float strong = strong_gradient(length);
-    return strong > 0 ? blur_of(edges_of(sharp, length, strong)) : 0;
-}
-
-PictureFocus picture_focus(ViewF3 linear, ViewU8x1 matte, float least_gradient) {
+PictureEdges picture_edges(ViewF3 linear, ViewU8x1 matte, float least_gradient) {
     const ImageF1 sharp = lightness(linear);
     if (sharp.width() < 9 || sharp.height() < 9) return {};
     const ImageF1 length = gradient_lengths(sharp, matte);
     const float strong = strong_gradient(length);
     const float least = strong > 0 ? std::min(least_gradient, strong) : least_gradient;
-    const std::vector<EdgeBlur> all = edges_of(sharp, length, least);
-    const auto stronger_than = [&](float gradient) {
-        std::vector<EdgeBlur> out;
-        std::copy_if(all.begin(), all.end(), std::back_inserter(out),
-                     [&](const EdgeBlur& edge) { return edge.strength >= gradient; });
-        return out;
+    return {edges_of(sharp, length, least), strong};
+}
+
+float strong_blur_px(const PictureEdges& picture) {
+    const std::vector<EdgeBlur> strong = strong_edges(picture);
+    return strong.size() < kFewestEdges ? 0.0f : blur_at(kSharpEdges, strong);
+}
+
+float blur_confidence(const PictureEdges& picture) {
+    const std::vector<EdgeBlur> strong = strong_edges(picture);
+    if (strong.size() < kFewestEdges) return 0;
+    const auto ramp = [](float at_0, float at_1, float v) {
+        return std::clamp((v - at_0) / (at_1 - at_0), 0.0f, 1.0f);
     };
-    return {stronger_than(least_gradient), strong > 0 ? blur_of(stronger_than(strong)) : 0};
+    const float spread = blur_at(0.5f, strong) / blur_at(kSharpestEdges, strong);
+    return ramp(static_cast<float>(kFewestEdges), static_cast<float>(kManyEdges),
+                static_cast<float>(strong.size())) *
+           ramp(kUnalike, kAsOneLens, spread);
+}
+
+float edge_blur_px(ViewF3 linear, ViewU8x1 matte) {
+    constexpr float kAny = std::numeric_limits<float>::infinity();
+    return strong_blur_px(picture_edges(linear, matte, kAny));
 }
 
 float blur_between(float from_px, float to_px) {
     if (!(from_px > 0) || !(to_px > kAlike * from_px)) return 0;
-    return std::sqrt(to_px * to_px - from_px * from_px);
+    // Sets in gradually, so that it does not come and go from frame to frame.
+    const float share = std::min(1.0f, (to_px / from_px - kAlike) / (kSofter - kAlike));
+    return share * std::sqrt(to_px * to_px - from_px * from_px);
 }
 
 float blur_to_match(ViewF3 texture, ViewU8x1 matte, float own_px, float plate_px) {
@@ -249,7 +288,7 @@ float blur_to_match(ViewF3 texture, ViewU8x1 matte, float own_px, float plate_px
     blur_inside(tried, matte, first);
     const float got_px = edge_blur_px(tried, matte);
     if (!(got_px > 0)) return first;
-    const float variance = first * first + plate_px * plate_px - got_px * got_px;
+    const float variance = 2 * first * first + own_px * own_px - got_px * got_px;
     return std::clamp(std::sqrt(std::max(0.0f, variance)), first / kMostAgain, first * kMostAgain);
 }
 

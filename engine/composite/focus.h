@@ -13,30 +13,38 @@ struct EdgeBlur {
     int x = 0, y = 0;
     float strength = 0;  ///< Gradient, of the display range per pixel.
     float blur_px = 0;   ///< Deviation of the Gaussian that blurs an ideal step this much.
+    Vec2i dark, bright;  ///< Where it ends, at most 12 steps away.
 };
 
 /// The edges inside the matte whose gradient is at least `least_gradient`, at their middles, row by
-/// row. The blur follows from the width, which is the step over its steepest slope. Linear light;
-/// values above 1 count as 1.
+/// row; of a picture of more than 270 rows, on every second, third, … row. The blur follows from
+/// the width, which is the step over its steepest slope. Linear light; values above 1 count as 1.
 [[nodiscard]] std::vector<EdgeBlur> edge_blurs(ViewF3 linear, ViewU8x1 matte,
                                                float least_gradient = 0.03f);
 
-/// How sharp detail is at a place: the median blur (pixels) of the strongest two thirds of its
-/// edges. 0 for fewer than 12 edges.
+/// How sharp detail is at a place: the blur (pixels) that a quarter of its edges stay below, of the
+/// strongest two thirds. 0 for fewer than 12 edges.
 [[nodiscard]] float sharper_blur_px(std::vector<EdgeBlur> edges);
 
-/// Deviation in pixels of the Gaussian that would blur ideal steps to the picture's strong edges
-/// inside the matte (their median). 0 where there are too few edges to tell.
+/// The edges of a picture, and which of them are strong for it.
+struct PictureEdges {
+    std::vector<EdgeBlur> edges;  ///< As edge_blurs(), and the strong ones.
+    float strong = 0;             ///< Strength from which they count as strong; 0: cannot be told.
+};
+[[nodiscard]] PictureEdges picture_edges(ViewF3 linear, ViewU8x1 matte, float least_gradient);
+
+/// Deviation in pixels of the Gaussian that would blur ideal steps to the sharpest tenth of the
+/// strong edges. 0 where there are too few edges to tell.
+[[nodiscard]] float strong_blur_px(const PictureEdges& picture);
+/// How far strong_blur_px() can be taken for the lens's, 0–1: 0 with fewer than 60 strong edges, or
+/// where their blurs differ as those of penumbras and soft paint do; all of it from 180 edges of
+/// which half stay below 1.8 times the blur of the sharpest tenth.
+[[nodiscard]] float blur_confidence(const PictureEdges& picture);
+/// That of a picture inside the matte.
 [[nodiscard]] float edge_blur_px(ViewF3 linear, ViewU8x1 matte);
 
-/// Both at once: edge_blurs() and edge_blur_px() of one picture.
-struct PictureFocus {
-    std::vector<EdgeBlur> edges;
-    float blur_px = 0;
-};
-[[nodiscard]] PictureFocus picture_focus(ViewF3 linear, ViewU8x1 matte, float least_gradient);
-
-/// The blur that takes edges of `from_px` to `to_px`; 0 if they are sharper by at most a tenth.
+/// The blur that takes edges of `from_px` to `to_px`; 0 if they are sharper by at most a tenth, all
+/// of it from four tenths.
 [[nodiscard]] float blur_between(float from_px, float to_px);
 
 /// The blur (deviation, pixels) that brings the texture's strong edges from `own_px`

@@ -148,26 +148,46 @@ ImageF1 mirrored_light(ViewF3 plate, ViewU8x1 matte, const SurfaceColours& colou
     return out;
 }
 
-void add_excess(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                const Shading& shading, float amount) {
+void add_excess(ImageF3& gloss, Vec2i origin, ViewF3 plate, ViewU8x1 matte, const Shading& shading,
+                float amount) {
     if (!(amount > 0)) return;
     const float paint = brightest_paint(plate, matte, origin, shading);
     if (!(paint > 0)) return;
-    parallel_rows(texture.height(), 8, [&](int y0, int y1) {
-        std::vector<float> scratch, row(static_cast<std::size_t>(texture.width()));
+    parallel_rows(gloss.height(), 8, [&](int y0, int y1) {
+        std::vector<float> scratch, row(static_cast<std::size_t>(gloss.width()));
         for (int y = y0; y < y1; ++y) {
             shading_row(shading, origin.x, origin.y + y, scratch, row);
-            for (int x = 0; x < texture.width(); ++x) {
+            for (int x = 0; x < gloss.width(); ++x) {
                 const float* p = plate.pixel(x, y);
                 if (matte.row(y)[x] == 0 || !finite(p)) continue;
                 const float luma = luma_709(p);
                 const float excess = luma - paint * row[static_cast<std::size_t>(x)];
                 if (!(excess > 0)) continue;
                 for (int c = 0; c < 3; ++c)
-                    texture.pixel(x, y)[c] += amount * p[c] * (excess / luma);
+                    gloss.pixel(x, y)[c] += amount * p[c] * (excess / luma);
             }
         }
     });
+}
+
+// Of the light's colour, and the share of the body's light that is left without it.
+void add_mirrored(Highlights& out, ViewF3 plate, ViewU8x1 matte, const SurfaceColours& colours,
+                  const HighlightOptions& options) {
+    if (!(colours.confidence > 0)) return;
+    const ImageF1 sharp = mirrored_light(plate, matte, colours);
+    ImageF1 rough = sharp;
+    roughen(rough, matte, options);
+    const float taken = std::min(1.0f, options.amount);
+    for (int y = 0; y < out.gloss.height(); ++y) {
+        for (int x = 0; x < out.gloss.width(); ++x) {
+            const float* p = plate.pixel(x, y);
+            if (matte.row(y)[x] == 0 || !finite(p)) continue;
+            const float luma = luma_709(p);
+            if (luma > 0) out.body.row(y)[x] = 1 - taken * std::min(1.0f, sharp.row(y)[x] / luma);
+            for (std::size_t c = 0; c < 3; ++c)
+                out.gloss.pixel(x, y)[c] += options.amount * rough.row(y)[x] * colours.light[c];
+        }
+    }
 }
 
 }  // namespace
@@ -211,27 +231,23 @@ SurfaceColours surface_colours(ViewF3 plate, ViewU8x1 matte, const Colour& light
     return out;
 }
 
-void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                    const Shading& shading, const SurfaceColours& colours,
-                    const HighlightOptions& options) {
-    if (!(options.amount > 0)) return;
-    add_excess(texture, origin, plate, matte, shading,
+Highlights find_highlights(Vec2i origin, ViewF3 plate, ViewU8x1 matte, const Shading& shading,
+                           const SurfaceColours& colours, const HighlightOptions& options) {
+    if (!(options.amount > 0)) return {};
+    Highlights out{ImageF3(matte.size()), ImageF1(matte.size(), 1.0f)};
+    add_excess(out.gloss, origin, plate, matte, shading,
                options.amount * (1.0f - colours.confidence));
-    if (!(colours.confidence > 0)) return;
-    const ImageF1 sharp = mirrored_light(plate, matte, colours);
-    ImageF1 gloss = sharp;
-    roughen(gloss, matte, options);
-    const float taken = std::min(1.0f, options.amount);
-    for (int y = 0; y < texture.height(); ++y) {
+    add_mirrored(out, plate, matte, colours, options);
+    return out;
+}
+
+void add_highlights(ImageView<float, 3> texture, const Highlights& highlights) {
+    for (int y = 0; y < highlights.gloss.height(); ++y) {
         for (int x = 0; x < texture.width(); ++x) {
-            const float* p = plate.pixel(x, y);
-            if (matte.row(y)[x] == 0 || !finite(p)) continue;
-            const float luma = luma_709(p);
-            const float body =
-                luma > 0 ? 1.0f - taken * std::min(1.0f, sharp.row(y)[x] / luma) : 1.0f;
-            for (std::size_t c = 0; c < 3; ++c)
-                texture.pixel(x, y)[c] = body * texture.pixel(x, y)[c] +
-                                         options.amount * gloss.row(y)[x] * colours.light[c];
+            for (int c = 0; c < 3; ++c) {
+                float& v = texture.pixel(x, y)[c];
+                v = highlights.body.row(y)[x] * v + highlights.gloss.pixel(x, y)[c];
+            }
         }
     }
 }

@@ -30,13 +30,22 @@ struct HighlightOptions {
     int plate_width = 0;  ///< px
 };
 
-/// Puts the old surface's gloss on a texture that is lit. As far as its colours are trusted, gloss
-/// is what of the plate has the light's colour and not the body's; that share of the light is taken
-/// from the texture, so that nothing is lit twice. For the rest it is the excess of the plate over
-/// the brightest paint under its shading. `plate` and `matte` have the texture's size, whose pixel
-/// (0, 0) lies at `origin`. Amount 0 changes no bit. Thread-safe.
-void add_highlights(ImageView<float, 3> texture, Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                    const Shading& shading, const SurfaceColours& colours,
-                    const HighlightOptions& options);
+/// The old surface's gloss over a box: what is added to the lit texture, and the share of that
+/// light which remains, so that nothing is lit twice.
+struct Highlights {
+    ImageF3 gloss;
+    ImageF1 body;
+};
+
+/// Finds them. As far as its colours are trusted, gloss is what of the plate has the light's colour
+/// and not the body's; for the rest it is the excess of the plate over the brightest paint under
+/// its shading. `plate` and `matte` are of one size, whose pixel (0, 0) lies at `origin`. Amount 0:
+/// empty pictures. Thread-safe.
+[[nodiscard]] Highlights find_highlights(Vec2i origin, ViewF3 plate, ViewU8x1 matte,
+                                         const Shading& shading, const SurfaceColours& colours,
+                                         const HighlightOptions& options);
+
+/// Puts them on a texture of their size; empty ones change no bit.
+void add_highlights(ImageView<float, 3> texture, const Highlights& highlights);
 
 }  // namespace weft

@@ -7,7 +7,14 @@
 namespace weft {
 
 FrameLayers::FrameLayers(Size size)
-    : patch(size), alpha(size), edge(size), light(size, 1.0f), st(size), seam(size), id(size) {}
+    : patch(size),
+      alpha(size),
+      edge(size),
+      light(size, 1.0f),
+      gloss(size),
+      st(size),
+      seam(size),
+      id(size) {}
 
 void add_share(FrameLayers& layers, const LayerShare& share) {
     constexpr float kDark = 1e-6f;
@@ -16,7 +23,10 @@ void add_share(FrameLayers& layers, const LayerShare& share) {
             if (share.matte.row(y)[x] == 0) continue;
             const int px = share.box.x0 + x, py = share.box.y0 + y;
             for (int c = 0; c < 3; ++c) {
-                const float before = share.unlit.pixel(x, y)[c], after = share.lit.pixel(x, y)[c];
+                const float gloss = share.gloss.empty() ? 0.0f : share.gloss.pixel(x, y)[c];
+                const float before = share.unlit.pixel(x, y)[c];
+                const float after = share.lit.pixel(x, y)[c] - gloss;
+                layers.gloss.at(px, py, c) = gloss;
                 layers.light.at(px, py, c) = before > kDark ? after / before : 1.0f;
             }
             layers.id.at(px, py) = share.id;

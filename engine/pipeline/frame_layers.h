@@ -16,6 +16,7 @@ struct FrameLayers {
     /// What soft edges remove of the old surface, and the remainder of the equation.
     ImageF3 edge;
     ImageF3 light;  ///< What the texture was multiplied by; 1 where there is no region.
+    ImageF3 gloss;  ///< What was added to it then; 0 where there is none.
     ImageF2 st;     ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
     ImageF1 seam;   ///< 1 where a seam of the texture plane shows.
     ImageF1 id;     ///< The region's id, of the topmost; 0 where there is none.
@@ -24,16 +25,17 @@ struct FrameLayers {
 };
 
 /// One region's share over `box`. `matte` and the pictures are of the box's size. `unlit` and
-/// `lit`: the texture before and after light; `coords` may be empty (no ST, no seams).
-/// `plane_seams`: 255 at the seams of the plane; may be empty.
+/// `lit`: the texture before and after light; `gloss`, which may be empty, is a part of the latter;
+/// `coords` may be empty (no ST, no seams). `plane_seams`: 255 at the seams of the plane; may be
+/// empty.
 struct LayerShare {
     Recti box;
     ViewU8x1 matte;
-    ViewF3 unlit, lit;
+    ViewF3 unlit, lit, gloss;
     const TextureCoords* coords = nullptr;
-    Size plane;
+    Size plane = {};
     WrapMode wrap = WrapMode::kRepeat;
-    ViewU8x1 plane_seams;
+    ViewU8x1 plane_seams = {};
     float id = 0;
 };
 void add_share(FrameLayers& layers, const LayerShare& share);

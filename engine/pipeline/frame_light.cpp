@@ -100,16 +100,32 @@ Status FrameLight::put_light(ViewU8x1 inside, ImageF3& texture) const {
     apply_light(texture, origin, inside, *shading_, in_.scene.reference_shading, options);
     if (in_.scene.picture_light) return {};
     tint(inside, texture);
-    add_highlights(texture, origin, old_surface, inside, *shading_, in_.scene.colours,
-                   {plan.highlights, plan.highlight_roughness, in_.working.width()});
     return {};
 }
 
-Status FrameLight::apply(ViewU8x1 inside, ImageF3& texture) const {
+ImageF3 FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const {
+    const RegionPlan& plan = region();
+    const bool from_estimate =
+        plan.lights() && !is_transfer(plan.light.form) && !in_.scene.picture_light;
+    const bool exact = plan.exact_light && plan.light_pass != RegionPlan::Pass::kNone;
+    if (!from_estimate || exact || !shading_) return {};
+    Highlights found = find_highlights(
+        {in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box), inside, *shading_,
+        in_.scene.colours, {plan.highlights, plan.highlight_roughness, in_.working.width()});
+    add_highlights(texture, found);
+    return std::move(found.gloss);
+}
+
+Expected<ImageF3> FrameLight::apply(ViewU8x1 inside, ImageF3& texture) const {
     WEFT_CHECK_OK(put_light(inside, texture));
-    keep_plate_detail(texture, {in_.box.x0, in_.box.y0}, in_.working, inside,
-                      shading_ ? &*shading_ : nullptr, region().keep_detail);
-    return {};
+    ImageF3 gloss = put_gloss(inside, texture);
+    const auto keep_detail = [&](ImageF3& picture) {
+        keep_plate_detail(picture, {in_.box.x0, in_.box.y0}, in_.working, inside,
+                          shading_ ? &*shading_ : nullptr, region().keep_detail);
+    };
+    keep_detail(texture);
+    if (!gloss.empty()) keep_detail(gloss);
+    return gloss;
 }
 
 }  // namespace weft

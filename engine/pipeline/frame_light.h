@@ -28,12 +28,14 @@ class FrameLight {
     /// Errors: those of the source and of the store.
     [[nodiscard]] static Expected<FrameLight> find(const FrameLightInputs& inputs);
 
+    [[nodiscard]] const FrameLightInputs& inputs() const { return in_; }
     /// With light detail, zones and strengths above 1 in it; empty: none.
     [[nodiscard]] const std::optional<Shading>& shading() const { return shading_; }
     /// λ that is left to be applied, 0–1.
     [[nodiscard]] float strength() const { return strength_; }
-    /// Lights the texture over the box; `inside` is the matte there. Errors: those of the source.
-    [[nodiscard]] Status apply(ViewU8x1 inside, ImageF3& texture) const;
+    /// Lights the texture over the box; `inside` is the matte there. Returns the gloss that is on
+    /// it then; empty: none. Errors: those of the source.
+    [[nodiscard]] Expected<ImageF3> apply(ViewU8x1 inside, ImageF3& texture) const;
 
   private:
     explicit FrameLight(const FrameLightInputs& inputs) : in_(inputs) {}
@@ -43,6 +45,7 @@ class FrameLight {
     [[nodiscard]] Status change();
     void tint(ViewU8x1 inside, ImageF3& texture) const;
     [[nodiscard]] Status put_light(ViewU8x1 inside, ImageF3& texture) const;
+    [[nodiscard]] ImageF3 put_gloss(ViewU8x1 inside, ImageF3& texture) const;
 
     FrameLightInputs in_;
     std::optional<Shading> shading_;

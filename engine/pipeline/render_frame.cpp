@@ -6,13 +6,12 @@
 
 #include "engine/composite/blend_mode.h"
 #include "engine/composite/composite.h"
-#include "engine/composite/focus.h"
-#include "engine/composite/focus_map.h"
 #include "engine/composite/line_layer.h"
 #include "engine/core/blur_inside.h"
 #include "engine/core/parallel.h"
 #include "engine/core/rng.h"
 #include "engine/mask/edge_softening.h"
+#include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_light.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -22,8 +21,7 @@
 namespace weft {
 namespace {
 
-constexpr float kKnee = 0.9f;        // of the roll-off
-constexpr float kSoftEdge = 0.015f;  // gradient of an edge that is out of focus
+constexpr float kKnee = 0.9f;  // of the roll-off
 
 enum class Place { kDevice, kCpu };
 
@@ -54,12 +52,6 @@ class FrameRenderer {
 
   private:
     [[nodiscard]] Expected<Matte> composite_matte(int index);
-    // Effects of the plate's camera: the blur before light, which is blurred already, and the grain
-    // after it.
-    Status match_focus(int index, const Recti& box, ViewU8x1 matte, ImageF3& texture) const;
-    // The plate's blur over the box, if it varies over the picture. `edges`: the plate's there.
-    [[nodiscard]] Expected<std::optional<ImageF1>> local_blur(
-        int index, const Recti& box, const std::vector<EdgeBlur>& edges) const;
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
     // The texture in the working space, finished and composited over the canvas. `matte` covers the
@@ -67,9 +59,10 @@ class FrameRenderer {
     Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
                       const RegionScene& scene, const Matte& matte, const Matte& inside,
                       const FrameLight& light);
-    // The region's contribution to the frame's layers, except for the patch.
-    Status note_share(int index, const RegionSurface& surface, const Recti& box,
-                      const RegionScene& scene, const Matte& inside, ViewF3 unlit, ViewF3 lit);
+    // The region's contribution to the frame's layers, except for the patch. `share` has its
+    // pictures.
+    Status note_share(int index, const RegionSurface& surface, const RegionScene& scene,
+                      LayerShare& share);
     Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
                          const RegionScene& scene, const Matte& inside, const FrameLight& light);
     // Remembers that an error came from the device.
@@ -133,48 +126,6 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
     return without_holdout(extent, holdout);
 }
 
-Expected<std::optional<ImageF1>> FrameRenderer::local_blur(
-    int index, const Recti& box, const std::vector<EdgeBlur>& edges) const {
-    using Found = Expected<std::optional<ImageF1>>;
-    if (!region_of(plan_, index).has_depth) return Found(sloping_blur(edges, box.size()));
-    WEFT_TRY(nearness, source_.depth(index, frame_));
-    // There is one lens, so the whole plate is measured; the region alone shows too little detail.
-    const Matte everywhere(working_.size(), 255);
-    const auto lens = fit_focus(edge_blurs(working_, everywhere, kSoftEdge), nearness);
-    if (!lens) return Found(std::nullopt);
-    ImageF1 blur(box.size());
-    for (int y = 0; y < box.height(); ++y) {
-        for (int x = 0; x < box.width(); ++x)
-            blur.row(y)[x] = lens->blur_px(nearness.row(box.y0 + y)[box.x0 + x]);
-    }
-    return Found(std::move(blur));
-}
-
-Status FrameRenderer::match_focus(int index, const Recti& box, ViewU8x1 matte,
-                                  ImageF3& texture) const {
-    const float strength = region_of(plan_, index).focus;
-    if (!(strength > 0)) return {};
-    const float own_px = edge_blur_px(texture, matte);
-    if (!(own_px > 0)) return {};
-    const auto [edges, plate_px] = picture_focus(working_.view().crop(box), matte, kSoftEdge);
-    const float needed_px = blur_to_match(texture, matte, own_px, plate_px);
-    WEFT_TRY(local, local_blur(index, box, edges));
-    if (local) {
-        const float even_px = blur_between(own_px, plate_px);
-        const float again = even_px > 0 ? needed_px / even_px : 1.0f;
-        for (int y = 0; y < local->height(); ++y) {
-            for (int x = 0; x < local->width(); ++x) {
-                float& blur = local->row(y)[x];
-                blur = strength * again * blur_between(own_px, blur);
-            }
-        }
-        blur_by_map(texture, matte, *local);
-        return {};
-    }
-    if (needed_px > 0) blur_inside(texture, matte, strength * needed_px);
-    return {};
-}
-
 void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                               ImageF3& texture) const {
     const RegionPlan& region = region_of(plan_, index);
@@ -208,10 +159,14 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
                                  const FrameLight& light) {
     WEFT_TRY(texture, surface.texture(box, inside));
     apply_grade(texture, inside, grade_on(region_of(plan_, index), scene));
-    WEFT_CHECK_OK(match_focus(index, box, inside, texture));
+    // Before the light, which has the plate's blur already.
+    WEFT_CHECK_OK(match_focus(light, inside, texture));
     const ImageF3 unlit = layers_ ? texture : ImageF3();
-    WEFT_CHECK_OK(light.apply(inside, texture));
-    if (layers_) WEFT_CHECK_OK(note_share(index, surface, box, scene, inside, unlit, texture));
+    WEFT_TRY(gloss, light.apply(inside, texture));
+    if (layers_) {
+        LayerShare share{box, inside, unlit, texture, gloss};
+        WEFT_CHECK_OK(note_share(index, surface, scene, share));
+    }
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
     ImageF3 old_surface = unmix_surface(area, inside);
@@ -224,23 +179,17 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     return {};
 }
 
-Status FrameRenderer::note_share(int index, const RegionSurface& surface, const Recti& box,
-                                 const RegionScene& scene, const Matte& inside, ViewF3 unlit,
-                                 ViewF3 lit) {
-    LayerShare share{box,
-                     inside,
-                     unlit,
-                     lit,
-                     nullptr,
-                     scene.plane.size(),
-                     scene.plane.wrap(),
-                     scene.plane_seams,
-                     static_cast<float>(region_of(plan_, index).random_key)};
+Status FrameRenderer::note_share(int index, const RegionSurface& surface, const RegionScene& scene,
+                                 LayerShare& share) {
+    share.plane = scene.plane.size();
+    share.wrap = scene.plane.wrap();
+    share.plane_seams = scene.plane_seams;
+    share.id = static_cast<float>(region_of(plan_, index).random_key);
     if (scene.plane.empty()) {
         add_share(*layers_, share);
         return {};
     }
-    WEFT_TRY(lookup, surface.lookup(box));
+    WEFT_TRY(lookup, surface.lookup(share.box));
     share.coords = &lookup.coords;
     add_share(*layers_, share);
     return {};

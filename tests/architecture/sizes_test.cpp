@@ -155,8 +155,7 @@ TEST(Sizes, FilesOverFourHundredLinesHaveAReason) {
     for (const SourceFile& file : product_sources())
         lines[file.path] = lines_of(file);
     for (const auto& [path, count] : lines) {
-        const auto allowed = std::find_if(kLongFiles.begin(), kLongFiles.end(),
-                                          [&](const LongFile& f) { return f.path == path; });
+        const auto allowed = std::ranges::find(kLongFiles, path, &LongFile::path);
         EXPECT_LE(count, allowed == kLongFiles.end() ? kFileLines : allowed->at_most)
             << path << ": split it, or give a reason in sizes_test.cpp";
     }

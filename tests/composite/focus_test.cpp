@@ -98,13 +98,14 @@ TEST(Focus, WhatLiesOutsideOfTheMatteDoesNotEnter) {
     EXPECT_EQ(picture.at(25, 10, 1), before.at(25, 10, 1));
 }
 
-TEST(Focus, OfAPictureIsItsEdgesAndItsBlurAtOnce) {
+TEST(Focus, OfAPictureItsEdgesAndTheStrongOnesAreFoundAtOnce) {
     const ImageF3 picture = squares(1.3f);
     const Matte all(picture.size(), 255);
     for (const float least : {0.005f, 0.03f, 0.2f}) {
-        const PictureFocus found = picture_focus(picture, all, least);
-        EXPECT_EQ(found.blur_px, edge_blur_px(picture, all));
-        const std::vector<EdgeBlur> edges = edge_blurs(picture, all, least);
+        const PictureEdges found = picture_edges(picture, all, least);
+        EXPECT_EQ(strong_blur_px(found), edge_blur_px(picture, all));
+        const float lowest = std::min(least, found.strong);
+        const std::vector<EdgeBlur> edges = edge_blurs(picture, all, lowest);
         ASSERT_EQ(found.edges.size(), edges.size());
         for (std::size_t k = 0; k < edges.size(); ++k)
             EXPECT_EQ(found.edges[k].blur_px, edges[k].blur_px);

@@ -45,9 +45,7 @@ RegionPlan plate_lit() {
     return region;
 }
 
-ImageF3 rendered(const RegionPlan& region) {
-    const Wall shot;
-    const ShotPlan plan = make_plan(region, kFrame, kFrame);
+RenderedFrame frame_of(const MemoryShot& shot, const ShotPlan& plan) {
     MemoryAnalysisStore store;
     const Status done = analyse_shot(shot, plan, store, {}, {});
     EXPECT_TRUE(done) << (done ? "" : done.error().text());
@@ -56,7 +54,11 @@ ImageF3 rendered(const RegionPlan& region) {
     const std::vector<RegionScene> scenes{std::move(*scene)};
     auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kFrame);
     EXPECT_TRUE(frame) << (frame ? "" : frame.error().text());
-    return std::move(frame->pixels);
+    return std::move(*frame);
+}
+
+ImageF3 rendered(const RegionPlan& region) {
+    return frame_of(Wall(), make_plan(region, kFrame, kFrame)).pixels;
 }
 
 float linear_at(const ImageF3& picture, Vec2i at, int channel = 1) {
@@ -113,6 +115,30 @@ TEST(FrameLight, KeptDetailIsAFactorOfItsOwn) {
     EXPECT_LT(flat, 1e-3f);
     region.keep_detail = 1;
     EXPECT_GT(detail_of(rendered(region), 30, 130, 60), 0.5f) << "without any light";
+}
+
+TEST(FrameLight, GlossIsALayerOfItsOwn) {
+    Wall shot;
+    auto plate = std::make_shared<ImageF3>(*shot.plates.at(kFrame));
+    for (int k = 0; k < 9; ++k)
+        std::fill_n(plate->pixel(kBeside.x + k % 3, kBeside.y + k / 3), 3, 4.0f);
+    shot.plates[kFrame] = std::move(plate);
+    RegionPlan region = plate_lit();
+    region.detail = 0;  // the spot is not in the light
+    region.highlights = 1;
+    region.keep_detail = 0.5f;
+    ShotPlan plan = make_plan(region, kFrame, kFrame);
+    plan.layers = true;
+    const RenderedFrame frame = frame_of(shot, plan);
+    ASSERT_TRUE(frame.layers);
+    const float texture = srgb_to_linear(0.5f);
+    for (const Vec2i at : {kBeside + Vec2i(1, 1), kInZone, Vec2i{30, 80}}) {
+        const float light = frame.layers->light.at(at.x, at.y, 1);
+        const float gloss = frame.layers->gloss.at(at.x, at.y, 1);
+        EXPECT_NEAR(frame.layers->patch.at(at.x, at.y, 1), light * texture + gloss, 1e-4f);
+        EXPECT_EQ(gloss > 0.5f, at == kBeside + Vec2i(1, 1));
+    }
+    EXPECT_EQ(frame.layers->gloss.at(2, 2, 0), 0.0f);
 }
 
 TEST(FrameLight, TheGradeAndTheMatchAreOnTheTexture) {

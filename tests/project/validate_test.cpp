@@ -85,6 +85,14 @@ TEST(Validate, FindsContradictions) {
                "W regions[0] 'wall': light.image", "'plate'");
     expect_one(good_project([](Region& r) { r.synthesis.feather_px = 40; }),
                "W regions[0] 'wall': synthesis.feather_px", "36 px");
+    expect_one(good_project([](Region& r) {
+                   Zone zone;
+                   zone.kind = ZoneKind::kDetail;
+                   zone.value = 1.5;
+                   zone.matte.files = "zone/####.png";
+                   r.zones = std::vector<Zone>{zone};
+               }),
+               "W regions[0] 'wall': zones[0]", "1 is all");
     Project overwriting = good_project();
     overwriting.output.path = overwriting.plate.path;
     expect_one(overwriting, "E output", "overwrite");

@@ -3,10 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "engine/media/frame_writer.h"
+#include "tests/render/shot_fixture.h"
+
 namespace weft::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -44,6 +50,32 @@ TEST(JobWarnings, ALongListIsShortened) {
     EXPECT_THAT(warnings,
                 ElementsAre(AllOf(HasSubstr("and 992 more frames"), HasSubstr("1000 outside"))));
     EXPECT_LT(warnings[0].size(), 400u);
+}
+
+class HighlightsTest : public ShotTest {};
+
+TEST_F(HighlightsTest, AreUnsureOnAGreySurfaceAndTheJobSaysSo) {
+    WriteOptions options;
+    options.rule = WriteRule::own();
+    for (int step = 0; step < kFrames; ++step) {
+        ImageF3 grey = card_plate(step);
+        for (int y = 0; y < grey.height(); ++y)
+            for (int x = 0; x < grey.width(); ++x)
+                std::fill_n(grey.pixel(x, y), 3, grey.pixel(x, y)[1]);
+        const std::string file = "frames/000" + std::to_string(step + 1) + ".png";
+        ASSERT_TRUE(write_image(in(file), grey, {}, options));
+    }
+    JobSpec job = spec("out");
+    const auto warned = [&] {
+        const auto result = run_job(job, {}, {});
+        EXPECT_TRUE(result) << result.error().text();
+        return result->warnings;
+    };
+    const std::string text = unsure_highlights_text(job.project.regions[0]->name);
+    EXPECT_THAT(warned(), Not(Contains(text)));
+    job.project.regions[0] = job.project.regions[0].with([](Region& r) { r.light.highlights = 1; });
+    job.existing = ExistingFrames::kOverwrite;
+    EXPECT_THAT(warned(), Contains(text));
 }
 
 TEST(JobWarnings, FramesWithAnEmptyMatte) {
