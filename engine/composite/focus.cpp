@@ -25,9 +25,7 @@ constexpr int kFarthest = 12;       // steps
 constexpr int kMostRows = 270;
 constexpr std::size_t kFewestEdges = 60, kManyEdges = 180;
 constexpr std::size_t kFewestOfPlace = 12;
-constexpr float kNoBlur = 0.3f;  // px; a smaller blur widens no step
-// The sharpest edge that pixels allow, along the grid or diagonal to it.
-constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;
+constexpr float kNoBlur = 0.3f;                 // px; a smaller blur widens no step
 constexpr float kAlike = 1.1f, kSofter = 1.4f;  // ratios of blurs
 constexpr float kMostAgain = 1.2f;              // times the first trial
 
@@ -93,7 +91,7 @@ void fill_widths(std::vector<float>& widths, std::size_t node, float low, float 
 const std::vector<float>& widths_by_blur() {
     static const std::vector<float> widths = [] {
         std::vector<float> out(std::size_t{1} << kHalvings);
-        fill_widths(out, 1, kNoBlur, kMostBlurred);
+        fill_widths(out, 1, kNoBlur, kSoftestEdge_px);
         return out;
     }();
     return widths;
@@ -102,7 +100,7 @@ const std::vector<float>& widths_by_blur() {
 // The deviation of the Gaussian that makes an ideal step as wide as `width`.
 float blur_of_width(float width) {
     const std::vector<float>& widths = widths_by_blur();
-    float low = kNoBlur, high = kMostBlurred;  // the width grows with the blur
+    float low = kNoBlur, high = kSoftestEdge_px;  // the width grows with the blur
     std::size_t node = 1;
     for (int i = 0; i < kHalvings; ++i) {
         const float middle = 0.5f * (low + high);
@@ -158,7 +156,7 @@ void edges_in_row(const ImageF1& sharp, const ImageF1& length, float least, int 
         edges.push_back({x,
                          y,
                          here,
-                         std::max(kSharpest, step_px * blur_of_width(extent.width)),
+                         std::max(kSharpestEdge_px, step_px * blur_of_width(extent.width)),
                          {x - extent.down * u, y - extent.down * v},
                          {x + extent.up * u, y + extent.up * v}});
     }
@@ -194,7 +192,7 @@ float blur_at(float quantile, const std::vector<EdgeBlur>& edges) {
     const auto at = blurs.begin() +
                     static_cast<std::ptrdiff_t>(quantile * static_cast<float>(blurs.size() - 1));
     std::nth_element(blurs.begin(), at, blurs.end());
-    return std::clamp(*at, kSharpest, kMostBlurred);
+    return std::clamp(*at, kSharpestEdge_px, kSoftestEdge_px);
 }
 
 std::vector<EdgeBlur> strong_edges(const PictureEdges& picture) {

@@ -8,6 +8,10 @@
 
 namespace weft {
 
+/// The blur of the sharpest edge that pixels allow, along the grid or diagonal to it, and the most
+/// blur that is told from none.
+inline constexpr float kSharpestEdge_px = 0.45f, kSoftestEdge_px = 6.0f;
+
 /// One place on an edge of a picture.
 struct EdgeBlur {
     int x = 0, y = 0;

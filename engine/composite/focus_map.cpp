@@ -13,8 +13,6 @@
 namespace weft {
 namespace {
 
-constexpr float kSharpest = 0.45f, kMostBlurred = 6.0f;  // as edge_blur_px()
-
 // Of the fit along depth.
 constexpr std::size_t kBins = 12, kFewestInBin = 40;
 // Of the range of nearness, within 2 px: an edge between two objects.
@@ -74,7 +72,7 @@ float FocusModel::blur_px(float nearness) const {
     if (!std::isfinite(nearness)) nearness = lowest;
     const float u = std::clamp(nearness, lowest, highest) - middle;
     const float variance = constant + u * (linear + u * square);
-    return std::clamp(std::sqrt(std::max(0.0f, variance)), kSharpest, kMostBlurred);
+    return std::clamp(std::sqrt(std::max(0.0f, variance)), kSharpestEdge_px, kSoftestEdge_px);
 }
 
 std::optional<FocusModel> fit_focus(const std::vector<EdgeBlur>& edges, const ImageF1& nearness) {
@@ -165,7 +163,8 @@ std::optional<ImageF1> sloping_blur(const std::vector<EdgeBlur>& edges, Size siz
     });
     const auto blur_at = [&](double u, double v) {
         return std::clamp(std::sqrt(std::max(0.0, c[0] + c[1] * u + c[2] * v)),
-                          static_cast<double>(kSharpest), static_cast<double>(kMostBlurred));
+                          static_cast<double>(kSharpestEdge_px),
+                          static_cast<double>(kSoftestEdge_px));
     };
     double least = 1e9, most = 0, residue = 0;
     for (const Sample& s : samples) {

@@ -64,26 +64,35 @@ Expected<std::optional<ImageF1>> local_blur(const FrameLightInputs& in,
     return Found(std::move(blur));
 }
 
+// The plate's edges in the box that are paint.
+PictureEdges paint_edges(const FrameLight& light, ViewF3 plate, ViewU8x1 inside) {
+    PictureEdges out = picture_edges(plate, inside, kSoftEdge);
+    if (const auto& shading = light.shading()) {
+        const ImageF1 there = light_over(*shading, light.inputs().box);
+        std::erase_if(out.edges, [&](const EdgeBlur& edge) {
+            return is_light(edge, plate, there, shading->downscale);
+        });
+    }
+    return out;
+}
+
 }  // namespace
 
 Status match_focus(const FrameLight& light, ViewU8x1 inside, ImageF3& texture) {
     const FrameLightInputs& in = light.inputs();
-    float strength = in.plan.regions[static_cast<std::size_t>(in.index)].focus;
-    if (!(strength > 0)) return {};
+    const RegionPlan& region = in.plan.regions[static_cast<std::size_t>(in.index)];
+    if (!(region.focus > 0)) return {};
+    const PictureEdges of_plate = paint_edges(light, in.working.view().crop(in.box), inside);
+    const float plate_px = strong_blur_px(of_plate);
+    WEFT_TRY(local, local_blur(in, of_plate.edges));
+    // A lens that was fitted to the whole plate needs no evidence from the region.
+    const float sure = local && region.has_depth ? 1.0f : blur_confidence(of_plate);
+    const float strength = sure * region.focus;
+    const bool sharp = !local && !(blur_between(kSharpestEdge_px, plate_px) > 0);
+    if (!(strength > 0) || sharp) return {};
     const float own_px = edge_blur_px(texture, inside);
     if (!(own_px > 0)) return {};
-    const ViewF3 plate = in.working.view().crop(in.box);
-    PictureEdges of_plate = picture_edges(plate, inside, kSoftEdge);
-    if (const auto& shading = light.shading()) {
-        const ImageF1 there = light_over(*shading, in.box);
-        std::erase_if(of_plate.edges, [&](const EdgeBlur& edge) {
-            return is_light(edge, plate, there, shading->downscale);
-        });
-    }
-    const float plate_px = strong_blur_px(of_plate);
-    strength *= blur_confidence(of_plate);
     const float needed_px = blur_to_match(texture, inside, own_px, plate_px);
-    WEFT_TRY(local, local_blur(in, of_plate.edges));
     if (!local) {
         if (needed_px > 0) blur_inside(texture, inside, strength * needed_px);
         return {};
