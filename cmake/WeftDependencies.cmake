@@ -3,6 +3,7 @@ find_package(Threads REQUIRED)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS calib3d core dnn features2d imgcodecs imgproc optflow
              photo video)
 find_package(OpenImageIO REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)

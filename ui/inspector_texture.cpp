@@ -129,6 +129,7 @@ void texture_inspector(Ctx& c) {
         magnified_warning(c, *region);
         keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
         keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
+        if (!region->form.position.empty()) region_parameter(c, *region, "form.amount");
         if (button(c, "Transform",
                    {.icon = icons::kMove,
                     .tip = "Drag on the picture to move the texture, with Shift to rotate it, with "

@@ -22,6 +22,7 @@ struct Shape {
 constexpr Shape kShapes[] = {
     {"placement.scale", "Scale", 0.1, 10, 2, true, "×"},
     {"placement.rotate_deg", "Rotation", -180, 180, 1, false, "°"},
+    {"form.amount", "Form", 0, 1, 2, false, ""},
     {"synthesis.overlap_px", "Overlap", 12, 96, 0, false, "px"},
     {"synthesis.feather_px", "Feather", 0, 16, 0, false, "px"},
     {"synthesis.refine", "Refinement", 0, 8, 0, false, ""},

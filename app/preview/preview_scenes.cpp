@@ -60,6 +60,7 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         // The analysis determines the light to which the scene is relative.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
         hasher.value(plan.light.strength > 0);
+        hasher.text(region.form.position).text(region.form.position_layer).value(plan.form_amount);
         key.texture = hasher.finish().hex();
         // Seams between tracks depend on the texture's position.
         Hasher placed;
@@ -105,7 +106,7 @@ bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
             continue;
         }
         if (auto mapping = texture_mapping(shot.plan.regions[k].placement))
-            scenes_[k].mapping = *mapping;
+            scenes_[k].mapping = mapping->with_form(scenes_[k].mapping.form());
     }
     return usable;
 }

@@ -116,16 +116,11 @@ class ProxySource final : public ShotSource {
     // Coordinates are not averaged: across a border of the pass that would be a third place.
     [[nodiscard]] Expected<ImageF2> uv(int region, int frame) const override {
         WEFT_TRY(full, shot_.source->uv(region, frame));
-        ImageF2 out(size());
-        for (int y = 0; y < out.height(); ++y) {
-            for (int x = 0; x < out.width(); ++x) {
-                const float* from =
-                    full.pixel(std::min(full.width() - 1, x * factor_ + factor_ / 2),
-                               std::min(full.height() - 1, y * factor_ + factor_ / 2));
-                std::copy_n(from, 2, out.pixel(x, y));
-            }
-        }
-        return out;
+        return picked(full);
+    }
+    [[nodiscard]] Expected<ImageF3> positions(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->positions(region, frame));
+        return picked(full);
     }
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         WEFT_TRY(full, shot_.source->light_pass(region, frame));
@@ -133,6 +128,21 @@ class ProxySource final : public ShotSource {
     }
 
   private:
+    // The middle pixel of each block.
+    template <int kChannels>
+    [[nodiscard]] Image<float, kChannels> picked(const Image<float, kChannels>& full) const {
+        Image<float, kChannels> out(size());
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const float* from =
+                    full.pixel(std::min(full.width() - 1, x * factor_ + factor_ / 2),
+                               std::min(full.height() - 1, y * factor_ + factor_ / 2));
+                std::copy_n(from, kChannels, out.pixel(x, y));
+            }
+        }
+        return out;
+    }
+
     const Shot& shot_;
     const AnalysisStore& store_;
     ProxyPlates& plates_;

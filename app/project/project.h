@@ -183,6 +183,15 @@ struct Placement {
     bool operator==(const Placement&) const = default;
 };
 
+/// The shape of the surface, which the texture follows.
+struct FormParams {
+    std::string position;        ///< Pattern of a position pass; empty: the surface stays flat.
+    std::string position_layer;  ///< Empty: found.
+    double amount = 1;           ///< 0 flat, 1 as found.
+    Extras extra;
+    bool operator==(const FormParams&) const = default;
+};
+
 /// The source of the surface's motion.
 struct MotionSource {
     std::string files;  ///< Pattern of true motion; empty: estimated from the plate.
@@ -296,6 +305,7 @@ struct Region {
     Leaf<std::vector<Zone>> zones;            ///< Parts in which a setting has another value.
     TextureSource texture;
     Placement placement;
+    FormParams form;
     /// The first one holds the placement; empty: the default frame.
     std::vector<int> reference_frames;
     std::map<int, std::vector<CorrectionPin>> corrections;  ///< By frame; at least one pin each.

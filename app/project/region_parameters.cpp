@@ -201,6 +201,24 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "uv_layer",
              .flag = "--uv-layer",
              .help = "EXR layer of the UV pass; default the one that ends in UV"}),
+        entry<R, &R::form, &FormParams::position>(
+            {.group = "form",
+             .key = "position",
+             .flag = "--position-pass",
+             .help = "Position pass, EXR: the texture follows the form of the surface",
+             .is_path = true}),
+        entry<R, &R::form, &FormParams::position_layer>(
+            {.group = "form",
+             .key = "position_layer",
+             .flag = "--position-layer",
+             .help = "EXR layer of the position pass; default Position, P or P_World"}),
+        entry<R, &R::form, &FormParams::amount>(
+            {.group = "form",
+             .key = "amount",
+             .flag = "--form-amount",
+             .help = "How far the texture follows the form: 0 flat, 1 as found",
+             .min = 0,
+             .max = 1}),
         entry<R, &R::reference_frames>(
             {.key = "reference_frames",
              .flag = "--reference-frame",

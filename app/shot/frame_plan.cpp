@@ -284,6 +284,10 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     }
     if (plan.has_uv)
         WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
+    if (plan.has_positions) {
+        WEFT_CHECK_OK(check_pattern(region.form.position, "The position pass",
+                                    {plan.reference_frames.front()}, plate));
+    }
     if (plan.has_depth)
         WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames, plate));
     if (plan.has_lines) {

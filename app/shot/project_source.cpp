@@ -105,6 +105,12 @@ class ProjectSource final : public ShotSource {
         return read_uv(watched(path_on(pattern, frame)), placement.uv_layer, size());
     }
 
+    [[nodiscard]] Expected<ImageF3> positions(int region, int frame) const override {
+        const FormParams& form = at(region).form;
+        WEFT_TRY(pattern, SequencePattern::parse(form.position));
+        return read_positions(watched(path_on(pattern, frame)), form.position_layer, size());
+    }
+
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         const LightParams& light = at(region).light;
         const std::string& given = light.lighting.empty() ? light.albedo : light.lighting;

@@ -137,6 +137,18 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
     return {};
 }
 
+Status project_form(const FormParams& form, TemporalMode mode, RegionPlan& plan) {
+    plan.has_positions = !form.position.empty() && form.amount > 0;
+    plan.form_amount = static_cast<float>(form.amount);
+    if (plan.has_positions && (mode != TemporalMode::kLocked || plan.has_uv)) {
+        return fail(ErrorCode::kUsage,
+                    "A position pass needs the locked temporal mode, and no UV pass beside it, "
+                    "which gives the exact place already. Set the mode" +
+                        by({{setting::kTemporalMode, "locked"}}) + ", or leave one pass out.");
+    }
+    return {};
+}
+
 void project_synthesis(const SynthesisParams& synthesis, RegionPlan& plan) {
     plan.seam = synthesis.seam;
     plan.overlap_px = synthesis.overlap_px;

@@ -2,15 +2,19 @@
 // Where a place of the reference frame lies on the texture.
 
 #include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
+#include <memory>
+#include <utility>
 
 #include "engine/core/geometry.h"
+#include "engine/core/surface_form.h"
 
 namespace weft {
 
 /// The texture coordinates of the reference frame: the one function through which every stage asks
-/// which texel a place of the reference frame shows. Today it is a homography, that of the
-/// artist's placement. Immutable and thread-safe.
+/// which texel a place of the reference frame shows. The surface is laid flat by its form, if it
+/// has one, and then a homography acts, that of the artist's placement. Immutable and thread-safe.
 class TextureMapping {
   public:
     /// A texel for every pixel, both from (0, 0).
@@ -21,23 +25,39 @@ class TextureMapping {
 
     /// The texel, unwrapped, of a place in pixels of the reference frame. Not finite on the horizon
     /// of a plane in perspective.
-    [[nodiscard]] Vec2 texel(Vec2 pixel) const { return project(texel_from_reference_, pixel); }
+    [[nodiscard]] Vec2 texel(Vec2 pixel) const {
+        return project(texel_from_reference_, flat(pixel));
+    }
+
+    /// The same placement on a surface of this form; null: flat.
+    [[nodiscard]] TextureMapping with_form(std::shared_ptr<const SurfaceForm> form) const {
+        TextureMapping out = *this;
+        out.form_ = std::move(form);
+        return out;
+    }
+    [[nodiscard]] const std::shared_ptr<const SurfaceForm>& form() const { return form_; }
 
     /// The mapping about one place, to first order.
     struct Linear {
         Vec2 texel;  ///< Of the place itself.
         Mat3 map{1};
-        float depth = 1;  ///< Third homogeneous coordinate there.
+        float depth = 1;    ///< Third homogeneous coordinate there.
+        glm::mat2 form{1};  ///< Of the surface laid flat, by pixel.
         /// Texels for a step of that many pixels on the reference frame.
         [[nodiscard]] Vec2 step(Vec2 pixels) const {
             // d(p.xy / p.z) = (dp.xy − u dp.z) / p.z
-            const Vec3 dp = map * Vec3(pixels, 0.0f);
+            const Vec3 dp = map * Vec3(form * pixels, 0.0f);
             return (Vec2(dp.x, dp.y) - texel * dp.z) / depth;
         }
     };
     [[nodiscard]] Linear linear_at(Vec2 pixel) const {
-        const Vec3 p = texel_from_reference_ * Vec3(pixel, 1.0f);
-        return {Vec2(p.x, p.y) / p.z, texel_from_reference_, p.z};
+        const Vec3 p = texel_from_reference_ * Vec3(flat(pixel), 1.0f);
+        Linear out{Vec2(p.x, p.y) / p.z, texel_from_reference_, p.z};
+        if (form_) {
+            const Vec2 x(0.5f, 0), y(0, 0.5f);
+            out.form = {flat(pixel + x) - flat(pixel - x), flat(pixel + y) - flat(pixel - y)};
+        }
+        return out;
     }
 
     /// The smallest upright box of texels around what a rectangle of the reference frame shows.
@@ -45,18 +65,29 @@ class TextureMapping {
         Vec2 low{1e9f}, high{-1e9f};
     };
     [[nodiscard]] Bounds bounds_of(const Recti& pixels) const {
-        // A homography takes straight edges to straight ones: the corners bound the rest.
+        // A homography takes straight edges to straight ones: the corners bound the rest. With a
+        // form, so do the places of a grid, closely.
+        const int steps = form_ ? 32 : 1;
         Bounds out;
-        for (int k = 0; k < 4; ++k) {
-            const Vec2 u = texel({static_cast<float>((k & 1) != 0 ? pixels.x1 : pixels.x0),
-                                  static_cast<float>((k >> 1) != 0 ? pixels.y1 : pixels.y0)});
-            out.low = glm::min(out.low, u);
-            out.high = glm::max(out.high, u);
+        for (int j = 0; j <= steps; ++j) {
+            for (int i = 0; i <= steps; ++i) {
+                const auto share = [&](int from, int to, int k) {
+                    return k == steps
+                               ? static_cast<float>(to)
+                               : static_cast<float>(from) + static_cast<float>((to - from) * k) /
+                                                                static_cast<float>(steps);
+                };
+                const Vec2 u =
+                    texel({share(pixels.x0, pixels.x1, i), share(pixels.y0, pixels.y1, j)});
+                out.low = glm::min(out.low, u);
+                out.high = glm::max(out.high, u);
+            }
         }
         return out;
     }
 
-    /// The way back: the place in pixels of the reference frame that shows a texel.
+    /// The way back on a surface without a form: the place in pixels of the reference frame that
+    /// shows a texel.
     class Inverse {
       public:
         explicit Inverse(const Mat3& reference_from_texel) : map_(reference_from_texel) {}
@@ -71,13 +102,22 @@ class TextureMapping {
     [[nodiscard]] TextureMapping on_smaller_frame(float factor) const {
         Mat3 enlarge(1);
         enlarge[0][0] = enlarge[1][1] = factor;
-        return TextureMapping(texel_from_reference_ * enlarge);
+        TextureMapping out(texel_from_reference_ * enlarge);
+        out.form_ = form_;
+        out.smaller_ = smaller_ * factor;
+        return out;
     }
 
     bool operator==(const TextureMapping&) const = default;
 
   private:
+    [[nodiscard]] Vec2 flat(Vec2 pixel) const {
+        return form_ ? form_->flat(pixel * smaller_) / smaller_ : pixel;
+    }
+
     Mat3 texel_from_reference_{1};
+    std::shared_ptr<const SurfaceForm> form_;  // of the frame at full size
+    float smaller_ = 1;
 };
 
 }  // namespace weft

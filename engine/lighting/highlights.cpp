@@ -200,6 +200,7 @@ SurfaceColours surface_colours(ViewF3 plate, ViewU8x1 matte, const Colour& light
     const std::vector<const float*> pixels = pixels_of(plate, matte);
     if (pixels.empty()) return out;
     std::vector<float> saturations;
+    saturations.reserve(pixels.size());
     for (const float* p : pixels)
         saturations.push_back(saturation(p));
     const float least = quantile(saturations, kBodyQuantile);

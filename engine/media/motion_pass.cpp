@@ -8,6 +8,7 @@
 
 #include "engine/core/setting.h"
 #include "engine/media/image_files.h"
+#include "engine/media/pass_channels.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
 
@@ -22,8 +23,6 @@ struct Convention {
     float forward_sign, backward_sign;
     bool premultiplied;
 };
-
-const char* const kRenderAlike = "render it at the plate's size";
 
 Convention convention_of(MotionConvention convention) {
     using C = Convention;
@@ -48,18 +47,6 @@ Convention convention_of(MotionConvention convention) {
     return {{"R", "G"}, {"R", "G"}, {"motionvector", ""}, C::kPixels, 1, -1, false};
 }
 
-Expected<std::vector<float>> read_channel(const std::string& path, const std::string& channel,
-                                          Size& size) {
-    WEFT_TRY(raster, read_raster(path, {{}, channel, false}));
-    size = raster.info.size;
-    auto* samples = std::get_if<std::vector<float>>(&raster.samples);
-    if (!samples) {
-        return tl::unexpected(unreadable(path, "its motion is not in half or float",
-                                         "Render the motion pass as EXR."));
-    }
-    return std::move(*samples);
-}
-
 // "shot.Vector" and the like: the part before ".X" in the file, if the layer is not named.
 Expected<std::string> find_layer(const std::string& path, const Convention& convention,
                                  const std::array<const char*, 2>& channels, bool forward) {
@@ -80,12 +67,9 @@ Expected<std::string> find_layer(const std::string& path, const Convention& conv
         }
     }
     if (has(channels[0]) && has(channels[1])) return std::string();
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + name;
-    return tl::unexpected(unreadable(
-        path, "it has no motion pass in this convention",
-        "Name its layer" + by({{setting::kMotionLayer}}) + "; its channels are: " + list + "."));
+    return tl::unexpected(unreadable(path, "it has no motion pass in this convention",
+                                     "Name its layer" + by({{setting::kMotionLayer}}) +
+                                         "; its channels are: " + list_of(names) + "."));
 }
 
 }  // namespace
@@ -103,13 +87,13 @@ Expected<FlowField> read_motion(const std::string& path, const MotionSelect& sel
         layer = found;
     }
     Size size;
-    WEFT_TRY(u, read_channel(path, layer + channels[0], size));
-    WEFT_TRY(v, read_channel(path, layer + channels[1], size));
+    WEFT_TRY(u, read_pass_channel(path, layer + channels[0], "motion", size));
+    WEFT_TRY(v, read_pass_channel(path, layer + channels[1], "motion", size));
     WEFT_CHECK_OK(check_plate_size(path, "its motion", size, expected, kRenderAlike));
     std::vector<float> alpha;
     if (convention.premultiplied) {
         for (const std::string& name : {layer + "A", std::string("A")}) {
-            if (auto found = read_channel(path, name, size)) {
+            if (auto found = read_pass_channel(path, name, "motion", size)) {
                 alpha = std::move(*found);
                 break;
             }
@@ -153,8 +137,8 @@ Expected<ImageF2> read_uv(const std::string& path, const std::string& layer, Siz
     }
     if (!has(prefix + channels[0])) channels = {"R", "G"};
     Size size;
-    WEFT_TRY(u, read_channel(path, prefix + channels[0], size));
-    WEFT_TRY(v, read_channel(path, prefix + channels[1], size));
+    WEFT_TRY(u, read_pass_channel(path, prefix + channels[0], "UV", size));
+    WEFT_TRY(v, read_pass_channel(path, prefix + channels[1], "UV", size));
     WEFT_CHECK_OK(check_plate_size(path, "its UV map", size, expected, kRenderAlike));
     ImageF2 out(size);
     for (std::size_t i = 0; i < u.size(); ++i) {

@@ -34,13 +34,14 @@ Size samples_of(const Layers& frame) {
 class SeamMaker {
   public:
     SeamMaker(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
-              int region, const PlanePyramid& plane)
+              int region, const PlanePyramid& plane, const std::shared_ptr<const SurfaceForm>& form)
         : source_(source),
           plan_(plan),
           region_(plan.regions[static_cast<std::size_t>(region)]),
           store_(store),
           index_(region),
-          plane_(plane) {}
+          plane_(plane),
+          form_(form) {}
 
     Expected<std::optional<HistorySeam>> make(int first, int last) {
         std::vector<Layers> frames(static_cast<std::size_t>(last - first - 1));
@@ -196,7 +197,8 @@ class SeamMaker {
                                           Size cells) const {
         HistoryEvidence out{ImageF1(cells), ImageF1(cells)};
         if (frame.visible.empty()) return out;
-        WEFT_TRY(mapping, texture_mapping(region_.placement_at(number)));
+        WEFT_TRY(placed, texture_mapping(region_.placement_at(number)));
+        const TextureMapping mapping = placed.with_form(form_);
         const ImageF3 a = shown(frame.before, frame, mapping);
         const ImageF3 b = shown(frame.after, frame, mapping);
         for (int j = 0; j < a.height(); ++j) {
@@ -233,20 +235,20 @@ class SeamMaker {
     const AnalysisStore& store_;
     int index_;
     const PlanePyramid& plane_;
+    const std::shared_ptr<const SurfaceForm>& form_;
 };
 
 }  // namespace
 
-Expected<std::vector<HistorySeam>> make_history_seams(const ShotSource& source,
-                                                      const ShotPlan& plan,
-                                                      const AnalysisStore& store, int region,
-                                                      const PlanePyramid& plane) {
+Expected<std::vector<HistorySeam>> make_history_seams(
+    const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store, int region,
+    const PlanePyramid& plane, const std::shared_ptr<const SurfaceForm>& form) {
     std::vector<HistorySeam> out;
     const RegionPlan& settings = plan.regions[static_cast<std::size_t>(region)];
     if (settings.temporal != TemporalMode::kLocked) return out;
     std::vector<int> references = settings.reference_frames;
     std::sort(references.begin(), references.end());
-    SeamMaker maker(source, plan, store, region, plane);
+    SeamMaker maker(source, plan, store, region, plane, form);
     for (std::size_t k = 1; k < references.size(); ++k) {
         WEFT_TRY(seam, maker.make(references[k - 1], references[k]));
         if (seam) out.push_back(std::move(*seam));

@@ -1,5 +1,8 @@
 #pragma once
+#include <memory>
+
 #include "engine/compute/plane_pyramid.h"
+#include "engine/core/surface_form.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
@@ -10,11 +13,10 @@ namespace weft {
 /// The seams in space and time of a region in locked mode: one for each interval between two
 /// references on which the histories do not agree (AnalysisKind::kHistoryAfter), and one, outside
 /// of those, after each frame on which a texture stretched past the limit was let go. They depend
-/// on the texture, so they are not part of the analysis. Errors: those of the source and the store.
-[[nodiscard]] Expected<std::vector<HistorySeam>> make_history_seams(const ShotSource& source,
-                                                                    const ShotPlan& plan,
-                                                                    const AnalysisStore& store,
-                                                                    int region,
-                                                                    const PlanePyramid& plane);
+/// on the texture and its form, so they are not part of the analysis. Errors: those of the source
+/// and the store.
+[[nodiscard]] Expected<std::vector<HistorySeam>> make_history_seams(
+    const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store, int region,
+    const PlanePyramid& plane, const std::shared_ptr<const SurfaceForm>& form = nullptr);
 
 }  // namespace weft

@@ -9,6 +9,11 @@ Expected<ImageF3> ShotSource::light_pass(int /*region*/, int frame) const {
                 "The lighting pass of frame " + std::to_string(frame) + " is missing.");
 }
 
+Expected<ImageF3> ShotSource::positions(int /*region*/, int frame) const {
+    return fail(ErrorCode::kRenderFailed,
+                "The position pass of frame " + std::to_string(frame) + " is missing.");
+}
+
 Expected<ImageF2> ShotSource::uv(int /*region*/, int frame) const {
     return fail(ErrorCode::kRenderFailed,
                 "The UV pass of frame " + std::to_string(frame) + " is missing.");

@@ -129,6 +129,9 @@ struct RegionPlan {
     bool exact_light = false;
     /// A UV pass gives the place of the plane that each pixel shows.
     bool has_uv = false;
+    /// A position pass gives the surface's form.
+    bool has_positions = false;
+    float form_amount = 1;  ///< 0 flat, 1 as found.
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {
         return strength_keys.empty() ? light.strength : strength_keys.float_at(frame)[0];

@@ -10,6 +10,7 @@
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
@@ -104,7 +105,8 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
 
 Expected<TextureMapping> mapping_on(const RegionPlan& region, const RegionScene& scene, int frame) {
     if (!region.placement_moves()) return scene.mapping;
-    return texture_mapping(region.placement_at(frame));
+    WEFT_TRY(mapping, texture_mapping(region.placement_at(frame)));
+    return mapping.with_form(scene.mapping.form());
 }
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
@@ -154,7 +156,8 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
     WEFT_TRY(mapping, texture_mapping(region.placement));
-    scene.mapping = mapping;
+    WEFT_TRY(form, region_form(source, plan, store, region_index));
+    scene.mapping = mapping.with_form(form);
     if (has_plane(region)) {
         if (!made) {
             WEFT_TRY(plane, make_plane(plan, region, source.size(), cancel, progress, backend));
@@ -164,7 +167,8 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         scene.stats = made->stats;
         scene.plane_seams = std::move(made->seams);
         scene.grown = std::move(made->grown);
-        WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane));
+        WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane,
+                                           scene.mapping.form()));
         scene.seams = std::move(seams);
     }
     const int reference = region.reference_frames.front();

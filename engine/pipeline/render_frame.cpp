@@ -62,7 +62,7 @@ class FrameRenderer {
     // The region's contribution to the frame's layers, except for the patch. `share` has its
     // pictures.
     Status note_share(int index, const RegionSurface& surface, const RegionScene& scene,
-                      LayerShare& share);
+                      LayerShare share);
     Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
                          const RegionScene& scene, const Matte& inside, const FrameLight& light);
     // Remembers that an error came from the device.
@@ -164,8 +164,7 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     const ImageF3 unlit = layers_ ? texture : ImageF3();
     WEFT_TRY(gloss, light.apply(inside, texture));
     if (layers_) {
-        LayerShare share{box, inside, unlit, texture, gloss};
-        WEFT_CHECK_OK(note_share(index, surface, scene, share));
+        WEFT_CHECK_OK(note_share(index, surface, scene, {box, inside, unlit, texture, gloss}));
     }
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
@@ -180,7 +179,7 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
 }
 
 Status FrameRenderer::note_share(int index, const RegionSurface& surface, const RegionScene& scene,
-                                 LayerShare& share) {
+                                 LayerShare share) {
     share.plane = scene.plane.size();
     share.wrap = scene.plane.wrap();
     share.plane_seams = scene.plane_seams;

@@ -41,6 +41,9 @@ class ShotSource {
     /// The region's UV pass (RegionPlan::has_uv): H×W×2 of the plate's size, 0–1, origin bottom
     /// left.
     [[nodiscard]] virtual Expected<ImageF2> uv(int region, int frame) const;
+    /// The region's position pass (RegionPlan::has_positions): H×W×3 of the plate's size, the place
+    /// of the surface at each pixel in one unit of length; what is unknown is not finite.
+    [[nodiscard]] virtual Expected<ImageF3> positions(int region, int frame) const;
     /// The region's depth pass (RegionPlan::has_depth) as nearness, of the plate's size: the
     /// reciprocal of a distance, or a coded picture's value as it is. Empty without one.
     [[nodiscard]] virtual Expected<ImageF1> depth(int /*region*/, int /*frame*/) const {

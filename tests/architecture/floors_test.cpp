@@ -23,6 +23,7 @@ const std::vector<Floor> kFloors{
     {"engine/color", {"engine/core"}},
     // 2: algorithms, each using others only in the direction in which data flows
     {"engine/motion", {"engine/core", "engine/compute"}},
+    {"engine/form", {"engine/core", "engine/motion"}},
     {"engine/mask", {"engine/core", "engine/compute", "engine/motion"}},
     {"engine/seam", {"engine/core", "engine/compute"}},
     {"engine/synthesis", {"engine/core", "engine/compute", "engine/seam"}},
@@ -39,9 +40,9 @@ const std::vector<Floor> kFloors{
       "engine/seam", "engine/synthesis", "engine/temporal", "engine/lighting"}},
     // 3
     {"engine/pipeline",
-     {"engine/core", "engine/compute", "engine/color", "engine/motion", "engine/mask",
-      "engine/seam", "engine/synthesis", "engine/temporal", "engine/lighting", "engine/composite",
-      "engine/metrics"}},
+     {"engine/core", "engine/compute", "engine/color", "engine/motion", "engine/form",
+      "engine/mask", "engine/seam", "engine/synthesis", "engine/temporal", "engine/lighting",
+      "engine/composite", "engine/metrics"}},
     {"gpu", {"engine/core", "engine/compute"}},
     // 3: the texture library
     {"texture_db/describe", {"engine/core"}},
@@ -117,6 +118,7 @@ const std::vector<Library> kLibraries{
     {"OpenImageIO",
      {"OpenImageIO/"},
      {"engine/media", "engine/media/exr_part.h", "engine/media/picture_file.h"}},
+    {"Eigen", {"Eigen/"}, {"engine/form"}},
     {"libdeflate", {"libdeflate.h"}, {"engine/media"}},
     {"FFmpeg",
      {"libavcodec/", "libavformat/", "libavutil/", "libswscale/"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 namespace weft {
 namespace {
@@ -32,6 +33,28 @@ TEST(TextureMapping, ItsLinearPartIsItsDerivative) {
         EXPECT_LT(distance(at.step(step), central), 1e-3f);
         EXPECT_GT(std::hypot(central.x, central.y), 0.3f);
     }
+}
+
+// A surface that turns away to the right.
+class Bent final : public SurfaceForm {
+  public:
+    [[nodiscard]] Vec2 flat(Vec2 p) const override { return {p.x + 0.001f * p.x * p.x, p.y}; }
+};
+
+TEST(TextureMapping, AFormActsBeforeThePlacement) {
+    const TextureMapping bent = kFloor.with_form(std::make_shared<Bent>());
+    const Vec2 p(60, 80);
+    EXPECT_LT(distance(bent.texel(p), kFloor.texel({63.6f, 80})), 1e-4f);
+    for (const Vec2 step : {Vec2(1, 0), Vec2(0, 1)}) {
+        const Vec2 central = 0.5f * (bent.texel(p + step) - bent.texel(p - step));
+        EXPECT_LT(distance(bent.linear_at(p).step(step), central), 2e-3f);
+    }
+    const TextureMapping small = bent.on_smaller_frame(4);
+    EXPECT_LT(distance(small.texel(0.25f * p), bent.texel(p)), 1e-3f);
+    const auto [low, high] = bent.bounds_of({0, 0, 100, 10});
+    EXPECT_GE(high.x, bent.texel({100, 0}).x);
+    EXPECT_LE(low.x, bent.texel({0, 10}).x);
+    EXPECT_EQ(bent.with_form(nullptr), kFloor);
 }
 
 TEST(TextureMapping, BoundsHoldEveryTexelThatARectangleShowsAndNoMore) {

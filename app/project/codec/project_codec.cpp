@@ -28,11 +28,12 @@ constexpr Group<Owner> group(std::string_view name) {
 }
 
 constexpr std::array kRegionGroups{
-    group<Region, &Region::texture>("texture"),   group<Region, &Region::placement>("placement"),
-    group<Region, &Region::motion>("motion"),     group<Region, &Region::synthesis>("synthesis"),
-    group<Region, &Region::temporal>("temporal"), group<Region, &Region::light>("light"),
-    group<Region, &Region::grade>("grade"),       group<Region, &Region::layer>("layer"),
-    group<Region, &Region::finish>("finish"),     group<Region, &Region::lines>("lines"),
+    group<Region, &Region::texture>("texture"),     group<Region, &Region::placement>("placement"),
+    group<Region, &Region::form>("form"),           group<Region, &Region::motion>("motion"),
+    group<Region, &Region::synthesis>("synthesis"), group<Region, &Region::temporal>("temporal"),
+    group<Region, &Region::light>("light"),         group<Region, &Region::grade>("grade"),
+    group<Region, &Region::layer>("layer"),         group<Region, &Region::finish>("finish"),
+    group<Region, &Region::lines>("lines"),
 };
 constexpr std::array kProjectGroups{
     group<Project, &Project::plate>("plate"),

@@ -1,0 +1,16 @@
+#pragma once
+#include "engine/core/geometry.h"
+
+namespace weft {
+
+/// The shape of a surface as a texture sees it: where places of the reference frame come to lie
+/// when the surface is laid flat without stretch. Immutable and thread-safe.
+class SurfaceForm {
+  public:
+    virtual ~SurfaceForm() = default;
+    /// The flat place of a pixel of the reference frame, in pixels; smooth, inside of the frame and
+    /// beyond it.
+    [[nodiscard]] virtual Vec2 flat(Vec2 pixel) const = 0;
+};
+
+}  // namespace weft

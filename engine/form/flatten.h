@@ -1,0 +1,18 @@
+#pragma once
+#include "engine/core/error.h"
+#include "engine/form/metric_field.h"
+#include "engine/motion/lattice_field.h"
+
+namespace weft {
+
+/// Lays a surface flat with as little stretch as its shape allows: the displacement (pixels) from a
+/// place of the reference frame to its place on the flat surface, so that steps there are as long
+/// as the metric says. Minimises the symmetric Dirichlet energy (Smith & Schaefer 2015) by
+/// reweighted least squares (Rabinovich et al. 2017, SLIM) with a line search that never flips a
+/// triangle, weighted by area; cells without evidence follow. The result is turned and scaled so
+/// that, over the evidence, it is on average as upright and in the median as large as the picture,
+/// and its centre stays where it is. `field` must be finished. Bit-identical for any number of
+/// threads; thread-safe.
+[[nodiscard]] LatticeField flat_from_reference(const MetricField& field);
+
+}  // namespace weft

@@ -1,0 +1,160 @@
+#include "engine/form/metric_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/motion/lattice_field.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSweeps = 400;           // of the relaxation, from the mean of what is known
+constexpr double kMostAreaOff = 1e4;   // times, from the mean; a horizon is infinitely far
+constexpr double kLeastFacing = 0.03;  // cosine; more grazing is not believed
+
+struct Eigen2 {
+    double larger = 1, smaller = 1, cosine = 1, sine = 0;  // of the larger one's direction
+};
+
+Eigen2 eigen_of(const Metric& m) {
+    const double half = 0.5 * (m.xx + m.yy), difference = 0.5 * (m.xx - m.yy);
+    const double root = std::sqrt(difference * difference + m.xy * m.xy);
+    const double angle = 0.5 * std::atan2(m.xy, difference);
+    return {half + root, half - root, std::cos(angle), std::sin(angle)};
+}
+
+Metric composed(const Eigen2& e) {
+    const double c = e.cosine, s = e.sine;
+    return {e.larger * c * c + e.smaller * s * s, (e.larger - e.smaller) * c * s,
+            e.larger * s * s + e.smaller * c * c};
+}
+
+Metric log_of(const Metric& m) {
+    Eigen2 e = eigen_of(m);
+    e.larger = std::log(e.larger);
+    e.smaller = std::log(e.smaller);
+    return composed(e);
+}
+
+Metric exp_of(const Metric& m) {
+    Eigen2 e = eigen_of(m);
+    e.larger = std::exp(e.larger);
+    e.smaller = std::exp(e.smaller);
+    return composed(e);
+}
+
+// Within what can be laid: no grazing view and no area beyond all others.
+Metric bounded(const Metric& m) {
+    Eigen2 e = eigen_of(m);
+    e.smaller = std::max(e.smaller, e.larger * kLeastFacing * kLeastFacing);
+    const double area = std::sqrt(e.larger * e.smaller);
+    const double scale = std::clamp(area, 1 / kMostAreaOff, kMostAreaOff) / area;
+    e.larger *= scale;
+    e.smaller *= scale;
+    return composed(e);
+}
+
+Metric scaled(const Metric& m, double by) {
+    return {by * m.xx, by * m.xy, by * m.yy};
+}
+
+}  // namespace
+
+double facing(const Metric& metric) {
+    const Eigen2 e = eigen_of(metric);
+    return e.larger > 0 ? std::sqrt(std::max(0.0, e.smaller) / e.larger) : 0.0;
+}
+
+MetricField::MetricField(Size full, int spacing) : full_(full), spacing_(spacing) {
+    const LatticeField lattice(full, spacing);
+    cells_ = {lattice.nodes().width() - 1, lattice.nodes().height() - 1};
+    const auto count =
+        static_cast<std::size_t>(cells_.width) * static_cast<std::size_t>(cells_.height);
+    metrics_.resize(count);
+    evidence_.resize(count);
+}
+
+void MetricField::add(Vec2 place, const Metric& metric, double weight) {
+    const auto cell = [&](float p) {
+        return static_cast<int>(std::floor(p / static_cast<float>(spacing_))) +
+               LatticeField::kMargin;
+    };
+    if (!(std::abs(place.x) < 1e6f && std::abs(place.y) < 1e6f)) return;
+    const int i = cell(place.x), j = cell(place.y);
+    if (i < 0 || j < 0 || i >= cells_.width || j >= cells_.height) return;
+    Metric& m = metrics_[index(i, j)];
+    m.xx += weight * metric.xx;
+    m.xy += weight * metric.xy;
+    m.yy += weight * metric.yy;
+    evidence_[index(i, j)] += weight;
+}
+
+void MetricField::scale_to_unit_area() {
+    double sum = 0, count = 0;
+    for (std::size_t k = 0; k < metrics_.size(); ++k) {
+        if (!(evidence_[k] > 0)) continue;
+        sum += evidence_[k] * 0.5 * std::log(metrics_[k].determinant());
+        count += evidence_[k];
+    }
+    const double by = std::exp(-sum / count);
+    for (std::size_t k = 0; k < metrics_.size(); ++k)
+        if (evidence_[k] > 0) metrics_[k] = bounded(scaled(metrics_[k], by));
+}
+
+void MetricField::continue_outwards() {
+    std::vector<Metric> logs(metrics_.size());
+    Metric mean;
+    double count = 0;
+    for (std::size_t k = 0; k < metrics_.size(); ++k) {
+        if (!(evidence_[k] > 0)) continue;
+        logs[k] = log_of(metrics_[k]);
+        mean = {mean.xx + logs[k].xx, mean.xy + logs[k].xy, mean.yy + logs[k].yy};
+        ++count;
+    }
+    mean = scaled(mean, 1 / count);
+    for (std::size_t k = 0; k < metrics_.size(); ++k)
+        if (!(evidence_[k] > 0)) logs[k] = mean;
+    // Successive over-relaxation in a fixed order.
+    constexpr double kOver = 1.9;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        for (int j = 0; j < cells_.height; ++j) {
+            for (int i = 0; i < cells_.width; ++i) {
+                const std::size_t k = index(i, j);
+                if (evidence_[k] > 0) continue;
+                Metric sum;
+                double sides = 0;
+                const auto take = [&](int x, int y) {
+                    if (x < 0 || y < 0 || x >= cells_.width || y >= cells_.height) return;
+                    const Metric& m = logs[index(x, y)];
+                    sum = {sum.xx + m.xx, sum.xy + m.xy, sum.yy + m.yy};
+                    ++sides;
+                };
+                take(i - 1, j), take(i + 1, j), take(i, j - 1), take(i, j + 1);
+                Metric& m = logs[k];
+                m.xx += kOver * (sum.xx / sides - m.xx);
+                m.xy += kOver * (sum.xy / sides - m.xy);
+                m.yy += kOver * (sum.yy / sides - m.yy);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < metrics_.size(); ++k)
+        if (!(evidence_[k] > 0)) metrics_[k] = bounded(exp_of(logs[k]));
+}
+
+bool MetricField::finish() {
+    bool any = false;
+    for (std::size_t k = 0; k < metrics_.size(); ++k) {
+        if (!(evidence_[k] > 0)) continue;
+        metrics_[k] = scaled(metrics_[k], 1 / evidence_[k]);
+        if (!(metrics_[k].determinant() > 0) || !std::isfinite(metrics_[k].determinant()))
+            evidence_[k] = 0;
+        any = any || evidence_[k] > 0;
+    }
+    if (!any) return false;
+    scale_to_unit_area();
+    continue_outwards();
+    return true;
+}
+
+}  // namespace weft

@@ -1,0 +1,58 @@
+#pragma once
+// How long a step on a surface is for a step on the reference frame.
+
+#include <vector>
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// The first fundamental form G = (∂P/∂x)ᵀ(∂P/∂x) of the surface's place P over the picture: a step
+/// dx of pixels is √(dxᵀ G dx) long on the surface. Positive definite where it is known.
+struct Metric {
+    double xx = 0, xy = 0, yy = 0;
+
+    [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
+};
+
+/// The square root of the smaller eigenvalue over the larger: the cosine at which a surface is seen
+/// without perspective, 1 where it faces the camera.
+[[nodiscard]] double facing(const Metric& metric);
+
+/// Metrics in the cells of a lattice over the reference frame and beyond it: cell (i, j) lies
+/// between the nodes (i, j) and (i + 1, j + 1) of a LatticeField of the same size and spacing.
+class MetricField {
+  public:
+    /// `full`: size of the reference frame; `spacing` ≥ 1 px.
+    MetricField(Size full, int spacing);
+
+    [[nodiscard]] Size full_size() const { return full_; }
+    [[nodiscard]] int spacing() const { return spacing_; }
+    [[nodiscard]] Size cells() const { return cells_; }
+    [[nodiscard]] const Metric& at(int i, int j) const { return metrics_[index(i, j)]; }
+    /// How much evidence the cell has; 0 where its metric was only continued.
+    [[nodiscard]] double evidence(int i, int j) const { return evidence_[index(i, j)]; }
+
+    /// Adds a measurement at a place of the reference frame (pixels), which may lie outside of it;
+    /// beyond the lattice it does not count. `weight` > 0.
+    void add(Vec2 place, const Metric& metric, double weight);
+    /// Turns sums into means, and continues them smoothly to the cells without evidence (harmonic
+    /// in ln G). All are scaled so that the cells with evidence have an area of 1 px² a px² in the
+    /// geometric mean. Returns false if nothing was added. Call it once, after the last add().
+    [[nodiscard]] bool finish();
+
+  private:
+    [[nodiscard]] std::size_t index(int i, int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(cells_.width) +
+               static_cast<std::size_t>(i);
+    }
+    void scale_to_unit_area();
+    void continue_outwards();
+
+    Size full_, cells_;
+    int spacing_;
+    std::vector<Metric> metrics_;
+    std::vector<double> evidence_;
+};
+
+}  // namespace weft
