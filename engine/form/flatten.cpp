@@ -273,7 +273,7 @@ void normalise(const MetricField& field, const Flattening& flat, Eigen::VectorXd
             const Matrix2 s = flat.slope(u, i, j);
             // The rotation of its polar decomposition.
             const std::complex<double> r(s(0, 0) + s(1, 1), s(1, 0) - s(0, 1));
-            turn += r / std::max(std::abs(r), 1e-12);
+            turn += r / std::max(std::sqrt(std::norm(r)), 1e-12);
             areas.push_back(s.determinant());
             was += spacing * Eigen::Vector2d(i + 0.5, j + 0.5);
             for (const int k : {j * columns + i, j * columns + i + 1, (j + 1) * columns + i,
@@ -284,8 +284,9 @@ void normalise(const MetricField& field, const Flattening& flat, Eigen::VectorXd
     const auto count = static_cast<double>(areas.size());
     const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
     std::nth_element(areas.begin(), middle, areas.end());
-    const std::complex<double> back =
-        std::conj(turn) / std::max(std::abs(turn), 1e-12) / std::sqrt(std::max(*middle, 1e-12));
+    const std::complex<double> back = std::conj(turn) /
+                                      std::max(std::sqrt(std::norm(turn)), 1e-12) /
+                                      std::sqrt(std::max(*middle, 1e-12));
     for (Eigen::Index k = 0; k < u.size(); k += 2) {
         const std::complex<double> v =
             back * std::complex<double>(u[k] - is.x() / count, u[k + 1] - is.y() / count);

@@ -20,8 +20,21 @@ struct Eigen2 {
 Eigen2 eigen_of(const Metric& m) {
     const double half = 0.5 * (m.xx + m.yy), difference = 0.5 * (m.xx - m.yy);
     const double root = std::sqrt(difference * difference + m.xy * m.xy);
-    const double angle = 0.5 * std::atan2(m.xy, difference);
-    return {half + root, half - root, std::cos(angle), std::sin(angle)};
+    if (!(root > 0)) return {half, half, 1, 0};
+    // Of half the angle whose cosine is difference / root and whose sine is xy / root.
+    const double longer = std::sqrt(0.5 * (1 + std::abs(difference) / root));
+    const double shorter = m.xy / (2 * root * longer);
+    const bool along_x = difference >= 0;
+    return {half + root, half - root, along_x ? longer : std::abs(shorter),
+            along_x ? shorter : std::copysign(longer, m.xy)};
+}
+
+// Long double: see docs/decisions/0002-determinism.md.
+double ln(double v) {
+    return static_cast<double>(std::log(static_cast<long double>(v)));
+}
+double power_of_e(double v) {
+    return static_cast<double>(std::exp(static_cast<long double>(v)));
 }
 
 Metric composed(const Eigen2& e) {
@@ -32,15 +45,15 @@ Metric composed(const Eigen2& e) {
 
 Metric log_of(const Metric& m) {
     Eigen2 e = eigen_of(m);
-    e.larger = std::log(e.larger);
-    e.smaller = std::log(e.smaller);
+    e.larger = ln(e.larger);
+    e.smaller = ln(e.smaller);
     return composed(e);
 }
 
 Metric exp_of(const Metric& m) {
     Eigen2 e = eigen_of(m);
-    e.larger = std::exp(e.larger);
-    e.smaller = std::exp(e.smaller);
+    e.larger = power_of_e(e.larger);
+    e.smaller = power_of_e(e.smaller);
     return composed(e);
 }
 
@@ -94,10 +107,10 @@ void MetricField::scale_to_unit_area() {
     double sum = 0, count = 0;
     for (std::size_t k = 0; k < metrics_.size(); ++k) {
         if (!(evidence_[k] > 0)) continue;
-        sum += evidence_[k] * 0.5 * std::log(metrics_[k].determinant());
+        sum += evidence_[k] * 0.5 * ln(metrics_[k].determinant());
         count += evidence_[k];
     }
-    const double by = std::exp(-sum / count);
+    const double by = power_of_e(-sum / count);
     for (std::size_t k = 0; k < metrics_.size(); ++k)
         if (evidence_[k] > 0) metrics_[k] = bounded(scaled(metrics_[k], by));
 }

@@ -162,15 +162,13 @@ def flo(u, v, size=(64, 48), magic=202021.25):
 
 
 NAN = float("nan")
-for _option in ("--uv", "--albedo", "--lighting", "--depth-pass", "--lines"):
+for _option in ("--uv", "--albedo", "--lighting", "--depth-pass", "--lines", "--position-pass"):
     _channels = "RG" if _option == "--uv" else "RGB"
     add(f"pass/{_option[2:]}", passes(_option, exr_pass(*_channels), EITHER + (USAGE,)))
     add(f"pass/{_option[2:]}_nan", passes(_option, exr_pass(*_channels, value=NAN), EITHER + (USAGE,)))
-    # Draft quality looks at no depth.
-    _unread = (OK,) if _option == "--depth-pass" else ()
-    add(f"pass/{_option[2:]}_wrong_size", passes(_option, exr_pass(*_channels, size=(32, 24)), (UNREADABLE, USAGE) + _unread))
-    add(f"pass/{_option[2:]}_missing", lambda shot, o=_option, unread=_unread: iter([Step(
-        shot.ordinary().replace(o, "no/####.exr"), exits=(MISSING, UNREADABLE) + unread)]))
+    add(f"pass/{_option[2:]}_wrong_size", passes(_option, exr_pass(*_channels, size=(32, 24)), (UNREADABLE, USAGE)))
+    add(f"pass/{_option[2:]}_missing", lambda shot, o=_option: iter([Step(
+        shot.ordinary().replace(o, "no/####.exr"), exits=(MISSING, UNREADABLE))]))
 for _name, _make, _exits in (("flo", flo(1, 0), SURE), ("flo_nan", flo(NAN, NAN), EITHER + (USAGE,)), ("flo_huge", flo(1e30, 0), EITHER + (USAGE,)),
                              ("flo_wrong_size", flo(1, 0, (63, 48)), (UNREADABLE, USAGE)), ("flo_wrong_magic", flo(1, 0, magic=1.0), (UNREADABLE,)),
                              ("flo_claims", flo(1, 0, (2000000000, 2000000000)), (UNREADABLE, SPACE)),

@@ -80,6 +80,7 @@ INPUTS = {
     "depth_pass": ("p.exr", shot_words("--depth-pass", "p.exr")),
     "lines": ("p.png", shot_words("--lines", "p.png")),
     "uv": ("p.exr", shot_words("--uv", "p.exr")),
+    "position_pass": ("p.exr", shot_words("--position-pass", "p.exr")),
     "motion": ("flow/0001.flo", shot_words("--motion", "flow/####.flo")),
     "motion_pass": ("flow/0001.exr", shot_words("--motion", "flow/####.exr", "--motion-convention", "nuke")),
     "track": ("t.txt", shot_words("--track", "t.txt")),

@@ -9,7 +9,7 @@ REFUSED = (USAGE, UNREADABLE, MISSING, SPACE)
 NUMBERS = {"--scale": "1.5", "--rotate": "30", "--overlap": "24", "--feather": "2", "--refine": "1", "--seed": "7", "--temporal-blend": "0.5",
            "--temporal-weight": "2", "--light-strength": "0.5", "--light-tint": "0.2", "--highlights": "1", "--highlight-roughness": "0.4", "--grain": "0.5", "--defocus": "0.5",
            "--shutter": "180", "--light-detail": "0.7", "--keep-detail": "0.5", "--match-plate": "0.5", "--exposure": "-0.5", "--temperature": "40",
-           "--contrast": "1.1", "--gamma": "0.9", "--saturation": "1.2", "--hue": "-20", "--opacity": "0.7", "--line-width": "3", "--matte-stabilize": "0.2", "--threads": "2", "--jpeg-quality": "80"}
+           "--contrast": "1.1", "--gamma": "0.9", "--saturation": "1.2", "--hue": "-20", "--opacity": "0.7", "--form-amount": "0.5", "--line-width": "3", "--matte-stabilize": "0.2", "--threads": "2", "--jpeg-quality": "80"}
 WORDS = {"--quality": "draft", "--depth": "16", "--seam": "dp", "--seam-cost": "paper", "--temporal": "none", "--light": "none",
          "--blend-mode": "detail", "--plane-wrap": "mirror", "--motion-direction": "backward", "--backend": "cpu", "--progress": "json",
          "--missing": "hold", "--layer-blend": "soft-light", "--layers": "all", "--motion-convention": "files", "--matte-propagate": "both", "--stage": "motion"}
