@@ -167,6 +167,11 @@ class ProxyStore final : public AnalysisStore {
                 WEFT_TRY(field, decode_lattice(bytes));
                 return encode(shrunk(field, factor_));
             }
+            case AnalysisKind::kForm: {
+                WEFT_TRY(form, decode_form(bytes));
+                return encode(FormMap{form.origin / static_cast<float>(factor_),
+                                      shrunk(form.displacement, factor_)});
+            }
             case AnalysisKind::kMatte: {
                 WEFT_TRY(stored, decode_matte(bytes));
                 return encode(StoredMatte{shrunk(stored.matte, factor_), stored.confidence});

@@ -66,6 +66,8 @@ const char* kind_name(AnalysisKind kind) {
             return "light-sample";
         case AnalysisKind::kShading:
             return "shading";
+        case AnalysisKind::kForm:
+            return "form";
         case AnalysisKind::kGrain:
             return "grain";
         case AnalysisKind::kShutter:

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 19;
+constexpr int kFormVersion = 1;  // of the form alone
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -176,6 +177,19 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index,
     return hasher.finish().hex();
 }
 
+// Apart from the rest, so that another form does not make the surface be followed again.
+Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::string& surface) {
+    const RegionPlan& plan = shot.plan.regions[index];
+    if (!plan.has_positions) return surface;
+    const Region& region = *shot.project.regions[shot.region_index[index]];
+    Hasher hasher;
+    hasher.text("form").value(kFormVersion).text(surface).text(region.form.position_layer);
+    WEFT_CHECK_OK(add_pattern(hasher, region.form.position));
+    for (const int frame : plan.form_evidence)
+        hasher.value(frame);
+    return hasher.finish().hex();
+}
+
 }  // namespace
 
 const std::string& RegionKeys::Layer::at(int frame) const {
@@ -184,13 +198,14 @@ const std::string& RegionKeys::Layer::at(int frame) const {
 }
 
 const std::string& RegionKeys::of(const AnalysisKey& key) const {
+    if (key.kind == AnalysisKind::kForm) return form;
     const bool matte = key.kind == AnalysisKind::kMatte || key.kind == AnalysisKind::kMatteForward;
     const auto layer = matte ? mattes.find(key.layer) : mattes.end();
     return layer == mattes.end() ? surface : layer->second.at(key.frame);
 }
 
 std::vector<std::string> RegionKeys::all() const {
-    std::vector<std::string> out{surface};
+    std::vector<std::string> out{surface, form};
     for (const auto& [layer, keys] : mattes)
         out.insert(out.end(), keys.stretches.begin(), keys.stretches.end());
     return out;
@@ -203,6 +218,7 @@ void RegionKeys::adopt(
         if (move(old, other)) old = other;
     };
     take(surface, now.surface);
+    take(form, now.form);
     for (auto& [layer, keys] : mattes) {
         const auto other = now.mattes.find(layer);
         if (other == now.mattes.end() || other->second.keyframes != keys.keyframes) continue;
@@ -215,7 +231,8 @@ Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
     WEFT_TRY(surface, surface_key(shot, index, painted));
     const Region& region = *shot.project.regions[shot.region_index[index]];
-    return RegionKeys{std::move(surface), all_matte_keys(shot, region, painted)};
+    WEFT_TRY(form, form_key(shot, index, surface));
+    return RegionKeys{std::move(surface), std::move(form), all_matte_keys(shot, region, painted)};
 }
 
 }  // namespace weft

@@ -21,7 +21,8 @@ struct RegionKeys {
         bool operator==(const Layer&) const = default;
     };
 
-    std::string surface;          ///< Of all but mattes.
+    std::string surface;          ///< Of all but mattes and the form.
+    std::string form;             ///< As `surface` without a form.
     std::map<int, Layer> mattes;  ///< By the layers of AnalysisKey; painted ones only.
     bool operator==(const RegionKeys&) const = default;
 

@@ -14,6 +14,7 @@ std::vector<int> unreadable_evidence(const Shot& shot) {
         needed.light_evidence.clear();
         needed.grain_frames.clear();
         needed.shutter_evidence.clear();
+        needed.form_evidence.clear();
         const FrameSpan without = analysed_span(shot.plan, needed);
         const FrameSpan with = analysed_span(shot.plan, region);
         for (int frame = with.first; frame <= with.last; ++frame) {

@@ -98,7 +98,7 @@ struct Followed {
 
 // Where the plate repeats a frame in place of a missing one, its other files are repeated too.
 Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
-                     const FrameReader& plate) {
+                     const FrameReader& plate, const std::string& remedy) {
     WEFT_TRY(pattern, SequencePattern::parse(text));
     if (pattern.is_single()) return {};
     WEFT_TRY(present, pattern.list_frames());
@@ -108,10 +108,15 @@ Status check_pattern(const std::string& text, const char* what, const std::vecto
                std::binary_search(present.begin(), present.end(), plate.shown_frame(frame));
     });
     if (missing.empty()) return {};
-    return fail(ErrorCode::kMissingFrames,
-                std::string(what) + " " + text + " has no file for " + frames_text(missing) +
-                    ". Add the files, or render only the frames that have one" +
-                    by({{setting::kFrames}}) + ".");
+    return fail(ErrorCode::kMissingFrames, std::string(what) + " " + text + " has no file for " +
+                                               frames_text(missing) + ". " + remedy);
+}
+
+Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
+                     const FrameReader& plate) {
+    return check_pattern(
+        text, what, wanted, plate,
+        "Add the files, or render only the frames that have one" + by({{setting::kFrames}}) + ".");
 }
 
 // The frames whose motion file is read: all of the span except the one where motion would leave it.
@@ -210,6 +215,24 @@ Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan
     return chosen;
 }
 
+Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan& plan,
+                                         const FrameReader& plate,
+                                         const std::vector<int>& leave_out) {
+    if (!plan.has_positions) return std::vector<int>{};
+    constexpr int kReach = 48, kOthers = 11;
+    const int reference = plan.reference_frames.front();
+    std::vector<int> chosen{reference};
+    WEFT_TRY(pattern, SequencePattern::parse(region.form.position));
+    if (pattern.is_single()) return chosen;
+    WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
+    const int others = std::min(run.last - run.first, kOthers);
+    for (int k = 0; k <= others; ++k) {
+        const int frame = others > 0 ? run.first + (run.last - run.first) * k / others : reference;
+        if (frame != reference) chosen.push_back(frame);
+    }
+    return chosen;
+}
+
 std::string frames_text(const std::vector<int>& frames) {
     return (frames.size() == 1 ? "frame " : "frames ") + frames_list(frames);
 }
@@ -285,8 +308,11 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     if (plan.has_uv)
         WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
     if (plan.has_positions) {
-        WEFT_CHECK_OK(check_pattern(region.form.position, "The position pass",
-                                    {plan.reference_frames.front()}, plate));
+        WEFT_CHECK_OK(check_pattern(region.form.position, "The position pass", plan.form_evidence,
+                                    plate,
+                                    "The form is found from them, whichever frames are rendered. "
+                                    "Add the files, or give that of the reference frame alone" +
+                                        by({{setting::kPositionPass}}) + "."));
     }
     if (plan.has_depth)
         WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames, plate));

@@ -27,7 +27,7 @@ namespace weft {
 
 /// Up to twelve frames for separating a region's paint from light: spread over the run of frames
 /// with all files, within 48 of the first reference frame. They do not depend on the rendered
-/// frames. Empty if the plate gives no light, or at draft quality. This function and the two below
+/// frames. Empty if the plate gives no light, or at draft quality. This function and those below
 /// stop before a frame of `leave_out`. Errors: those of the patterns.
 [[nodiscard]] Expected<std::vector<int>> light_evidence(const Region& region,
                                                         const RegionPlan& plan,
@@ -41,6 +41,13 @@ namespace weft {
                                                         const RegionPlan& plan,
                                                         const FrameReader& plate,
                                                         const std::vector<int>& leave_out);
+
+/// The frames whose position pass shows a region's form, the reference frame first: up to twelve,
+/// spread over at most 48 frames on each side of it, for which all other files exist. The reference
+/// frame alone if the pass is a single file.
+[[nodiscard]] Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan& plan,
+                                                       const FrameReader& plate,
+                                                       const std::vector<int>& leave_out);
 
 /// The frames on which grain is measured: the first reference frame and up to three after it. Empty
 /// if grain is off, or there is no later frame.

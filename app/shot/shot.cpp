@@ -216,7 +216,7 @@ class ShotOpener {
         return {};
     }
 
-    // The frames on which grain, motion blur and light are measured.
+    // The frames on which grain, motion blur, light and form are measured.
     Status add_evidence(const Region& region, RegionPlan& plan) const {
         const std::vector<int>& without = options_.leave_out;
         WEFT_TRY(grain, grain_frames(region, plan, *shot_.plate, without));
@@ -225,6 +225,8 @@ class ShotOpener {
         plan.shutter_evidence = std::move(blur);
         WEFT_TRY(light, light_evidence(region, plan, shot_.plan, *shot_.plate, without));
         plan.light_evidence = std::move(light);
+        WEFT_TRY(form, form_evidence(region, plan, *shot_.plate, without));
+        plan.form_evidence = std::move(form);
         return {};
     }
 

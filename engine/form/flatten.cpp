@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -261,15 +263,27 @@ void Flattening::solve() {
     }
 }
 
+// Which cells say where the result is to lie.
+std::function<bool(int, int)> anchors(const MetricField& field) {
+    const auto inside = [&field](int i, int j) {
+        return field.evidence(i, j) > 0 && field.in_frame(i, j);
+    };
+    for (int j = 0; j < field.cells().height; ++j)
+        for (int i = 0; i < field.cells().width; ++i)
+            if (inside(i, j)) return inside;
+    return [&field](int i, int j) { return field.evidence(i, j) > 0; };
+}
+
 // Turns, scales and moves the places as flat_from_reference() says.
 void normalise(const MetricField& field, const Flattening& flat, Eigen::VectorXd& u, int columns) {
     std::complex<double> turn = 0;
     std::vector<double> areas;
     Eigen::Vector2d was = Eigen::Vector2d::Zero(), is = Eigen::Vector2d::Zero();
     const double spacing = field.spacing();
+    const auto counts = anchors(field);
     for (int j = 0; j < field.cells().height; ++j) {
         for (int i = 0; i < field.cells().width; ++i) {
-            if (!(field.evidence(i, j) > 0)) continue;
+            if (!counts(i, j)) continue;
             const Matrix2 s = flat.slope(u, i, j);
             // The rotation of its polar decomposition.
             const std::complex<double> r(s(0, 0) + s(1, 1), s(1, 0) - s(0, 1));
@@ -297,11 +311,11 @@ void normalise(const MetricField& field, const Flattening& flat, Eigen::VectorXd
 
 }  // namespace
 
-LatticeField flat_from_reference(const MetricField& field) {
+FormMap flat_from_reference(const MetricField& field) {
     Flattening flat(field);
     flat.solve();
     Eigen::VectorXd u = flat.places();
-    LatticeField out(field.full_size(), field.spacing());
+    LatticeField out(field.domain().size(), field.spacing());
     normalise(field, flat, u, out.nodes().width());
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
@@ -311,7 +325,8 @@ LatticeField flat_from_reference(const MetricField& field) {
                           static_cast<float>(u[k + 1] - static_cast<double>(j) * field.spacing())});
         }
     }
-    return out;
+    return {Vec2(static_cast<float>(field.domain().x0), static_cast<float>(field.domain().y0)),
+            std::move(out)};
 }
 
 }  // namespace weft

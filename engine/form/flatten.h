@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/error.h"
+#include "engine/form/form_map.h"
 #include "engine/form/metric_field.h"
-#include "engine/motion/lattice_field.h"
 
 namespace weft {
 
@@ -10,9 +10,9 @@ namespace weft {
 /// as the metric says. Minimises the symmetric Dirichlet energy (Smith & Schaefer 2015) by
 /// reweighted least squares (Rabinovich et al. 2017, SLIM) with a line search that never flips a
 /// triangle, weighted by area; cells without evidence follow. The result is turned and scaled so
-/// that, over the evidence, it is on average as upright and in the median as large as the picture,
-/// and its centre stays where it is. `field` must be finished. Bit-identical for any number of
-/// threads; thread-safe.
-[[nodiscard]] LatticeField flat_from_reference(const MetricField& field);
+/// that, over the evidence inside of the reference frame (all of it if there is none), it is on
+/// average as upright and in the median as large as the picture, and its centre stays where it is.
+/// `field` must be finished. Bit-identical for any number of threads; thread-safe.
+[[nodiscard]] FormMap flat_from_reference(const MetricField& field);
 
 }  // namespace weft

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "engine/core/surface_form.h"
-#include "engine/motion/lattice_field.h"
+#include "engine/form/form_map.h"
 
 namespace weft {
 
@@ -10,14 +10,12 @@ namespace weft {
 class LatticeForm final : public SurfaceForm {
   public:
     /// `amount`: 0 leaves the surface flat, 1 lays it as found.
-    LatticeForm(LatticeField flat_from_reference, float amount)
-        : field_(std::move(flat_from_reference)), amount_(amount) {}
-    [[nodiscard]] Vec2 flat(Vec2 pixel) const override {
-        return pixel + amount_ * field_.at(pixel);
-    }
+    LatticeForm(FormMap flat_from_reference, float amount)
+        : map_(std::move(flat_from_reference)), amount_(amount) {}
+    [[nodiscard]] Vec2 flat(Vec2 pixel) const override { return pixel + amount_ * map_.at(pixel); }
 
   private:
-    LatticeField field_;
+    FormMap map_;
     float amount_;
 };
 

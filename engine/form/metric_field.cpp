@@ -79,8 +79,12 @@ double facing(const Metric& metric) {
     return e.larger > 0 ? std::sqrt(std::max(0.0, e.smaller) / e.larger) : 0.0;
 }
 
-MetricField::MetricField(Size full, int spacing) : full_(full), spacing_(spacing) {
-    const LatticeField lattice(full, spacing);
+MetricField::MetricField(Size frame, int spacing)
+    : MetricField(frame, {0, 0, frame.width, frame.height}, spacing) {}
+
+MetricField::MetricField(Size frame, const Recti& domain, int spacing)
+    : frame_(frame), domain_(domain), spacing_(spacing) {
+    const LatticeField lattice(domain.size(), spacing);
     cells_ = {lattice.nodes().width() - 1, lattice.nodes().height() - 1};
     const auto count =
         static_cast<std::size_t>(cells_.width) * static_cast<std::size_t>(cells_.height);
@@ -88,13 +92,22 @@ MetricField::MetricField(Size full, int spacing) : full_(full), spacing_(spacing
     evidence_.resize(count);
 }
 
+bool MetricField::in_frame(int i, int j) const {
+    const auto inside = [&](int cell, int origin, int side) {
+        const int twice = 2 * origin + (2 * (cell - LatticeField::kMargin) + 1) * spacing_;
+        return twice >= 0 && twice < 2 * side;
+    };
+    return inside(i, domain_.x0, frame_.width) && inside(j, domain_.y0, frame_.height);
+}
+
 void MetricField::add(Vec2 place, const Metric& metric, double weight) {
-    const auto cell = [&](float p) {
-        return static_cast<int>(std::floor(p / static_cast<float>(spacing_))) +
+    const auto cell = [&](float p, int origin) {
+        return static_cast<int>(
+                   std::floor((p - static_cast<float>(origin)) / static_cast<float>(spacing_))) +
                LatticeField::kMargin;
     };
     if (!(std::abs(place.x) < 1e6f && std::abs(place.y) < 1e6f)) return;
-    const int i = cell(place.x), j = cell(place.y);
+    const int i = cell(place.x, domain_.x0), j = cell(place.y, domain_.y0);
     if (i < 0 || j < 0 || i >= cells_.width || j >= cells_.height) return;
     Metric& m = metrics_[index(i, j)];
     m.xx += weight * metric.xx;

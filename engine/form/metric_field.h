@@ -19,19 +19,25 @@ struct Metric {
 /// without perspective, 1 where it faces the camera.
 [[nodiscard]] double facing(const Metric& metric);
 
-/// Metrics in the cells of a lattice over the reference frame and beyond it: cell (i, j) lies
-/// between the nodes (i, j) and (i + 1, j + 1) of a LatticeField of the same size and spacing.
+/// Metrics in the cells of a lattice over a rectangle of the reference frame's plane: cell (i, j)
+/// lies between the nodes (i, j) and (i + 1, j + 1) of a LatticeField of the rectangle's size and
+/// of the same spacing.
 class MetricField {
   public:
-    /// `full`: size of the reference frame; `spacing` ≥ 1 px.
-    MetricField(Size full, int spacing);
+    /// `frame`: size of the reference frame; `domain`: the rectangle, in its pixels; `spacing` ≥
+    /// 1 px.
+    MetricField(Size frame, const Recti& domain, int spacing);
+    /// Over the reference frame itself.
+    MetricField(Size frame, int spacing);
 
-    [[nodiscard]] Size full_size() const { return full_; }
+    [[nodiscard]] const Recti& domain() const { return domain_; }
     [[nodiscard]] int spacing() const { return spacing_; }
     [[nodiscard]] Size cells() const { return cells_; }
     [[nodiscard]] const Metric& at(int i, int j) const { return metrics_[index(i, j)]; }
     /// How much evidence the cell has; 0 where its metric was only continued.
     [[nodiscard]] double evidence(int i, int j) const { return evidence_[index(i, j)]; }
+    /// Whether the cell's centre lies inside of the reference frame.
+    [[nodiscard]] bool in_frame(int i, int j) const;
 
     /// Adds a measurement at a place of the reference frame (pixels), which may lie outside of it;
     /// beyond the lattice it does not count. `weight` > 0.
@@ -49,7 +55,8 @@ class MetricField {
     void scale_to_unit_area();
     void continue_outwards();
 
-    Size full_, cells_;
+    Size frame_, cells_;
+    Recti domain_;
     int spacing_;
     std::vector<Metric> metrics_;
     std::vector<double> evidence_;

@@ -57,9 +57,27 @@ std::optional<Metric> metric_at(ViewF3 positions, ViewU8x1 matte, int x, int y) 
     return out;
 }
 
+// As a step on the reference frame sees it; empty where the motion folds or is not known.
+std::optional<Metric> pulled_back(const Metric& g, const LatticeField& ref_from_cur, Vec2 at) {
+    constexpr float kHalf = 2;   // px
+    constexpr double kMost = 8;  // times, that a surface is larger on one frame
+    const Vec2 x =
+        (ref_from_cur.at(at + Vec2(kHalf, 0)) - ref_from_cur.at(at - Vec2(kHalf, 0))) / (2 * kHalf);
+    const Vec2 y =
+        (ref_from_cur.at(at + Vec2(0, kHalf)) - ref_from_cur.at(at - Vec2(0, kHalf))) / (2 * kHalf);
+    const double a = 1.0 + x.x, b = y.x, c = x.y, d = 1.0 + y.y;
+    const double determinant = a * d - b * c, norm = a * a + b * b + c * c + d * d;
+    if (!(determinant > norm / (kMost * kMost)) || norm > 2 * kMost * kMost) return std::nullopt;
+    const double inverse = 1 / (determinant * determinant);
+    return Metric{inverse * (d * d * g.xx - 2 * c * d * g.xy + c * c * g.yy),
+                  inverse * (-b * d * g.xx + (a * d + b * c) * g.xy - a * c * g.yy),
+                  inverse * (b * b * g.xx - 2 * a * b * g.xy + a * a * g.yy)};
+}
+
 }  // namespace
 
-void add_positions(MetricField& field, ViewF3 positions, ViewU8x1 matte) {
+void add_positions(MetricField& field, ViewF3 positions, ViewU8x1 matte,
+                   const LatticeField& ref_from_cur, double weight) {
     const int step = std::max(1, field.spacing() / kOfCell);
     for (int y = kReach; y < positions.height() - kReach; y += step) {
         for (int x = kReach; x < positions.width() - kReach; x += step) {
@@ -67,9 +85,10 @@ void add_positions(MetricField& field, ViewF3 positions, ViewU8x1 matte) {
             const auto metric = metric_at(positions, matte, x, y);
             if (!metric) continue;
             const double cosine = facing(*metric);
-            if (cosine > 0)
-                field.add({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, *metric,
-                          cosine);
+            if (!(cosine > 0)) continue;
+            const Vec2 at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+            if (const auto seen = pulled_back(*metric, ref_from_cur, at))
+                field.add(at + ref_from_cur.at(at), *seen, weight * cosine * cosine);
         }
     }
 }

@@ -1,5 +1,6 @@
 #include "engine/pipeline/analyse.h"
 
+#include "engine/pipeline/form_pass.h"
 #include "engine/pipeline/matte_pass.h"
 #include "engine/pipeline/surface_pass.h"
 
@@ -18,7 +19,8 @@ Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStor
                               },
                               backend};
     WEFT_CHECK_OK(propagate_mattes(context, store));
-    return follow_surfaces(context, store);
+    WEFT_CHECK_OK(follow_surfaces(context, store));
+    return find_forms(context, store);
 }
 
 }  // namespace weft

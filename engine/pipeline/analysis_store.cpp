@@ -69,12 +69,24 @@ Bytes encode(const StoredMatte& m) {
         .take();
 }
 
-Bytes encode(const LatticeField& field) {
-    return ByteWriter()
-        .value(field.full_size())
+namespace {
+
+ByteWriter& write(ByteWriter& to, const LatticeField& field) {
+    return to.value(field.full_size())
         .value(field.spacing())
-        .raw(field.nodes().data(), field.nodes().size_bytes())
-        .take();
+        .raw(field.nodes().data(), field.nodes().size_bytes());
+}
+
+}  // namespace
+
+Bytes encode(const LatticeField& field) {
+    ByteWriter out;
+    return write(out, field).take();
+}
+
+Bytes encode(const FormMap& form) {
+    ByteWriter out;
+    return write(out, form.displacement).value(form.origin).take();
 }
 
 Bytes encode(const Shading& shading) {
@@ -162,17 +174,36 @@ Expected<StoredMatte> decode_matte(const Bytes& bytes) {
     return out;
 }
 
-Expected<LatticeField> decode_lattice(const Bytes& bytes) {
-    ByteReader reader(bytes);
+namespace {
+
+Expected<LatticeField> read_lattice(ByteReader& reader, const char* what) {
     Size full;
     int spacing = 0;
     reader.value(full).value(spacing);
-    if (!reader.ok() || !sane(full) || spacing < 1 || spacing > 4096) return damaged("motion");
+    if (!reader.ok() || !sane(full) || spacing < 1 || spacing > 4096) return damaged(what);
     const double cells = area({full.width / spacing, full.height / spacing});
-    if (!reader.holds(cells, 2 * sizeof(float))) return damaged("motion");
+    if (!reader.holds(cells, 2 * sizeof(float))) return damaged(what);
     LatticeField out(full, spacing);
-    if (!reader.raw(out.nodes().data(), out.nodes().size_bytes()).complete())
-        return damaged("motion");
+    reader.raw(out.nodes().data(), out.nodes().size_bytes());
+    return out;
+}
+
+}  // namespace
+
+Expected<LatticeField> decode_lattice(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    WEFT_TRY(out, read_lattice(reader, "motion"));
+    if (!reader.complete()) return damaged("motion");
+    return out;
+}
+
+Expected<FormMap> decode_form(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    FormMap out;
+    WEFT_TRY(displacement, read_lattice(reader, "form"));
+    out.displacement = std::move(displacement);
+    reader.value(out.origin);
+    if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y)) return damaged("form");
     return out;
 }
 

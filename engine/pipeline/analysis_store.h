@@ -11,6 +11,7 @@
 #include "engine/composite/grain.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/form/form_map.h"
 #include "engine/lighting/shading.h"
 #include "engine/motion/lattice_field.h"
 
@@ -27,6 +28,7 @@ enum class AnalysisKind : std::uint8_t {
     kHeldBetween,
     kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).
     kShading,
+    kForm,         ///< At the reference frame, from the clip.
     kGrain,        ///< At the reference frame.
     kShutter,      ///< The plate's shutter, at the reference frame.
     kPaperTexture  ///< The paper mode's synthesised picture.
@@ -73,6 +75,7 @@ struct StoredMatte {
 
 [[nodiscard]] Bytes encode(const StoredMatte& matte);
 [[nodiscard]] Bytes encode(const LatticeField& field);
+[[nodiscard]] Bytes encode(const FormMap& form);
 [[nodiscard]] Bytes encode(const Shading& shading);  ///< 16 bit, logarithmic: steps of 0.03%.
 /// Luma in 16 bit as above, weights in 8 bit; chromaticities are left out.
 [[nodiscard]] Bytes encode(const SurfaceSample& sample);
@@ -82,6 +85,7 @@ struct StoredMatte {
 /// Errors: RenderFailed if the bytes are not what the encoder wrote.
 [[nodiscard]] Expected<StoredMatte> decode_matte(const Bytes& bytes);
 [[nodiscard]] Expected<LatticeField> decode_lattice(const Bytes& bytes);
+[[nodiscard]] Expected<FormMap> decode_form(const Bytes& bytes);
 [[nodiscard]] Expected<Shading> decode_shading(const Bytes& bytes);
 [[nodiscard]] Expected<SurfaceSample> decode_light_sample(const Bytes& bytes);
 [[nodiscard]] Expected<GrainModel> decode_grain(const Bytes& bytes);

@@ -26,7 +26,7 @@ std::vector<int> nearest_keys(const std::vector<int>& keys, const MatteReach& re
                               [&](int a, int b) { return distance(a) < distance(b); })};
 }
 
-// Nothing to propagate but the region's own mattes, no light, and no finish.
+// Nothing to propagate but the region's own mattes, no light, no form, and no finish.
 void keep_motion_only(RegionPlan& region) {
     region.zones.clear();
     region.light_source = LightSource::kNone;
@@ -35,6 +35,8 @@ void keep_motion_only(RegionPlan& region) {
     region.grain_frames.clear();
     region.shutter_deg = 0.0f;
     region.shutter_evidence.clear();
+    region.has_positions = false;
+    region.form_evidence.clear();
 }
 
 void shorten(RegionPlan& region, int frame) {

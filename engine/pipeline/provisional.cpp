@@ -5,6 +5,7 @@
 
 #include "engine/composite/grain.h"
 #include "engine/lighting/shading.h"
+#include "engine/pipeline/form_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -89,6 +90,7 @@ class FrameFiller {
         if (!placed) return false;
         WEFT_CHECK_OK(fill_light(index, frame_));
         WEFT_CHECK_OK(fill_light(index, reference));
+        WEFT_CHECK_OK(fill_form(index, reference));
         fill_camera(index, reference);
         return true;
     }
@@ -209,12 +211,16 @@ class FrameFiller {
             store_.put_beneath(key, encode(picture));
             return true;
         }
+        store_.put_beneath(key, encode(still_on(region, frame_)));
+        return true;
+    }
+
+    // Where the texture lies on the reference frame, with the artist's pins.
+    [[nodiscard]] LatticeField still_on(const RegionPlan& region, int reference) const {
         const LatticeField still(source_.size(),
                                  SurfaceTrack::spacing_for(source_.size(), motion_of(region)));
-        const auto pins = region.corrections.find(frame_);
-        store_.put_beneath(
-            key, encode(pins == region.corrections.end() ? still : corrected(still, pins->second)));
-        return true;
+        const auto pins = region.corrections.find(reference);
+        return pins == region.corrections.end() ? still : corrected(still, pins->second);
     }
 
     Status fill_light(int index, int frame) {
@@ -229,6 +235,19 @@ class FrameFiller {
         const ImageF3 working = transformed(*plate, *plan_.working_from_plate);
         store_.put_beneath(key, encode(estimate_shading(working, visible,
                                                         shading_options(plan_, source_.size()))));
+        return {};
+    }
+
+    // The form as the reference frame alone shows it.
+    Status fill_form(int index, int reference) {
+        RegionPlan& region = region_at(index);
+        const AnalysisKey key{index, reference, AnalysisKind::kForm};
+        if (!region.has_form() || store_.has(key)) return {};
+        const AnalysisKey still{index, reference, AnalysisKind::kCoords};
+        if (!store_.has(still)) store_.put_beneath(still, encode(still_on(region, reference)));
+        const PassContext context{source_, plan_, cancel_, {}, nullptr};
+        WEFT_TRY(form, form_from(context, store_, index, {reference}));
+        store_.put_beneath(key, encode(form));
         return {};
     }
 

@@ -1,21 +1,18 @@
 #pragma once
-// A region's form, from what is known of the surface's shape.
+// A region's form, as the analysis found it.
 
 #include <memory>
 
 #include "engine/core/surface_form.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
-#include "engine/pipeline/shot_source.h"
 
 namespace weft {
 
-/// The form of a region on its (first) reference frame; null: flat. What comes into view later
-/// continues it smoothly. Errors: those of the source and the store; Unreadable if the position
-/// pass shows no form there.
-[[nodiscard]] Expected<std::shared_ptr<const SurfaceForm>> region_form(const ShotSource& source,
-                                                                       const ShotPlan& plan,
+/// The form of a region by places of its (first) reference frame; null: flat. Errors: those of the
+/// store.
+[[nodiscard]] Expected<std::shared_ptr<const SurfaceForm>> region_form(const RegionPlan& region,
                                                                        const AnalysisStore& store,
-                                                                       int region);
+                                                                       int index);
 
 }  // namespace weft

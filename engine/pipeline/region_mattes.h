@@ -14,7 +14,7 @@ namespace weft {
                                             const AnalysisStore& store, int region, int frame);
 
 /// The frames that a region's analysis spans: its frames to render, references, matte keyframes
-/// and the evidence of light and grain.
+/// and the evidence of light, form and grain.
 struct FrameSpan {
     int first = 0, last = 0;
 };

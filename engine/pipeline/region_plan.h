@@ -132,6 +132,12 @@ struct RegionPlan {
     /// A position pass gives the surface's form.
     bool has_positions = false;
     float form_amount = 1;  ///< 0 flat, 1 as found.
+    /// Frames that show the form, the reference frame first; they do not depend on the part of the
+    /// shot that is rendered.
+    std::vector<int> form_evidence;
+    [[nodiscard]] bool has_form() const {
+        return has_positions && form_amount > 0 && !form_evidence.empty();
+    }
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {
         return strength_keys.empty() ? light.strength : strength_keys.float_at(frame)[0];

@@ -109,6 +109,7 @@ void expect_refuses_damage(const Bytes& good, const Decode& decode) {
 TEST(AnalysisCodecs, RefuseDamagedBytes) {
     expect_refuses_damage(encode(StoredMatte{Matte(20, 10, 9), 1}), decode_matte);
     expect_refuses_damage(encode(random_field({50, 33}, 8)), decode_lattice);
+    expect_refuses_damage(encode(FormMap{{-16, 4}, random_field({50, 33}, 8)}), decode_form);
     expect_refuses_damage(encode(ImageU8x3(9, 12, 3)), decode_picture);
     expect_refuses_damage(encode(some_shading()),
                           [](const Bytes& bytes) { return decode_shading(bytes); });

@@ -6,34 +6,42 @@
 
 #include <cmath>
 
+#include "engine/pipeline/form_pass.h"
+#include "engine/pipeline/provisional.h"
 #include "engine/pipeline/region_scene.h"
 #include "tests/pipeline/memory_shot.h"
 
 namespace weft {
 namespace {
 
-// A column whose axis is upright: it turns away to both sides of x = 80.
+// A column whose axis is upright: it turns away to both sides of x = 80 on frame 1, and pans with
+// the wall.
 class Column : public MemoryShot {
   public:
-    Column() : MemoryShot(make_wall(false, false)) {}
+    Column() : MemoryShot(make_wall()) {}
     bool constant = false;
+    int missing = 0;  // a frame without the pass
 
-    [[nodiscard]] Expected<ImageF3> positions(int /*region*/, int /*frame*/) const override {
+    [[nodiscard]] Expected<ImageF3> positions(int region, int frame) const override {
+        if (frame == missing) return MemoryShot::positions(region, frame);
+        const Vec2 panned = wall_moved({0, 0}, frame) - wall_moved({0, 0}, kFirst);
         ImageF3 out(kShotSize, 1.0f);
         for (int y = 0; !constant && y < kShotSize.height; ++y) {
             for (int x = 0; x < kShotSize.width; ++x) {
-                const float s = (static_cast<float>(x) + 0.5f - 80) / 80;
+                const float s = (static_cast<float>(x) + 0.5f - panned.x - 80) / 80;
                 float* p = out.pixel(x, y);
-                p[0] = s, p[1] = static_cast<float>(y) / 80, p[2] = std::sqrt(1 - s * s);
+                p[0] = s, p[1] = (static_cast<float>(y) - panned.y) / 80;
+                p[2] = std::sqrt(1 - s * s);  // NaN beyond the column
             }
         }
         return out;
     }
 };
 
-RegionPlan formed() {
+RegionPlan formed(std::vector<int> evidence = {kFirst}) {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
     region.has_positions = true;
+    region.form_evidence = std::move(evidence);
     return region;
 }
 
@@ -41,32 +49,84 @@ float step_x(const TextureMapping& mapping, float x) {
     return mapping.texel({x + 1, 56}).x - mapping.texel({x - 1, 56}).x;
 }
 
+// How much longer a step is at x than at the axis.
+float widened(const ShotSource& shot, const RegionPlan& region, float x) {
+    MemoryAnalysisStore store;
+    const ShotPlan plan = make_plan(region, kFirst, kFirst);
+    const Status analysed = analyse_shot(shot, plan, store, {}, {});
+    EXPECT_TRUE(analysed) << (analysed ? "" : analysed.error().text());
+    const auto scene = make_scene(shot, plan, store, 0, {}, {});
+    EXPECT_TRUE(scene) << (scene ? "" : scene.error().text());
+    return scene ? step_x(scene->mapping, x) / step_x(scene->mapping, 80) : 0;
+}
+
 TEST(RegionForm, IsInTheScenesMapping) {
-    const Column shot;
-    const MemoryAnalysisStore store;
     RegionPlan region = formed();
-    auto scene = make_scene(shot, make_plan(region), store, 0, {}, {});
-    ASSERT_TRUE(scene) << scene.error().text();
     // 50 px from the axis the surface is seen at a cosine of 0.78.
-    EXPECT_NEAR(step_x(scene->mapping, 30) / step_x(scene->mapping, 80), 1 / 0.78f, 0.04f);
+    EXPECT_NEAR(widened(Column(), region, 30), 1 / 0.78f, 0.04f);
     region.form_amount = 0.5f;
-    scene = make_scene(shot, make_plan(region), store, 0, {}, {});
-    EXPECT_NEAR(step_x(scene->mapping, 30) / step_x(scene->mapping, 80), 1.13f, 0.03f);
-    region.scale_keys = {{{1, {2}}}};
-    EXPECT_EQ(mapping_on(region, *scene, 4)->form(), scene->mapping.form());
+    EXPECT_NEAR(widened(Column(), region, 30), 1.13f, 0.03f);
     region.form_amount = 0;
-    EXPECT_EQ(region_form(shot, make_plan(region), store, 0).value(), nullptr);
+    EXPECT_EQ(region_form(region, MemoryAnalysisStore(), 0).value(), nullptr);
+}
+
+TEST(RegionForm, FramesKeepIt) {
+    MemoryAnalysisStore store;
+    RegionPlan region = formed();
+    ASSERT_TRUE(analyse_shot(Column(), make_plan(region), store, {}, {}));
+    region.scale_keys = {{{1, {2}}}};
+    const auto scene = make_scene(Column(), make_plan(region), store, 0, {}, {});
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_NE(scene->mapping.form(), nullptr);
+    EXPECT_EQ(mapping_on(region, *scene, 4)->form(), scene->mapping.form());
+}
+
+// The matte begins at 20: 12 is seen on the last frames only, where the picture has panned.
+TEST(RegionForm, WhatComesIntoViewIsFoundOnLaterFrames) {
+    constexpr float kAt = 12, kTrue = 1 / 0.527f;
+    const float first = widened(Column(), formed(), kAt);
+    const float clip = widened(Column(), formed({1, 4, 7, 10}), kAt);
+    EXPECT_NEAR(clip, kTrue, 0.12f);
+    EXPECT_LT(std::abs(clip - kTrue), 0.5f * std::abs(first - kTrue)) << first << " and " << clip;
 }
 
 TEST(RegionForm, APassWithoutFormIsAnError) {
     Column shot;
     shot.constant = true;
-    const auto found = region_form(shot, make_plan(formed()), MemoryAnalysisStore(), 0);
+    MemoryAnalysisStore store;
+    Status found = analyse_shot(shot, make_plan(formed()), store, {}, {});
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(found.error().message, ::testing::HasSubstr("frame 1"));
-    EXPECT_FALSE(region_form(make_wall(), make_plan(formed()), MemoryAnalysisStore(), 0))
-        << "a source without the pass";
+    EXPECT_THAT(found.error().message, ::testing::HasSubstr("frame 1:"));
+    shot.constant = false;
+    shot.missing = 7;
+    found = analyse_shot(shot, make_plan(formed({1, 4, 7, 10})), store, {}, {});
+    ASSERT_FALSE(found) << "never other bytes";
+    EXPECT_THAT(found.error().message, ::testing::HasSubstr("frame 7"));
+    EXPECT_FALSE(store.has({0, kFirst, AnalysisKind::kForm}));
+}
+
+// Another form does not make the surface be followed again.
+TEST(RegionForm, IsAStageOfItsOwn) {
+    MemoryAnalysisStore store;
+    const Column shot;
+    ASSERT_TRUE(analyse_shot(shot, make_plan(make_region(flat_texture({1, 1, 1}))), store, {}, {}));
+    const int read = shot.plates_read();
+    ASSERT_TRUE(analyse_shot(shot, make_plan(formed({1, 4, 7, 10})), store, {}, {}));
+    EXPECT_EQ(shot.plates_read(), read);
+    EXPECT_TRUE(store.has({0, kFirst, AnalysisKind::kForm}));
+}
+
+// Before the clip has been followed, the reference frame's form shows.
+TEST(RegionForm, IsThereAtOnceInAProvisionalPicture) {
+    const Column shot;
+    const ShotPlan plan = make_plan(formed({1, 4, 7, 10}));
+    const MemoryAnalysisStore nothing;
+    const auto shown = provisional_frame(shot, plan, nothing, kFirst, {}, {});
+    ASSERT_TRUE(shown) << shown.error().text();
+    const auto scene = make_scene(shot, shown->plan, *shown->store, 0, {}, {});
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_NEAR(step_x(scene->mapping, 30) / step_x(scene->mapping, 80), 1 / 0.78f, 0.04f);
 }
 
 }  // namespace

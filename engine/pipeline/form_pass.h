@@ -1,0 +1,20 @@
+#pragma once
+#include "engine/form/form_map.h"
+#include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/sweep.h"
+
+namespace weft {
+
+/// The form of a region that `frames` show together, from its position pass on them: the first
+/// counts most, the others where they see the surface more squarely or alone. Needs mattes and
+/// kCoords of these frames. Errors: those of the source and the store; Unreadable if the pass shows
+/// no form there; cancellation.
+[[nodiscard]] Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& store,
+                                          int region, const std::vector<int>& frames);
+
+/// Stores the form (kForm) of every region that has one and whose form is not in the store, from
+/// RegionPlan::form_evidence. Needs the mattes, and follow_surfaces() before. Errors: as
+/// form_from().
+[[nodiscard]] Status find_forms(const PassContext& context, AnalysisStore& store);
+
+}  // namespace weft
