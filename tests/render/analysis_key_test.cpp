@@ -55,7 +55,7 @@ TEST_F(AnalysisKeyTest, OfZonesItNamesWhatIsPropagated) {
         return keys_after([&](Region& r) { r.zones = std::vector<Zone>{zone(value, matte)}; });
     };
     const std::string plain = surface_after([](Region&) {});
-    EXPECT_EQ(keys(0, files), (RegionKeys{plain, {}}));
+    EXPECT_EQ(keys(0, files), (RegionKeys{plain, plain, {}}));
     const RegionKeys of_painted = keys(0, painted);
     EXPECT_EQ(of_painted.surface, plain) << "the surface does not follow its zones";
     EXPECT_EQ(of_painted.mattes.size(), 1u);
