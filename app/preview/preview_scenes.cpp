@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "app/shot/form_files.h"
 #include "engine/core/hash.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -60,7 +61,7 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         // The analysis determines the light to which the scene is relative.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
         hasher.value(plan.light.strength > 0);
-        hasher.text(region.form.position).text(region.form.position_layer).value(plan.form_amount);
+        add_form_settings(hasher.value(plan.form_amount), region);
         key.texture = hasher.finish().hex();
         // Seams between tracks depend on the texture's position.
         Hasher placed;

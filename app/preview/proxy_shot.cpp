@@ -122,6 +122,13 @@ class ProxySource final : public ShotSource {
         WEFT_TRY(full, shot_.source->positions(region, frame));
         return picked(full);
     }
+    [[nodiscard]] Expected<NormalPass> normals(int region, int frame) const override {
+        WEFT_TRY(full, shot_.source->normals(region, frame));
+        const auto by = static_cast<float>(factor_);
+        return NormalPass{picked(full.normals),
+                          {full.camera.focal_px / factor_, full.camera.centre / by},
+                          full.camera_from_world};
+    }
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         WEFT_TRY(full, shot_.source->light_pass(region, frame));
         return shrunk(full, factor_);

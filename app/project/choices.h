@@ -69,6 +69,21 @@ struct Choices<MotionConvention> {
          {MotionConvention::kArnold, "arnold"}}};
 };
 template <>
+struct Choices<FormSource> {
+    static constexpr std::array<std::pair<FormSource, std::string_view>, 3> kNames{
+        {{FormSource::kPass, "pass"}, {FormSource::kDepth, "depth"}, {FormSource::kFlat, "flat"}}};
+};
+template <>
+struct Choices<NormalSpace> {
+    static constexpr std::array<std::pair<NormalSpace, std::string_view>, 2> kNames{
+        {{NormalSpace::kCamera, "camera"}, {NormalSpace::kWorld, "world"}}};
+};
+template <>
+struct Choices<DepthKind> {
+    static constexpr std::array<std::pair<DepthKind, std::string_view>, 2> kNames{
+        {{DepthKind::kZ, "z"}, {DepthKind::kRay, "ray"}}};
+};
+template <>
 struct Choices<SeamMethod> {
     static constexpr std::array<std::pair<SeamMethod, std::string_view>, 3> kNames{
         {{SeamMethod::kGraphCut, "graphcut"},

@@ -156,6 +156,7 @@ Project map_paths(const Project& project,
             map(region.texture.plane);
             map(region.placement.uv);
             map(region.form.position);
+            map(region.form.normal);
             map(region.motion.files);
             map(region.motion.track);
             map(region.light.image);
@@ -210,11 +211,12 @@ std::size_t own_bytes(const Region& r) {
     return sizeof r + pins + samples + keys + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.uv, r.placement.uv_layer, r.placement.extra,
-                         r.form.position, r.form.position_layer, r.form.extra, r.finish.depth,
-                         r.grade.extra, r.layer.extra, r.motion.files, r.motion.track,
-                         r.motion.layer, r.motion.extra, r.synthesis.extra, r.temporal.extra,
-                         r.light.image, r.light.extra, r.light.albedo, r.light.lighting,
-                         r.light.pass_layer, r.finish.extra, r.lines.files, r.lines.extra, r.extra);
+                         r.form.position, r.form.position_layer, r.form.normal, r.form.normal_layer,
+                         r.form.extra, r.finish.depth, r.grade.extra, r.layer.extra, r.motion.files,
+                         r.motion.track, r.motion.layer, r.motion.extra, r.synthesis.extra,
+                         r.temporal.extra, r.light.image, r.light.extra, r.light.albedo,
+                         r.light.lighting, r.light.pass_layer, r.finish.extra, r.lines.files,
+                         r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {

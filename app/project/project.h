@@ -19,6 +19,7 @@
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
 #include "engine/core/keyed_numbers.h"
+#include "engine/form/depth_positions.h"
 #include "engine/lighting/lamp.h"
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/shading.h"
@@ -183,11 +184,29 @@ struct Placement {
     bool operator==(const Placement&) const = default;
 };
 
+/// What shows the shape of a surface.
+enum class FormSource {
+    kPass,   ///< The position pass, without one the normal pass; flat without both.
+    kDepth,  ///< The depth pass (FinishParams::depth), with the camera's field of view.
+    kFlat
+};
+/// The axes of a normal pass.
+enum class NormalSpace {
+    kCamera,
+    kWorld  ///< The file's header tells how the camera is turned.
+};
+
 /// The shape of the surface, which the texture follows.
 struct FormParams {
-    std::string position;        ///< Pattern of a position pass; empty: the surface stays flat.
+    FormSource source = FormSource::kPass;
+    std::string position;        ///< Pattern of a position pass.
     std::string position_layer;  ///< Empty: found.
-    double amount = 1;           ///< 0 flat, 1 as found.
+    std::string normal;          ///< Pattern of a normal pass.
+    std::string normal_layer;    ///< Empty: found.
+    NormalSpace normal_space = NormalSpace::kCamera;
+    DepthKind depth_kind = DepthKind::kZ;
+    std::optional<double> fov_deg;  ///< Horizontal; unset: from the header of the pass.
+    double amount = 1;              ///< 0 flat, 1 as found.
     Extras extra;
     bool operator==(const FormParams&) const = default;
 };

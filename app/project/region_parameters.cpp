@@ -212,6 +212,42 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "position_layer",
              .flag = "--position-layer",
              .help = "EXR layer of the position pass; default Position, P or P_World"}),
+        entry<R, &R::form, &FormParams::normal>(
+            {.group = "form",
+             .key = "normal",
+             .flag = "--normal-pass",
+             .help =
+                 "Normal pass, EXR or a normal map: the texture follows the form of the surface",
+             .is_path = true}),
+        entry<R, &R::form, &FormParams::normal_layer>(
+            {.group = "form",
+             .key = "normal_layer",
+             .flag = "--normal-layer",
+             .help = "EXR layer of the normal pass; default Normal or N"}),
+        entry<R, &R::form, &FormParams::normal_space>(
+            {.group = "form",
+             .key = "normal_space",
+             .flag = "--normal-space",
+             .help = "Axes of the normal pass; world needs the camera in the file's header"}),
+        entry<R, &R::form, &FormParams::source>(
+            {.group = "form",
+             .key = "source",
+             .flag = "--form",
+             .help = "What shows the form: a position or normal pass, the depth pass, or nothing"}),
+        entry<R, &R::form, &FormParams::depth_kind>(
+            {.group = "form",
+             .key = "depth_kind",
+             .flag = "--depth-kind",
+             .help = "For --form depth: distances along the camera's axis or along the rays"}),
+        entry<R, &R::form, &FormParams::fov_deg>(
+            {.group = "form",
+             .key = "fov_deg",
+             .flag = "--fov",
+             .help = "Horizontal field of view in degrees, for normals and depth; default from "
+                     "the pass's header",
+             .min = 1,
+             .max = 175,
+             .optional = true}),
         entry<R, &R::form, &FormParams::amount>(
             {.group = "form",
              .key = "amount",

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/render/stage_cache.h"
+#include "app/shot/form_files.h"
 #include "engine/core/hash.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/region_mattes.h"
@@ -180,11 +181,12 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index,
 // Apart from the rest, so that another form does not make the surface be followed again.
 Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::string& surface) {
     const RegionPlan& plan = shot.plan.regions[index];
-    if (!plan.has_positions) return surface;
+    if (plan.form_from == RegionPlan::FormFrom::kNothing) return surface;
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
-    hasher.text("form").value(kFormVersion).text(surface).text(region.form.position_layer);
-    WEFT_CHECK_OK(add_pattern(hasher, region.form.position));
+    hasher.text("form").value(kFormVersion).text(surface);
+    add_form_settings(hasher, region);
+    WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
     for (const int frame : plan.form_evidence)
         hasher.value(frame);
     return hasher.finish().hex();

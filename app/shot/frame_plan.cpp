@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/shot/form_files.h"
 #include "app/shot/frame_gaps.h"
 #include "app/shot/reference_choice.h"
 #include "engine/core/frame_range.h"
@@ -218,11 +219,11 @@ Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan
 Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan& plan,
                                          const FrameReader& plate,
                                          const std::vector<int>& leave_out) {
-    if (!plan.has_positions) return std::vector<int>{};
+    if (plan.form_from == RegionPlan::FormFrom::kNothing) return std::vector<int>{};
     constexpr int kReach = 48, kOthers = 11;
     const int reference = plan.reference_frames.front();
     std::vector<int> chosen{reference};
-    WEFT_TRY(pattern, SequencePattern::parse(region.form.position));
+    WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
     if (pattern.is_single()) return chosen;
     WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
     const int others = std::min(run.last - run.first, kOthers);
@@ -307,12 +308,14 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     }
     if (plan.has_uv)
         WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
-    if (plan.has_positions) {
-        WEFT_CHECK_OK(check_pattern(region.form.position, "The position pass", plan.form_evidence,
-                                    plate,
-                                    "The form is found from them, whichever frames are rendered. "
-                                    "Add the files, or give that of the reference frame alone" +
-                                        by({{setting::kPositionPass}}) + "."));
+    if (plan.form_from != RegionPlan::FormFrom::kNothing) {
+        const FormFiles pass = form_files(region);
+        const std::string remedy =
+            "The form is found from them, whichever frames are rendered. Add the files, or give "
+            "that of the reference frame alone" +
+            by({{setting::kPositionPass}}) + ".";
+        WEFT_CHECK_OK(
+            check_pattern(pass.pattern, pass.what.c_str(), plan.form_evidence, plate, remedy));
     }
     if (plan.has_depth)
         WEFT_CHECK_OK(check_pattern(region.finish.depth, "The depth pass", shot.frames, plate));

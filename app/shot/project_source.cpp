@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/shot/form_files.h"
 #include "engine/color/color_space.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
@@ -106,9 +107,13 @@ class ProjectSource final : public ShotSource {
     }
 
     [[nodiscard]] Expected<ImageF3> positions(int region, int frame) const override {
-        const FormParams& form = at(region).form;
-        WEFT_TRY(pattern, SequencePattern::parse(form.position));
-        return read_positions(watched(path_on(pattern, frame)), form.position_layer, size());
+        WEFT_TRY(pattern, SequencePattern::parse(form_files(at(region)).pattern));
+        return read_form_places(at(region), watched(path_on(pattern, frame)), size());
+    }
+
+    [[nodiscard]] Expected<NormalPass> normals(int region, int frame) const override {
+        WEFT_TRY(pattern, SequencePattern::parse(form_files(at(region)).pattern));
+        return read_form_normals(at(region), watched(path_on(pattern, frame)), size());
     }
 
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {

@@ -1,4 +1,5 @@
 #include "app/shot/region_projection.h"
+#include "app/shot/form_files.h"
 #include "engine/core/setting.h"
 
 #include <algorithm>
@@ -137,15 +138,24 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
     return {};
 }
 
-Status project_form(const FormParams& form, TemporalMode mode, RegionPlan& plan) {
-    plan.has_positions = !form.position.empty() && form.amount > 0;
-    plan.form_amount = static_cast<float>(form.amount);
-    if (plan.has_positions && (mode != TemporalMode::kLocked || plan.has_uv)) {
+Status project_form(const Region& region, RegionPlan& plan) {
+    const FormFiles pass = form_files(region);
+    plan.form_amount = static_cast<float>(region.form.amount);
+    if (!(region.form.amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
+    if (pass.pattern.empty()) {
         return fail(ErrorCode::kUsage,
-                    "A position pass needs the locked temporal mode, and no UV pass beside it, "
-                    "which gives the exact place already. Set the mode" +
+                    "The form is to come from the depth pass, but there is none. Give it" +
+                        by({{setting::kDepth}}) + ", or choose another source" +
+                        by({{setting::kFormSource}}) + ".");
+    }
+    if (region.temporal.mode != TemporalMode::kLocked || plan.has_uv) {
+        return fail(ErrorCode::kUsage,
+                    pass.what +
+                        " as form needs the locked temporal mode, and no UV pass beside it, "
+                        "which gives the exact place already. Set the mode" +
                         by({{setting::kTemporalMode, "locked"}}) + ", or leave one pass out.");
     }
+    plan.form_from = pass.from;
     return {};
 }
 

@@ -28,7 +28,7 @@ void project_corrections(const std::map<int, std::vector<CorrectionPin>>& correc
 
 /// After project_placement(). Errors: Usage for a position pass in a mode that synthesizes the
 /// texture in place, or beside a UV pass.
-[[nodiscard]] Status project_form(const FormParams& form, TemporalMode mode, RegionPlan& plan);
+[[nodiscard]] Status project_form(const Region& region, RegionPlan& plan);
 
 void project_synthesis(const SynthesisParams& synthesis, RegionPlan& plan);
 void project_temporal(const TemporalParams& temporal, RegionPlan& plan);

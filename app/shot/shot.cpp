@@ -197,7 +197,7 @@ class ShotOpener {
         WEFT_CHECK_OK(project_motion(region.motion, plan));
         WEFT_CHECK_OK(add_track(region.motion, plan));
         WEFT_CHECK_OK(project_placement(region.placement, region.temporal.mode, plan));
-        WEFT_CHECK_OK(project_form(region.form, region.temporal.mode, plan));
+        WEFT_CHECK_OK(project_form(region, plan));
         project_synthesis(region.synthesis, plan);
         plan.amendments = *region.amendments;
         project_temporal(region.temporal, plan);

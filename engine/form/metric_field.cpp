@@ -79,6 +79,10 @@ double facing(const Metric& metric) {
     return e.larger > 0 ? std::sqrt(std::max(0.0, e.smaller) / e.larger) : 0.0;
 }
 
+double log_area(const Metric& metric) {
+    return 0.5 * ln(metric.determinant());
+}
+
 MetricField::MetricField(Size frame, int spacing)
     : MetricField(frame, {0, 0, frame.width, frame.height}, spacing) {}
 
@@ -100,27 +104,43 @@ bool MetricField::in_frame(int i, int j) const {
     return inside(i, domain_.x0, frame_.width) && inside(j, domain_.y0, frame_.height);
 }
 
-void MetricField::add(Vec2 place, const Metric& metric, double weight) {
+std::optional<std::size_t> MetricField::cell_of(Vec2 place) const {
     const auto cell = [&](float p, int origin) {
         return static_cast<int>(
                    std::floor((p - static_cast<float>(origin)) / static_cast<float>(spacing_))) +
                LatticeField::kMargin;
     };
-    if (!(std::abs(place.x) < 1e6f && std::abs(place.y) < 1e6f)) return;
+    if (!(std::abs(place.x) < 1e6f && std::abs(place.y) < 1e6f)) return std::nullopt;
     const int i = cell(place.x, domain_.x0), j = cell(place.y, domain_.y0);
-    if (i < 0 || j < 0 || i >= cells_.width || j >= cells_.height) return;
-    Metric& m = metrics_[index(i, j)];
+    if (i < 0 || j < 0 || i >= cells_.width || j >= cells_.height) return std::nullopt;
+    return index(i, j);
+}
+
+bool MetricField::has_evidence() const {
+    return std::any_of(evidence_.begin(), evidence_.end(), [](double e) { return e > 0; });
+}
+
+std::optional<double> MetricField::log_area(Vec2 place) const {
+    const auto k = cell_of(place);
+    if (!k || !(evidence_[*k] > 0)) return std::nullopt;
+    return weft::log_area(scaled(metrics_[*k], 1 / evidence_[*k]));
+}
+
+void MetricField::add(Vec2 place, const Metric& metric, double weight) {
+    const auto k = cell_of(place);
+    if (!k) return;
+    Metric& m = metrics_[*k];
     m.xx += weight * metric.xx;
     m.xy += weight * metric.xy;
     m.yy += weight * metric.yy;
-    evidence_[index(i, j)] += weight;
+    evidence_[*k] += weight;
 }
 
 void MetricField::scale_to_unit_area() {
     double sum = 0, count = 0;
     for (std::size_t k = 0; k < metrics_.size(); ++k) {
         if (!(evidence_[k] > 0)) continue;
-        sum += evidence_[k] * 0.5 * ln(metrics_[k].determinant());
+        sum += evidence_[k] * weft::log_area(metrics_[k]);
         count += evidence_[k];
     }
     const double by = power_of_e(-sum / count);

@@ -1,6 +1,7 @@
 #pragma once
 // How long a step on a surface is for a step on the reference frame.
 
+#include <optional>
 #include <vector>
 
 #include "engine/core/image.h"
@@ -18,6 +19,8 @@ struct Metric {
 /// The square root of the smaller eigenvalue over the larger: the cosine at which a surface is seen
 /// without perspective, 1 where it faces the camera.
 [[nodiscard]] double facing(const Metric& metric);
+/// ½ ln det G: of the area of a pixel on the surface.
+[[nodiscard]] double log_area(const Metric& metric);
 
 /// Metrics in the cells of a lattice over a rectangle of the reference frame's plane: cell (i, j)
 /// lies between the nodes (i, j) and (i + 1, j + 1) of a LatticeField of the rectangle's size and
@@ -42,6 +45,10 @@ class MetricField {
     /// Adds a measurement at a place of the reference frame (pixels), which may lie outside of it;
     /// beyond the lattice it does not count. `weight` > 0.
     void add(Vec2 place, const Metric& metric, double weight);
+    /// Whether something was added.
+    [[nodiscard]] bool has_evidence() const;
+    /// log_area() of the mean of what was added at a place; empty if nothing was. Before finish().
+    [[nodiscard]] std::optional<double> log_area(Vec2 place) const;
     /// Turns sums into means, and continues them smoothly to the cells without evidence (harmonic
     /// in ln G). All are scaled so that the cells with evidence have an area of 1 px² a px² in the
     /// geometric mean. Returns false if nothing was added. Call it once, after the last add().
@@ -52,6 +59,8 @@ class MetricField {
         return static_cast<std::size_t>(j) * static_cast<std::size_t>(cells_.width) +
                static_cast<std::size_t>(i);
     }
+    // The cell of a place, if it lies in the domain.
+    [[nodiscard]] std::optional<std::size_t> cell_of(Vec2 place) const;
     void scale_to_unit_area();
     void continue_outwards();
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/core/geometry.h"
+#include "engine/form/pulled_back.h"
 
 namespace weft {
 namespace {
@@ -55,23 +56,6 @@ std::optional<Metric> metric_at(ViewF3 positions, ViewU8x1 matte, int x, int y) 
     const Metric out{dot(along_x, along_x), dot(along_x, along_y), dot(along_y, along_y)};
     if (!(out.determinant() > 0)) return std::nullopt;
     return out;
-}
-
-// As a step on the reference frame sees it; empty where the motion folds or is not known.
-std::optional<Metric> pulled_back(const Metric& g, const LatticeField& ref_from_cur, Vec2 at) {
-    constexpr float kHalf = 2;   // px
-    constexpr double kMost = 8;  // times, that a surface is larger on one frame
-    const Vec2 x =
-        (ref_from_cur.at(at + Vec2(kHalf, 0)) - ref_from_cur.at(at - Vec2(kHalf, 0))) / (2 * kHalf);
-    const Vec2 y =
-        (ref_from_cur.at(at + Vec2(0, kHalf)) - ref_from_cur.at(at - Vec2(0, kHalf))) / (2 * kHalf);
-    const double a = 1.0 + x.x, b = y.x, c = x.y, d = 1.0 + y.y;
-    const double determinant = a * d - b * c, norm = a * a + b * b + c * c + d * d;
-    if (!(determinant > norm / (kMost * kMost)) || norm > 2 * kMost * kMost) return std::nullopt;
-    const double inverse = 1 / (determinant * determinant);
-    return Metric{inverse * (d * d * g.xx - 2 * c * d * g.xy + c * c * g.yy),
-                  inverse * (-b * d * g.xx + (a * d + b * c) * g.xy - a * c * g.yy),
-                  inverse * (b * b * g.xx - 2 * a * b * g.xy + a * a * g.yy)};
 }
 
 }  // namespace

@@ -64,13 +64,6 @@ struct MotionSelect {
 [[nodiscard]] Expected<ImageF2> read_uv(const std::string& path, const std::string& layer,
                                         Size expected);
 
-/// A position pass: three channels (X, Y, Z or R, G, B) of half or float, the place of what each
-/// pixel shows. Places of 1e10 and more (renderers' background) are not finite here. `layer`: the
-/// part of the names before ".X"; empty: "Position", "P" or "P_World", also behind another name.
-/// Errors: as read_motion().
-[[nodiscard]] Expected<ImageF3> read_positions(const std::string& path, const std::string& layer,
-                                               Size expected);
-
 /// Errors: MissingFrames if there is no such file.
 [[nodiscard]] Status check_picture_exists(const std::string& path);
 

@@ -35,7 +35,7 @@ void keep_motion_only(RegionPlan& region) {
     region.grain_frames.clear();
     region.shutter_deg = 0.0f;
     region.shutter_evidence.clear();
-    region.has_positions = false;
+    region.form_from = RegionPlan::FormFrom::kNothing;
     region.form_evidence.clear();
 }
 

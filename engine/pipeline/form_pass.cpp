@@ -6,6 +6,7 @@
 
 #include "engine/core/setting.h"
 #include "engine/form/flatten.h"
+#include "engine/form/normal_metric.h"
 #include "engine/form/position_metric.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -14,7 +15,7 @@ namespace weft {
 namespace {
 
 // A frame's coordinates are as good as its motion was followed; the reference frame's are exact.
-constexpr double kOtherFrames = 0.05;
+constexpr double kOtherFrames = 0.01;
 // About a hundred cells across the plate: finer than the folds that a texture can follow.
 constexpr int kCells = 108, kLeastSpacing_px = 4;
 constexpr double kMostPlates = 4;  // of the domain's area, at that spacing
@@ -68,12 +69,44 @@ std::string text_of(const std::vector<int>& frames) {
     return "frames " + std::to_string(*first) + " to " + std::to_string(*last);
 }
 
-tl::unexpected<Error> no_form(const std::vector<int>& frames) {
+tl::unexpected<Error> no_form(const std::vector<int>& frames, RegionPlan::FormFrom from) {
+    if (from == RegionPlan::FormFrom::kNormals) {
+        return fail(ErrorCode::kUnreadable, "The normal pass shows no form on " + text_of(frames) +
+                                                ": inside the matte its normals are zero or not "
+                                                "finite. Choose the layer with the normals of this "
+                                                "surface" +
+                                                by({{setting::kNormalLayer}}) +
+                                                ", or leave the pass out.");
+    }
     return fail(ErrorCode::kUnreadable,
                 "The position pass shows no form on " + text_of(frames) +
                     ": inside the matte its places are constant, on one line or not finite. "
                     "Choose the layer with the places of this surface" +
                     by({{setting::kPositionLayer}}) + ", or leave the pass out.");
+}
+
+// Adds what a frame's pass shows.
+Status add_pass(const PassContext& context, int region, int frame, const Evidence& at,
+                double weight, MetricField& field) {
+    const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
+    if (plan.form_from == RegionPlan::FormFrom::kPositions) {
+        WEFT_TRY(positions, context.source.positions(region, frame));
+        add_positions(field, positions, at.visible, at.ref_from_cur, weight);
+        return {};
+    }
+    WEFT_TRY(pass, context.source.normals(region, frame));
+    const auto normals =
+        view_normals(pass.normals, at.visible, pass.camera, pass.camera_from_world);
+    if (!normals) {
+        return fail(ErrorCode::kUnreadable,
+                    "Many normals of the normal pass face away from the camera on frame " +
+                        std::to_string(frame) +
+                        ", so they are not in the axes that are set. Set the space they are in" +
+                        by({{setting::kNormalSpace, "camera"}, {setting::kNormalSpace, "world"}}) +
+                        ".");
+    }
+    add_normals(field, *normals, at.visible, pass.camera, at.ref_from_cur, weight);
+    return {};
 }
 
 }  // namespace
@@ -92,11 +125,13 @@ Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& sto
     MetricField field(plate, domain, spacing_for(plate, domain.size()));
     for (std::size_t k = 0; k < frames.size(); ++k) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        WEFT_TRY(positions, context.source.positions(region, frames[k]));
-        add_positions(field, positions, evidence[k].visible, evidence[k].ref_from_cur,
-                      k == 0 ? 1 : kOtherFrames);
+        WEFT_CHECK_OK(
+            add_pass(context, region, frames[k], evidence[k], k == 0 ? 1 : kOtherFrames, field));
     }
-    if (!field.finish()) return no_form(frames);
+    if (!field.finish()) {
+        const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
+        return no_form(frames, plan.form_from);
+    }
     return flat_from_reference(field);
 }
 

@@ -14,6 +14,11 @@ Expected<ImageF3> ShotSource::positions(int /*region*/, int frame) const {
                 "The position pass of frame " + std::to_string(frame) + " is missing.");
 }
 
+Expected<NormalPass> ShotSource::normals(int /*region*/, int frame) const {
+    return fail(ErrorCode::kRenderFailed,
+                "The normal pass of frame " + std::to_string(frame) + " is missing.");
+}
+
 Expected<ImageF2> ShotSource::uv(int /*region*/, int frame) const {
     return fail(ErrorCode::kRenderFailed,
                 "The UV pass of frame " + std::to_string(frame) + " is missing.");

@@ -129,14 +129,16 @@ struct RegionPlan {
     bool exact_light = false;
     /// A UV pass gives the place of the plane that each pixel shows.
     bool has_uv = false;
-    /// A position pass gives the surface's form.
-    bool has_positions = false;
+    /// What shows the surface's form: places (a position pass, or depth with the camera), or
+    /// normals.
+    enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals };
+    FormFrom form_from = FormFrom::kNothing;
     float form_amount = 1;  ///< 0 flat, 1 as found.
     /// Frames that show the form, the reference frame first; they do not depend on the part of the
     /// shot that is rendered.
     std::vector<int> form_evidence;
     [[nodiscard]] bool has_form() const {
-        return has_positions && form_amount > 0 && !form_evidence.empty();
+        return form_from != FormFrom::kNothing && form_amount > 0 && !form_evidence.empty();
     }
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {

@@ -1,6 +1,7 @@
 #pragma once
 // The pipeline's source of pictures. The pipeline itself opens no file.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -8,8 +9,16 @@
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
+#include "engine/form/view_camera.h"
 
 namespace weft {
+
+/// What a renderer's normal pass shows of a frame, with its camera.
+struct NormalPass {
+    ImageF3 normals;  ///< H×W×3, of any length; zero or not finite: unknown.
+    ViewCamera camera;
+    std::array<double, 9> camera_from_world{};  ///< As view_normals() takes it.
+};
 
 /// The pictures of a shot. All functions may be called from several threads.
 class ShotSource {
@@ -41,9 +50,12 @@ class ShotSource {
     /// The region's UV pass (RegionPlan::has_uv): H×W×2 of the plate's size, 0–1, origin bottom
     /// left.
     [[nodiscard]] virtual Expected<ImageF2> uv(int region, int frame) const;
-    /// The region's position pass (RegionPlan::has_positions): H×W×3 of the plate's size, the place
-    /// of the surface at each pixel in one unit of length; what is unknown is not finite.
+    /// The region's places (RegionPlan::FormFrom::kPositions): H×W×3 of the plate's size, the place
+    /// of the surface at each pixel in one unit of length; what is unknown is not finite. A source
+    /// that has none need not override it.
     [[nodiscard]] virtual Expected<ImageF3> positions(int region, int frame) const;
+    /// The region's normal pass (RegionPlan::FormFrom::kNormals).
+    [[nodiscard]] virtual Expected<NormalPass> normals(int region, int frame) const;
     /// The region's depth pass (RegionPlan::has_depth) as nearness, of the plate's size: the
     /// reciprocal of a distance, or a coded picture's value as it is. Empty without one.
     [[nodiscard]] virtual Expected<ImageF1> depth(int /*region*/, int /*frame*/) const {

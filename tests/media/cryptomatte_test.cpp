@@ -155,29 +155,5 @@ TEST_F(MotionPass, UvPassesHaveUAndVOrRAndG) {
     EXPECT_FALSE(read_uv(in("uv.exr"), "", {8, 5}));
 }
 
-TEST_F(MotionPass, PositionPassesAreFoundByTheirNames) {
-    const auto at = [&](const char* file, const std::string& layer = "") {
-        return read_positions(in(file), layer, {8, 4});
-    };
-    put("cycles.exr",
-        {"shot.Normal.X", "shot.Normal.Y", "shot.Normal.Z", "shot.Position.X", "shot.Position.Y",
-         "shot.Position.Z"},
-        {9, 9, 9, 1, -2, 3e10f});
-    EXPECT_EQ(at("cycles.exr").value().at(2, 1, 1), -2);
-    EXPECT_TRUE(std::isnan(at("cycles.exr").value().at(2, 1, 2))) << "the background";
-    EXPECT_EQ(at("cycles.exr", "shot.Normal").value().at(2, 1, 0), 9);
-    put("arnold.exr", {"R", "G", "B", "P.R", "P.G", "P.B"}, {9, 9, 9, 4, 5, 6});
-    EXPECT_EQ(at("arnold.exr").value().at(0, 0, 2), 6);
-    put("nuke.exr", {"R", "G", "B", "P_World.R", "P_World.G", "P_World.B"}, {9, 9, 9, 7, 5, 6});
-    EXPECT_EQ(at("nuke.exr").value().at(0, 0, 0), 7);
-    put("alone.exr", {"R", "G", "B"}, {1, 2, 3});
-    EXPECT_EQ(at("alone.exr").value().at(7, 3, 1), 2);
-    EXPECT_FALSE(read_positions(in("alone.exr"), "", {8, 5}));
-    put("none.exr", {"R", "G", "B", "A", "AP.R"}, {0, 0, 0, 1, 0});
-    const auto none = at("none.exr");
-    ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("AP.R"));
-}
-
 }  // namespace
 }  // namespace weft

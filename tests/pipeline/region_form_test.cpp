@@ -40,7 +40,7 @@ class Column : public MemoryShot {
 
 RegionPlan formed(std::vector<int> evidence = {kFirst}) {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
-    region.has_positions = true;
+    region.form_from = RegionPlan::FormFrom::kPositions;
     region.form_evidence = std::move(evidence);
     return region;
 }

@@ -1,0 +1,85 @@
+#include "app/shot/form_files.h"
+
+#include <filesystem>
+
+#include "engine/core/setting.h"
+#include "engine/form/depth_positions.h"
+#include "engine/media/form_passes.h"
+
+namespace weft {
+namespace {
+
+// A normal map of 8 or 16 bits has no header to look into.
+HeaderCamera header_of(const std::string& path) {
+    const auto camera = read_camera(path);
+    return camera ? *camera : HeaderCamera();
+}
+
+Expected<ViewCamera> view_camera(const FormParams& form, const HeaderCamera& header,
+                                 const std::string& path, Size plate) {
+    const std::optional<double> fov_deg = form.fov_deg ? form.fov_deg : header.fov_deg;
+    if (!fov_deg) {
+        return fail(ErrorCode::kUnreadable,
+                    path +
+                        " gives a form only with the camera's horizontal field of view, which "
+                        "is not in its header. Set it in degrees" +
+                        by({{setting::kFov}}) + ".");
+    }
+    return camera_with(*fov_deg, plate);
+}
+
+}  // namespace
+
+FormFiles form_files(const Region& region) {
+    using From = RegionPlan::FormFrom;
+    const FormParams& form = region.form;
+    switch (form.source) {
+        case FormSource::kPass:
+            if (!form.position.empty())
+                return {From::kPositions, form.position, "The position pass"};
+            if (!form.normal.empty()) return {From::kNormals, form.normal, "The normal pass"};
+            return {};
+        case FormSource::kDepth:
+            return {From::kPositions, region.finish.depth, "The depth pass"};
+        case FormSource::kFlat:
+            return {};
+    }
+    return {};
+}
+
+void add_form_settings(Hasher& hasher, const Region& region) {
+    const FormParams& form = region.form;
+    const FormFiles files = form_files(region);
+    hasher.value(static_cast<int>(files.from)).text(files.pattern).text(files.what);
+    hasher.text(form.position_layer).text(form.normal_layer);
+    hasher.value(static_cast<int>(form.normal_space)).value(static_cast<int>(form.depth_kind));
+    hasher.value(form.fov_deg.value_or(0));
+}
+
+Expected<ImageF3> read_form_places(const Region& region, const std::string& path, Size plate) {
+    const FormParams& form = region.form;
+    if (form.source != FormSource::kDepth) return read_positions(path, form.position_layer, plate);
+    WEFT_TRY(depth, read_depth(path, plate));
+    WEFT_TRY(camera, view_camera(form, header_of(path), path, plate));
+    return positions_from_depth(depth, form.depth_kind, camera);
+}
+
+Expected<NormalPass> read_form_normals(const Region& region, const std::string& path, Size plate) {
+    const FormParams& form = region.form;
+    WEFT_TRY(normals, read_normals(path, form.normal_layer, plate));
+    const HeaderCamera header = header_of(path);
+    WEFT_TRY(camera, view_camera(form, header, path, plate));
+    if (form.normal_space == NormalSpace::kCamera)
+        return NormalPass{std::move(normals), camera, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    if (!header.camera_from_world) {
+        return fail(ErrorCode::kUnreadable,
+                    path +
+                        " has no worldToCamera in its header, which normals in the world's axes "
+                        "need. Render them in the camera's axes" +
+                        by({{setting::kNormalSpace, "camera"}}) + ", or a position pass" +
+                        by({{setting::kPositionPass}}) + ".");
+    }
+    return NormalPass{std::move(normals), camera, *header.camera_from_world};
+}
+
+}  // namespace weft

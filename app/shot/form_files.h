@@ -1,0 +1,33 @@
+#pragma once
+// Which of a region's passes shows its form, and what it shows.
+
+#include <string>
+
+#include "app/project/project.h"
+#include "engine/core/hash.h"
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+
+namespace weft {
+
+/// The pass that decides, by FormParams::source.
+struct FormFiles {
+    RegionPlan::FormFrom from = RegionPlan::FormFrom::kNothing;
+    std::string pattern;    ///< Empty without one.
+    std::string what = {};  ///< "The position pass"
+};
+[[nodiscard]] FormFiles form_files(const Region& region);
+
+/// Hashes all settings on which what the pass shows depends, but the files themselves.
+void add_form_settings(Hasher& hasher, const Region& region);
+
+/// The places that one file of the pass shows, from a position or a depth pass. Errors: those of
+/// reading; Unreadable if a depth pass comes without a field of view.
+[[nodiscard]] Expected<ImageF3> read_form_places(const Region& region, const std::string& path,
+                                                 Size plate);
+/// The normals that one file of the pass shows. Errors: those of reading; Unreadable if there is no
+/// field of view, or if they are in the world's axes and the header does not tell the camera's.
+[[nodiscard]] Expected<NormalPass> read_form_normals(const Region& region, const std::string& path,
+                                                     Size plate);
+
+}  // namespace weft

@@ -1,0 +1,41 @@
+#pragma once
+// Passes that show the shape of what a renderer saw: places, normals, depth, and the camera.
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "engine/core/error.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// A position pass: three channels (X, Y, Z or R, G, B) of half or float, the place of what each
+/// pixel shows. Places of 1e10 and more (renderers' background) are not finite here. `layer`: the
+/// part of the names before ".X"; empty: "Position", "P" or "P_World", also behind another name.
+/// Errors: as read_motion().
+[[nodiscard]] Expected<ImageF3> read_positions(const std::string& path, const std::string& layer,
+                                               Size expected);
+
+/// A normal pass: three channels as above, or a picture of 8 or 16 bits whose codes are
+/// (n + 1) / 2. `layer` empty: "Normal", "N" or "normals", also behind another name. The background
+/// may be zero. Errors: as read_motion().
+[[nodiscard]] Expected<ImageF3> read_normals(const std::string& path, const std::string& layer,
+                                             Size expected);
+
+/// A depth pass of half or float: "Z", "depth.Z" or any "….Depth.Z", or the first channel of a file
+/// of its own. Errors: as read_motion(); Unreadable for codes of 8 or 16 bits, which have no scale.
+[[nodiscard]] Expected<ImageF1> read_depth(const std::string& path, Size expected);
+
+/// What the header of a rendered EXR says about its camera.
+struct HeaderCamera {
+    std::optional<double> fov_deg;  ///< Horizontal.
+    /// The rotation from the world's axes into the camera's, by rows.
+    std::optional<std::array<double, 9>> camera_from_world;
+};
+/// From `cameraFov`, or `cameraAperture` and `cameraFocalLength` (V-Ray), and `worldToCamera`
+/// (OpenEXR's standard attribute) or `cameraTransform` (V-Ray); nothing where they are missing or
+/// make no sense. Errors: Unreadable.
+[[nodiscard]] Expected<HeaderCamera> read_camera(const std::string& path);
+
+}  // namespace weft
