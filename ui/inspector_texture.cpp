@@ -12,9 +12,9 @@ namespace {
 // Above this magnification single texels are visible.
 constexpr double kMostMagnified = 1.5;
 
-bool has_form_pass(const Region& region) {
+bool may_have_form(const Region& region) {
     const FormParams& form = region.form;
-    return form.source == FormSource::kDepth ||
+    return form.source == FormSource::kDepth || form.source == FormSource::kAuto ||
            (form.source == FormSource::kPass && (!form.position.empty() || !form.normal.empty()));
 }
 
@@ -135,7 +135,7 @@ void texture_inspector(Ctx& c) {
         magnified_warning(c, *region);
         keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
         keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
-        if (has_form_pass(*region)) region_parameter(c, *region, "form.amount");
+        if (may_have_form(*region)) region_parameter(c, *region, "form.amount");
         if (button(c, "Transform",
                    {.icon = icons::kMove,
                     .tip = "Drag on the picture to move the texture, with Shift to rotate it, with "

@@ -177,7 +177,7 @@ class ProxyStore final : public AnalysisStore {
             case AnalysisKind::kForm: {
                 WEFT_TRY(form, decode_form(bytes));
                 return encode(FormMap{form.origin / static_cast<float>(factor_),
-                                      shrunk(form.displacement, factor_)});
+                                      shrunk(form.displacement, factor_), form.finding});
             }
             case AnalysisKind::kMatte: {
                 WEFT_TRY(stored, decode_matte(bytes));

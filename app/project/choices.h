@@ -70,8 +70,11 @@ struct Choices<MotionConvention> {
 };
 template <>
 struct Choices<FormSource> {
-    static constexpr std::array<std::pair<FormSource, std::string_view>, 3> kNames{
-        {{FormSource::kPass, "pass"}, {FormSource::kDepth, "depth"}, {FormSource::kFlat, "flat"}}};
+    static constexpr std::array<std::pair<FormSource, std::string_view>, 4> kNames{
+        {{FormSource::kAuto, "auto"},
+         {FormSource::kPass, "pass"},
+         {FormSource::kDepth, "depth"},
+         {FormSource::kFlat, "flat"}}};
 };
 template <>
 struct Choices<NormalSpace> {

@@ -186,6 +186,7 @@ struct Placement {
 
 /// What shows the shape of a surface.
 enum class FormSource {
+    kAuto,   ///< The pass if there is one, else the motion, as far as it tells.
     kPass,   ///< The position pass, without one the normal pass; flat without both.
     kDepth,  ///< The depth pass (FinishParams::depth), with the camera's field of view.
     kFlat
@@ -198,7 +199,7 @@ enum class NormalSpace {
 
 /// The shape of the surface, which the texture follows.
 struct FormParams {
-    FormSource source = FormSource::kPass;
+    FormSource source = FormSource::kAuto;
     std::string position;        ///< Pattern of a position pass.
     std::string position_layer;  ///< Empty: found.
     std::string normal;          ///< Pattern of a normal pass.

@@ -229,11 +229,13 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "normal_space",
              .flag = "--normal-space",
              .help = "Axes of the normal pass; world needs the camera in the file's header"}),
-        entry<R, &R::form, &FormParams::source>(
-            {.group = "form",
-             .key = "source",
-             .flag = "--form",
-             .help = "What shows the form: a position or normal pass, the depth pass, or nothing"}),
+        entry<R, &R::form, &FormParams::source>({.group = "form",
+                                                 .key = "source",
+                                                 .flag = "--form",
+                                                 .help =
+                                                     "What shows the form: a pass or else the "
+                                                     "motion (auto), a position or normal pass, "
+                                                     "the depth pass, or nothing"}),
         entry<R, &R::form, &FormParams::depth_kind>(
             {.group = "form",
              .key = "depth_kind",
@@ -243,8 +245,8 @@ std::vector<Parameter<Region>> make_region_table() {
             {.group = "form",
              .key = "fov_deg",
              .flag = "--fov",
-             .help = "Horizontal field of view in degrees, for normals and depth; default from "
-                     "the pass's header",
+             .help = "Horizontal field of view in degrees, for normals, depth and motion; default "
+                     "from the pass's header, or found",
              .min = 1,
              .max = 175,
              .optional = true}),

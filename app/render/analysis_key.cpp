@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 19;
-constexpr int kFormVersion = 1;  // of the form alone
+constexpr int kFormVersion = 2;  // of the form alone
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -186,7 +186,8 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
     Hasher hasher;
     hasher.text("form").value(kFormVersion).text(surface);
     add_form_settings(hasher, region);
-    WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
+    if (plan.form_from != RegionPlan::FormFrom::kMotion)
+        WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
     for (const int frame : plan.form_evidence)
         hasher.value(frame);
     return hasher.finish().hex();

@@ -34,10 +34,12 @@ FormFiles form_files(const Region& region) {
     using From = RegionPlan::FormFrom;
     const FormParams& form = region.form;
     switch (form.source) {
+        case FormSource::kAuto:
         case FormSource::kPass:
             if (!form.position.empty())
                 return {From::kPositions, form.position, "The position pass"};
             if (!form.normal.empty()) return {From::kNormals, form.normal, "The normal pass"};
+            if (form.source == FormSource::kAuto) return {From::kMotion, "", "The motion"};
             return {};
         case FormSource::kDepth:
             return {From::kPositions, region.finish.depth, "The depth pass"};

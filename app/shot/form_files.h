@@ -13,7 +13,7 @@ namespace weft {
 /// The pass that decides, by FormParams::source.
 struct FormFiles {
     RegionPlan::FormFrom from = RegionPlan::FormFrom::kNothing;
-    std::string pattern;    ///< Empty without one.
+    std::string pattern;    ///< Empty without one, and for motion.
     std::string what = {};  ///< "The position pass"
 };
 [[nodiscard]] FormFiles form_files(const Region& region);

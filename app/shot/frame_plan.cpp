@@ -223,8 +223,10 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
     constexpr int kReach = 48, kOthers = 11;
     const int reference = plan.reference_frames.front();
     std::vector<int> chosen{reference};
-    WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
-    if (pattern.is_single()) return chosen;
+    if (plan.form_from != RegionPlan::FormFrom::kMotion) {
+        WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
+        if (pattern.is_single()) return chosen;
+    }
     WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
     const int others = std::min(run.last - run.first, kOthers);
     for (int k = 0; k <= others; ++k) {
@@ -308,7 +310,8 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     }
     if (plan.has_uv)
         WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
-    if (plan.form_from != RegionPlan::FormFrom::kNothing) {
+    if (plan.form_from != RegionPlan::FormFrom::kNothing &&
+        plan.form_from != RegionPlan::FormFrom::kMotion) {
         const FormFiles pass = form_files(region);
         const std::string remedy =
             "The form is found from them, whichever frames are rendered. Add the files, or give "

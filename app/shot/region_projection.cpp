@@ -142,13 +142,21 @@ Status project_form(const Region& region, RegionPlan& plan) {
     const FormFiles pass = form_files(region);
     plan.form_amount = static_cast<float>(region.form.amount);
     if (!(region.form.amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
+    const bool locked = region.temporal.mode == TemporalMode::kLocked;
+    if (pass.from == RegionPlan::FormFrom::kMotion) {
+        // Corners are the artist's own perspective.
+        if (!locked || plan.has_uv || region.placement.corners_px) return {};
+        plan.form_from = pass.from;
+        plan.form_fov_deg = region.form.fov_deg;
+        return {};
+    }
     if (pass.pattern.empty()) {
         return fail(ErrorCode::kUsage,
                     "The form is to come from the depth pass, but there is none. Give it" +
                         by({{setting::kDepth}}) + ", or choose another source" +
                         by({{setting::kFormSource}}) + ".");
     }
-    if (region.temporal.mode != TemporalMode::kLocked || plan.has_uv) {
+    if (!locked || plan.has_uv) {
         return fail(ErrorCode::kUsage,
                     pass.what +
                         " as form needs the locked temporal mode, and no UV pass beside it, "

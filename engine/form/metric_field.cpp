@@ -104,6 +104,15 @@ bool MetricField::in_frame(int i, int j) const {
     return inside(i, domain_.x0, frame_.width) && inside(j, domain_.y0, frame_.height);
 }
 
+Vec2 MetricField::centre_of(int i, int j) const {
+    const auto centre = [this](int cell, int origin) {
+        return static_cast<float>(origin) +
+               (static_cast<float>(cell - LatticeField::kMargin) + 0.5f) *
+                   static_cast<float>(spacing_);
+    };
+    return {centre(i, domain_.x0), centre(j, domain_.y0)};
+}
+
 std::optional<std::size_t> MetricField::cell_of(Vec2 place) const {
     const auto cell = [&](float p, int origin) {
         return static_cast<int>(
@@ -136,7 +145,7 @@ void MetricField::add(Vec2 place, const Metric& metric, double weight) {
     evidence_[*k] += weight;
 }
 
-void MetricField::scale_to_unit_area() {
+double MetricField::scale_to_unit_area() {
     double sum = 0, count = 0;
     for (std::size_t k = 0; k < metrics_.size(); ++k) {
         if (!(evidence_[k] > 0)) continue;
@@ -146,28 +155,29 @@ void MetricField::scale_to_unit_area() {
     const double by = power_of_e(-sum / count);
     for (std::size_t k = 0; k < metrics_.size(); ++k)
         if (evidence_[k] > 0) metrics_[k] = bounded(scaled(metrics_[k], by));
+    return by;
 }
 
-void MetricField::continue_outwards() {
+void MetricField::continue_outwards(const std::vector<bool>& known) {
     std::vector<Metric> logs(metrics_.size());
     Metric mean;
     double count = 0;
     for (std::size_t k = 0; k < metrics_.size(); ++k) {
-        if (!(evidence_[k] > 0)) continue;
+        if (!known[k]) continue;
         logs[k] = log_of(metrics_[k]);
         mean = {mean.xx + logs[k].xx, mean.xy + logs[k].xy, mean.yy + logs[k].yy};
         ++count;
     }
     mean = scaled(mean, 1 / count);
     for (std::size_t k = 0; k < metrics_.size(); ++k)
-        if (!(evidence_[k] > 0)) logs[k] = mean;
+        if (!known[k]) logs[k] = mean;
     // Successive over-relaxation in a fixed order.
     constexpr double kOver = 1.9;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         for (int j = 0; j < cells_.height; ++j) {
             for (int i = 0; i < cells_.width; ++i) {
                 const std::size_t k = index(i, j);
-                if (evidence_[k] > 0) continue;
+                if (known[k]) continue;
                 Metric sum;
                 double sides = 0;
                 const auto take = [&](int x, int y) {
@@ -185,10 +195,10 @@ void MetricField::continue_outwards() {
         }
     }
     for (std::size_t k = 0; k < metrics_.size(); ++k)
-        if (!(evidence_[k] > 0)) metrics_[k] = bounded(exp_of(logs[k]));
+        if (!known[k]) metrics_[k] = bounded(exp_of(logs[k]));
 }
 
-bool MetricField::finish() {
+bool MetricField::finish(const Beyond& beyond) {
     bool any = false;
     for (std::size_t k = 0; k < metrics_.size(); ++k) {
         if (!(evidence_[k] > 0)) continue;
@@ -198,8 +208,20 @@ bool MetricField::finish() {
         any = any || evidence_[k] > 0;
     }
     if (!any) return false;
-    scale_to_unit_area();
-    continue_outwards();
+    const double by = scale_to_unit_area();
+    std::vector<bool> known(metrics_.size());
+    for (int j = 0; j < cells_.height; ++j) {
+        for (int i = 0; i < cells_.width; ++i) {
+            const std::size_t k = index(i, j);
+            known[k] = evidence_[k] > 0;
+            if (known[k] || !beyond) continue;
+            const auto metric = beyond(centre_of(i, j));
+            if (!metric || !(metric->determinant() > 0)) continue;
+            metrics_[k] = bounded(scaled(*metric, by));
+            known[k] = true;
+        }
+    }
+    continue_outwards(known);
     return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // How long a step on a surface is for a step on the reference frame.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,8 @@ class MetricField {
     [[nodiscard]] const Metric& at(int i, int j) const { return metrics_[index(i, j)]; }
     /// How much evidence the cell has; 0 where its metric was only continued.
     [[nodiscard]] double evidence(int i, int j) const { return evidence_[index(i, j)]; }
+    /// The place of the cell's centre on the reference frame.
+    [[nodiscard]] Vec2 centre_of(int i, int j) const;
     /// Whether the cell's centre lies inside of the reference frame.
     [[nodiscard]] bool in_frame(int i, int j) const;
 
@@ -52,7 +55,11 @@ class MetricField {
     /// Turns sums into means, and continues them smoothly to the cells without evidence (harmonic
     /// in ln G). All are scaled so that the cells with evidence have an area of 1 px² a px² in the
     /// geometric mean. Returns false if nothing was added. Call it once, after the last add().
-    [[nodiscard]] bool finish();
+    [[nodiscard]] bool finish() { return finish({}); }
+    /// The same; where `beyond` has a metric for a place, in the unit of what was added, a cell
+    /// without evidence takes that.
+    using Beyond = std::function<std::optional<Metric>(Vec2 place)>;
+    [[nodiscard]] bool finish(const Beyond& beyond);
 
   private:
     [[nodiscard]] std::size_t index(int i, int j) const {
@@ -61,8 +68,9 @@ class MetricField {
     }
     // The cell of a place, if it lies in the domain.
     [[nodiscard]] std::optional<std::size_t> cell_of(Vec2 place) const;
-    void scale_to_unit_area();
-    void continue_outwards();
+    // The factor to the unit of area.
+    double scale_to_unit_area();
+    void continue_outwards(const std::vector<bool>& known);
 
     Size frame_, cells_;
     Recti domain_;

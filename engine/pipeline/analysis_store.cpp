@@ -86,7 +86,17 @@ Bytes encode(const LatticeField& field) {
 
 Bytes encode(const FormMap& form) {
     ByteWriter out;
-    return write(out, form.displacement).value(form.origin).take();
+    const FormFinding& f = form.finding;
+    return write(out, form.displacement)
+        .value(form.origin)
+        .value(f.source)
+        .value(static_cast<std::uint8_t>(f.plane))
+        .value(f.frames)
+        .value(f.belief)
+        .value(f.tilt_deg)
+        .value(f.tilt_error_deg)
+        .value(f.fov_deg)
+        .take();
 }
 
 Bytes encode(const Shading& shading) {
@@ -202,8 +212,14 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
     FormMap out;
     WEFT_TRY(displacement, read_lattice(reader, "form"));
     out.displacement = std::move(displacement);
-    reader.value(out.origin);
-    if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y)) return damaged("form");
+    FormFinding& f = out.finding;
+    std::uint8_t plane = 0;
+    reader.value(out.origin).value(f.source).value(plane).value(f.frames).value(f.belief);
+    reader.value(f.tilt_deg).value(f.tilt_error_deg).value(f.fov_deg);
+    f.plane = plane != 0;
+    if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y) ||
+        f.source > FormFinding::Source::kMotion || !(f.belief >= 0 && f.belief <= 1))
+        return damaged("form");
     return out;
 }
 

@@ -5,10 +5,11 @@
 
 namespace weft {
 
-/// The form of a region that `frames` show together, from its position or normal pass on them: the
-/// first counts most, the others where they see the surface more squarely or alone. Needs mattes
-/// and kCoords of these frames. Errors: those of the source and the store; Unreadable if the pass
-/// shows no form there, or normals in other axes; cancellation.
+/// The form of a region that `frames` show together, the reference frame first: from its position
+/// or normal pass on them, the others counting where they see the surface more squarely or alone,
+/// or from its motion between them. Needs mattes and kCoords of these frames. Errors: those of the
+/// source and the store; Unreadable if the pass shows no form there, or normals in other axes;
+/// cancellation.
 [[nodiscard]] Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& store,
                                           int region, const std::vector<int>& frames);
 

@@ -10,7 +10,9 @@ Expected<std::shared_ptr<const SurfaceForm>> region_form(const RegionPlan& regio
     if (!region.has_form()) return Found(nullptr);
     WEFT_TRY(bytes, store.get({index, region.reference_frames.front(), AnalysisKind::kForm}));
     WEFT_TRY(form, decode_form(bytes));
-    return Found(std::make_shared<LatticeForm>(std::move(form), region.form_amount));
+    if (form.finding.source == FormFinding::Source::kNone) return Found(nullptr);
+    const float amount = region.form_amount * form.finding.belief;
+    return Found(std::make_shared<LatticeForm>(std::move(form), amount));
 }
 
 }  // namespace weft

@@ -129,11 +129,13 @@ struct RegionPlan {
     bool exact_light = false;
     /// A UV pass gives the place of the plane that each pixel shows.
     bool has_uv = false;
-    /// What shows the surface's form: places (a position pass, or depth with the camera), or
-    /// normals.
-    enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals };
+    /// What shows the surface's form: places (a position pass, or depth with the camera), normals,
+    /// or the motion of the surface.
+    enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals, kMotion };
     FormFrom form_from = FormFrom::kNothing;
     float form_amount = 1;  ///< 0 flat, 1 as found.
+    /// Horizontal field of view for kMotion; empty: found as well.
+    std::optional<double> form_fov_deg;
     /// Frames that show the form, the reference frame first; they do not depend on the part of the
     /// shot that is rendered.
     std::vector<int> form_evidence;

@@ -186,10 +186,23 @@ Status upgrade_from_2(Json& document) {
     return {};
 }
 
+/// 3 → 4. A new region takes its form from what the clip shows; one that was saved stays as it lay.
+Status upgrade_from_3(Json& document) {
+    const auto regions = document.find("regions");
+    if (regions == document.end() || !regions->is_array()) return {};
+    for (Json& region : *regions) {
+        if (!region.is_object()) continue;
+        if (!region.contains("form")) region["form"] = Json::object();
+        Json& form = region["form"];
+        if (form.is_object() && !form.contains("source")) form["source"] = "pass";
+    }
+    return {};
+}
+
 using Upgrade = Status (*)(Json&);
 /// kUpgrades[n] upgrades version n to n + 1.
 constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1,
-                                                               upgrade_from_2};
+                                                               upgrade_from_2, upgrade_from_3};
 
 /// The n of "weft.project/n".
 std::optional<int> version_of(std::string_view schema) {

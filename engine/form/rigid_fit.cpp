@@ -1,0 +1,368 @@
+#include "engine/form/rigid_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "engine/form/homography_fit.h"
+#include "engine/form/rigid_bundle.h"
+
+namespace weft {
+namespace {
+
+constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
+constexpr double kTrackError = 0.15 / 854;  // of a track that fits well, by the long side
+constexpr double kNotRigid = 0.3;           // of the motion beyond a similarity that may be left
+constexpr std::array kTangents{0.5, 0.9, 1.5};
+constexpr std::array kSlopes{0.25, 0.7};
+constexpr int kDirections = 8, kFirstSteps = 4, kMoreSteps = 30;
+constexpr std::size_t kKept = 6;
+constexpr double kKnown = 1e-3;    // deviation of a tangent that is given
+constexpr double kBulge = 0.15;    // of nearness, from which a curved surface is looked for
+constexpr double kApart = 0.02;    // ln stretch between solutions that are two
+constexpr double kImpossible = 1;  // ln stretch from a shape that cannot be there
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
+
+// Long double: see docs/decisions/0002-determinism.md.
+double ln(double v) {
+    return static_cast<double>(std::log(static_cast<long double>(v)));
+}
+double degrees_of_cosine(double c) {
+    return static_cast<double>(std::acos(static_cast<long double>(std::clamp(c, -1.0, 1.0))) * 180 /
+                               std::numbers::pi_v<long double>);
+}
+
+Vector3 ray_of(const RigidSurface& s, Vec2 place) {
+    return {s.tangent * (static_cast<double>(place.x) - s.middle.x) / s.long_side,
+            s.tangent * (static_cast<double>(place.y) - s.middle.y) / s.long_side, 1};
+}
+
+// ½ ln of the ratio of the eigenvalues of a⁻¹ b: ln stretch between two laid surfaces.
+double log_stretch_between(const Metric& a, const Metric& b) {
+    const double area = a.determinant();
+    if (!(area > 0) || !(b.determinant() > 0)) return kImpossible;
+    const double half = (a.yy * b.xx - 2 * a.xy * b.xy + a.xx * b.yy) / (2 * area);
+    const double root = std::sqrt(std::max(0.0, half * half - b.determinant() / area));
+    return 0.5 * ln((half + root) / std::max(half - root, 1e-12 * half));
+}
+
+// Root mean square over places.
+template <typename Each>
+double rms_over(const std::vector<Vec2>& places, const Each& each) {
+    double sum = 0;
+    for (const Vec2 place : places) {
+        const double v = each(place);
+        sum += v * v;
+    }
+    return std::sqrt(sum / static_cast<double>(places.size()));
+}
+
+double between(const RigidSurface& a, const RigidSurface& b, const std::vector<Vec2>& places) {
+    return rms_over(places, [&](Vec2 p) { return log_stretch_between(a.metric(p), b.metric(p)); });
+}
+
+// The pose that a homography (in rays of a tangent of 1) shows of a plane (Malis & Vargas 2007): on
+// the plane it is a rotation, and where it takes the centre gives the shift.
+std::optional<RigidPose> pose_on(const RigidSurface& plane, const Matrix3& homography) {
+    const double t = plane.tangent;
+    const Matrix3 m =
+        Vector3(t, t, 1).asDiagonal() * homography * Vector3(1 / t, 1 / t, 1).asDiagonal();
+    const Vector3 centre = ray_of(plane, plane.centre);
+    const double by = plane.long_side / plane.radius;
+    Matrix32 along;
+    along.col(0) = t * Vector3::UnitX() - by * plane.slope_x * centre;
+    along.col(1) = t * Vector3::UnitY() - by * plane.slope_y * centre;
+    const auto frame_of = [](const Matrix32& axes) {
+        Matrix3 out;
+        out.col(0) = axes.col(0);
+        out.col(1) = axes.col(1);
+        out.col(2) = out.col(0).cross(out.col(1));
+        return out;
+    };
+    // Axes of length 1 on the plane, and what becomes of them.
+    Matrix32 axes;
+    axes.col(0) = along.col(0).normalized();
+    axes.col(1) = (along.col(1) - axes.col(0).dot(along.col(1)) * axes.col(0)).normalized();
+    const double sign = (m * centre).z() < 0 ? -1 : 1;
+    const Matrix32 moved = sign * m * axes;
+    const Eigen::Matrix2d g = moved.transpose() * moved;
+    const double area = std::sqrt(std::max(g.determinant(), 0.0));
+    if (!(area > 1e-12)) return std::nullopt;
+    // G^(−½) for 2 × 2 by G^½ = (G + √det) / √(tr + 2 √det).
+    const Eigen::Matrix2d root =
+        (g + area * Eigen::Matrix2d::Identity()) / std::sqrt(g.trace() + 2 * area);
+    const Matrix3 rotation = frame_of(moved * root.inverse()) * frame_of(axes).transpose();
+    return RigidPose{rotation, sign * m * centre / std::sqrt(area) - rotation * centre};
+}
+
+// All that is known before a shape is tried.
+struct Problem {
+    const std::vector<FrameMatches>* frames;
+    std::vector<Matrix3> homographies;
+    RigidSurface flat;
+    RigidPrior prior;
+    bool tangent_known;
+    double least_sigma;
+    std::vector<Vec2> places;
+
+    [[nodiscard]] std::optional<RigidBundle> bundle_on(RigidSurface surface, double sigma) const {
+        std::vector<RigidPose> poses;
+        for (const Matrix3& h : homographies) {
+            const auto pose = pose_on(surface, h);
+            if (!pose) return std::nullopt;
+            poses.push_back(*pose);
+        }
+        RigidBundle out(*frames, std::move(surface), std::move(poses), prior, sigma);
+        if (!std::isfinite(out.cost())) return std::nullopt;
+        return out;
+    }
+};
+
+std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size picture,
+                                  std::optional<double> tangent) {
+    if (frames.size() < kLeastFrames) return std::nullopt;
+    Problem out{&frames, {}, {}, {}, tangent.has_value(), 0, {}};
+    RigidSurface& flat = out.flat;
+    flat.middle =
+        0.5f * Vec2(static_cast<float>(picture.width), static_cast<float>(picture.height));
+    flat.long_side = std::max(picture.width, picture.height);
+    out.least_sigma = kTrackError * flat.long_side;
+    if (tangent) {
+        out.prior.tangent = *tangent;
+        out.prior.tangent_deviation = kKnown;
+    }
+    flat.tangent = out.prior.tangent;
+    double x = 0, y = 0, count = 0;
+    for (const FrameMatches& m : frames) {
+        if (m.reference.size() < kLeastPairs) return std::nullopt;
+        for (const Vec2 p : m.reference)
+            x += p.x, y += p.y, ++count;
+    }
+    flat.centre = Vec2(static_cast<float>(x / count), static_cast<float>(y / count));
+    double squares = 0, most = 0;
+    for (const FrameMatches& m : frames) {
+        for (const Vec2 p : m.reference) {
+            const Vec2 d = p - flat.centre;
+            squares += static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y;
+            most = std::max(
+                {most, std::abs(static_cast<double>(d.x)), std::abs(static_cast<double>(d.y))});
+        }
+    }
+    flat.radius = std::sqrt(squares / count);
+    if (!(flat.radius > 4 * out.least_sigma)) return std::nullopt;
+    flat.reach = most / flat.radius;
+    const auto centred = [&](const std::vector<Vec2>& places) {
+        std::vector<Eigen::Vector2d> to;
+        for (const Vec2 p : places)
+            to.emplace_back((static_cast<double>(p.x) - flat.middle.x) / flat.long_side,
+                            (static_cast<double>(p.y) - flat.middle.y) / flat.long_side);
+        return to;
+    };
+    for (const FrameMatches& m : frames) {
+        const auto h = fit_homography(centred(m.reference), centred(m.frame));
+        if (!h) return std::nullopt;
+        out.homographies.push_back(*h);
+    }
+    out.places = frames.front().reference;
+    return out;
+}
+
+// Solutions with a plane, best first, no two alike.
+std::vector<RigidBundle> planes(const Problem& problem, double sigma) {
+    std::vector<RigidBundle> all;
+    const auto look = [&](double tangent, double slope, int direction) {
+        RigidSurface start = problem.flat;
+        start.tangent = tangent;
+        constexpr double kDiagonal = 0.70710678118654752;
+        constexpr std::array<std::pair<double, double>, kDirections> kWays{
+            {{1, 0},
+             {kDiagonal, kDiagonal},
+             {0, 1},
+             {-kDiagonal, kDiagonal},
+             {-1, 0},
+             {-kDiagonal, -kDiagonal},
+             {0, -1},
+             {kDiagonal, -kDiagonal}}};
+        start.slope_x = slope * kWays[static_cast<std::size_t>(direction)].first;
+        start.slope_y = slope * kWays[static_cast<std::size_t>(direction)].second;
+        if (auto bundle = problem.bundle_on(start, sigma)) {
+            bundle->descend(kFirstSteps);
+            all.push_back(std::move(*bundle));
+        }
+    };
+    std::vector<double> tangents(kTangents.begin(), kTangents.end());
+    if (problem.tangent_known) tangents = {problem.prior.tangent};
+    for (const double tangent : tangents) {
+        look(tangent, 0, 0);
+        for (const double slope : kSlopes)
+            for (int direction = 0; direction < kDirections; ++direction)
+                look(tangent, slope, direction);
+    }
+    const auto cheaper = [](const RigidBundle& a, const RigidBundle& b) {
+        return a.cost() < b.cost();
+    };
+    std::stable_sort(all.begin(), all.end(), cheaper);
+    std::vector<RigidBundle> out;
+    for (RigidBundle& bundle : all) {
+        if (out.size() == kKept) break;
+        const auto alike = [&](const RigidBundle& other) {
+            return between(other.surface(), bundle.surface(), problem.places) < kApart;
+        };
+        if (std::any_of(out.begin(), out.end(), alike)) continue;
+        bundle.descend(kMoreSteps);
+        if (!std::any_of(out.begin(), out.end(), alike)) out.push_back(std::move(bundle));
+    }
+    std::stable_sort(out.begin(), out.end(), cheaper);
+    return out;
+}
+
+// Solutions with a curved surface, from the planes and from bulges either way on the best of them.
+std::vector<RigidBundle> curved(const Problem& problem, const std::vector<RigidBundle>& from,
+                                double sigma) {
+    std::vector<RigidBundle> out;
+    const auto look = [&](const RigidBundle& plane, double bulge) {
+        RigidSurface start = plane.surface();
+        start.relief.assign(RigidSurface::orders().size(), 0.0);
+        for (std::size_t k = 0; k < start.relief.size(); ++k) {
+            const Vec2i order = RigidSurface::orders()[k];
+            if (std::max(order.x, order.y) == 2 && std::min(order.x, order.y) == 0)
+                start.relief[k] = bulge;
+        }
+        RigidBundle bundle(*problem.frames, std::move(start), plane.poses(), problem.prior, sigma);
+        bundle.descend(kMoreSteps);
+        if (std::isfinite(bundle.cost())) out.push_back(std::move(bundle));
+    };
+    for (const RigidBundle& plane : from)
+        look(plane, 0);
+    for (const double bulge : {-kBulge, kBulge})
+        look(from.front(), bulge);
+    std::stable_sort(out.begin(), out.end(), [](const RigidBundle& a, const RigidBundle& b) {
+        return a.cost() < b.cost();
+    });
+    return out;
+}
+
+// Root mean square of the motion that no similarity explains, px.
+double beyond_similarity_px(const Problem& problem) {
+    double sum = 0, count = 0;
+    for (const FrameMatches& m : *problem.frames) {
+        // z → a z + b over complex numbers, by least squares.
+        const auto n = static_cast<double>(m.reference.size());
+        double px = 0, py = 0, qx = 0, qy = 0;
+        for (std::size_t i = 0; i < m.reference.size(); ++i) {
+            px += m.reference[i].x / n, py += m.reference[i].y / n;
+            qx += m.frame[i].x / n, qy += m.frame[i].y / n;
+        }
+        double real = 0, imaginary = 0, squares = 0, after = 0;
+        for (std::size_t i = 0; i < m.reference.size(); ++i) {
+            const double x = m.reference[i].x - px, y = m.reference[i].y - py;
+            const double u = m.frame[i].x - qx, v = m.frame[i].y - qy;
+            real += x * u + y * v, imaginary += x * v - y * u;
+            squares += x * x + y * y, after += u * u + v * v;
+        }
+        sum += std::max(0.0, after - (real * real + imaginary * imaginary) / squares), count += n;
+    }
+    return std::sqrt(sum / count);
+}
+
+double turn_of(const RigidSurface& surface, const std::vector<RigidPose>& poses) {
+    const Vector3 at = ray_of(surface, surface.centre) / surface.nearness(surface.centre);
+    double cosine = 1;
+    for (const RigidPose& pose : poses) {
+        const Vector3 camera = -(pose.rotation.transpose() * pose.shift);
+        cosine = std::min(cosine, (camera - at).normalized().dot((-at).normalized()));
+    }
+    return degrees_of_cosine(cosine);
+}
+
+// Between the surface at its centre and the picture plane there.
+double tilt_of(const RigidSurface& surface) {
+    return degrees_of_cosine(facing(surface.metric(surface.centre)));
+}
+
+// The error of a solution from its covariance, and from those that explain as much.
+void find_errors(const Problem& problem, const std::vector<RigidBundle>& solutions, RigidFit& fit) {
+    const RigidBundle& best = solutions.front();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(best.information());
+    double squares = 0, tilt = 0;
+    for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
+        const double deviation = 1 / std::sqrt(std::max(solver.eigenvalues()[k], 1e-6));
+        for (const double sign : {-1.0, 1.0}) {
+            const RigidSurface other = best.moved(sign * deviation * solver.eigenvectors().col(k));
+            const double apart = std::min(kImpossible, between(fit.surface, other, problem.places));
+            squares += 0.5 * apart * apart;
+            const double turned = tilt_of(other) - fit.tilt_deg;
+            tilt += 0.5 * turned * turned;
+        }
+    }
+    double all = 1, others = 0;
+    for (std::size_t k = 1; k < solutions.size(); ++k) {
+        const auto likely = static_cast<double>(
+            std::exp(-0.5L * static_cast<long double>(solutions[k].cost() - best.cost())));
+        const double apart =
+            std::min(kImpossible, between(fit.surface, solutions[k].surface(), problem.places));
+        all += likely;
+        others += likely * apart * apart;
+    }
+    fit.error = std::sqrt(squares + others / all);
+    fit.tilt_error_deg = std::sqrt(tilt);
+}
+
+}  // namespace
+
+double RigidFit::belief() const {
+    if (!(log_stretch > 0)) return 0;
+    return std::max(0.0, 1 - error * error / (log_stretch * log_stretch));
+}
+
+std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,
+                                          std::optional<double> tangent) {
+    const auto problem = problem_of(frames, picture, tangent);
+    if (!problem) return std::nullopt;
+    double sigma = problem->least_sigma;
+    std::vector<RigidBundle> solutions = planes(*problem, sigma);
+    if (solutions.empty()) return std::nullopt;
+    RigidFit out;
+    if (solutions.front().residual_px() > 2 * sigma) {
+        std::vector<RigidBundle> bent = curved(*problem, solutions, sigma);
+        if (bent.empty()) return std::nullopt;
+        sigma = std::max(sigma, bent.front().residual_px());
+        // Under the noise that the better one leaves: is a plane as likely?
+        solutions = planes(*problem, sigma);
+        bent = curved(*problem, solutions, sigma);
+        if (bent.empty()) return std::nullopt;
+        constexpr double kForRelief = 12;  // of the cost, that its freedom is worth
+        if (bent.front().cost() + kForRelief < solutions.front().cost()) {
+            solutions = std::move(bent);
+            out.plane = false;
+        }
+    }
+    const RigidBundle& best = solutions.front();
+    out.surface = best.surface();
+    out.residual_px = best.residual_px();
+    if (out.residual_px > 2 * problem->least_sigma &&
+        out.residual_px > kNotRigid * beyond_similarity_px(*problem))
+        return std::nullopt;
+    out.frames = static_cast<int>(frames.size());
+    out.turn_deg = turn_of(out.surface, best.poses());
+    out.tilt_deg = tilt_of(out.surface);
+    out.log_stretch = rms_over(problem->places, [&](Vec2 p) {
+        return log_stretch_between({1, 0, 1}, out.surface.metric(p));
+    });
+    out.fov_deg = static_cast<double>(
+        2 *
+        std::atan(0.5L * static_cast<long double>(out.surface.tangent) * picture.width /
+                  static_cast<long double>(out.surface.long_side)) *
+        180 / std::numbers::pi_v<long double>);
+    find_errors(*problem, solutions, out);
+    return out;
+}
+
+}  // namespace weft

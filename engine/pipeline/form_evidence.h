@@ -1,0 +1,28 @@
+#pragma once
+// What a region shows of its form on a frame. Internal to the folder.
+
+#include <vector>
+
+#include "engine/form/metric_field.h"
+#include "engine/motion/lattice_field.h"
+#include "engine/pipeline/sweep.h"
+
+namespace weft {
+
+struct FormEvidence {
+    Matte visible;
+    LatticeField ref_from_cur;
+};
+
+/// Of all `frames`, the reference frame first. Needs their mattes and kCoords. Errors: those of the
+/// source and the store; cancellation.
+[[nodiscard]] Expected<std::vector<FormEvidence>> form_evidence_on(const PassContext& context,
+                                                                   const AnalysisStore& store,
+                                                                   int region,
+                                                                   const std::vector<int>& frames);
+
+/// A field, still empty, over the reference frame and all that the evidence shows beyond it, at
+/// most a frame's size away.
+[[nodiscard]] MetricField field_over(Size plate, const std::vector<FormEvidence>& evidence);
+
+}  // namespace weft

@@ -1,0 +1,120 @@
+#include "engine/pipeline/form_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/form/flatten.h"
+#include "engine/form/pulled_back.h"
+#include "engine/form/rigid_fit.h"
+#include "engine/form/view_camera.h"
+
+namespace weft {
+namespace {
+
+constexpr double kMatches = 60;  // of a frame
+constexpr int kLeastMatches = 16;
+constexpr double kMargin = 6.0 / 854;  // from the outline, where motion is a mixture
+constexpr double kLeastBelief = 0.5;
+constexpr double kLeastStretch = 0.02;   // ln; less is not seen
+constexpr double kLeastNearness = 0.04;  // of a plane towards its horizon
+constexpr double kOtherFrames = 0.01;    // weight of places that the reference frame does not show
+
+FormMap flat_over(Size plate) {
+    return {{}, LatticeField(plate, std::max(plate.width, plate.height)), {}};
+}
+
+// Whether a place and its surroundings lie inside of a matte.
+bool well_inside(const Matte& matte, Vec2 place, int margin) {
+    const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y));
+    if (x < margin || y < margin || x >= matte.width() - margin || y >= matte.height() - margin)
+        return false;
+    for (const int v : {y - margin, y, y + margin})
+        for (const int u : {x - margin, x, x + margin})
+            if (matte.row(v)[u] != 255) return false;
+    return true;
+}
+
+Vec2 centre_of_pixel(int x, int y) {
+    return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+}
+
+std::vector<FrameMatches> matches_of(const std::vector<FormEvidence>& evidence, Size plate) {
+    const int margin =
+        std::max(1, static_cast<int>(kMargin * std::max(plate.width, plate.height) + 0.5));
+    std::vector<FrameMatches> out;
+    for (std::size_t k = 1; k < evidence.size(); ++k) {
+        const FormEvidence& at = evidence[k];
+        const auto inside = static_cast<double>(std::count(
+            at.visible.data(), at.visible.data() + at.visible.size_bytes(), std::uint8_t{255}));
+        const int step = std::max(2, static_cast<int>(std::sqrt(inside / kMatches)));
+        FrameMatches m;
+        for (int y = step / 2; y < plate.height; y += step) {
+            for (int x = step / 2; x < plate.width; x += step) {
+                const Vec2 frame = centre_of_pixel(x, y);
+                if (!well_inside(at.visible, frame, margin)) continue;
+                const Vec2 reference = frame + at.ref_from_cur.at(frame);
+                if (!well_inside(evidence[0].visible, reference, margin)) continue;
+                m.reference.push_back(reference);
+                m.frame.push_back(frame);
+            }
+        }
+        if (m.reference.size() >= kLeastMatches) out.push_back(std::move(m));
+    }
+    return out;
+}
+
+// Adds the surface at the places that a frame shows of it.
+void add_places(MetricField& field, const RigidSurface& surface, const FormEvidence& at,
+                double weight) {
+    const int step = std::max(1, field.spacing() / 4);
+    for (int y = step / 2; y < at.visible.height(); y += step) {
+        for (int x = step / 2; x < at.visible.width(); x += step) {
+            if (at.visible.row(y)[x] != 255) continue;
+            const Vec2 frame = centre_of_pixel(x, y);
+            const Vec2 place = frame + at.ref_from_cur.at(frame);
+            if (!(surface.nearness(place) >= kLeastNearness)) continue;
+            const Metric metric = surface.metric(place);
+            const double cosine = facing(metric);
+            if (cosine > 0) field.add(place, metric, weight * cosine * cosine);
+        }
+    }
+}
+
+std::optional<double> tangent_of(std::optional<double> fov_deg, Size plate) {
+    if (!fov_deg) return std::nullopt;
+    return std::max(plate.width, plate.height) / camera_with(*fov_deg, plate).focal_px;
+}
+
+}  // namespace
+
+FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
+                         std::optional<double> fov_deg) {
+    const auto fit =
+        fit_rigid_surface(matches_of(evidence, plate), plate, tangent_of(fov_deg, plate));
+    if (!fit || fit->belief() < kLeastBelief || fit->log_stretch < kLeastStretch)
+        return flat_over(plate);
+    const RigidSurface& surface = fit->surface;
+    MetricField field = field_over(plate, evidence);
+    add_places(field, surface, evidence.front(), 1);
+    MetricField::Beyond beyond;
+    if (fit->plane) {
+        for (std::size_t k = 1; k < evidence.size(); ++k)
+            add_places(field, surface, evidence[k], kOtherFrames);
+        beyond = [&surface](Vec2 place) {
+            return surface.nearness(place) >= kLeastNearness ? std::optional(surface.metric(place))
+                                                             : std::nullopt;
+        };
+    }
+    if (!field.finish(beyond)) return flat_over(plate);
+    FormMap out = flat_from_reference(field);
+    out.finding = {FormFinding::Source::kMotion,
+                   fit->plane,
+                   fit->frames,
+                   static_cast<float>(fit->belief()),
+                   static_cast<float>(fit->tilt_deg),
+                   static_cast<float>(fit->tilt_error_deg),
+                   static_cast<float>(fit->fov_deg)};
+    return out;
+}
+
+}  // namespace weft
