@@ -240,7 +240,8 @@ std::vector<Parameter<Region>> make_region_table() {
             {.group = "form",
              .key = "depth_kind",
              .flag = "--depth-kind",
-             .help = "For --form depth: distances along the camera's axis or along the rays"}),
+             .help =
+                 "What the depth pass holds: distances along the camera's axis or along the rays"}),
         entry<R, &R::form, &FormParams::fov_deg>(
             {.group = "form",
              .key = "fov_deg",

@@ -11,6 +11,7 @@
 #include "engine/core/setting.h"
 #include "engine/media/image_files.h"
 #include "engine/media/pass_channels.h"
+#include "engine/media/picture_file.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
 
@@ -33,6 +34,12 @@ constexpr std::array kNormalLayers{"Normal",  "normal",       "N", "normals", "N
 constexpr VectorPass kPlaces{"position", kPlaceLayers, setting::kPositionLayer};
 constexpr VectorPass kNormals{"normal", kNormalLayers, setting::kNormalLayer};
 const std::array<Names, 3> kAxes{{{"X", "Y", "Z"}, {"R", "G", "B"}, {"x", "y", "z"}}};
+
+// An unreadable file is none; reading it says why.
+bool is_exr(const std::string& path) {
+    const auto input = open_picture(path);
+    return input && std::string_view((*input)->format_name()) == "openexr";
+}
 
 bool is_layer(std::string_view layer, std::string_view wanted) {
     if (!layer.ends_with(wanted)) return false;
@@ -118,7 +125,7 @@ Expected<ImageF3> read_positions(const std::string& path, const std::string& lay
 
 Expected<ImageF3> read_normals(const std::string& path, const std::string& layer, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
-    if (exr_channels(path)) return read_vectors(path, kNormals, layer, expected);
+    if (is_exr(path)) return read_vectors(path, kNormals, layer, expected);
     WEFT_TRY(picture, read_image(path, layer));
     if (picture.depth != PixelDepth::kU8 && picture.depth != PixelDepth::kU16) {
         return tl::unexpected(unreadable(path, "a normal pass in floating point is expected as EXR",
@@ -134,17 +141,17 @@ Expected<ImageF3> read_normals(const std::string& path, const std::string& layer
 
 Expected<ImageF1> read_depth(const std::string& path, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
-    const auto all = exr_channels(path);
-    if (!all) {
+    if (!is_exr(path)) {
         return tl::unexpected(
             unreadable(path, "only an EXR of half or float holds distances, which a form needs",
                        "Render the depth pass as EXR, without normalising it."));
     }
-    const auto name = depth_channel(*all);
+    WEFT_TRY(all, exr_channels(path));
+    const auto name = depth_channel(all);
     if (!name) {
         return tl::unexpected(
             unreadable(path, "it has no depth pass",
-                       "Give an EXR with a channel Z; its channels are: " + list_of(*all) + "."));
+                       "Give an EXR with a channel Z; its channels are: " + list_of(all) + "."));
     }
     Size size;
     WEFT_TRY(values, read_pass_channel(path, *name, "depth", size));

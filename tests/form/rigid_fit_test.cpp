@@ -13,8 +13,6 @@
 namespace weft {
 namespace {
 
-constexpr double kTangent = 320 / 300.0;
-
 // A camera that has moved by `shift` and turned about the upright axis by `turn` (radians).
 struct View {
     Vec3 shift{0};
@@ -92,60 +90,87 @@ double stretch_left(const Hit& hit, const RigidSurface& found) {
     return all[all.size() / 2];
 }
 
-TEST(RigidFit, AFloorIsFoundFromACameraThatMoves) {
-    const auto fit = fit_rigid_surface(
-        matches(floor_below,
-                {{{0.2f, 0, 0}, 0.05f}, {{0.4f, 0, 0.1f}, 0.1f}, {{0.7f, 0, 0.2f}, 0.15f}}, 0.05),
-        kSize, std::nullopt);
-    ASSERT_TRUE(fit);
-    EXPECT_TRUE(fit->plane);
-    std::printf(
-        "floor: belief %.3f error %.3f stretch %.3f tilt %.1f +- %.1f fov %.1f turn %.1f left "
-        "%.3f\n",
-        fit->belief(), fit->error, fit->log_stretch, fit->tilt_deg, fit->tilt_error_deg,
-        fit->fov_deg, fit->turn_deg, stretch_left(floor_below, fit->surface));
+std::optional<RigidFit> fit(const Hit& hit, const std::vector<View>& views,
+                            double noise_px = 0.05) {
+    return fit_rigid_surface(matches(hit, views, noise_px), kSize, std::nullopt);
 }
 
-TEST(RigidFit, AColumn) {
-    const Hit column = [](Vec3 r) { return sphere(r, {0, 0, 4}, 1, {1, 0, 1}); };
-    for (const float turn : {0.05f, 0.1f, 0.2f, 0.3f}) {
-        const auto fit =
-            fit_rigid_surface(matches(column, round_about(4, turn), 0.05), kSize, std::nullopt);
-        if (!fit) {
-            std::printf("column %.2f: nothing\n", turn);
-            continue;
-        }
-        std::printf(
-            "column %.2f: plane %d belief %.3f error %.3f stretch %.3f tilt %.1f +- %.1f fov %.1f "
-            "turn %.1f residual %.3f left %.3f\n",
-            turn, fit->plane, fit->belief(), fit->error, fit->log_stretch, fit->tilt_deg,
-            fit->tilt_error_deg, fit->fov_deg, fit->turn_deg, fit->residual_px,
-            stretch_left(column, fit->surface));
-    }
+float column(Vec3 r) {
+    return sphere(r, {0, 0, 4}, 1, {1, 0, 1});
 }
 
-TEST(RigidFit, Turns) {
-    for (const float turn : {0.0f, 0.02f, 0.05f, 0.1f, 0.2f, 0.3f}) {
-        const auto fit = fit_rigid_surface(matches(floor_below, round_about(4, turn), 0.05), kSize,
-                                           std::nullopt);
-        if (!fit) {
-            std::printf("floor %.2f: nothing\n", turn);
-            continue;
-        }
-        std::printf(
-            "floor %.2f: plane %d belief %.3f error %.3f stretch %.3f tilt %.1f +- %.1f fov %.1f "
-            "turn %.1f residual %.3f left %.3f\n",
-            turn, fit->plane, fit->belief(), fit->error, fit->log_stretch, fit->tilt_deg,
-            fit->tilt_error_deg, fit->fov_deg, fit->turn_deg, fit->residual_px,
-            stretch_left(floor_below, fit->surface));
+TEST(RigidFit, AFloorIsFoundWithTheFieldOfView) {
+    const auto found = fit(floor_below, round_about(4, 0.1f));
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->plane);
+    EXPECT_NEAR(found->fov_deg, 56.1, 2);
+    EXPECT_GT(found->belief(), 0.98);
+    EXPECT_LT(found->tilt_error_deg, 2);
+    EXPECT_LT(stretch_left(floor_below, found->surface), 1.03);
+}
+
+TEST(RigidFit, AColumnIsCurved) {
+    const auto found = fit(column, round_about(4, 0.2f));
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->plane);
+    EXPECT_GT(found->belief(), 0.95);
+    EXPECT_LT(stretch_left(column, found->surface), 1.02);
+}
+
+// The less the view turns, the larger the error, and the less of the form is believed.
+TEST(RigidFit, TheErrorIsAsLargeAsTheMotionIsSmall) {
+    double before = 1e9;
+    for (const float turn : {0.02f, 0.05f, 0.1f, 0.2f, 0.3f}) {
+        const auto found = fit(floor_below, round_about(4, turn));
+        ASSERT_TRUE(found);
+        EXPECT_LT(found->error, before) << turn;
+        before = found->error;
     }
+    EXPECT_LT(before, 0.01);
+}
+
+// It turns about its own place, and all surfaces move alike.
+TEST(RigidFit, APanShowsNoForm) {
     std::vector<View> pan;
-    for (const float a : {-0.2f, -0.1f, 0.1f, 0.2f})
-        pan.push_back({Vec3(0), a});
-    const auto fit = fit_rigid_surface(matches(floor_below, pan, 0.05), kSize, std::nullopt);
-    if (fit)
-        std::printf("pan: plane %d belief %.3f error %.3f stretch %.3f fov %.1f\n", fit->plane,
-                    fit->belief(), fit->error, fit->log_stretch, fit->fov_deg);
+    for (const float turn : {-0.2f, -0.1f, 0.1f, 0.2f})
+        pan.push_back({Vec3(0), turn});
+    const auto found = fit(floor_below, pan);
+    ASSERT_TRUE(found);
+    EXPECT_LT(found->belief(), 0.2);
+}
+
+TEST(RigidFit, AStillPictureShowsNoForm) {
+    const auto found = fit(floor_below, {{}, {}, {}}, 0.1);
+    ASSERT_TRUE(found);
+    EXPECT_LT(found->belief(), 0.5);
+}
+
+// A cloth whose waves run through it.
+TEST(RigidFit, WhatBendsIsNotRigid) {
+    std::vector<FrameMatches> frames;
+    for (int t = 1; t <= 6; ++t) {
+        FrameMatches m;
+        for (int y = 20; y < 220; y += 24) {
+            for (int x = 40; x < 280; x += 24) {
+                m.reference.push_back({static_cast<float>(x), static_cast<float>(y)});
+                const float wave =
+                    6 * std::sin(0.05f * static_cast<float>(x) + 1.3f * static_cast<float>(t));
+                m.frame.push_back(
+                    {static_cast<float>(x) + wave, static_cast<float>(y) + 0.5f * wave});
+            }
+        }
+        frames.push_back(std::move(m));
+    }
+    const auto found = fit_rigid_surface(frames, kSize, std::nullopt);
+    EXPECT_TRUE(!found || found->belief() < 0.5) << found->belief() << ' ' << found->residual_px;
+}
+
+TEST(RigidFit, TooFewMatchesAreNoEvidence) {
+    EXPECT_FALSE(fit_rigid_surface({}, kSize, std::nullopt));
+    std::vector<FrameMatches> few = matches(floor_below, round_about(4, 0.1f), 0);
+    for (FrameMatches& m : few)
+        m.reference.resize(5), m.frame.resize(5);
+    EXPECT_FALSE(fit_rigid_surface(few, kSize, std::nullopt));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(ProjectJson, EverythingSurvivesARoundTrip) {
 TEST(ProjectJson, TheSameProjectGivesTheSameBytes) {
     const std::string once = write(full_project());
     EXPECT_EQ(write(read(once)), once);
-    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/3\",\n")) << once.substr(0, 60);
+    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/4\",\n")) << once.substr(0, 60);
     EXPECT_TRUE(once.ends_with("}\n"));
     EXPECT_THAT(once, HasSubstr("\"scale\": 0.1,"));
     EXPECT_THAT(once, HasSubstr("\"seed\": 9007199254740991"));
@@ -74,7 +74,7 @@ TEST(ProjectJson, UnknownKeysSurviveAtEveryLevel) {
 
 TEST(ProjectJson, MissingKeysHaveTheirDefaults) {
     const Project project =
-        read(R"({"schema": "weft.project/3", "regions": [{"name": "a"}, {"id": 5}, {}]})");
+        read(R"({"schema": "weft.project/4", "regions": [{"name": "a"}, {"id": 5}, {}]})");
     ASSERT_EQ(project.regions.size(), 3u);
     Region expected;
     expected.id = 6;  // after the largest that is given
@@ -132,11 +132,11 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     second.texture.plane = "p.png";
     second.light.source = LightSource::kNone;
     for (Region* region : {&wall, &second})  // what later versions do of their own accord
-        region->light.cast = 0, region->grade.match = 0;
+        region->light.cast = 0, region->grade.match = 0, region->form.source = FormSource::kPass;
     expected.regions = {Leaf(wall), Leaf(second)};
     expected.next_region_id = 3;
     EXPECT_EQ(project, expected);
-    EXPECT_THAT(write(project), HasSubstr("\"weft.project/3\""));
+    EXPECT_THAT(write(project), HasSubstr("\"weft.project/4\""));
 }
 
 // A new region is matched to the plate; one that was saved before that keeps its look.
@@ -150,6 +150,17 @@ TEST(ProjectJson, TheLookOfVersion2Stays) {
     EXPECT_EQ(project.regions[1]->light.strength, 0.7);
     EXPECT_EQ(Region{}.grade.match, 1.0);
     EXPECT_FALSE(Region{}.light.cast);
+}
+
+// A new region takes its form from the clip; one that was saved before that stays as it lay.
+TEST(ProjectJson, RegionsOfVersion3KeepTheirForm) {
+    const Project project = read(R"({"schema": "weft.project/3", "regions": [
+        {"id": 1}, {"id": 2, "form": {"position": "P.exr"}}, {"id": 3, "form": {"source": "flat"}}]})");
+    EXPECT_EQ(project.regions[0]->form.source, FormSource::kPass);
+    EXPECT_EQ(project.regions[1]->form.source, FormSource::kPass);
+    EXPECT_EQ(project.regions[1]->form.position, "P.exr");
+    EXPECT_EQ(project.regions[2]->form.source, FormSource::kFlat);
+    EXPECT_EQ(Region{}.form.source, FormSource::kAuto);
     EXPECT_EQ(read(write(project)), project);
 }
 
@@ -182,11 +193,11 @@ TEST(ProjectJson, WhatVersion1CouldNotRenderIsAnErrorWithItsPlace) {
 }
 
 TEST(ProjectJson, ANewerVersionIsRefusedWithWhatToDo) {
-    const auto project = project_from_json(R"({"schema": "weft.project/4"})");
+    const auto project = project_from_json(R"({"schema": "weft.project/5"})");
     ASSERT_FALSE(project);
     EXPECT_EQ(project.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(project.error().text(), HasSubstr("version 4"));
-    EXPECT_THAT(project.error().text(), HasSubstr("up to version 3"));
+    EXPECT_THAT(project.error().text(), HasSubstr("version 5"));
+    EXPECT_THAT(project.error().text(), HasSubstr("up to version 4"));
     EXPECT_THAT(project.error().text(), HasSubstr("update Weft"));
 }
 

@@ -48,7 +48,16 @@ Region full_region() {
     r.amendments = std::vector<PlaneAmendment>{
         {PlaneAmendment::Kind::kKeep, 0, {{10, 20, 30, 1, 2, 0, 0}, {10, 21, 1, 3, 4, 2, 5}}},
         {PlaneAmendment::Kind::kAgain, 4000000000u, {{-3, 7, 12, 0, 0, 0, 0}}}};
-    r.form = {"position/####.exr", "shot.Position", 0.75, {}};
+    r.form = {FormSource::kDepth,
+              "position/####.exr",
+              "shot.Position",
+              "normal/####.exr",
+              "shot.Normal",
+              NormalSpace::kWorld,
+              DepthKind::kRay,
+              47.5,
+              0.75,
+              {}};
     r.placement.uv = "uv/####.exr";
     r.placement.uv_layer = "shot.UV";
     r.motion = {"flow/####.flo",
@@ -111,7 +120,7 @@ Project full_project() {
 
 std::string json_with_unknown_keys() {
     return R"({
-  "schema": "weft.project/3",
+  "schema": "weft.project/4",
   "future_top": {"deep": [1, {"x": null}], "big": 1e300},
   "plate": {"path": "frames/####.png", "future_plate": "p"},
   "color": {"future_color": 0.1},
