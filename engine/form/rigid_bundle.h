@@ -28,7 +28,7 @@ struct RigidPrior {
 /// kIndependent numbers, since a track's errors are alike in a neighbourhood.
 class RigidBundle {
   public:
-    static constexpr double kIndependent = 12;
+    static constexpr double kIndependent = 8;
 
     /// `frames` must outlive the bundle; `poses`: one for each of them.
     RigidBundle(const std::vector<FrameMatches>& frames, RigidSurface surface,

@@ -15,7 +15,7 @@ namespace weft {
 namespace {
 
 constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
-constexpr double kTrackError = 0.15 / 854;  // of a track that fits well, by the long side
+constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the long side
 constexpr double kNotRigid = 0.3;           // of the motion beyond a similarity that may be left
 constexpr std::array kTangents{0.5, 0.9, 1.5};
 constexpr std::array kSlopes{0.25, 0.7};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/form/flatten.h"
 #include "engine/form/pulled_back.h"
@@ -14,10 +15,20 @@ namespace {
 constexpr double kMatches = 60;  // of a frame
 constexpr int kLeastMatches = 16;
 constexpr double kMargin = 6.0 / 854;  // from the outline, where motion is a mixture
-constexpr double kLeastBelief = 0.5;
-constexpr double kLeastStretch = 0.02;   // ln; less is not seen
-constexpr double kLeastNearness = 0.04;  // of a plane towards its horizon
-constexpr double kOtherFrames = 0.01;    // weight of places that the reference frame does not show
+// What has to hold for a form to be laid at all. A wrong one is worse than none: tracks that slide
+// look like the motion of some other form, often in front of a camera that nobody has.
+constexpr double kLeastBelief = 0.6;
+constexpr double kMostError = 0.3;    // ln stretch
+constexpr double kLeastTurn_deg = 4;  // of the viewing direction
+constexpr double kMostTurn_deg = 80;
+constexpr double kLeastFov_deg = 18, kMostFov_deg = 85;
+constexpr double kMostResidual = 0.6 / 854;  // by the long side
+constexpr double kLeastStretch = 0.02;       // ln; less is not seen
+constexpr double kLeastNearness = 0.04;      // of a plane towards its horizon
+// A plane goes on for that share of the least nearness seen: what is further is the horizon, whose
+// areas would outweigh all that is seen.
+constexpr double kFurther = 0.6;
+constexpr double kOtherFrames = 0.01;  // weight of places that the reference frame does not show
 
 FormMap flat_over(Size plate) {
     return {{}, LatticeField(plate, std::max(plate.width, plate.height)), {}};
@@ -63,26 +74,38 @@ std::vector<FrameMatches> matches_of(const std::vector<FormEvidence>& evidence, 
     return out;
 }
 
-// Adds the surface at the places that a frame shows of it.
-void add_places(MetricField& field, const RigidSurface& surface, const FormEvidence& at,
-                double weight) {
+// Adds the surface at the places that a frame shows of it. Returns the least nearness of them.
+double add_places(MetricField& field, const RigidSurface& surface, const FormEvidence& at,
+                  double weight) {
     const int step = std::max(1, field.spacing() / 4);
+    double least = std::numeric_limits<double>::infinity();
     for (int y = step / 2; y < at.visible.height(); y += step) {
         for (int x = step / 2; x < at.visible.width(); x += step) {
             if (at.visible.row(y)[x] != 255) continue;
             const Vec2 frame = centre_of_pixel(x, y);
             const Vec2 place = frame + at.ref_from_cur.at(frame);
-            if (!(surface.nearness(place) >= kLeastNearness)) continue;
+            const double nearness = surface.nearness(place);
+            if (!(nearness >= kLeastNearness)) continue;
+            least = std::min(least, nearness);
             const Metric metric = surface.metric(place);
             const double cosine = facing(metric);
             if (cosine > 0) field.add(place, metric, weight * cosine * cosine);
         }
     }
+    return least;
 }
 
 std::optional<double> tangent_of(std::optional<double> fov_deg, Size plate) {
     if (!fov_deg) return std::nullopt;
     return std::max(plate.width, plate.height) / camera_with(*fov_deg, plate).focal_px;
+}
+
+bool believable(const RigidFit& fit, Size plate) {
+    return fit.belief() >= kLeastBelief && fit.error <= kMostError &&
+           fit.turn_deg >= kLeastTurn_deg && fit.turn_deg <= kMostTurn_deg &&
+           fit.fov_deg >= kLeastFov_deg && fit.fov_deg <= kMostFov_deg &&
+           fit.residual_px <= kMostResidual * std::max(plate.width, plate.height) &&
+           fit.log_stretch >= kLeastStretch;
 }
 
 }  // namespace
@@ -91,18 +114,18 @@ FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
                          std::optional<double> fov_deg) {
     const auto fit =
         fit_rigid_surface(matches_of(evidence, plate), plate, tangent_of(fov_deg, plate));
-    if (!fit || fit->belief() < kLeastBelief || fit->log_stretch < kLeastStretch)
-        return flat_over(plate);
+    if (!fit || !believable(*fit, plate)) return flat_over(plate);
     const RigidSurface& surface = fit->surface;
     MetricField field = field_over(plate, evidence);
-    add_places(field, surface, evidence.front(), 1);
+    double least = add_places(field, surface, evidence.front(), 1);
     MetricField::Beyond beyond;
     if (fit->plane) {
         for (std::size_t k = 1; k < evidence.size(); ++k)
-            add_places(field, surface, evidence[k], kOtherFrames);
-        beyond = [&surface](Vec2 place) {
-            return surface.nearness(place) >= kLeastNearness ? std::optional(surface.metric(place))
-                                                             : std::nullopt;
+            least = std::min(least, add_places(field, surface, evidence[k], kOtherFrames));
+        least *= kFurther;
+        beyond = [&surface, least](Vec2 place) {
+            return surface.nearness(place) >= least ? std::optional(surface.metric(place))
+                                                    : std::nullopt;
         };
     }
     if (!field.finish(beyond)) return flat_over(plate);
