@@ -72,6 +72,8 @@ class Planner {
                 region.light.source = LightSource::kNone;
                 region.lines = LineParams{};
             }
+            // Other methods know no form.
+            region.form.source = FormSource::kFlat;
             // Grain is new in every frame, as in the plate, and is not flicker of the method. Blur
             // would lower every method's TDE.
             region.finish.grain = region.finish.focus = 0;

@@ -238,11 +238,15 @@ class FrameFiller {
         return {};
     }
 
-    // The form as the reference frame alone shows it.
+    // The form as it was found before, else as the reference frame alone shows it.
     Status fill_form(int index, int reference) {
         RegionPlan& region = region_at(index);
         const AnalysisKey key{index, reference, AnalysisKind::kForm};
         if (!region.has_form() || store_.has(key)) return {};
+        const auto alike = [&](const RegionPlan& then) {
+            return then.form_from == region.form_from && then.reference_frames.front() == reference;
+        };
+        if (fill_from_earlier(key, alike)) return {};
         const AnalysisKey still{index, reference, AnalysisKind::kCoords};
         if (!store_.has(still)) store_.put_beneath(still, encode(still_on(region, reference)));
         const PassContext context{source_, plan_, cancel_, {}, nullptr};

@@ -30,6 +30,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/project/parameter_entry.h", "internal: tests/project, through parameters.h"},
     {"app/project/parameter_lists.h", "internal: tests/project, through parameters.h"},
     {"app/render/output_plan.h", "tests/cli: every command that writes"},
+    {"app/shot/form_files.h", "internal: tests/shot and tests/render, through shot.h"},
     {"app/session/action.h", "tests/ui, through session.h"},
     {"app/session/child_jobs.h", "tests/ui, through session_view.h"},
     {"app/session/session_measuring.h", "internal to the session"},
