@@ -28,21 +28,19 @@ template <int Even>
     const F4 a = __builtin_shufflevector(w, w, Even, Even, Even, Even);
     const F4 b = __builtin_shufflevector(w, w, Even + 1, Even + 1, Even + 1, Even + 1);
     Pair v;
-    std::memcpy(&v, &a, sizeof a);
-    std::memcpy(reinterpret_cast<char*>(&v) + sizeof a, &b, sizeof b);
+    join(a, b, v.part);
     return v;
 }
 [[gnu::always_inline]] inline F4 folded_sum(const Pair& sum) {
-    F4 a, b;
-    std::memcpy(&a, &sum, sizeof a);
-    std::memcpy(&b, reinterpret_cast<const char*>(&sum) + sizeof a, sizeof b);
-    return a + b;
+    return added(sum.part);
 }
 
 [[gnu::always_inline]] inline Pair load_two(const float* even, const float* odd) {
+    F4 a, b;
+    std::memcpy(&a, even, sizeof a);
+    std::memcpy(&b, odd, sizeof b);
     Pair v;
-    std::memcpy(&v, even, sizeof(F4));
-    std::memcpy(reinterpret_cast<char*>(&v) + sizeof(F4), odd, sizeof(F4));
+    join(a, b, v.part);
     return v;
 }
 
