@@ -56,9 +56,10 @@ PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_p
 }
 
 ImageF3 transformed(const ImageF3& image, const ColorTransform& transform) {
-    ImageF3 out = image;
-    if (transform.identity()) return out;
+    if (transform.identity()) return image;
+    ImageF3 out(image.size());
     parallel_rows(out.height(), kBand, [&](int y0, int y1) {
+        std::copy(image.row(y0), image.row(y0) + (y1 - y0) * image.stride(), out.row(y0));
         transform.apply(out.view().crop({0, y0, out.width(), y1}));
     });
     return out;

@@ -38,11 +38,15 @@ class FrameRenderer {
           backend_(backend),
           frame_(frame),
           plate_(std::move(plate)),
-          working_(transformed(*plate_, *plan.working_from_plate)),
-          canvas_(working_),
+          working_(plate_->size()),
+          canvas_(plate_->size()),
+          ready_(static_cast<std::size_t>(plate_->height())),
           touched_(plate_->size()) {
         if (plan.layers) layers_.emplace(plate_->size());
-        if (place == Place::kDevice) device_ = backend.open_frame(canvas_);
+        if (place == Place::kDevice) {
+            make_ready(rect_of(plate_->size()));
+            device_ = backend.open_frame(canvas_);
+        }
     }
 
     /// After an error: true if the device failed, so that the CPU can still render the frame.
@@ -51,6 +55,8 @@ class FrameRenderer {
     Expected<RenderedFrame> finish();
 
   private:
+    // Fills working_ and canvas_ over the box, where that has not been done.
+    void make_ready(const Recti& box);
     [[nodiscard]] Expected<Matte> composite_matte(int index);
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
@@ -82,8 +88,13 @@ class FrameRenderer {
     const Backend& backend_;
     int frame_;
     std::shared_ptr<const ImageF3> plate_;
-    const ImageF3 working_;  // the plate in the working space
-    ImageF3 canvas_;         // layers go over it
+    ImageF3 working_;  // the plate in the working space; only the spans of ready_
+    ImageF3 canvas_;   // layers go over it; the same
+    struct Span {
+        int x0 = 0, x1 = 0;
+    };
+    std::vector<Span> ready_;  // of each row
+    Recti rendered_;           // around all regions
     Matte touched_;
     std::optional<FrameLayers> layers_;
     std::optional<PlateViews> views_;
@@ -114,6 +125,30 @@ bool fits_device(const RegionPlan& region, const RegionScene& scene) {
     const bool grain = region.grain > 0 && scene.grain.present();
     return light && region.grade == Grade{} && !region.blends() && !grain && !region.has_uv &&
            !region.exact_light && !(region.focus > 0) && !region.has_lines && !region.extract_lines;
+}
+
+// True if a region's light or focus follows from the plate beyond the region.
+bool needs_whole_plate(const RegionPlan& region) {
+    return region.light_pass == RegionPlan::Pass::kAlbedo || (region.focus > 0 && region.has_depth);
+}
+
+void FrameRenderer::make_ready(const Recti& box) {
+    const auto convert = [&](int x0, int x1, int y) {
+        if (x0 >= x1) return;
+        float* to = working_.pixel(x0, y);
+        std::copy(plate_->pixel(x0, y), plate_->pixel(x1, y), to);
+        plan_.working_from_plate->apply(working_.view().crop({x0, y, x1, y + 1}));
+        std::copy(to, to + static_cast<std::ptrdiff_t>(3) * (x1 - x0), canvas_.pixel(x0, y));
+    };
+    parallel_rows(box.height(), 16, [&](int r0, int r1) {
+        for (int y = box.y0 + r0; y < box.y0 + r1; ++y) {
+            Span& ready = ready_[static_cast<std::size_t>(y)];
+            if (ready.x0 == ready.x1) ready = {box.x0, box.x0};
+            convert(box.x0, ready.x0, y);
+            convert(ready.x1, box.x1, y);
+            ready = {std::min(ready.x0, box.x0), std::max(ready.x1, box.x1)};
+        }
+    });
 }
 
 Expected<Matte> FrameRenderer::composite_matte(int index) {
@@ -233,6 +268,8 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
         const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
         std::copy(row, row + box.width(), inside.row(y));
     }
+    make_ready(needs_whole_plate(region_of(plan_, index)) ? rect_of(plate_->size()) : box);
+    rendered_ = rendered_.united(box);
     lit_ = lit_ || region_of(plan_, index).lights() || region_of(plan_, index).grades();
     WEFT_TRY(light, FrameLight::find(
                         {source_, plan_, store_, index, frame_, working_, scene, matte, box}));
@@ -249,8 +286,11 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     } else {
         WEFT_CHECK_OK(add_on_cpu(index, surface, box, scene, matte, inside, light));
     }
-    std::transform(matte.data(), matte.data() + matte.size_bytes(), touched_.data(),
-                   touched_.data(), [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+    for (int y = 0; y < box.height(); ++y) {
+        std::uint8_t* touched = touched_.pixel(box.x0, box.y0 + y);
+        std::transform(inside.row(y), inside.row(y) + box.width(), touched, touched,
+                       [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+    }
     return {};
 }
 
@@ -266,12 +306,13 @@ Expected<RenderedFrame> FrameRenderer::finish() {
         WEFT_TRY(above_one, of_device(device_->finish(knee, canvas_)));
         out.above_one = above_one;
     } else if (rolls_off) {
-        out.above_one = roll_off(canvas_, touched_, kKnee);
+        out.above_one =
+            roll_off(canvas_.view().crop(rendered_), touched_.view().crop(rendered_), kKnee);
     }
-    plan_.out_from_working->apply(canvas_);
     out.pixels = transformed(*plate_, *plan_.out_from_plate);
-    for (int y = 0; y < touched_.height(); ++y) {
-        for (int x = 0; x < touched_.width(); ++x) {
+    if (!rendered_.empty()) plan_.out_from_working->apply(canvas_.view().crop(rendered_));
+    for (int y = rendered_.y0; y < rendered_.y1; ++y) {
+        for (int x = rendered_.x0; x < rendered_.x1; ++x) {
             if (touched_.at(x, y) == 0) continue;
             const float* p = plate_->pixel(x, y);
             if (!std::isfinite(p[0] + p[1] + p[2])) ++out.filled;
