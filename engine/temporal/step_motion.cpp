@@ -77,17 +77,17 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
     const RegistrationPicture &there = prev.picture(), &here = cur.picture();
-    const FlowField freed =
+    StepEvidence out{by_picture(now, prev_from_cur, spacing_px), {}, 0};
+    const FlowField flow =
         estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
-    StepEvidence out{by_picture(now, freed, spacing_px), {}, 0};
+    // Under grain, or where little of the surface is in view, the plate's own motion is steadier.
+    LatticeField freed = by_picture(now, flow, spacing_px);
+    if (registration_lead(there, here, freed, out.by_picture) > 0)
+        out.by_picture = std::move(freed);
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         return out;
     }
-    // Under grain the plate's own motion may be the steadier one.
-    LatticeField plain = by_picture(now, prev_from_cur, spacing_px);
-    if (registration_lead(there, here, plain, out.by_picture) > 0)
-        out.by_picture = std::move(plain);
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
     out.by_outline = by_outline(prev, cur, spacing_px);
@@ -96,8 +96,9 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
 }
 
 StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
+    // Structure that stands out speaks for the picture where it does not for a moment, too.
+    choice.note(evidence.by_outline ? evidence.lead : kMostLead);
     if (!evidence.by_outline) return {evidence.by_picture, false};
-    choice.note(evidence.lead);
     const bool outline = choice.by_outline();
     return {outline ? *evidence.by_outline : evidence.by_picture, outline};
 }

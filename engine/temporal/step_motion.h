@@ -38,10 +38,10 @@ struct StepEvidence {
     double lead = 0;  ///< then registration_lead() of the picture's motion before the outline's.
 };
 
-/// Gathers it. The picture's motion comes from pictures that are freed of light
-/// (estimate_surface_flow()), and where structure is faint (structure_to_noise()) also from the
-/// plate's own raw motion `prev_from_cur`; what explains more is taken. Pure, but for the caches of
-/// the frames: outlines are compared, so one thread at a time may use a frame.
+/// Gathers it. The picture's motion comes from the plate's raw motion `prev_from_cur`, or from
+/// pictures that are freed of light (estimate_surface_flow()) where that explains more. The
+/// outline's is measured where structure is faint (structure_to_noise()). Pure, but for the caches
+/// of the frames: outlines are compared, so one thread at a time may use a frame.
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
                                            const FlowField& prev_from_cur, FlowQuality quality,
                                            int spacing_px);

@@ -123,6 +123,13 @@ TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
     EXPECT_TRUE(choice.by_outline());
 }
 
+TEST(MotionChoice, StructureThatFadesForAFrameKeepsThePicture) {
+    const LatticeField still(kFrame, 8);
+    MotionChoice choice;
+    EXPECT_FALSE(choose_motion({still, {}, 0}, choice).by_outline);
+    EXPECT_FALSE(choose_motion({still, still, 0.5}, choice).by_outline);
+}
+
 TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
     for (const double lead : {4.0, -4.0}) {
         MotionChoice choice;
