@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/compare.h"
 #include "ui/panels.h"
 #include "ui/viewer.h"
 #include "ui/viewer_overlays.h"
@@ -12,7 +13,8 @@
 namespace weft::ui {
 namespace {
 
-constexpr int kQualityWidth = 52, kBarWidth = 658 + kQualityWidth + 4;  // px
+constexpr int kQualityWidth = 100, kCompareWidth = 84;
+constexpr int kBarWidth = 658 + kQualityWidth + kCompareWidth + 6;  // px
 
 // The view transform: a built-in curve, or a view of the OpenColorIO config.
 void screen_choice(Ctx& c) {
@@ -126,22 +128,9 @@ void layer_choice(Ctx& c) {
 
 // Draft or final, of what is seen.
 void quality_choice(Ctx& c) {
-    const Theme& t = c.theme;
-    const bool draft = c.view.preview_quality == Quality::kDraft;
-    ImGui::InvisibleButton("##Quality", {t.px(kQualityWidth - 6), t.px(26)});
-    c.note("Quality");
-    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({min.x, min.y + t.px(3)}, {max.x, max.y - t.px(3)},
-                       ImGui::IsItemHovered() ? t.hover : t.field, t.radius);
-    text_in(list, t.small, min, max, t.text, draft ? "Draft" : "Final");
-    std::string tip = draft ? "Quality of the preview: draft. Click for final"
-                            : "Quality of the preview: final. Click for draft";
-    if (c.view.preview.frame_seconds > 0)
-        tip += ". The last frame took " + number_text(c.view.preview.frame_seconds, 2) + " s";
-    tooltip(c, tip.c_str());
-    if (ImGui::IsItemClicked())
-        c.emit(SetPreviewQuality{draft ? Quality::kFinal : Quality::kDraft});
+    int quality = c.view.preview_quality == Quality::kDraft ? 0 : 1;
+    if (segments(c, "Quality", {"Draft", "Final"}, quality, c.theme.px(kQualityWidth - 6)))
+        c.emit(SetPreviewQuality{quality == 0 ? Quality::kDraft : Quality::kFinal});
 }
 
 }  // namespace
@@ -174,6 +163,8 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
             command->run(c);
         ImGui::SameLine();
     };
+    compare_choice(c, t.px(kCompareWidth - 4));
+    ImGui::SameLine(0, t.px(4));
     for (const char* id : {"view.plate", "view.wipe", "view.difference", "view.side", "view.four"})
         tool(id);
     ImGui::SameLine(0, t.px(10));

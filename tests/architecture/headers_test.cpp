@@ -31,6 +31,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/project/parameter_lists.h", "internal: tests/project, through parameters.h"},
     {"app/render/output_plan.h", "tests/cli: every command that writes"},
     {"app/session/action.h", "tests/ui, through session.h"},
+    {"app/base/detached_process.h", "tests/ui, through app/session/child_jobs.cpp"},
     {"app/session/child_jobs.h", "tests/ui, through session_view.h"},
     {"app/session/session_measuring.h", "internal to the session"},
 };
