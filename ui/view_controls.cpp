@@ -13,8 +13,13 @@
 namespace weft::ui {
 namespace {
 
-constexpr int kQualityWidth = 100, kCompareWidth = 84;
-constexpr int kBarWidth = 658 + kQualityWidth + kCompareWidth + 6;  // px
+constexpr int kQualityWidth = 88, kCompareWidth = 84, kBarWidth = 658 + kQualityWidth + 6;  // px
+// What the state of the picture needs beside the bar before a comparison is offered there, too.
+constexpr int kStateWidth = 220;  // px
+
+bool has_compare(const Ctx& c, float width) {
+    return width >= c.theme.px(kBarWidth + kCompareWidth + kStateWidth);
+}
 
 // The view transform: a built-in curve, or a view of the OpenColorIO config.
 void screen_choice(Ctx& c) {
@@ -135,10 +140,16 @@ void quality_choice(Ctx& c) {
 
 }  // namespace
 
+float view_controls_width(const Ctx& c, float width) {
+    const Theme& t = c.theme;
+    if (width < t.px(kBarWidth + 20)) return t.px(kQualityWidth);
+    return t.px(kBarWidth + (has_compare(c, width) ? kCompareWidth : 0));
+}
+
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
-    const bool all = max.x - min.x >= t.px(kBarWidth + 20);
-    const float bar_w = t.px(all ? kBarWidth : kQualityWidth);
+    const float bar_w = view_controls_width(c, max.x - min.x);
+    const bool all = bar_w > t.px(kQualityWidth);
     const ImVec2 at(std::floor(max.x - bar_w - t.px(4)), min.y);
     ImGui::SetCursorScreenPos({at.x + t.px(4), at.y + t.px(2)});
     const PanelName name(c, "View");
@@ -163,8 +174,10 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
             command->run(c);
         ImGui::SameLine();
     };
-    compare_choice(c, t.px(kCompareWidth - 4));
-    ImGui::SameLine(0, t.px(4));
+    if (has_compare(c, max.x - min.x)) {
+        compare_choice(c, t.px(kCompareWidth - 4));
+        ImGui::SameLine(0, t.px(4));
+    }
     for (const char* id : {"view.plate", "view.wipe", "view.difference", "view.side", "view.four"})
         tool(id);
     ImGui::SameLine(0, t.px(10));

@@ -285,7 +285,8 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
         x += t.px(24);
     }
     // Errors may use the whole bar except its controls.
-    const float room = std::max(t.px(60), max.x - x - t.px(616));
+    const float room =
+        std::max(t.px(60), max.x - x - view_controls_width(c, max.x - min.x) - t.px(12));
     ImGui::PushFont(t.small);
     const std::string shown = fitted(state.text, room);
     ImGui::PopFont();
