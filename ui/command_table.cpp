@@ -4,9 +4,12 @@
 #include <algorithm>
 
 #include "app/project/region_names.h"
+#include "ui/command_parts.h"
 #include "ui/commands.h"
+#include "ui/compare.h"
 #include "ui/ctx.h"
 #include "ui/icons.h"
+#include "ui/panels.h"
 
 namespace weft {
 namespace {
@@ -19,52 +22,6 @@ bool has_plate(const Ctx& c) {
 }
 bool has_region(const Ctx& c) {
     return c.view.selected_region() != nullptr;
-}
-
-Command command(const char* id, const char* category, const char* name, const char* icon,
-                const char* key, std::function<void(Ctx&)> run,
-                std::function<bool(const Ctx&)> enabled = {},
-                std::function<bool(const Ctx&)> checked = {}) {
-    Command out;
-    out.id = id;
-    out.category = category;
-    out.name = name;
-    out.icon = icon;
-    out.default_key = key;
-    out.run = std::move(run);
-    out.enabled = std::move(enabled);
-    out.checked = std::move(checked);
-    return out;
-}
-
-// Asks first if there is unsaved work.
-void leave_for(Ctx& c, const std::string& what) {
-    if (c.view.modified) {
-        c.state.leave_asked = true;
-        c.state.leave_then = what;
-        return;
-    }
-    if (what == "demo") {
-        c.emit(OpenDemo{});
-    } else if (what == "new") {
-        c.emit(NewProject{});
-    } else if (what == "close") {
-        c.emit(CloseProject{});
-    } else if (what == "browse") {
-        c.state.browser = {};
-        c.state.browser.purpose = BrowserState::Purpose::kOpen;
-        c.state.browser.just_opened = true;
-    } else if (what.empty()) {
-        c.state.leave = true;
-    }
-}
-
-void browse(Ctx& c, BrowserState::Purpose purpose) {
-    const std::string folder = c.state.browser.folder;
-    c.state.browser = {};
-    c.state.browser.folder = folder;
-    c.state.browser.purpose = purpose;
-    c.state.browser.just_opened = true;
 }
 
 void compare(Ctx& c, Compare wanted) {
@@ -90,35 +47,6 @@ void add_region(Ctx& c) {
     c.edit(AddRegion{region, {}});
 }
 
-void add_file_commands(std::vector<Command>& out) {
-    out.push_back(command("file.new", "File", "New project", icons::kFile, "Ctrl+N",
-                          [](Ctx& c) { leave_for(c, "new"); }));
-    out.push_back(command("file.open", "File", "Open…", icons::kFolderOpen, "Ctrl+O",
-                          [](Ctx& c) { leave_for(c, "browse"); }));
-    out.push_back(command("file.demo", "File", "Open demo shot", icons::kFilm, "",
-                          [](Ctx& c) { leave_for(c, "demo"); }));
-    out.push_back(command(
-        "file.save", "File", "Save", icons::kSave, "Ctrl+S",
-        [](Ctx& c) {
-            if (c.view.path.empty())
-                browse(c, BrowserState::Purpose::kSaveProject);
-            else
-                c.emit(Save{});
-        },
-        open));
-    out.push_back(command(
-        "file.save_as", "File", "Save as…", icons::kSave, "Ctrl+Shift+S",
-        [](Ctx& c) { browse(c, BrowserState::Purpose::kSaveProject); }, open));
-    out.push_back(command(
-        "file.textures", "File", "Add textures…", icons::kTexture, "",
-        [](Ctx& c) { browse(c, BrowserState::Purpose::kTextureFolder); }, open));
-    out.push_back(command(
-        "file.close", "File", "Close project", icons::kClose, "Ctrl+W",
-        [](Ctx& c) { leave_for(c, "close"); }, open));
-    out.push_back(
-        command("file.quit", "File", "Quit", "", "Ctrl+Q", [](Ctx& c) { leave_for(c, ""); }));
-}
-
 void add_edit_commands(std::vector<Command>& out) {
     out.push_back(command(
         "edit.undo", "Edit", "Undo", icons::kUndo, "Ctrl+Z", [](Ctx& c) { c.emit(Undo{}); },
@@ -142,6 +70,34 @@ void add_edit_commands(std::vector<Command>& out) {
         [](Ctx& c) { c.state.shot_open = !c.state.shot_open; }, open));
     out.push_back(command("edit.settings", "Edit", "Settings…", icons::kSettings, "Ctrl+,",
                           [](Ctx& c) { c.state.settings_open = !c.state.settings_open; }));
+}
+
+// Channels, exposure and gamma of the view.
+void add_display_commands(std::vector<Command>& out) {
+    using Channel = DisplaySettings::Channel;
+    const auto add_channel = [&](const char* id, const char* name, const char* key, Channel which) {
+        out.push_back(command(
+            id, "View", name, "", key, [which](Ctx& c) { channel(c, which); }, {},
+            [which](const Ctx& c) { return c.state.viewer.display.channel == which; }));
+    };
+    add_channel("view.color", "All channels", "C", Channel::kColor);
+    add_channel("view.red", "Red channel", "Shift+R", Channel::kRed);
+    add_channel("view.green", "Green channel", "Shift+G", Channel::kGreen);
+    add_channel("view.blue", "Blue channel", "Shift+B", Channel::kBlue);
+    add_channel("view.luma", "Brightness", "Shift+Y", Channel::kLuma);
+    const auto add_step = [&](const char* id, const char* name, const char* key, auto change) {
+        out.push_back(command(id, "View", name, "", key,
+                              [change](Ctx& c) { change(c.state.viewer.display); }));
+        out.back().repeats = true;
+    };
+    add_step("view.darker", "Exposure down", ",", [](DisplaySettings& d) { d.exposure -= 0.25f; });
+    add_step("view.brighter", "Exposure up", ".", [](DisplaySettings& d) { d.exposure += 0.25f; });
+    add_step("view.gamma_down", "Gamma down", "Shift+9",
+             [](DisplaySettings& d) { d.gamma = std::max(0.2f, d.gamma - 0.1f); });
+    add_step("view.gamma_up", "Gamma up", "Shift+0",
+             [](DisplaySettings& d) { d.gamma = std::min(4.0f, d.gamma + 0.1f); });
+    out.push_back(command("view.reset", "View", "Reset display", icons::kRefresh, "Ctrl+R",
+                          [](Ctx& c) { c.state.viewer.display = {}; }));
 }
 
 void add_view_commands(std::vector<Command>& out) {
@@ -180,6 +136,13 @@ void add_view_commands(std::vector<Command>& out) {
         "view.four", "View", "Four up", icons::kFourUp, "4",
         [](Ctx& c) { compare(c, Compare::kFourUp); }, {},
         [](const Ctx& c) { return c.state.viewer.compare == Compare::kFourUp; }));
+    out.push_back(command("view.store", "View", "Store result for comparison", icons::kCompare,
+                          "Shift+A", ui::store_result,
+                          [](const Ctx& c) { return c.view.result_picture != nullptr; }));
+    out.push_back(command(
+        "view.onion", "View", "Onion skin", icons::kLayers, "Shift+O",
+        [](Ctx& c) { c.emit(ShowOnionSkin{!c.view.onion_skin}); }, has_region,
+        [](const Ctx& c) { return c.view.onion_skin; }));
     out.push_back(command(
         "view.mattes", "View", "Mattes", icons::kMask, "M",
         [](Ctx& c) { c.state.viewer.mattes_shown = !c.state.viewer.mattes_shown; }, {},
@@ -198,30 +161,7 @@ void add_view_commands(std::vector<Command>& out) {
     add_overlay("view.trust", "Tracking confidence", icons::kAlert, "Shift+T",
                 Overlay::kConfidence);
     add_overlay("view.pieces", "Source map", icons::kCrosshairs, "Shift+X", Overlay::kSourceMap);
-    using Channel = DisplaySettings::Channel;
-    const auto add_channel = [&](const char* id, const char* name, const char* key, Channel which) {
-        out.push_back(command(
-            id, "View", name, "", key, [which](Ctx& c) { channel(c, which); }, {},
-            [which](const Ctx& c) { return c.state.viewer.display.channel == which; }));
-    };
-    add_channel("view.color", "All channels", "C", Channel::kColor);
-    add_channel("view.red", "Red channel", "Shift+R", Channel::kRed);
-    add_channel("view.green", "Green channel", "Shift+G", Channel::kGreen);
-    add_channel("view.blue", "Blue channel", "Shift+B", Channel::kBlue);
-    add_channel("view.luma", "Brightness", "Shift+Y", Channel::kLuma);
-    const auto add_step = [&](const char* id, const char* name, const char* key, auto change) {
-        out.push_back(command(id, "View", name, "", key,
-                              [change](Ctx& c) { change(c.state.viewer.display); }));
-        out.back().repeats = true;
-    };
-    add_step("view.darker", "Exposure down", ",", [](DisplaySettings& d) { d.exposure -= 0.25f; });
-    add_step("view.brighter", "Exposure up", ".", [](DisplaySettings& d) { d.exposure += 0.25f; });
-    add_step("view.gamma_down", "Gamma down", "Shift+9",
-             [](DisplaySettings& d) { d.gamma = std::max(0.2f, d.gamma - 0.1f); });
-    add_step("view.gamma_up", "Gamma up", "Shift+0",
-             [](DisplaySettings& d) { d.gamma = std::min(4.0f, d.gamma + 0.1f); });
-    out.push_back(command("view.reset", "View", "Reset display", icons::kRefresh, "Ctrl+R",
-                          [](Ctx& c) { c.state.viewer.display = {}; }));
+    add_display_commands(out);
     out.push_back(command(
         "view.panels", "View", "Hide all panels", "", "Tab",
         [](Ctx& c) { c.state.panels_hidden = !c.state.panels_hidden; }, {},
@@ -266,6 +206,9 @@ void add_time_commands(std::vector<Command>& out) {
         [](Ctx& c) { c.emit(GoToFrame{c.view.plate.frames.front()}); });
     add("time.last", "Last frame", icons::kSkipNext, "End",
         [](Ctx& c) { c.emit(GoToFrame{c.view.plate.frames.back()}); });
+    add("time.mode", "Loop, ping-pong or once", icons::kRefresh, "Ctrl+L", [](Ctx& c) {
+        c.emit(SetPlayMode{static_cast<PlayMode>((static_cast<int>(c.view.play_mode) + 1) % 3)});
+    });
     add("time.in", "Set in point", "", "I", [](Ctx& c) {
         c.emit(MarkRange{c.view.frame, c.view.mark_out});
     });
@@ -304,14 +247,8 @@ void add_region_commands(std::vector<Command>& out) {
     out.push_back(command(
         "region.clear", "Region", "Clear matte on this frame", icons::kClose, "Delete",
         [](Ctx& c) { c.emit(ClearMatte{}); }, has_region));
-    out.push_back(command(
-        "region.reference", "Region", "Set reference frame", icons::kReference, "Ctrl+E",
-        [](Ctx& c) {
-            c.edit(SetRegionParameter{{c.view.selected, {}},
-                                      "reference_frames",
-                                      std::vector<double>{static_cast<double>(c.view.frame)}});
-        },
-        has_region));
+    out.push_back(command("region.reference", "Region", "Add reference frame", icons::kReference,
+                          "Ctrl+E", ui::add_reference_frame, has_region));
     out.push_back(command(
         "analysis.pause", "Region", "Pause analysis", icons::kPause, "",
         [](Ctx& c) { c.emit(PauseAnalysis{!c.view.analysis_paused}); }, open,

@@ -19,6 +19,41 @@ void set_workspace(UiState& state, Workspace workspace) {
     state.handle_held.clear();
 }
 
+void begin_document(UiState& state, std::uint64_t document) {
+    const UiState fresh;
+    state.document = document;
+    const DisplaySettings display = state.viewer.display;
+    const bool mattes_shown = state.viewer.mattes_shown;
+    state.viewer = {};
+    state.viewer.display = display;
+    state.viewer.mattes_shown = mattes_shown;
+    state.compare_with = {};
+    state.brush.line_from.reset();
+    state.brush.outline.clear();
+    state.brush.painting = state.brush.lassoing = false;
+    state.drawer = {};
+    state.adding = {};
+    state.output = {};
+    state.placing = false;
+    state.handle_held.clear();
+    state.pins.clear();
+    state.lamp = 0;
+    state.shape = {};
+    state.shape_drawing = false;
+    state.scribbles = {};
+    state.rectangle_from.reset();
+    state.measured.reset();
+    state.measured_count = fresh.measured_count;
+    state.strip = fresh.strip;
+    state.strip_textures.clear();
+    state.strip_over_time = false;
+    state.worst_by = 0;
+    state.open_log = 0;
+    state.renaming = 0;
+    state.typing.clear();
+    state.missing_dismissed = false;
+}
+
 const char* workspace_name(Workspace workspace) {
     switch (workspace) {
         case Workspace::kMask:

@@ -49,4 +49,8 @@ class Commands {
     std::vector<Command> commands_;
 };
 
+/// Leaves the document for "new", "demo", "browse", "close", a path, or "" to quit. Asks first if
+/// there is unsaved work.
+void leave_for(Ctx& c, const std::string& what);
+
 }  // namespace weft

@@ -39,6 +39,10 @@ const char* title_of(Purpose purpose) {
             return "Choose where the mattes go";
         case Purpose::kSimilar:
             return "Choose a picture to find textures like it";
+        case Purpose::kCollect:
+            return "Choose where the collected project goes";
+        case Purpose::kRelink:
+            return "Choose the folder to search for missing files";
         case Purpose::kNone:
             break;
     }
@@ -47,7 +51,8 @@ const char* title_of(Purpose purpose) {
 
 bool wants_folder(Purpose purpose) {
     return purpose == Purpose::kSaveProject || purpose == Purpose::kOutput ||
-           purpose == Purpose::kTextureFolder || purpose == Purpose::kExportMattes;
+           purpose == Purpose::kTextureFolder || purpose == Purpose::kExportMattes ||
+           purpose == Purpose::kCollect || purpose == Purpose::kRelink;
 }
 
 std::string home() {
@@ -62,6 +67,47 @@ std::string parent_of(const std::string& folder) {
 
 std::string joined(const std::string& folder, const std::string& name) {
     return folder == "/" ? "/" + name : folder + "/" + name;
+}
+
+// The folder of the plate's frames; empty for a movie.
+std::string plate_folder(const Ctx& c) {
+    const std::string& plate = c.view.plate.path;
+    const bool sequence = plate.find('#') != std::string::npos ||
+                          plate.find('%') != std::string::npos ||
+                          plate.find('@') != std::string::npos;
+    return sequence ? parent_of(plate) : std::string();
+}
+
+// Where a project is saved first: beside the project, else where the last one is, else at home;
+// never among the plate's frames.
+std::string folder_to_save(const Ctx& c) {
+    std::string folder = !c.view.path.empty()         ? parent_of(c.view.path)
+                         : !c.settings.recent.empty() ? parent_of(c.settings.recent.front())
+                                                      : home();
+    return folder == plate_folder(c) && c.view.path.empty() ? parent_of(folder) : folder;
+}
+
+// What is typed as a name may be a path: from the root, from home, or from the folder shown.
+std::string typed_path(const std::string& folder, const std::string& name) {
+    if (name.starts_with('/')) return name;
+    if (name == "~" || name.starts_with("~/")) return home() + name.substr(1);
+    return joined(folder, name);
+}
+
+std::string path_to_save(const BrowserState& b) {
+    const std::string path = typed_path(b.folder, b.name);
+    return path.ends_with(".weft") ? path : path + ".weft";
+}
+
+bool saves_among_frames(const Ctx& c, const BrowserState& b) {
+    const std::string path = path_to_save(b);
+    return path != c.view.path && parent_of(path) == plate_folder(c);
+}
+
+// The output's name in another folder.
+std::string output_in(const std::string& folder, const std::string& output) {
+    const std::string name = output.substr(output.find_last_of('/') + 1);
+    return joined(folder, name.empty() ? "####.png" : name);
 }
 
 void accept(Ctx& c, const std::string& path) {
@@ -110,13 +156,15 @@ void accept(Ctx& c, const std::string& path) {
             if (const Region* region = c.view.selected_region())
                 c.emit(ExportMattes{joined(path, region->name + "_matte.####.png")});
             break;
-        case Purpose::kOutput: {
-            std::string name = c.state.output.output;
-            const std::size_t slash = name.find_last_of('/');
-            if (slash != std::string::npos) name = name.substr(slash + 1);
-            c.state.output.output = joined(path, name.empty() ? "####.png" : name);
+        case Purpose::kOutput:
+            c.state.output.output = output_in(path, c.state.output.output);
             break;
-        }
+        case Purpose::kCollect:
+            c.emit(CollectProject{path});
+            break;
+        case Purpose::kRelink:
+            c.emit(RelinkFiles{path});
+            break;
         case Purpose::kTextureFolder:
             c.state.adding.folder = path;
             c.state.adding.open = true;
@@ -254,7 +302,10 @@ void file_browser(Ctx& c) {
         b.just_opened = false;
         b.selected = -1;
         c.folders.refresh();
-        if (b.purpose == Purpose::kSaveProject) b.name = c.view.title + ".weft";
+        if (b.purpose == Purpose::kSaveProject) {
+            b.name = c.view.title + ".weft";
+            b.folder = folder_to_save(c);
+        }
     }
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const ImVec2 size(std::min(t.px(880), screen.x - t.px(32)),
@@ -277,7 +328,8 @@ void file_browser(Ctx& c) {
         c.folders.refresh();
     ImGui::SameLine();
     input(c, "Folder", b.folder, "Folder", -1);
-    const float body = size.y - t.px(48 + 34 + 56);
+    const bool among = b.purpose == Purpose::kSaveProject && saves_among_frames(c, b);
+    const float body = size.y - t.px(48 + 34 + 56 + (among ? 36 : 0));
     ImGui::SetCursorPos({t.px(16), t.px(84)});
     places(c, {t.px(170), body});
     ImGui::SetCursorPos({t.px(198), t.px(84)});
@@ -295,21 +347,28 @@ void file_browser(Ctx& c) {
                     c.folders.error().c_str());
         ImGui::EndChild();
     }
+    if (among) {
+        ImGui::SetCursorPos({t.px(16), size.y - t.px(84)});
+        banner(c, icons::kAlert, t.warn,
+               "This folder holds the plate's frames. Choose another one for the project.");
+    }
     ImGui::SetCursorPos({t.px(16), size.y - t.px(42)});
     const bool folder = wants_folder(b.purpose);
     if (b.purpose == Purpose::kSaveProject)
-        input(c, "Name", b.name, "name.weft", size.x - t.px(260));
+        input(c, "Name", b.name, "name.weft, or a path", size.x - t.px(260));
+    // Enter in the name saves; in the folder's field it only goes there.
+    const bool named = b.purpose == Purpose::kSaveProject && ImGui::IsItemDeactivated();
     ImGui::SetCursorPos({size.x - t.px(226), size.y - t.px(42)});
     bool cancel = button(c, "Cancel", {.width = t.px(96)});
     ImGui::SameLine();
-    const bool can =
-        folder ? b.purpose != Purpose::kSaveProject || !b.name.empty() : selected != nullptr;
+    const bool can = folder ? b.purpose != Purpose::kSaveProject || (!b.name.empty() && !among)
+                            : selected != nullptr;
     const char* verb = b.purpose == Purpose::kSaveProject ? "Save"
                        : folder                           ? "Use this folder"
                                                           : "Open";
     const bool go = button(c, verb, {.look = Look::kPrimary, .enabled = can, .width = t.px(106)});
-    const bool enter = ImGui::IsKeyPressed(257) && can && !ImGui::GetIO().WantTextInput;
-    cancel |= ImGui::IsKeyPressed(256) && !ImGui::GetIO().WantTextInput;
+    const bool enter = ImGui::IsKeyPressed(257) && can && (named || !ImGui::GetIO().WantTextInput);
+    cancel |= ImGui::IsKeyPressed(256);
     ImGui::End();
     const FolderEntry* use = chosen ? chosen : (go || enter) && !folder ? selected : nullptr;
     if (use && use->kind == EntryKind::kFolder) {
@@ -319,10 +378,7 @@ void file_browser(Ctx& c) {
         accept(c, use->path);
     } else if ((go || enter) && folder) {
         std::string path = b.folder;
-        if (b.purpose == Purpose::kSaveProject) {
-            path = joined(b.folder, b.name);
-            if (!path.ends_with(".weft")) path += ".weft";
-        }
+        if (b.purpose == Purpose::kSaveProject) path = path_to_save(b);
         accept(c, path);
     }
     if (cancel) b.purpose = Purpose::kNone;

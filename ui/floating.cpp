@@ -26,6 +26,31 @@ int score(const std::string& name, const std::string& typed) {
     return total * 16 - static_cast<int>(name.size()) / 4;
 }
 
+// "placement.corners_px" → "Corners".
+std::string readable_key(const std::string& key) {
+    std::string out = key.substr(key.find_last_of('.') + 1);
+    if (out.ends_with("_px")) out.resize(out.size() - 3);
+    if (out.ends_with("_deg")) out.resize(out.size() - 4);
+    std::replace(out.begin(), out.end(), '_', ' ');
+    if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+    return out;
+}
+
+// "Set placement.rotate_deg of cloth" → "Rotate cloth"; other settings by their labels.
+std::string step_label(const std::string& step) {
+    constexpr std::string_view kSet = "Set ", kOf = " of ";
+    if (!step.starts_with(kSet) || step.starts_with("Set the ")) return step;
+    const std::size_t of = step.find(kOf);
+    const std::string key = step.substr(kSet.size(), of - kSet.size());
+    const std::string rest = of == std::string::npos ? "" : step.substr(of + kOf.size());
+    if (key == "placement.scale") return "Scale " + rest;
+    if (key == "placement.rotate_deg") return "Rotate " + rest;
+    if (key == "placement.offset_px") return "Move " + rest;
+    std::string label(parameter_label(key));
+    if (label.empty()) label = readable_key(key);
+    return rest.empty() ? label : label + " of " + rest;
+}
+
 }  // namespace
 
 void command_palette(Ctx& c) {
@@ -97,7 +122,7 @@ void history_window(Ctx& c) {
     ImGui::BeginChild("##history", {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(1)});
     for (std::size_t k = c.view.history.size(); k-- > 0;) {
-        const std::string label = k == 0 ? "Opened" : c.view.history[k];
+        const std::string label = k == 0 ? "Opened" : step_label(c.view.history[k]);
         ImGui::PushID(static_cast<int>(k));
         if (ImGui::InvisibleButton("##step", {-FLT_MIN, t.row})) c.emit(GoToHistory{k});
         ImGui::PopID();
@@ -202,20 +227,41 @@ void leave_question(Ctx& c) {
     end_sheet(c);
 }
 
+namespace {
+
+// What the first step of the tour says of the shot that is open.
+std::string words_of_shot(const Ctx& c) {
+    const SessionView& v = c.view;
+    if (v.plate.frames.empty()) return "Open a shot: a folder of frames, a movie or a project.";
+    std::string text = "This shot has " + std::to_string(v.plate.frames.size()) + " frames";
+    const auto& regions = v.project.regions;
+    if (regions.empty())
+        return text +
+               " and no regions yet. A region is a surface that gets a new texture. Press Space to "
+               "play the shot.";
+    text += " and " + std::to_string(regions.size()) +
+            (regions.size() == 1 ? " region, a surface that gets a new texture: "
+                                 : " regions, surfaces that get new textures: ");
+    constexpr std::size_t kNamed = 4;
+    for (std::size_t k = 0; k < std::min(kNamed, regions.size()); ++k)
+        text += (k ? ", " : "") + regions[k]->name;
+    if (regions.size() > kNamed) text += ", …";
+    return text + ". They are listed on the right. Press Space to play the shot.";
+}
+
+}  // namespace
+
 void tour(Ctx& c) {
     struct Step {
         const char* title;
-        const char* text;
+        std::string text;
         Workspace workspace;
     };
-    static constexpr Step kSteps[] = {
-        {"A shot and its regions",
-         "This two-second shot has three masked surfaces: a wall, a cape and a cloth. They "
-         "are the regions on the right. Press Space to play it.",
-         Workspace::kMask},
+    const Step kSteps[] = {
+        {"A shot and its regions", words_of_shot(c), Workspace::kMask},
         {"Masking a surface",
          "A matte defines where a surface is. Add a region with +, choose the brush (B) and paint "
-         "over a surface on one frame; it is propagated to the others. Alt subtracts, [ and ] "
+         "over a surface on one frame; it is propagated to the others. Ctrl subtracts, [ and ] "
          "change the "
          "size.",
          Workspace::kMask},
@@ -247,7 +293,7 @@ void tour(Ctx& c) {
     const Step& now = kSteps[step];
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = t.px(380);
-    const ImVec2 text = ImGui::CalcTextSize(now.text, nullptr, false, width - t.px(32));
+    const ImVec2 text = ImGui::CalcTextSize(now.text.c_str(), nullptr, false, width - t.px(32));
     const float h = text.y + t.px(104);
     // Over the picture, above the panels below it; the render page has room on the right.
     const float body = screen.y - t.px(66);
@@ -269,7 +315,9 @@ void tour(Ctx& c) {
     ImGui::SameLine(width - t.px(184));
     ImGui::SetCursorPosY(h - t.px(44));
     const int before = step;
-    if (button(c, "End", {.look = Look::kQuiet, .width = t.px(64)})) step = -1;
+    const bool escape = ImGui::IsKeyPressed(256) && !ImGui::GetIO().WantTextInput &&
+                        ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
+    if (button(c, "End", {.look = Look::kQuiet, .width = t.px(64)}) || escape) step = -1;
     ImGui::SameLine();
     if (button(c, before + 1 < kCount ? "Next" : "Done",
                {.look = Look::kPrimary, .width = t.px(88)}))

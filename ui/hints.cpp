@@ -14,11 +14,11 @@ std::string text_of(const CorrectionHint& hint) {
     const std::string frame = "Frame " + std::to_string(hint.frame) + ": ";
     switch (hint.kind) {
         case CorrectionHint::Kind::kMatte:
-            return frame + "matte " + percent(hint.value) + " sure";
+            return frame + "confidence " + percent(hint.value);
         case CorrectionHint::Kind::kDrift:
-            return frame + "looks " + percent(hint.value) + " different";
+            return frame + "drift " + percent(hint.value);
         case CorrectionHint::Kind::kStretch:
-            return frame + "stretched × " + number_text(static_cast<double>(hint.value), 1);
+            return frame + "stretch × " + number_text(static_cast<double>(hint.value), 1);
     }
     return frame;
 }

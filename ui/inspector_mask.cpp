@@ -110,8 +110,8 @@ void files_section(Ctx& c, const Region& region) {
                         .width = -1}))
                 c.emit(FreezeMattes{true});
         } else if (button(c,
-                          ("Let " + std::to_string(region.matte->frozen.size()) +
-                           " frames: unfreeze##freeze")
+                          ("Unfreeze " + std::to_string(region.matte->frozen.size()) +
+                           " frames##freeze")
                               .c_str(),
                           {.icon = icons::kLockOpen, .width = -1})) {
             c.emit(FreezeMattes{false});
@@ -124,6 +124,39 @@ void files_section(Ctx& c, const Region& region) {
         c.state.browser.purpose = BrowserState::Purpose::kExportMattes;
         c.state.browser.just_opened = true;
     }
+    section_gap(c);
+}
+
+// How the matte is shown over the plate.
+void overlay_section(Ctx& c, const Region& region) {
+    if (!section(c, "Overlay", false)) return;
+    const PanelName panel(c, "Matte overlay");
+    const Theme& t = c.theme;
+    slider(c,
+           {.label = "Opacity",
+            .tip = "Of the matte's colour over the plate. The outline stays",
+            .min = 0,
+            .max = 1,
+            .standard = EditorSettings{}.matte_opacity},
+           c.settings.matte_opacity);
+    quiet(c, "Colour");
+    constexpr int kColors = 7;
+    const ImU32 now = region_color(region.color, region.id);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (int k = 1; k <= kColors; ++k) {
+        if (k > 1) ImGui::SameLine(0, t.px(6));
+        ImGui::PushID(k);
+        const bool pressed = ImGui::InvisibleButton("##color", {t.px(26), t.px(22)});
+        ImGui::PopID();
+        c.note("Colour " + std::to_string(k));
+        const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+        list.AddRectFilled(min, max, region_color(k), t.radius);
+        if (region_color(k) == now) list.AddRect(min, max, t.text, t.radius, 0, t.px(2));
+        if (pressed) c.edit(SetRegionParameter{{region.id, {}}, "color", static_cast<double>(k)});
+    }
+    bool onion = c.view.onion_skin;
+    if (checkbox(c, "Onion skin", onion, "The keyframes before (blue) and after (amber) the frame"))
+        c.emit(ShowOnionSkin{onion});
     section_gap(c);
 }
 
@@ -163,7 +196,7 @@ void mask_inspector(Ctx& c) {
             row({.label = "Opacity", .tip = "Opacity of the whole stroke", .standard = 1},
                 b.opacity);
             pressure_row(c, b);
-            quiet(c, "Alt subtracts, Shift draws a line");
+            quiet(c, "Ctrl subtracts, Shift draws a line");
         } else if (c.state.tool == Tool::kFlood) {
             double tolerance = c.state.brush.tolerance;
             if (slider(c,
@@ -176,9 +209,9 @@ void mask_inspector(Ctx& c) {
                         .integer = true},
                        tolerance) != Change::kNone)
                 c.state.brush.tolerance = static_cast<int>(tolerance);
-            quiet(c, "Click a colour to add it; Alt subtracts");
+            quiet(c, "Click a colour to add it; Ctrl subtracts");
         } else if (c.state.tool == Tool::kCrypto) {
-            wrapped(c, "Click an object of the plate's Cryptomatte to add it; Alt subtracts.",
+            wrapped(c, "Click an object of the plate's Cryptomatte to add it; Ctrl subtracts.",
                     t.quiet);
             if (const std::string names = c.view.painted_source().select.crypto; !names.empty())
                 info_row(c, "Objects", names, names.c_str());
@@ -187,7 +220,7 @@ void mask_inspector(Ctx& c) {
         } else if (c.state.tool == Tool::kShape) {
             shape_controls(c);
         } else if (c.state.tool == Tool::kScribble) {
-            quiet(c, "Draw inside the surface; Alt draws outside");
+            quiet(c, "Draw inside the surface; Ctrl draws outside");
             const ScribbleState& s = c.state.scribbles;
             if (button(c, "Clear scribbles",
                        {.icon = icons::kClose,
@@ -196,7 +229,7 @@ void mask_inspector(Ctx& c) {
                         .width = -1}))
                 c.state.scribbles = {};
         } else if (c.state.tool == Tool::kLasso) {
-            quiet(c, "Draw around the surface; Alt subtracts");
+            quiet(c, "Draw around the surface; Ctrl subtracts");
         } else {
             quiet(c, "Drag to pan the viewer");
         }
@@ -236,6 +269,7 @@ void mask_inspector(Ctx& c) {
     propagation_section(c, *region);
     if (!painted.keyframes.empty()) hints_section(c, true);
     files_section(c, *region);
+    overlay_section(c, *region);
 }
 
 }  // namespace weft::ui

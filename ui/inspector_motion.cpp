@@ -8,6 +8,19 @@
 
 namespace weft::ui {
 
+// An automatic reference frame stays: it holds the placement.
+void add_reference_frame(Ctx& c) {
+    const Region* region = c.view.selected_region();
+    if (!region) return;
+    std::vector<double> frames(region->reference_frames.begin(), region->reference_frames.end());
+    const auto chosen = c.view.preview.references.find(region->id);
+    if (frames.empty() && chosen != c.view.preview.references.end())
+        frames.push_back(chosen->second);
+    if (std::find(frames.begin(), frames.end(), c.view.frame) != frames.end()) return;
+    frames.push_back(c.view.frame);
+    c.edit(SetRegionParameter{{region->id, {}}, "reference_frames", frames});
+}
+
 void motion_inspector(Ctx& c) {
     const Region* region = c.view.selected_region();
     if (!region) return no_region(c);
@@ -15,16 +28,18 @@ void motion_inspector(Ctx& c) {
     const SessionView& v = c.view;
     if (section(c, "Reference frames")) {
         const PanelName panel(c, "Reference frames");
-        if (region->reference_frames.empty()) {
-            const auto chosen = v.preview.references.find(region->id);
-            if (chosen == v.preview.references.end()) {
-                wrapped(c, "Default: the first frame that shows the surface well.", t.quiet);
-            } else {
-                wrapped(c,
-                        "Default: frame " + std::to_string(chosen->second) +
-                            ", the first that shows the surface well.",
-                        t.quiet);
-            }
+        const auto chosen = v.preview.references.find(region->id);
+        const bool implicit =
+            region->reference_frames.empty() && chosen != v.preview.references.end();
+        if (implicit) {
+            if (button(c, ("Frame " + std::to_string(chosen->second) + " (automatic)").c_str(),
+                       {.icon = icons::kReference,
+                        .look = chosen->second == v.frame ? Look::kNormal : Look::kQuiet,
+                        .tip = "The first frame that shows the surface well; the placement is "
+                               "made on it. It stays when you add another one"}))
+                c.emit(GoToFrame{chosen->second});
+        } else if (region->reference_frames.empty()) {
+            wrapped(c, "Automatic: the first frame that shows the surface well.", t.quiet);
         }
         for (const int frame : region->reference_frames) {
             ImGui::PushID(frame);
@@ -44,17 +59,15 @@ void motion_inspector(Ctx& c) {
         }
         const bool here =
             std::find(region->reference_frames.begin(), region->reference_frames.end(), v.frame) !=
-            region->reference_frames.end();
+                region->reference_frames.end() ||
+            (implicit && chosen->second == v.frame);
         if (button(c, "Add this frame",
                    {.icon = icons::kPlus,
                     .enabled = !here,
                     .tip = "The surface is followed from here in both directions; between two "
                            "reference frames the tracks dissolve",
                     .width = -1})) {
-            std::vector<double> frames(region->reference_frames.begin(),
-                                       region->reference_frames.end());
-            frames.push_back(v.frame);
-            c.edit(SetRegionParameter{{region->id, {}}, "reference_frames", frames});
+            add_reference_frame(c);
         }
         section_gap(c);
     }

@@ -20,10 +20,11 @@ void shape_controls(Ctx& c) {
         wrapped(c, "Click on the picture to begin a shape; drag for a curve.", t.quiet);
         return;
     }
-    wrapped(c,
-            "Drag points. Shift moves the whole shape, Ctrl sets a point's feather, Alt removes a "
-            "point; Alt beside the shape begins another.",
-            t.quiet);
+    wrapped(
+        c,
+        "Drag points. Shift moves the whole shape, Ctrl sets a point's feather, Ctrl+Shift removes "
+        "a point; Ctrl+Shift beside the shape begins another.",
+        t.quiet);
     std::string frames;
     for (const int frame : c.view.shape_frames)
         frames += (frames.empty() ? "" : ", ") + std::to_string(frame);
@@ -49,8 +50,8 @@ void corrections_section(Ctx& c, const Region& region) {
     if (button(c, "Pin texture",
                {.icon = icons::kPin,
                 .look = c.state.tool == Tool::kPin ? Look::kPrimary : Look::kNormal,
-                .tip = "Click to hold a place, drag to move the texture back into place; Alt "
-                       "removes a pin",
+                .tip = "Click to hold a place, drag to move the texture back into place; "
+                       "Ctrl removes a pin",
                 .command = "tool.pin",
                 .width = -1}))
         c.state.tool = Tool::kPin;
@@ -92,13 +93,13 @@ void add_lamp_buttons(Ctx& c, const Region& region) {
         c.edit(SetRegionParameter{{region.id, {}}, "light.lamps", std::move(lamps)});
         c.state.tool = Tool::kLamp;
     };
-    add("+ Lamp", "Point light: a bright or dark spot", LampKind::kPoint,
+    add("+ Point", "Point light: a bright or dark spot", LampKind::kPoint,
         {w / 2, h / 2, 0.25 * std::min(w, h), 1.5});
     ImGui::SameLine();
-    add("+ Side", "Directional light from one side of the picture", LampKind::kDirectional,
+    add("+ Directional", "Directional light: from one side of the picture", LampKind::kDirectional,
         {135, 1.3});
     ImGui::SameLine();
-    add("+ Fall", "Gradient between two points", LampKind::kGradient,
+    add("+ Gradient", "Gradient light: between two points", LampKind::kGradient,
         {w / 2, 0.1 * h, w / 2, 0.9 * h, 1.2, 0.8});
 }
 
@@ -114,7 +115,7 @@ void lamps_controls(Ctx& c, const Region& region) {
     c.state.lamp = std::clamp(c.state.lamp, 0, static_cast<int>(lamps.size()) - 1);
     std::vector<std::string> names;
     for (std::size_t k = 0; k < lamps.size(); ++k) {
-        static constexpr const char* kNames[] = {"Lamp ", "Side ", "Fall "};
+        static constexpr const char* kNames[] = {"Point ", "Directional ", "Gradient "};
         names.push_back(kNames[static_cast<int>(lamps[k].kind)] + std::to_string(k + 1));
     }
     int chosen = c.state.lamp;

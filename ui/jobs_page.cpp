@@ -21,21 +21,15 @@ constexpr const char* kExtensions[] = {"png", "exr", "tif", "jpg"};
 
 void fill_defaults(Ctx& c) {
     ExportState& e = c.state.output;
-    if (e.filled && !e.output.empty()) return;
-    e.filled = true;
     const Output& own = c.view.project.output;
-    if (!own.path.empty()) {
-        e.output = own.path.starts_with('/') || c.view.path.empty()
+    std::string proposed = c.view.render_folder + "/####." + kExtensions[e.format];
+    if (!own.path.empty())
+        proposed = own.path.starts_with('/') || c.view.path.empty()
                        ? own.path
                        : folder_of(c.view.path) + "/" + own.path;
-        return;
-    }
-    std::string base = c.view.path.empty() ? std::string() : folder_of(c.view.path) + "/";
-    if (base.empty()) {
-        const char* home = std::getenv("HOME");
-        base = std::string(home ? home : "/tmp") + "/weft/" + c.view.title + "/";
-    }
-    e.output = base + "render_v001/####." + kExtensions[e.format];
+    // What the user typed stays; a proposal follows the project's name.
+    if (e.output.empty() || e.output == e.proposed) e.output = proposed;
+    e.proposed = std::move(proposed);
 }
 
 std::vector<int> frames_of(const Ctx& c) {
@@ -311,7 +305,10 @@ void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
     for (const auto& [icon, name] : shown) {
         ImGui::SetCursorScreenPos({x, right_top.y});
         const std::string_view what = name;
-        if (icon_button(c, icon, name, what == "Log" && c.state.open_log == job.id)) {
+        // The frames of another shot are not compared with this plate.
+        const bool other_shot = what == "Review" && job.plate != c.view.plate.path;
+        if (icon_button(c, icon, other_shot ? "Review (open its shot first)" : name,
+                        what == "Log" && c.state.open_log == job.id, nullptr, !other_shot)) {
             if (what == "Pause") c.emit(CommandJob{job.id, JobCommand::kPause});
             if (what == "Resume") c.emit(CommandJob{job.id, JobCommand::kResume});
             if (what == "Cancel") c.emit(CommandJob{job.id, JobCommand::kCancel});

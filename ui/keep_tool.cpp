@@ -40,7 +40,7 @@ void add_amendment(Ctx& c, const Region& region, PlaneAmendment one, Vec2 at) {
 void click(Ctx& c, const Region& region, Vec2 at) {
     const Provenance& from = *provenance(c);
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyAlt) {
+    if (subtracts()) {
         std::vector<PlaneAmendment> left = *region.amendments;
         if (const auto index = amendment_at(left, from, at)) {
             left.erase(left.begin() + static_cast<std::ptrdiff_t>(*index));
@@ -107,12 +107,12 @@ void keep_section(Ctx& c, const Region& region) {
     int what = c.state.keep_again ? 1 : 0;
     if (segments(c, "What", {"Lock", "Regenerate"}, what)) c.state.keep_again = what == 1;
     int which = c.state.keep_seams ? 1 : 0;
-    if (segments(c, "Which", {"Piece", "Seam"}, which)) c.state.keep_seams = which == 1;
+    if (segments(c, "Which", {"Patch", "Seam"}, which)) c.state.keep_seams = which == 1;
     const bool on = c.state.tool == Tool::kKeep;
     if (button(c, "Select on the picture",
                {.icon = icons::kLock,
                 .look = on ? Look::kPrimary : Look::kNormal,
-                .tip = "Click a patch or a seam, or drag a rectangle; Alt deselects. "
+                .tip = "Click a patch or a seam, or drag a rectangle; Ctrl deselects. "
                        "Locked patches stay whatever else you change",
                 .command = "tool.keep",
                 .width = -1}))
@@ -128,13 +128,13 @@ void keep_section(Ctx& c, const Region& region) {
         const bool again = one.kind == PlaneAmendment::Kind::kAgain;
         ImGui::PushID(static_cast<int>(k));
         const std::string number = std::to_string(k + 1);
-        const std::string label = (again ? "Regenerated, " : "Kept, ") +
+        const std::string label = (again ? "Regenerated, " : "Locked, ") +
                                   std::to_string(texels_of(one)) + " texels##amendment" + number;
         const float width = ImGui::GetContentRegionAvail().x - t.px(26) - t.gap;
         if (button(c, label.c_str(),
                    {.icon = again ? icons::kRefresh : icons::kLock,
                     .look = Look::kQuiet,
-                    .tip = again ? "Regenerate with another seed" : "It is locked",
+                    .tip = again ? "Regenerate with another seed" : "These texels stay as they are",
                     .width = width}) &&
             again) {
             std::vector<PlaneAmendment> all = *region.amendments;

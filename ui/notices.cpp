@@ -97,6 +97,19 @@ void add_notice(Ctx& c, NoticeStack& stack, const Notice& notice) {
     stack.add("##notice" + std::to_string(notice.id), notice.kind, notice.text, 0, buttons);
 }
 
+// Names the first files; the rest are counted.
+std::string missing_text(const std::vector<std::string>& missing) {
+    constexpr std::size_t kNamed = 3;
+    std::string text = missing.size() == 1
+                           ? "A file of this project is missing:"
+                           : std::to_string(missing.size()) + " files of this project are missing:";
+    for (std::size_t k = 0; k < std::min(kNamed, missing.size()); ++k)
+        text += "\n" + missing[k];
+    if (missing.size() > kNamed)
+        text += "\nand " + std::to_string(missing.size() - kNamed) + " more";
+    return text;
+}
+
 }  // namespace
 
 void notices(Ctx& c) {
@@ -115,6 +128,12 @@ void notices(Ctx& c) {
                       ", outside of its folder. Trust this folder?",
                   "Trust", icons::kCheckCircle, "Not now",
                   [&](bool yes) { c.emit(TrustFolder{yes}); });
+    if (!c.view.missing.empty() && !c.state.missing_dismissed)
+        stack.ask("##missing", missing_text(c.view.missing), "Relink…", icons::kFolderOpen,
+                  "Not now", [&](bool yes) {
+                      c.state.missing_dismissed = true;
+                      if (yes) c.commands.run("file.relink", c);
+                  });
     for (auto notice = c.view.notices.rbegin(); notice != c.view.notices.rend(); ++notice)
         add_notice(c, stack, *notice);
 }

@@ -24,6 +24,8 @@ void region_list(Ctx& c);
 void mask_inspector(Ctx& c);
 void texture_inspector(Ctx& c);
 void motion_inspector(Ctx& c);
+/// Makes this frame a reference frame of the selected region, beside those it has.
+void add_reference_frame(Ctx& c);
 void light_inspector(Ctx& c);
 void review_inspector(Ctx& c);
 /// The texture's colour, opacity and blend mode.

@@ -30,7 +30,7 @@ constexpr Shape kShapes[] = {
     {"temporal.weight", "Temporal weight (λt)", 0, 10, 2, false, ""},
     {"light.strength", "Strength", 0, 2, 2, false, ""},
     {"light.detail", "Light detail", 0, 1, 2, false, ""},
-    {"light.keep_detail", "Keep detail", 0, 2, 2, false, ""},
+    {"light.keep_detail", "Keep plate detail", 0, 2, 2, false, ""},
     {"light.cast", "Light tint", 0, 1, 2, false, ""},
     {"light.highlights", "Keep highlights", 0, 2, 2, false, ""},
     {"light.roughness", "Roughness", 0, 1, 2, false, ""},

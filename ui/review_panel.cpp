@@ -12,11 +12,11 @@ namespace {
 
 using Row = QualityReport::Row;
 
-// The newest finished render, or null.
+// The newest finished render of this shot, or null.
 const JobView* newest_render(const Ctx& c) {
     const JobView* found = nullptr;
     for (const JobView& job : c.view.jobs)
-        if (job.state == JobState::kDone) found = &job;
+        if (job.state == JobState::kDone && job.plate == c.view.plate.path) found = &job;
     return found;
 }
 
@@ -167,7 +167,7 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
             }
             case 2:
                 if (mark.drift < 0) return std::nullopt;
-                return Worst{0, mark.drift, number(100 * mark.drift, 0) + "% different"};
+                return Worst{0, mark.drift, "drift " + number(100 * mark.drift, 0) + "%"};
             default:
                 if (mark.chatter < 0) return std::nullopt;
                 return Worst{0, mark.chatter, "edge off by " + number(mark.chatter, 2) + " px"};

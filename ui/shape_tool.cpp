@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/viewer.h"
 #include "ui/viewer_handles.h"
 #include "ui/widgets.h"
 
@@ -18,6 +19,13 @@ void outline(Ctx& c, const ViewMap& map, const std::vector<Vec2>& points, bool c
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddPolyline(on_screen.data(), count, IM_COL32(0, 0, 0, 170), flags, c.theme.px(3));
     list.AddPolyline(on_screen.data(), count, color, flags, c.theme.px(1.5f));
+}
+
+// Alt, or Ctrl and Shift where the window manager keeps Alt: breaks handles, removes a point,
+// begins another shape.
+bool breaks_off() {
+    const ImGuiIO& io = ImGui::GetIO();
+    return io.KeyAlt || (io.KeyCtrl && io.KeyShift);
 }
 
 void finish_drawing(Ctx& c) {
@@ -84,10 +92,9 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
             over |= grip != Grip::kNone;
             if (grip != Grip::kHeld && grip != Grip::kLetGo) return;
             way = end - p.at;
-            // Both handles stay collinear unless Alt breaks them.
+            // Both handles stay collinear unless they are broken.
             const float length = std::hypot(way.x, way.y), opposite = std::hypot(other.x, other.y);
-            if (!ImGui::GetIO().KeyAlt && length > 0 && opposite > 0)
-                other = way * (-opposite / length);
+            if (!breaks_off() && length > 0 && opposite > 0) other = way * (-opposite / length);
             done |= grip == Grip::kLetGo;
         };
         tangent(" in", p.in, p.out);
@@ -97,7 +104,7 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
         over |= grip != Grip::kNone;
         if (p.feather_px > 0)
             list.AddCircle(map.to_screen(p.at), p.feather_px * map.zoom, faded(color, 0.5f), 32);
-        if (grip == Grip::kTaken && ImGui::GetIO().KeyAlt && c.state.shape.points.size() > 3) {
+        if (grip == Grip::kTaken && breaks_off() && c.state.shape.points.size() > 3) {
             c.state.handle_held.clear();
             c.state.shape.points.erase(c.state.shape.points.begin() +
                                        static_cast<std::ptrdiff_t>(k));
@@ -105,7 +112,7 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
         }
         if (grip != Grip::kHeld && grip != Grip::kLetGo) continue;
         // Ctrl drags the feather, Shift moves the whole shape.
-        if (ImGui::GetIO().KeyCtrl) {
+        if (ImGui::GetIO().KeyCtrl && !ImGui::GetIO().KeyShift) {
             p.feather_px = std::hypot(at.x - p.at.x, at.y - p.at.y);
         } else if (ImGui::GetIO().KeyShift) {
             const Vec2 by = at - p.at;
@@ -136,7 +143,7 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         }
     }
     if (over || any_handle_held(c) || !active || !ImGui::IsMouseClicked(0)) return;
-    if (!s.shape.points.empty() && !ImGui::GetIO().KeyAlt) return;  // Alt starts a new shape
+    if (!s.shape.points.empty() && !breaks_off()) return;  // it starts a new shape
     s.shape = {};
     s.shape.points.push_back({map.to_plate(ImGui::GetIO().MousePos), {0, 0}, {0, 0}, 0});
     s.shape_drawing = true;
@@ -150,7 +157,7 @@ void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
     const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);
     if (active && ImGui::IsMouseClicked(0)) {
         s.drawing = true;
-        s.dropping = ImGui::GetIO().KeyAlt;
+        s.dropping = subtracts();
         (s.dropping ? s.drop : s.keep).push_back({mouse});
     } else if (s.drawing) {
         auto& line = (s.dropping ? s.drop : s.keep).back();
@@ -188,9 +195,9 @@ void similar_tool(Ctx& c, const ViewMap& map, bool active) {
             .intersected(rect_of(c.view.plate.size));
     constexpr int kLeast = 12;
     if (part.width() < kLeast || part.height() < kLeast || !c.view.plate_picture) return;
-    s.drawer.similar_key = std::to_string(c.view.frame) + " " + std::to_string(part.x0) + " " +
-                           std::to_string(part.y0) + " " + std::to_string(part.x1) + " " +
-                           std::to_string(part.y1);
+    s.drawer.similar_key = std::to_string(c.view.document) + " " + std::to_string(c.view.frame) +
+                           " " + std::to_string(part.x0) + " " + std::to_string(part.y0) + " " +
+                           std::to_string(part.x1) + " " + std::to_string(part.y1);
     s.drawer.similar_frame = c.view.frame;
     s.drawer.similar_file.clear();
     c.textures.find_similar(s.drawer.similar_key, c.view.plate_picture, part);

@@ -118,7 +118,7 @@ void settings_window(Ctx& c) {
     int scale = 0;
     for (int k = 1; k < 5; ++k)
         if (std::abs(c.settings.ui_scale - scales[k]) < 0.01) scale = k;
-    if (segments(c, "Scale", {"Screen's", "100%", "125%", "150%", "200%"}, scale))
+    if (segments(c, "Scale", {"Auto", "100%", "125%", "150%", "200%"}, scale))
         c.settings.ui_scale = scales[scale];
     ImGui::Dummy({0, t.px(10)});
     if (button(c, "Keyboard shortcuts…", {.icon = icons::kKeyboard})) {

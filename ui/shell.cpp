@@ -1,5 +1,7 @@
 #include "ui/shell.h"
 
+#include <imgui_internal.h>  // the stack of open pop-ups
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,30 @@
 #include "ui/widgets.h"
 
 namespace weft {
+namespace {
+
+// A press outside of an open menu or list closes it and also does what it was meant for; ImGui by
+// itself would only close it. Esc closes the innermost one. Returns true if Esc did.
+bool close_popups(UiState& state) {
+    ImGuiContext& g = *ImGui::GetCurrentContext();
+    const bool pressed = ImGui::IsMouseClicked(0);
+    if (pressed) state.closed_popup = 0;
+    if (g.OpenPopupStack.empty()) return false;
+    if (ImGui::IsKeyPressed(256) && !ImGui::GetIO().WantTextInput) {
+        ImGui::ClosePopupToLevel(g.OpenPopupStack.Size - 1, true);
+        return true;
+    }
+    const bool inside = std::any_of(
+        g.OpenPopupStack.begin(), g.OpenPopupStack.end(), [&](const ImGuiPopupData& popup) {
+            return popup.Window && popup.Window->Rect().Contains(ImGui::GetIO().MousePos);
+        });
+    if (!pressed || inside) return false;
+    state.closed_popup = g.OpenPopupStack[0].PopupId;
+    ImGui::ClosePopupToLevel(0, true);
+    return false;
+}
+
+}  // namespace
 
 Shell::Shell(EditorSettings& settings, PictureHost& pictures)
     : settings_(settings), pictures_(pictures) {
@@ -59,13 +85,15 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     actions_ = std::exchange(dropped_, {});
     items_.clear();
     state_.status.clear();
+    if (state_.document != view.document) begin_document(state_, view.document);
     Ctx c{view,      state_,         settings_, theme_,   pictures_,
           textures_, folders_,       commands_, actions_, recording_ ? &items_ : nullptr,
           job_log,   dismiss_notice, act_now,   {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");
-    if (!sheet) commands_.dispatch(c);
+    const bool escaped = close_popups(state_);
+    if (!sheet && !escaped) commands_.dispatch(c);
     layout(c);
     part("windows");
     // The strip is hidden elsewhere.
@@ -91,7 +119,14 @@ std::vector<Action> Shell::draw(const SessionView& view) {
 
 void Shell::splitter(Ctx& c, const char* name, ImVec2 min, ImVec2 size, bool vertical, float& value,
                      float sign, float least, float most, float standard) {
+    // A window of its own: over the panels on both sides, which would take the mouse.
     ImGui::SetCursorScreenPos(min);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, IM_COL32_BLACK_TRANS);
+    ImGui::BeginChild((std::string(name) + "_window").c_str(), size, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
     ImGui::InvisibleButton(name, size);
     c.note(name + 2);
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
@@ -115,6 +150,7 @@ void Shell::splitter(Ctx& c, const char* name, ImVec2 min, ImVec2 size, bool ver
             ImGui::GetWindowDrawList()->AddRectFilled({min.x, mid_y - half}, {max.x, mid_y + half},
                                                       theme_.accent);
     }
+    ImGui::EndChild();
 }
 
 void Shell::layout(Ctx& c) {

@@ -57,11 +57,21 @@ struct ViewerState {
     bool dragging_wipe = false;
 };
 
+/// What the result is compared with.
+struct CompareState {
+    enum class With : std::uint8_t { kPlate, kVersion, kStored };
+    With with = With::kPlate;
+    std::string pattern;  ///< Of the finished render.
+    PicturePtr stored;    ///< A result that was kept,
+    int frame = 0;        ///< of this frame.
+};
+
 struct BrushState {
     Brush brush;
     int tolerance = 24;
     std::optional<Vec2> line_from;  ///< End of the last stroke; Shift draws a line from it.
     std::vector<Vec2> outline;      ///< Points of an unfinished lasso or polygon.
+    bool outline_subtracts = false;
     bool painting = false, lassoing = false;
     bool resizing = false;
 };
@@ -127,7 +137,9 @@ struct BrowserState {
         kTrack,
         kPlate,
         kExportMattes,
-        kSimilar
+        kSimilar,
+        kCollect,
+        kRelink
     };
     Purpose purpose = Purpose::kNone;
     std::string folder, name, filter;
@@ -142,15 +154,17 @@ struct ExportState {
     int format = 0;
     int existing = 0;  ///< If files exist. 0: fail, 1: skip, 2: overwrite.
     bool with_movie = true;
-    bool filled = false;
+    std::string proposed;           ///< What was proposed for `output`.
     std::vector<LayerKind> layers;  ///< Layers for compositing.
     bool layers_apart = false;      ///< Write them to separate files.
 };
 
 struct UiState {
+    std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
     Tool tool = Tool::kBrush;
     ViewerState viewer;
+    CompareState compare_with;
     BrushState brush;
     DrawerState drawer;
     BrowserState browser;
@@ -163,6 +177,8 @@ struct UiState {
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
     bool shot_open = false;
     bool about_open = false;
+    std::string open_menu;     ///< Name of the open menu; empty: none.
+    ImGuiID closed_popup = 0;  ///< Id of the pop-up that the last press of the mouse closed.
     std::string palette_text;
     int palette_at = 0;
     bool leave_asked = false;  ///< Closing was requested.
@@ -202,14 +218,19 @@ struct UiState {
     double drag_start = 0;  ///< Value of the dragged slider before the drag.
     double drag_value = 0;  ///< Value reached by the drag; the view may lag behind.
     bool drag_moved = false;
-    std::string rebinding;  ///< Command whose shortcut is being changed.
-    int open_log = 0;       ///< Job whose log is open.
+    std::string rebinding;           ///< Command whose shortcut is being changed.
+    int open_log = 0;                ///< Job whose log is open.
+    bool missing_dismissed = false;  ///< The question about missing files was answered.
     std::string region_dragged;
     std::string status;  ///< Status bar text for the item under the mouse.
     /// Path of the mouse since the last frame while the left button was down; empty if unknown,
     /// then only MousePos is available.
     std::vector<ImVec2> mouse_path;
 };
+
+/// Forgets what belongs to the document before: its output, view, drawer, and unfinished work of
+/// the tools. Workspace, tool, brush and the sizes of panels stay.
+void begin_document(UiState& state, std::uint64_t document);
 
 /// Switches the workspace and selects its default tool.
 void set_workspace(UiState& state, Workspace workspace);

@@ -89,7 +89,7 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
             texture_thumbnail(c, card.path, {x, at.y}, {x + size.y, max.y});
         list.AddRectFilled({at.x, max.y - t.px(18)}, max, t.scrim);
         list.PopClipRect();
-        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "rendering…");
+        text_in(list, t.small, {at.x, max.y - t.px(18)}, max, t.quiet, "Rendering…");
     }
     const bool picked = c.state.drawer.picked == card.path;
     if (picked || hovered)
@@ -106,7 +106,8 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
 // A key of everything that the result depends on.
 std::string together_key(const Ctx& c, const std::vector<TogetherRegion>& regions,
                          std::size_t cards) {
-    std::string key = std::to_string(cards) + "/" + c.view.project.settings.excluded_licences;
+    std::string key = std::to_string(c.view.document) + "/" + std::to_string(cards) + "/" +
+                      c.view.project.settings.excluded_licences;
     for (const TogetherRegion& region : regions)
         key += "/" + std::to_string(region.region) + ":" + region.keep;
     return key;
@@ -234,8 +235,9 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     for (const RegionMatteView& shown : c.view.mattes)
         if (shown.region == region->id) matte = shown.keep;
     const std::string& excluded = c.view.project.settings.excluded_licences;
-    const std::string key = std::to_string(region->id) + "/" + std::to_string(cards.size()) + "/" +
-                            excluded + "/" + region->name;
+    const std::string key = std::to_string(c.view.document) + "/" + std::to_string(region->id) +
+                            "/" + std::to_string(cards.size()) + "/" + excluded + "/" +
+                            region->name;
     if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
         c.textures.suggest_for(key, {region->name, c.view.plate_picture, matte, excluded});
     const std::vector<TextureSuggestion> found = c.textures.suggestions(key);

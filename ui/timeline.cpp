@@ -9,6 +9,15 @@
 namespace weft::ui {
 namespace {
 
+const char* mode_name(PlayMode mode) {
+    return mode == PlayMode::kLoop ? "Loop" : mode == PlayMode::kPingPong ? "Ping-pong" : "Once";
+}
+const char* mode_icon(PlayMode mode) {
+    return mode == PlayMode::kLoop       ? icons::kSync
+           : mode == PlayMode::kPingPong ? icons::kCompare
+                                         : icons::kStepForward;
+}
+
 void transport(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     const SessionView& v = c.view;
@@ -29,11 +38,12 @@ void transport(Ctx& c, ImVec2 size) {
     tool("time.next", icons::kStepForward, "Next frame");
     tool("time.next_key", icons::kChevronRight, "Next keyframe");
     tool("time.last", icons::kSkipNext, "Last frame");
+    tool("time.mode", mode_icon(v.play_mode), mode_name(v.play_mode));
     ImGui::PopStyleVar();
     float x = ImGui::GetItemRectMax().x + t.px(14);
     const auto say = [&](const std::string& text, ImU32 color) {
-        text_in(list, t.regular, {x, origin.y}, {x + t.px(400), origin.y + size.y}, color,
-                text.c_str(), 0);
+        const ImVec2 end(x + t.px(400), origin.y + size.y);
+        text_in(list, t.regular, {x, origin.y}, end, color, text.c_str(), 0);
         x += ImGui::CalcTextSize(text.c_str()).x + t.px(14);
     };
     if (!on) return;

@@ -19,12 +19,37 @@ void menu_item(Ctx& c, const char* id, const char* separate_before = nullptr) {
     c.note(command->name, enabled);
 }
 
+// Saved projects, the newest first, told apart by their folders.
+void recent_menu(Ctx& c) {
+    const bool any = !c.view.recent.empty();
+    const bool open = ImGui::BeginMenu("Open recent", any);
+    c.note("Open recent", any);
+    if (!open) return;
+    for (const std::string& path : c.view.recent) {
+        const std::size_t slash = path.find_last_of('/');
+        const std::string name = path.substr(slash + 1), folder = path.substr(0, slash);
+        ImGui::PushID(path.c_str());
+        if (ImGui::MenuItem(name.c_str(), fitted(folder, c.theme.px(280), true).c_str()))
+            leave_for(c, path);
+        c.note("Recent " + name);
+        ImGui::PopID();
+    }
+    ImGui::EndMenu();
+}
+
 void menu(Ctx& c, const char* name, std::initializer_list<const char*> ids) {
     const Theme& t = c.theme;
     ImGui::PushID(name);
     const ImVec2 size(ImGui::CalcTextSize(name).x + t.px(16), t.px(28));
-    if (ImGui::InvisibleButton("##menu", size)) ImGui::OpenPopup("##open");
+    ImGui::InvisibleButton("##menu", size);
     c.note(name);
+    // Opens when pressed, so that one drag chooses an item; with a menu open, the mouse over
+    // another one's name opens that.
+    const ImGuiID popup = ImGui::GetID("##open");
+    if (ImGui::IsItemClicked() && c.state.closed_popup != popup) ImGui::OpenPopup("##open");
+    const bool other_open = !c.state.open_menu.empty() && c.state.open_menu != name;
+    if (other_open && ImGui::IsMouseHoveringRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()))
+        ImGui::OpenPopup("##open");
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool open = ImGui::IsPopupOpen("##open");
@@ -34,14 +59,19 @@ void menu(Ctx& c, const char* name, std::initializer_list<const char*> ids) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(6), t.px(6)});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {t.px(12), t.px(7)});
     if (ImGui::BeginPopup("##open")) {
+        c.state.open_menu = name;
         const PanelName within(c, "Menu");
         for (const char* id : ids) {
             if (std::string_view(id) == "-")
                 ImGui::Separator();
+            else if (std::string_view(id) == "recent")
+                recent_menu(c);
             else
                 menu_item(c, id);
         }
         ImGui::EndPopup();
+    } else if (c.state.open_menu == name) {
+        c.state.open_menu.clear();
     }
     ImGui::PopStyleVar(2);
     ImGui::PopID();
@@ -50,19 +80,39 @@ void menu(Ctx& c, const char* name, std::initializer_list<const char*> ids) {
 
 void menus(Ctx& c) {
     menu(c, "File",
-         {"file.new", "file.open", "file.demo", "-", "file.save", "file.save_as", "-",
-          "file.textures", "-", "file.close", "file.quit"});
+         {"file.new", "file.open", "recent", "file.demo", "-", "file.save", "file.save_as",
+          "file.save_version", "-", "file.collect", "file.relink", "file.textures", "-",
+          "file.close", "file.quit"});
     menu(c, "Edit",
          {"edit.undo", "edit.redo", "edit.history", "-", "edit.palette", "edit.shot",
           "edit.settings"});
-    menu(c, "View", {"view.fit",        "view.actual",  "-",
-                     "view.plate",      "view.wipe",    "view.difference",
-                     "view.side",       "view.four",    "-",
-                     "view.mattes",     "view.seams",   "view.light",
-                     "view.grid",       "view.stretch", "view.arrows",
-                     "view.trust",      "view.pieces",  "-",
-                     "view.reset",      "view.panels",  "view.second",
-                     "view.fullscreen", "view.layout"});
+    menu(c, "View",
+         {"view.fit",
+          "view.actual",
+          "-",
+          "view.plate",
+          "view.wipe",
+          "view.difference",
+          "view.side",
+          "view.four",
+          "-",
+          "view.store",
+          "-",
+          "view.mattes",
+          "view.onion",
+          "view.seams",
+          "view.light",
+          "view.grid",
+          "view.stretch",
+          "view.arrows",
+          "view.trust",
+          "view.pieces",
+          "-",
+          "view.reset",
+          "view.panels",
+          "view.second",
+          "view.fullscreen",
+          "view.layout"});
     menu(c, "Region",
          {"region.add", "region.duplicate", "region.remove", "-", "region.solo", "region.key",
           "region.clear", "region.reference", "-", "analysis.pause"});

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/compare.h"
 #include "ui/panels.h"
 #include "ui/viewer.h"
 #include "ui/viewer_overlays.h"
@@ -12,7 +13,13 @@
 namespace weft::ui {
 namespace {
 
-constexpr int kQualityWidth = 52, kBarWidth = 658 + kQualityWidth + 4;  // px
+constexpr int kQualityWidth = 88, kCompareWidth = 84, kBarWidth = 658 + kQualityWidth + 6;  // px
+// What the state of the picture needs beside the bar before a comparison is offered there, too.
+constexpr int kStateWidth = 220;  // px
+
+bool has_compare(const Ctx& c, float width) {
+    return width >= c.theme.px(kBarWidth + kCompareWidth + kStateWidth);
+}
 
 // The view transform: a built-in curve, or a view of the OpenColorIO config.
 void screen_choice(Ctx& c) {
@@ -126,30 +133,23 @@ void layer_choice(Ctx& c) {
 
 // Draft or final, of what is seen.
 void quality_choice(Ctx& c) {
-    const Theme& t = c.theme;
-    const bool draft = c.view.preview_quality == Quality::kDraft;
-    ImGui::InvisibleButton("##Quality", {t.px(kQualityWidth - 6), t.px(26)});
-    c.note("Quality");
-    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({min.x, min.y + t.px(3)}, {max.x, max.y - t.px(3)},
-                       ImGui::IsItemHovered() ? t.hover : t.field, t.radius);
-    text_in(list, t.small, min, max, t.text, draft ? "Draft" : "Final");
-    std::string tip = draft ? "Quality of the preview: draft. Click for final"
-                            : "Quality of the preview: final. Click for draft";
-    if (c.view.preview.frame_seconds > 0)
-        tip += ". The last frame took " + number_text(c.view.preview.frame_seconds, 2) + " s";
-    tooltip(c, tip.c_str());
-    if (ImGui::IsItemClicked())
-        c.emit(SetPreviewQuality{draft ? Quality::kFinal : Quality::kDraft});
+    int quality = c.view.preview_quality == Quality::kDraft ? 0 : 1;
+    if (segments(c, "Quality", {"Draft", "Final"}, quality, c.theme.px(kQualityWidth - 6)))
+        c.emit(SetPreviewQuality{quality == 0 ? Quality::kDraft : Quality::kFinal});
 }
 
 }  // namespace
 
+float view_controls_width(const Ctx& c, float width) {
+    const Theme& t = c.theme;
+    if (width < t.px(kBarWidth + 20)) return t.px(kQualityWidth);
+    return t.px(kBarWidth + (has_compare(c, width) ? kCompareWidth : 0));
+}
+
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
-    const bool all = max.x - min.x >= t.px(kBarWidth + 20);
-    const float bar_w = t.px(all ? kBarWidth : kQualityWidth);
+    const float bar_w = view_controls_width(c, max.x - min.x);
+    const bool all = bar_w > t.px(kQualityWidth);
     const ImVec2 at(std::floor(max.x - bar_w - t.px(4)), min.y);
     ImGui::SetCursorScreenPos({at.x + t.px(4), at.y + t.px(2)});
     const PanelName name(c, "View");
@@ -174,6 +174,10 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
             command->run(c);
         ImGui::SameLine();
     };
+    if (has_compare(c, max.x - min.x)) {
+        compare_choice(c, t.px(kCompareWidth - 4));
+        ImGui::SameLine(0, t.px(4));
+    }
     for (const char* id : {"view.plate", "view.wipe", "view.difference", "view.side", "view.four"})
         tool(id);
     ImGui::SameLine(0, t.px(10));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/compare.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/viewer_overlays.h"
@@ -18,7 +19,7 @@ struct Pane {
     ViewMap map;
     PicturePtr a, b;
     PictureDraw::Mode mode = PictureDraw::Mode::kSingle;
-    const char* label = "";
+    std::string label;
     bool mattes = true;
 };
 
@@ -26,9 +27,11 @@ PicturePtr shown_result(const Ctx& c) {
     return c.view.result_picture ? c.view.result_picture : c.view.plate_picture;
 }
 
-std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
+std::vector<Pane> panes_of(Ctx& c, ImVec2 min, ImVec2 max) {
     const SessionView& v = c.view;
     const ViewerState& s = c.state.viewer;
+    const PicturePtr other = compared_picture(c);
+    const std::string name = compared_name(c);
     ViewMap whole{min, max, s.center, s.zoom, s.aspect};
     const auto part = [&](float x0, float y0, float x1, float y1) {
         ViewMap map = whole;
@@ -40,14 +43,14 @@ std::vector<Pane> panes_of(const Ctx& c, ImVec2 min, ImVec2 max) {
     if (s.hold_original) return {{whole, v.plate_picture, nullptr, {}, "Plate", false}};
     switch (s.compare) {
         case Compare::kPlate:
-            return {{whole, v.plate_picture, nullptr, {}, "Plate", true}};
+            return {{whole, other, nullptr, {}, name, true}};
         case Compare::kWipe:
-            return {{whole, v.plate_picture, shown_result(c), PictureDraw::Mode::kWipe, "", true}};
+            return {{whole, other, shown_result(c), PictureDraw::Mode::kWipe, "", true}};
         case Compare::kDifference:
-            return {{whole, v.plate_picture, shown_result(c), PictureDraw::Mode::kDifference,
+            return {{whole, other, shown_result(c), PictureDraw::Mode::kDifference,
                      "Difference × 4", false}};
         case Compare::kSideBySide:
-            return {{part(0, 0, 0.5f, 1), v.plate_picture, nullptr, {}, "Plate", true},
+            return {{part(0, 0, 0.5f, 1), other, nullptr, {}, name, true},
                     {part(0.5f, 0, 1, 1), v.result_picture, nullptr, {}, "Result", false}};
         case Compare::kFourUp: {
             const auto stage = [&](Stage which) {
@@ -86,7 +89,7 @@ void read_pixel(Ctx& c, const ViewMap& map, const PicturePtr& picture, bool hove
                           at.y * picture->size.height / plate.height);
 }
 
-void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
+void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active, bool wiping) {
     ViewerState& s = c.state.viewer;
     const ImGuiIO& io = ImGui::GetIO();
     if (hovered && io.MouseWheel != 0) {
@@ -96,8 +99,8 @@ void navigate(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         s.zoom = zoom;
         s.fit = false;
     }
-    const bool pan = ImGui::IsMouseDragging(2, 0) ||
-                     (c.state.tool == Tool::kPan && active && ImGui::IsMouseDragging(0, 1));
+    const bool pan = ImGui::IsMouseDragging(2, 0) || (c.state.tool == Tool::kPan && active &&
+                                                      !wiping && ImGui::IsMouseDragging(0, 1));
     if (pan && (hovered || active)) {
         s.center.x -= io.MouseDelta.x / (s.zoom * s.aspect);
         s.center.y -= io.MouseDelta.y / s.zoom;
@@ -111,7 +114,9 @@ bool move_wipe(Ctx& c, const ViewMap& map, bool hovered) {
     if (s.compare != Compare::kWipe || s.hold_original) return false;
     const float width = static_cast<float>(c.view.plate.size.width);
     const float x = map.to_screen({s.wipe * width, 0}).x;
-    const bool near = hovered && std::abs(ImGui::GetIO().MousePos.x - x) < c.theme.px(7);
+    // A stroke or a drag of another tool that passes the line goes on.
+    const bool free = ImGui::IsMouseClicked(0) || !ImGui::IsMouseDown(0);
+    const bool near = hovered && free && std::abs(ImGui::GetIO().MousePos.x - x) < c.theme.px(7);
     if (near && ImGui::IsMouseClicked(0)) s.dragging_wipe = true;
     if (!ImGui::IsMouseDown(0)) s.dragging_wipe = false;
     if (s.dragging_wipe)
@@ -264,7 +269,7 @@ void viewer(Ctx& c, ImVec2 size) {
                c.view.result_picture && s.compare != Compare::kPlate ? c.view.result_picture
                                                                      : c.view.plate_picture,
                hovered);
-    navigate(c, map, hovered, active);
+    navigate(c, map, hovered, active, wiping);
     if (panes.size() == 1) draw_wipe(c, list, map);
     if (!wiping) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);

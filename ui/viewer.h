@@ -8,6 +8,10 @@
 
 namespace weft::ui {
 
+/// Returns true while the modifier that takes away is held: Ctrl, or Alt, which many window
+/// managers keep for moving windows.
+[[nodiscard]] bool subtracts();
+
 /// Handles brush input before drawing, so that this frame shows the stroke.
 void brush_input(Ctx& c, const ViewMap& map, bool active);
 /// Handles shapes and transforms with the mouse, and draws the brush outline.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/viewer.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -94,7 +95,7 @@ void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         const Grip grip = handle(c, map, "pin " + std::to_string(k + 1), to, hovered,
                                  c.theme.accent_hover, !(pins[k].from == pins[k].to));
         over |= grip != Grip::kNone;
-        if (grip == Grip::kTaken && ImGui::GetIO().KeyAlt) {
+        if (grip == Grip::kTaken && subtracts()) {
             c.state.handle_held.clear();
             pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(k));
             c.edit(SetCorrection{ref, frame, pins});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/compare.h"
 #include "ui/icons.h"
 #include "ui/widgets.h"
 
@@ -46,6 +47,27 @@ static void draw_layers(Ctx& c, ImDrawList& list, const ViewMap& map,
     }
 }
 
+// The keyframes on both sides: the earlier one in blue, the later one in amber.
+static void draw_onion(Ctx& c, ImDrawList& list, const ViewMap& map) {
+    for (const RegionMatteView& key : c.view.onion) {
+        if (key.pixels.empty()) continue;
+        const bool before = key.frame < c.view.frame;
+        MatteDraw draw;
+        draw.pixels = key.pixels;
+        draw.key = before ? 4'000'000 : 4'000'001;  // beyond the regions, holdouts and zones
+        draw.version = key.version;
+        draw.min = map.to_screen({0, 0});
+        draw.max = map.to_screen({static_cast<float>(c.view.plate.size.width),
+                                  static_cast<float>(c.view.plate.size.height)});
+        draw.clip_min = map.min;
+        draw.clip_max = map.max;
+        draw.color = before ? c.theme.accent_hover : c.theme.warn;
+        draw.opacity = 0.1f;
+        draw.outline = true;
+        c.pictures.draw(list, draw);
+    }
+}
+
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
     // No outline in Review, where it would disturb judging the edge.
@@ -72,7 +94,9 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         draw.color = region_color(region->color, region->id);
         // Only the outline while working on the texture, because a coloured matte would falsify
         // colours.
-        draw.opacity = !in_mask ? 0.0f : selected ? 0.38f : 0.14f;
+        // Other regions stay as faint beside the selected one as they are by default.
+        const auto opacity = static_cast<float>(std::clamp(c.settings.matte_opacity, 0.0, 1.0));
+        draw.opacity = !in_mask ? 0.0f : selected ? opacity : 0.37f * opacity;
         draw.outline = selected;
         c.pictures.draw(list, draw);
     }
@@ -80,6 +104,7 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     // Holdouts are red, because they are cut out; zones are white, unlike any region.
     draw_layers(c, list, map, v.holdouts, c.theme.bad);
     draw_layers(c, list, map, v.zones, IM_COL32_WHITE);
+    draw_onion(c, list, map);
 }
 
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
@@ -139,8 +164,14 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const auto& over = c.view.overlay_picture;
     const Theme& t = c.theme;
     if (c.view.overlay == Overlay::kNone) return;
-    static constexpr const char* kNames[] = {"",      "Texture grid", "Stretch", "Light",
-                                             "Seams", "Motion",       "Trust",   "Pieces"};
+    static constexpr const char* kNames[] = {"",
+                                             "Texture grid",
+                                             "Stretch",
+                                             "Shading",
+                                             "Seams",
+                                             "Motion arrows",
+                                             "Tracking confidence",
+                                             "Source map"};
     const std::string name = kNames[static_cast<int>(c.view.overlay)];
     const bool scale = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion &&
                        over->kind != Overlay::kSourceMap;
@@ -150,7 +181,7 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     list.AddRectFilled(a, b, t.scrim, t.radius);
     text_in(
         list, t.small, {a.x + t.px(8), a.y}, {b.x, a.y + t.px(24)}, t.text,
-        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": rendering…")).c_str(),
+        (name + (over ? (over->unit.empty() ? "" : ", " + over->unit) : ": Rendering…")).c_str(),
         0);
     if (h < t.px(40)) return;
     constexpr int kSteps = 48;
@@ -201,8 +232,8 @@ State state_of_picture(const Ctx& c) {
     const SessionView& v = c.view;
     const Theme& t = c.theme;
     if (!v.frame_error.empty()) return {v.frame_error, t.bad, icons::kAlert};
-    if (c.state.viewer.hold_original || c.state.viewer.compare == Compare::kPlate)
-        return {"Plate", t.text};
+    if (c.state.viewer.hold_original) return {"Plate", t.text};
+    if (c.state.viewer.compare == Compare::kPlate) return {compared_name(c), t.text};
     if (!v.result_wanted) {
         std::string what = "Plate";
         if (const Region* region = v.selected_region())
@@ -254,7 +285,8 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
         x += t.px(24);
     }
     // Errors may use the whole bar except its controls.
-    const float room = std::max(t.px(60), max.x - x - t.px(616));
+    const float room =
+        std::max(t.px(60), max.x - x - view_controls_width(c, max.x - min.x) - t.px(12));
     ImGui::PushFont(t.small);
     const std::string shown = fitted(state.text, room);
     ImGui::PopFont();
@@ -302,7 +334,7 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
     if (const auto& marked = over->marked; !marked.empty() && marked.at(at.x, at.y) != 0)
         lines.push_back(marked.at(at.x, at.y) == 255 ? "Locked" : "Regenerated");
     if (found.light)
-        lines.push_back("Light × " + number_text(static_cast<double>(*found.light), 2));
+        lines.push_back("Shading × " + number_text(static_cast<double>(*found.light), 2));
     lines.push_back(
         "From " +
         pair(static_cast<double>(found.on_reference.x), static_cast<double>(found.on_reference.y)) +

@@ -20,4 +20,7 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max);
 /// The provenance of the pixel under the mouse, while that overlay is on.
 void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered);
 
+/// Width of the view's controls in a bar of this width; the state of the picture has the rest.
+[[nodiscard]] float view_controls_width(const Ctx& c, float width);
+
 }  // namespace weft::ui

@@ -14,7 +14,7 @@ namespace {
 Brush brush_now(const Ctx& c) {
     Brush brush = c.state.brush.brush;
     const bool erase = c.state.tool == Tool::kEraser;
-    brush.subtract = erase != ImGui::GetIO().KeyAlt;
+    brush.subtract = erase != subtracts();
     return brush;
 }
 
@@ -61,7 +61,7 @@ void draw_outline(Ctx& c, const ViewMap& map, const Vec2* rubber) {
 
 void finish_outline(Ctx& c) {
     BrushState& b = c.state.brush;
-    if (b.outline.size() > 2) c.emit(FillPolygon{b.outline, ImGui::GetIO().KeyAlt});
+    if (b.outline.size() > 2) c.emit(FillPolygon{b.outline, b.outline_subtracts});
     b.outline.clear();
     b.lassoing = false;
 }
@@ -71,6 +71,7 @@ void lasso(Ctx& c, const ViewMap& map, bool active) {
     const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
     if (active && ImGui::IsMouseClicked(0)) {
         b.outline = {at};
+        b.outline_subtracts = subtracts();
         b.lassoing = true;
     } else if (b.lassoing) {
         for (const Vec2 point : path_on_plate(c, map)) {
@@ -91,9 +92,10 @@ void polygon(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     }();
     if (active && ImGui::IsMouseClicked(0)) {
         if (closes || (ImGui::IsMouseDoubleClicked(0) && b.outline.size() > 2))
-            finish_outline(c);
-        else
-            b.outline.push_back(at);
+            return finish_outline(c);
+        // What counts is the modifier with which it began.
+        if (b.outline.empty()) b.outline_subtracts = subtracts();
+        b.outline.push_back(at);
     }
     if (!b.outline.empty() && !ImGui::GetIO().WantTextInput) {
         if (ImGui::IsKeyPressed(257)) finish_outline(c);
@@ -225,6 +227,11 @@ void place(Ctx& c, const ViewMap& map, bool hovered, bool active) {
 
 }  // namespace
 
+bool subtracts() {
+    const ImGuiIO& io = ImGui::GetIO();
+    return io.KeyAlt || io.KeyCtrl;
+}
+
 std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
     std::vector<Vec2> out;
     for (const ImVec2 at : c.state.mouse_path)
@@ -281,8 +288,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return polygon(c, map, hovered, active);
         case Tool::kFlood:
             if (active && ImGui::IsMouseClicked(0) && c.state.viewer.pixel)
-                c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance,
-                                   ImGui::GetIO().KeyAlt});
+                c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance, subtracts()});
             return;
         case Tool::kPlace:
             return place(c, map, hovered, active);
@@ -303,7 +309,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         case Tool::kCrypto:
             if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
             if (active && ImGui::IsMouseClicked(0) && c.state.viewer.pixel)
-                c.emit(PickCryptomatte{*c.state.viewer.pixel, ImGui::GetIO().KeyAlt});
+                c.emit(PickCryptomatte{*c.state.viewer.pixel, subtracts()});
             return;
     }
 }

@@ -48,7 +48,7 @@ int run_cli(int argc, char** argv, const EditCommand& edit) {
     std::signal(SIGXFSZ, SIG_IGN);
     make_libraries_deterministic();
     set_json_output(asks_for_json(argc, argv));
-    set_setting_namer(setting_flag);
+    set_setting_namer(names_settings_by_key() ? setting_in_braces : setting_flag);
     try {
         const int code = parse_and_run(argc, argv, edit);
         if (code != 0 || !std::ferror(stdout)) return code;

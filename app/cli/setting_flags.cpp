@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 #include "app/project/parameters.h"
@@ -70,6 +71,16 @@ std::string setting_flag(const SettingRef& setting) {
     if (flag.empty()) flag = flag_in(region_parameters(), setting.key);
     if (flag.empty()) flag = flag_in(project_parameters(), setting.key);
     return flag.empty() ? std::string() : std::string(flag) + value;
+}
+
+bool names_settings_by_key() {
+    const char* names = std::getenv("WEFT_SETTING_NAMES");
+    return names && std::string_view(names) == "keys";
+}
+
+std::string setting_in_braces(const SettingRef& setting) {
+    return "{" + std::string(setting.key) + (setting.value.empty() ? "" : "=" + setting.value) +
+           "}";
 }
 
 }  // namespace weft

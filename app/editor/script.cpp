@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -18,6 +19,15 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr double kPatienceS = 60;
+
+// The step that saves, collects or relinks; none for other steps.
+std::optional<Action> file_action(const Json& step) {
+    if (step.contains("save_as")) return SaveAs{step.at("save_as").get<std::string>()};
+    if (step.contains("save_version")) return SaveVersion{};
+    if (step.contains("collect")) return CollectProject{step.at("collect").get<std::string>()};
+    if (step.contains("relink")) return RelinkFiles{step.at("relink").get<std::string>()};
+    return std::nullopt;
+}
 
 class ScriptRunner {
   public:
@@ -180,6 +190,10 @@ Status ScriptRunner::step(const Json& step) {
         robot_.frames(3);
     } else if (step.contains("open")) {
         app_.session().act(OpenAny{text("open")});
+        robot_.frames(2);
+    } else if (const auto action = file_action(step)) {
+        app_.session().act(*action);
+        app_.session().flush();
         robot_.frames(2);
     } else if (step.contains("demo")) {
         app_.session().act(OpenDemo{});

@@ -56,6 +56,10 @@ void Playback::play(int direction) {
     direction_ = frames_.size() > 1 ? direction : 0;
     frame_at_s_ = fps_since_s_ = now_s_;
     shown_ = 0;
+    // What has been played to its end begins again.
+    const auto [first, last] = range();
+    if (mode_ == PlayMode::kOnce && direction_ != 0 && index() == (direction_ > 0 ? last : first))
+        go_to(frames_[static_cast<std::size_t>(direction_ > 0 ? first : last)]);
 }
 
 void Playback::advance(double now_s, double fps, const std::vector<PlatePlayer::State>& decoded) {
@@ -65,7 +69,13 @@ void Playback::advance(double now_s, double fps, const std::vector<PlatePlayer::
     constexpr int kMostAtOnce = 4;
     for (int k = 0; k < kMostAtOnce && now_s - frame_at_s_ >= 1.0 / fps; ++k) {
         int next = index() + direction_;
-        if (next > last || next < first) next = direction_ > 0 ? first : last;
+        if (next > last || next < first) {
+            if (mode_ == PlayMode::kOnce) return stop();
+            if (mode_ == PlayMode::kPingPong) direction_ = -direction_;
+            next = mode_ == PlayMode::kPingPong ? std::clamp(index() + direction_, first, last)
+                   : direction_ > 0             ? first
+                                                : last;
+        }
         const auto at = static_cast<std::size_t>(next);
         // On the first loop, waits for frames that are not decoded yet; later loops run in real
         // time.

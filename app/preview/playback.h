@@ -1,6 +1,7 @@
 #pragma once
 // The playhead and its movement.
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "app/preview/plate_player.h"
 
 namespace weft {
+
+/// What follows the last frame of the range.
+enum class PlayMode : std::uint8_t { kLoop, kPingPong, kOnce };
 
 /// Belongs to one thread. Frames are the plate's frame numbers, ascending; indices count them from
 /// 0.
@@ -44,6 +48,8 @@ class Playback {
     bool step(int count);
     void play(int direction);
     void stop() { direction_ = 0; }
+    void set_mode(PlayMode mode) { mode_ = mode; }
+    [[nodiscard]] PlayMode mode() const { return mode_; }
 
     /// Advances the playhead during playback. `decoded`: state of each frame by index; playback
     /// waits for a frame that is not decoded. `now_s`: a monotonic clock.
@@ -54,6 +60,7 @@ class Playback {
   private:
     std::vector<int> frames_;
     int frame_ = 0, direction_ = 0;
+    PlayMode mode_ = PlayMode::kLoop;
     std::optional<int> mark_in_, mark_out_;
     double now_s_ = 0, frame_at_s_ = 0, fps_since_s_ = 0, shown_fps_ = 0;
     int shown_ = 0;  // frames since fps_since_s_

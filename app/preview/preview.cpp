@@ -70,6 +70,12 @@ void Preview::clear() {
     impl_->changed(*shared);
 }
 
+void Preview::forget(std::uint64_t document) {
+    clear();
+    impl_->carrier.clear();
+    impl_->guarded.lock()->document = document;
+}
+
 void Preview::pause() {
     impl_->carrier.pause();
     const auto shared = impl_->guarded.lock();
@@ -96,12 +102,13 @@ bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& re
     reading.paused = shared->paused;
     reading.overlay = shared->overlay;
     reading.cards = shared->cards;
+    if (!shared->opened || shared->opened->document != shared->document) return true;
     if (const auto found = shared->confidences.find({region, layer});
         found != shared->confidences.end())
         reading.confidence = found->second;
     if (const auto found = shared->healths.find(region); found != shared->healths.end())
         reading.health = found->second;
-    if (!shared->opened || shared->opened->pixels != shared->wanted_pixels) return true;
+    if (shared->opened->pixels != shared->wanted_pixels) return true;
     for (const auto& [number, pictures] : shared->frames)
         reading.rendered.push_back(number);
     if (const auto found = shared->frames.find(frame); found != shared->frames.end())
@@ -138,7 +145,7 @@ std::pair<OpenedPtr, std::size_t> Preview::Impl::find_opened(RegionId region) co
     OpenedPtr now;
     {
         const auto shared = guarded.lock();
-        now = shared->opened;
+        if (shared->opened && shared->opened->document == shared->document) now = shared->opened;
     }
     for (std::size_t k = 0; now && k < now->shot->region_index.size(); ++k)
         if (now->shot->project.regions[now->shot->region_index[k]]->id == region) return {now, k};

@@ -60,7 +60,8 @@ struct StripCard {
 };
 
 struct PreviewRequest {
-    Project project;  ///< With absolute paths, and only regions that can be shown.
+    Project project;             ///< With absolute paths, and only regions that can be shown.
+    std::uint64_t document = 0;  ///< Which opened document it is; see Preview::forget().
     int frame = 0;
     std::vector<int> range;          ///< Frames to analyse; empty: only those that `frame` needs.
     std::vector<int> fill;           ///< Frames to render when idle, in this order.
@@ -163,6 +164,9 @@ class Preview {
     void carry(const Project& project, const PaintedMattes& painted, int frame);
     /// Closes the shot and stops all work except carry().
     void clear();
+    /// The same when another document is opened: nothing of the one before is reported any more,
+    /// also where plate, region ids and frames are the same. Later requests are for `document`.
+    void forget(std::uint64_t document);
     /// Pauses the analysis until resume(), or until a request changes it.
     void pause();
     void resume();

@@ -146,6 +146,7 @@ void Preview::Impl::collect_confidence(const OpenedShot& work) {
                 if (const auto matte = decode_matte(*bytes)) found[frame] = matte->confidence;
             }
             const auto shared = guarded.lock();
+            if (work.document != shared->document) return;
             shared->confidences[{region.id, layer}] = std::move(found);
             ++mattes;
         }

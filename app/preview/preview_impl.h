@@ -35,6 +35,7 @@ struct OpenedShot {
     std::shared_ptr<const Shot> shot;
     std::shared_ptr<AnalysisCache> store;
     std::string pixels, analysis;  ///< Keys of the opened project.
+    std::uint64_t document = 0;    ///< As PreviewRequest::document.
 };
 using OpenedPtr = std::shared_ptr<const OpenedShot>;
 
@@ -138,6 +139,7 @@ struct Preview::Impl {
         std::uint64_t signals = 0;
         // The request.
         std::optional<PreviewRequest> wanted;
+        std::uint64_t document = 0;  // results of other documents are not reported
         std::string wanted_pixels, wanted_analysis;
         Clock::time_point refine_at;     // time to refine to full size
         Clock::time_point requested_at;  // of the first request for this content and frame

@@ -21,6 +21,14 @@ std::map<RegionId, int> references_of(const Shot& shot) {
     return out;
 }
 
+// What was measured on pictures that are rendered again.
+void forget_pictures(std::map<RegionId, std::map<int, FrameHealth>>& healths) {
+    for (auto& [region, of_frames] : healths)
+        for (auto& [frame, health] : of_frames)
+            health.flicker = health.flicker_plate = health.flicker_floor = health.chatter =
+                health.seam_motion = health.seam = -1;
+}
+
 }  // namespace
 
 Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget)
@@ -89,7 +97,8 @@ bool Preview::Impl::step() {
         pixels = shared->wanted_pixels;
     }
     note_written(now);
-    if (!current || current->pixels != pixels) return open_shot_of(now, pixels);
+    if (!current || current->pixels != pixels || current->document != now.document)
+        return open_shot_of(now, pixels);
     if (!ready(now.frame)) {
         set_state(PreviewView::State::kAnalysing);
         if (step_provisional(now) || step_draft(now)) return true;
@@ -171,9 +180,8 @@ Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project
 
 bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& pixels) {
     set_state(PreviewView::State::kOpening);
-    auto fresh = std::make_shared<OpenedShot>();
-    fresh->pixels = pixels;
-    fresh->analysis = analysis_key(now.project);
+    auto fresh = std::make_shared<OpenedShot>(
+        OpenedShot{nullptr, nullptr, pixels, analysis_key(now.project), now.document});
     std::vector<std::string> warnings;
     auto shot = open(now.project, now.painted);
     Expected<std::shared_ptr<AnalysisCache>> store{nullptr};
@@ -193,12 +201,15 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     warnings.insert(warnings.end(), (*shot)->warnings.begin(), (*shot)->warnings.end());
     if (auto t = make_color_transform((*shot)->spaces.out, {"srgb"})) srgb_from_out = *t;
     if (auto t = make_color_transform((*shot)->spaces.out, {"linear"})) linear_from_out = *t;
-    const bool same_analysis = current && current->analysis == fresh->analysis;
+    const bool same_analysis =
+        current && current->analysis == fresh->analysis && current->document == fresh->document;
     // If the analysis is unchanged, the store is still that of the shot opened before.
     if (!same_analysis && current && !ready_frames.empty()) settled = current;
-    if (settled && settled->shot->project.plate != now.project.plate) settled.reset();
-    if (!same_analysis) unwritten = fresh->shot->painted.empty() ? nullptr : fresh;
+    if (settled &&
+        (settled->shot->project.plate != now.project.plate || settled->document != now.document))
+        settled.reset();
     if (!same_analysis) {
+        unwritten = fresh->shot->painted.empty() ? nullptr : fresh;
         ready_frames.clear();
         draft.reset();
     }
@@ -212,10 +223,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     shared->frame_bytes = 0;
     shared->provisional.reset();
     compared.clear();
-    for (auto& [region, of_frames] : shared->healths)
-        for (auto& [frame, health] : of_frames)
-            health.flicker = health.flicker_plate = health.flicker_floor = health.chatter =
-                health.seam_motion = health.seam = -1;
+    forget_pictures(shared->healths);
     shared->shown.warnings = std::move(warnings);
     shared->shown.references = references_of(**shot);
     changed(*shared);

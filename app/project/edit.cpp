@@ -317,7 +317,7 @@ std::string edit_label(const Project& before, const Edit& edit) {
                                name(e.region));
         }
         std::string operator()(const SetAmendments& e) const {
-            return "Kept places of " + name(e.region);
+            return "Locked patches of " + name(e.region);
         }
         std::string operator()(const SetTexture& e) const {
             return "Set the texture of " + name(e.region);

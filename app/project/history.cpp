@@ -39,6 +39,27 @@ bool History::go_to(std::size_t position) {
     return true;
 }
 
+void History::change_all(const std::function<Project(const Project&)>& change) {
+    std::deque<Entry> before = std::exchange(entries_, {});
+    bytes_ = 0;
+    leaf_uses_.clear();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        Entry changed = before[k];
+        changed.project = change(before[k].project);
+        auto& regions = changed.project.regions;
+        for (std::size_t r = 0; k > 0 && r < regions.size(); ++r) {
+            const auto& one = before[k].project.regions;
+            const auto& other = before[k - 1].project.regions;
+            const auto& made = entries_.back().project.regions;
+            if (r < one.size() && r < other.size() && r < made.size() &&
+                one[r].identity() == other[r].identity())
+                regions[r] = made[r];
+        }
+        add(std::move(changed));
+    }
+    trim();
+}
+
 void History::add(Entry entry) {
     count(entry, +1);
     entries_.push_back(std::move(entry));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -48,6 +49,10 @@ class History {
     }  ///< Position of the current state in labels().
     /// Goes to that state. Returns false if there is no such state.
     bool go_to(std::size_t position);
+
+    /// Replaces every state, for instance when all paths get another origin. Labels, serials and
+    /// what is saved stay, and so does what the states share.
+    void change_all(const std::function<Project(const Project&)>& change);
 
     /// Marks the current state as saved.
     void mark_saved() { saved_ = entries_[at_].serial; }

@@ -10,6 +10,7 @@
 
 #include "app/mattes/paint.h"
 #include "app/mattes/roto_shape.h"
+#include "app/preview/playback.h"
 #include "app/preview/preview.h"
 #include "app/project/edit.h"
 #include "engine/color/screen_view.h"
@@ -65,6 +66,20 @@ struct SaveAs {
     std::string path;
     bool operator==(const SaveAs&) const = default;
 };
+/// Saves under the next free version of the name: shot.weft, shot_v002.weft, shot_v003.weft.
+struct SaveVersion {
+    bool operator==(const SaveVersion&) const = default;
+};
+/// Copies the project with all of its inputs into a new folder below this one.
+struct CollectProject {
+    std::string folder;
+    bool operator==(const CollectProject&) const = default;
+};
+/// Looks for the document's missing files in a folder and its subfolders.
+struct RelinkFiles {
+    std::string folder;
+    bool operator==(const RelinkFiles&) const = default;
+};
 struct CloseProject {
     bool operator==(const CloseProject&) const = default;
 };
@@ -112,6 +127,10 @@ struct StepKeyframe {
 struct Play {
     int direction = 1;
     bool operator==(const Play&) const = default;
+};
+struct SetPlayMode {
+    PlayMode mode = PlayMode::kLoop;
+    bool operator==(const SetPlayMode&) const = default;
 };
 /// The marked range; unset ends are the shot's.
 struct MarkRange {
@@ -201,6 +220,12 @@ struct PaintInstead {
 struct PauseAnalysis {
     bool paused = true;
     bool operator==(const PauseAnalysis&) const = default;
+};
+
+/// Shows the painted layer's keyframes before and after the frame, for drawing between them.
+struct ShowOnionSkin {
+    bool shown = false;
+    bool operator==(const ShowOnionSkin&) const = default;
 };
 
 /// Writes the selected region's mattes of the marked range (else of the whole shot).
@@ -316,8 +341,9 @@ struct MeasureResult {
 
 using Action =
     std::variant<DoEdit, DoEdits, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject,
-                 OpenDemo, OpenAny, Save, SaveAs, CloseProject, Recover, TrustFolder, SelectRegion,
-                 SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, MarkRange,
+                 OpenDemo, OpenAny, Save, SaveAs, SaveVersion, CollectProject, RelinkFiles,
+                 CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion,
+                 GoToFrame, StepFrames, StepKeyframe, Play, SetPlayMode, MarkRange, ShowOnionSkin,
                  BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer, FillPolygon, FloodSelect,
                  ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte,
                  FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes,

@@ -1,8 +1,6 @@
 #include "app/session/child_jobs.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,13 +14,13 @@
 #include <sstream>
 
 #include "app/base/background.h"
+#include "app/base/detached_process.h"
+#include "app/base/job_messages.h"
 #include "app/project/codec/project_file.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/input_file.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
-
-extern char** environ;
 
 namespace weft {
 namespace {
@@ -56,6 +54,30 @@ std::string tail_of(const std::string& path, std::size_t most_bytes) {
     return text;
 }
 
+// The rate, the time left and the time elapsed agree: all leave pauses out, and the rate counts
+// what was done in this stage, without the frames that were there before.
+class StageRate {
+  public:
+    void note(JobView& view, const std::string& stage, double elapsed_s) {
+        if (stage != view.stage) {
+            start_s_ = view.elapsed_s;
+            before_ = std::max(0, view.done - 1);
+        }
+        view.stage = stage;
+        view.elapsed_s = elapsed_s;
+        const double in_stage_s = elapsed_s - start_s_;
+        const int done = view.done - before_;
+        constexpr double kLeast_s = 0.5;
+        if (stage == "render" && in_stage_s > kLeast_s)
+            view.frames_per_minute = 60.0 * done / in_stage_s;
+        view.left_s = done > 1 ? in_stage_s / done * (view.total - view.done) : 0;
+    }
+
+  private:
+    double start_s_ = 0;
+    int before_ = 0;
+};
+
 std::string last_line(const std::string& path) {
     std::istringstream file(tail_of(path, kTail_bytes));
     std::string line, last;
@@ -65,7 +87,7 @@ std::string last_line(const std::string& path) {
             last = line;
     }
     constexpr std::string_view kPrefix = "weft: ";
-    return last.starts_with(kPrefix) ? last.substr(kPrefix.size()) : last;
+    return with_setting_names(last.starts_with(kPrefix) ? last.substr(kPrefix.size()) : last);
 }
 
 }  // namespace
@@ -77,6 +99,8 @@ struct ChildJobs::Job {
     bool skip_existing = false;
     pid_t pid = -1;
     bool cancelled = false;
+    double paused_s = 0;  // all pauses that have ended
+    Clock::time_point paused_at;
 };
 
 struct ChildJobs::Shared {
@@ -118,6 +142,7 @@ Expected<int> ChildJobs::submit(const RenderRequest& request) {
     job->view.label = request.label;
     job->view.estimated_s = request.estimated_s;
     job->view.output = request.project.output.path;
+    job->view.plate = request.project.plate.path;
     job->view.movie = request.project.output.movie;
     job->view.total = static_cast<int>(request.frames.size());
     job->view.log_path = stem + ".log";
@@ -146,63 +171,6 @@ void ChildJobs::start_next(const std::shared_ptr<Shared>& shared) {
     std::thread([shared, next] { run(shared, next); }).detach();
 }
 
-namespace {
-
-// Progress goes to a file, not to a pipe, so that the job continues when the editor is closed.
-pid_t spawn(const std::vector<std::string>& arguments, const std::string& progress,
-            const std::string& log) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, progress.c_str(), kNew, 0644);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), kNew, 0644);
-    // Its own process group, so that an interrupt in the editor's terminal does not stop it.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    pid_t pid = -1;
-    if (posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ) != 0) pid = -1;
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return pid;
-}
-
-// Calls `line` for every line of the child's progress until it ends; returns its exit status.
-template <class F>
-int follow(pid_t pid, const std::string& path, F&& line) {
-    std::optional<InputFile> file;
-    std::string pending;
-    std::uint64_t offset = 0;
-    for (int status = 0;;) {
-        const bool over = waitpid(pid, &status, WNOHANG) == pid;
-        if (!file) {
-            if (auto opened = InputFile::open(path)) file = std::move(*opened);
-        }
-        char buffer[4096];
-        while (file) {
-            const std::size_t got = file->read_at(offset, buffer, sizeof buffer).value_or(0);
-            if (got == 0) break;
-            pending.append(buffer, got);
-            offset += got;
-        }
-        for (std::size_t end = pending.find('\n'); end != std::string::npos;
-             end = pending.find('\n')) {
-            line(pending.substr(0, end));
-            pending.erase(0, end + 1);
-        }
-        if (over) return status;
-        std::this_thread::sleep_for(std::chrono::milliseconds(80));
-    }
-}
-
-}  // namespace
-
 void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr<Job>& job) {
     lower_thread_priority();
     std::vector<std::string> arguments{shared->program, "render", job->snapshot, "--progress",
@@ -218,10 +186,11 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
     const auto pattern = SequencePattern::parse(job->request.project.output.path);
     const auto start = Clock::now();
     auto last_thumbnail = start - std::chrono::hours(1);
-    auto stage_start = start;
-    std::string stage;
+    StageRate rate;
     const std::string progress = job->snapshot + ".progress";
-    const pid_t child = spawn(arguments, progress, job->view.log_path);
+    // The job names settings by key, so that its messages speak of the editor's labels.
+    const pid_t child =
+        start_detached(arguments, kSettingNamesVariable, progress, job->view.log_path);
     {
         const std::lock_guard lock(shared->mutex);
         job->pid = child;
@@ -229,17 +198,13 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
     }
     int status = -1;
     if (child > 0) {
-        status = follow(child, progress, [&](const std::string& text) {
+        status = follow_detached(child, progress, [&](const std::string& text) {
             const auto event = nlohmann::json::parse(text, nullptr, false);
             if (!event.is_object()) return;
             const auto now = Clock::now();
-            const std::string name = event.value("stage", "");
-            if (name != stage) {
-                stage = name;
-                stage_start = now;
-            }
             PicturePtr thumbnail;
             const int frame = event.value("frame", 0);
+            const std::string stage = event.value("stage", "");
             const bool rendered = stage == "render";
             if (rendered && pattern && now - last_thumbnail > std::chrono::milliseconds(800)) {
                 thumbnail = thumbnail_of(pattern->path_for(frame));
@@ -247,17 +212,14 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
             }
             const std::lock_guard lock(shared->mutex);
             JobView& view = job->view;
-            view.stage = stage;
-            view.done = event.value("done", 0);
-            view.total = event.value("total", 0);
-            view.elapsed_s = std::chrono::duration<double>(now - start).count();
-            const double in_stage = std::chrono::duration<double>(now - stage_start).count();
             if (rendered) {
                 view.newest_frame = frame;
                 view.has_frame = true;
-                if (in_stage > 0.5) view.frames_per_minute = 60.0 * view.done / in_stage;
             }
-            view.left_s = view.done > 1 ? in_stage / view.done * (view.total - view.done) : 0;
+            view.done = event.value("done", 0);
+            view.total = event.value("total", 0);
+            rate.note(view, stage,
+                      std::chrono::duration<double>(now - start).count() - job->paused_s);
             if (thumbnail) view.thumbnail = thumbnail;
             ++shared->changes;
         });
@@ -278,8 +240,11 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
         const std::lock_guard lock(shared->mutex);
         JobView& view = job->view;
         job->pid = -1;
-        view.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
+        view.elapsed_s =
+            std::chrono::duration<double>(Clock::now() - start).count() - job->paused_s;
         view.left_s = 0;
+        // Of a finished job the rate is that of the whole time, as the line beside it says.
+        if (good && view.elapsed_s > 0) view.frames_per_minute = 60.0 * view.total / view.elapsed_s;
         if (job->cancelled) {
             view.state = JobState::kCancelled;
         } else if (good) {
@@ -316,6 +281,7 @@ void ChildJobs::pause(int id) {
         if (job->view.id != id || job->view.state != JobState::kRunning || job->pid <= 0) continue;
         ::kill(job->pid, SIGSTOP);
         job->view.state = JobState::kPaused;
+        job->paused_at = Clock::now();
         job->view.estimated_s = 0;
         ++shared_->changes;
     }
@@ -327,6 +293,7 @@ void ChildJobs::resume(int id) {
         if (job->view.id != id || job->view.state != JobState::kPaused || job->pid <= 0) continue;
         ::kill(job->pid, SIGCONT);
         job->view.state = JobState::kRunning;
+        job->paused_s += std::chrono::duration<double>(Clock::now() - job->paused_at).count();
         ++shared_->changes;
     }
 }
@@ -341,6 +308,8 @@ void ChildJobs::retry(int id) {
             job->view.state = JobState::kWaiting;
             job->view.error.clear();
             job->view.done = 0;
+            job->view.elapsed_s = job->view.left_s = job->view.frames_per_minute = 0;
+            job->paused_s = 0;
             job->view.estimated_s = 0;
             job->view.stage.clear();
             ++shared_->changes;
@@ -386,7 +355,7 @@ std::string ChildJobs::log_tail(int id, std::size_t most_bytes) const {
         for (const auto& job : shared_->jobs)
             if (job->view.id == id) path = job->view.log_path;
     }
-    return tail_of(path, most_bytes);
+    return with_setting_names(tail_of(path, most_bytes));
 }
 
 }  // namespace weft

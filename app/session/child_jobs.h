@@ -38,6 +38,7 @@ struct JobView {
     double estimated_s = 0;  ///< As submitted; 0 after a pause or retry, when it no longer holds.
     PicturePtr thumbnail;    ///< Thumbnail of the newest frame.
     std::string log_path, movie;
+    std::string plate;  ///< Of its shot, absolute.
 };
 
 /// Runs one job at a time; the others wait in order. Thread-safe; does not block.

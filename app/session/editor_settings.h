@@ -21,6 +21,7 @@ struct EditorSettings {
     std::map<std::string, std::vector<std::string>> collections;  ///< Name → textures, by path.
     std::vector<std::string> texture_folders;
     bool tour_seen = false;
+    double matte_opacity = 0.38;              ///< Of the selected region's matte over the plate.
     double render_speed = 1;                  ///< Speed of this machine, from calibrated_speed().
     std::string screen_display, screen_view;  ///< As ChooseScreen::name; both empty: the default.
     bool operator==(const EditorSettings&) const = default;

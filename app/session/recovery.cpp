@@ -46,6 +46,20 @@ std::string time_text(const std::string& file) {
     return text[0] == ' ' ? text + 1 : text;
 }
 
+// Whether the editor of a snapshot still runs: a process that has just been killed keeps its number
+// until it is waited for, and the number of one that has gone may belong to another program.
+bool still_runs(int pid) {
+    if (kill(pid, 0) != 0) return false;
+    std::error_code error;
+    const fs::path own = fs::read_symlink("/proc/self/exe", error);
+    if (error) return true;
+    const fs::path its = fs::read_symlink("/proc/" + std::to_string(pid) + "/exe", error);
+    constexpr std::string_view kReplaced = " (deleted)";
+    std::string name = its.filename().string();
+    if (name.ends_with(kReplaced)) name.resize(name.size() - kReplaced.size());
+    return !error && name == own.filename();
+}
+
 }  // namespace
 
 RecoveryWriter::RecoveryWriter(std::string folder, std::function<void()> before_writing)
@@ -126,7 +140,7 @@ std::vector<RecoveredProject> find_recoverable(const std::string& folder) {
         int pid = 0;
         if (std::sscanf(name.c_str(), "recovery-%d.weft", &pid) != 1) continue;
         if (!name.ends_with(".weft") || pid == getpid()) continue;
-        if (kill(pid, 0) == 0) continue;  // its editor is still running
+        if (still_runs(pid)) continue;
         auto project = load_project(it->path().string());
         if (!project) continue;
         RecoveredProject one{it->path().string(), {}, time_text(it->path().string()), *project};

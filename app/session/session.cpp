@@ -112,6 +112,7 @@ void Session::request_preview() {
     carry_mattes();
     PreviewRequest request;
     bool any = false;
+    request.document = document_id_;
     request.project = project_to_preview(any);
     if (!any) {
         request_pending_ = false;
@@ -149,7 +150,7 @@ void Session::request_preview() {
 void Session::apply_texture(const std::string& path, RegionId region) {
     const Region* target = region_by_id(document(), region);
     if (!target) {
-        notify(NoticeKind::kWarning, "Select the region that is to get this texture.");
+        notify(NoticeKind::kWarning, "Select a region for this texture.");
         return;
     }
     if (names_library_texture(path)) return fetch_texture(path, region);
@@ -235,6 +236,8 @@ void Session::update(double now_s) {
     part("plate");
     take_plate();
     now_s_ = now_s;
+    if (first_update_s_ < 0) first_update_s_ = now_s;
+    find_more_recoverable();
     if (player_) {
         playback_.advance(now_s, view_.plate.fps > 0 ? view_.plate.fps : 24, plate_reading_.states);
         (void)player_->try_want(playback_.upcoming());  // if it fails, retried in the next frame
@@ -253,7 +256,7 @@ void Session::update(double now_s) {
     if (const std::string error = shelf_.take_write_error(); !error.empty())
         notify(NoticeKind::kError, error);
     if (const std::string error = recovery_.take_error(); !error.empty())
-        notify(NoticeKind::kError, "The recovery file cannot be written. " + error);
+        notify(NoticeKind::kError, "Cannot write the autosave. " + error);
     std::erase_if(notices_, [&](const Notice& n) {
         return n.kind != NoticeKind::kError && now_s - n.at_s > kToastSeconds;
     });

@@ -8,9 +8,12 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 
+#include "app/base/background.h"
 #include "app/base/background_tasks.h"
 #include "app/base/frame_clock.h"
+#include "app/exchange/move_project.h"
 #include "app/mattes/matte_painting.h"
 #include "app/preview/plate_opener.h"
 #include "app/preview/plate_player.h"
@@ -73,6 +76,7 @@ class Session {
 
   private:
     struct Actor;  // carries out each action
+    using Finish = BackgroundTasks::Finish;
 
     // ---- the document (session_document.cpp) ----
     [[nodiscard]] const Project& document() const { return tried_ ? *tried_ : history_.current(); }
@@ -83,15 +87,42 @@ class Session {
     void open_project(const std::string& path);
     void open_demo();
     void open_any(const std::string& path);
-    void save(const std::string& path);
     void recover(bool accept);
+    void find_more_recoverable();
     void document_changed();
     void open_plate_in_background();
     void take_plate();
     void remember_recent(const std::string& path);
-    void saved_as(const Project& written, const std::string& path,
-                  const std::map<std::string, std::string>& moved);
     void end_player();
+    /// Waits for its result in the background and drops it.
+    template <class Work, class Future>
+    void abandon(std::optional<Work>& work, Future&& future) {
+        if (!work) return;
+        shutdowns_.push_back(in_background([one = future(*work)]() mutable { one.wait(); }));
+        work.reset();
+    }
+
+    // ---- the document's files (session_files.cpp) ----
+    void save(const std::string& path);
+    void save_version();
+    void saved_as(const Project& written, const std::string& path, const MovedFiles& moved);
+    [[nodiscard]] bool is_plate_folder(const std::string& folder) const;
+    void collect(const std::string& folder);
+    void look_for_missing_files();
+    void relink(const std::string& folder);
+    void find_render_folder();
+
+    /// A file task that ends in the document in which it began; its end is dropped if another
+    /// document has been opened meanwhile.
+    template <class Work>
+    void start_for_document(Work&& work) {
+        file_tasks_.start(
+            [this, id = document_id_, work = std::forward<Work>(work)]() mutable -> Finish {
+                return [this, id, finish = work()] {
+                    if (id == document_id_ && finish) finish();
+                };
+            });
+    }
 
     // ---- untrusted projects (session_trust.cpp) ----
     void update_trust(bool from_file);
@@ -105,7 +136,9 @@ class Session {
     void step_keyframe(int direction);
 
     // ---- mattes (session_mattes.cpp) ----
-    [[nodiscard]] RegionMatteView matte_of(const Region& region, int layer, int frame);
+    /// `place`: several frames of a layer are shown at the same time, each in its own place.
+    [[nodiscard]] RegionMatteView matte_of(const Region& region, int layer, int frame,
+                                           int place = 0);
     [[nodiscard]] const Region* painted_region() const {
         return region_by_id(document(), selected_);
     }
@@ -122,6 +155,16 @@ class Session {
                     const std::optional<RotoShape>& shape = {});
     void change_matte(std::function<Matte(const Matte&)> change, std::string label);
     void take_changed_matte();
+    /// Returns true if a matte is being changed; then `action` follows, if the artist is still
+    /// there.
+    template <class T>
+    bool follows_change(const T& action) {
+        if (!changing_) return false;
+        after_change_ = [this, action, place = painted_place()] {
+            if (place == painted_place()) act(action);
+        };
+        return true;
+    }
     void paint_instead();
     [[nodiscard]] std::string beside_project(const std::string& path) const;
 
@@ -164,12 +207,14 @@ class Session {
     void submit(const SubmitJob& action);
     void watch_jobs();
     void measure(const std::string& pattern);
+    void end_measuring();
 
     // ---- the view (session_view.cpp) ----
     void show_document();
     void show_plate();
     void show_marks();
     void show_mattes();
+    void show_onion_skin();
     void show_result();
 
     SessionOptions options_;
@@ -182,8 +227,10 @@ class Session {
     std::string path_;
     History history_;
     std::optional<Project> tried_;
+    std::uint64_t document_id_ = 0;  // counts the documents that were opened
     std::uint64_t document_version_ = 1, shown_version_ = 0, requested_version_ = 0;
     std::vector<RecoveredProject> recoverable_;
+    double look_for_recovery_s_ = 1;  // time of the next look; see find_more_recoverable()
 
     // Destroyed in reverse order: a member's thread may use the members above it.
     Preview preview_;
@@ -198,11 +245,10 @@ class Session {
     PreviewReading preview_reading_;
     /// Destructions that may block, each in a thread of its own.
     std::vector<std::future<void>> shutdowns_;
-    using Finish = BackgroundTasks::Finish;
     BackgroundTasks file_tasks_;
 
     Playback playback_;
-    double now_s_ = 0;
+    double now_s_ = 0, first_update_s_ = -1;
 
     RegionId selected_ = 0, solo_ = 0;
     int layer_ = 0;    // of the selected region, as in SelectMatteLayer
@@ -214,7 +260,7 @@ class Session {
         MattePtr matte;
         std::uint64_t version = 0;
     };
-    std::map<std::pair<RegionId, int>, Shown> shown_mattes_;  // by region and layer
+    std::map<std::tuple<RegionId, int, int>, Shown> shown_mattes_;  // by region, layer and place
     std::map<std::string, std::uint64_t> missed_mattes_;  // name → matte_version() when it failed
     struct Changing {
         std::future<Matte> matte;
@@ -223,6 +269,8 @@ class Session {
         std::optional<RotoShape> shape;  // shape that the matte is drawn from
     };
     std::optional<Changing> changing_;
+    /// A scribble or shape that came while the one before was worked out; the newest counts.
+    std::function<void()> after_change_;
     int matte_serial_ = 0;
     struct Fetching {
         std::future<Expected<std::string>> path;
@@ -232,7 +280,7 @@ class Session {
 
     int read_frame_ = 0;
     Strip strip_;
-    bool stages_ = false;
+    bool stages_ = false, onion_skin_ = false;
     std::optional<LayerKind> shown_layer_;
     ScreenName wanted_screen_;  // shown or being prepared
     Overlay overlay_ = Overlay::kNone;

@@ -36,6 +36,9 @@ struct Session::Actor {
     void operator()(const OpenAny& a) const { s.open_any(a.path); }
     void operator()(const Save&) const { s.save(s.path_); }
     void operator()(const SaveAs& a) const { s.save(a.path); }
+    void operator()(const SaveVersion&) const { s.save_version(); }
+    void operator()(const CollectProject& a) const { s.collect(a.folder); }
+    void operator()(const RelinkFiles& a) const { s.relink(a.folder); }
     void operator()(const CloseProject&) const {
         s.end_stroke();
         s.recovery_.clear();
@@ -88,6 +91,8 @@ struct Session::Actor {
         s.playback_.play(a.direction);
         s.request_pending_ = true;
     }
+    void operator()(const SetPlayMode& a) const { s.playback_.set_mode(a.mode); }
+    void operator()(const ShowOnionSkin& a) const { s.onion_skin_ = a.shown; }
     void operator()(const MarkRange& a) const {
         s.playback_.mark(a.in, a.out);
         s.request_pending_ = true;
@@ -99,7 +104,7 @@ struct Session::Actor {
     void operator()(const EndStroke&) const { s.end_stroke(); }
     void operator()(const FillPolygon& a) const {
         s.change_matte([a](const Matte& m) { return fill_polygon(m, a.points, a.subtract); },
-                       a.subtract ? "Cut a shape" : "Fill a shape");
+                       a.subtract ? "Subtract shape" : "Add shape");
     }
     void operator()(const FloodSelect& a) const {
         const PicturePtr picture = s.view_.plate_picture;
@@ -108,23 +113,23 @@ struct Session::Actor {
             [a, picture](const Matte& m) {
                 return flood_select(m, shrink(*picture, 1 << 20), a.at, a.tolerance, a.subtract);
             },
-            a.subtract ? "Take away a colour" : "Select a colour");
+            a.subtract ? "Subtract colour" : "Add colour");
     }
     void operator()(const ScribbleSelect& a) const { s.scribble(a); }
     void operator()(const SetShape& a) const { s.set_shape(a.shape); }
     void operator()(const FillBetweenShapes&) const { s.fill_between_shapes(); }
     void operator()(const GrowMatte& a) const {
         s.change_matte([a](const Matte& m) { return grow_matte(m, a.px); },
-                       a.px > 0 ? "Grow the matte" : "Shrink the matte");
+                       a.px > 0 ? "Grow matte" : "Shrink matte");
     }
     void operator()(const FeatherMatte& a) const {
-        s.change_matte([a](const Matte& m) { return feather_matte(m, a.px); }, "Feather the matte");
+        s.change_matte([a](const Matte& m) { return feather_matte(m, a.px); }, "Feather matte");
     }
     void operator()(const ClearMatte&) const {
-        s.change_matte([](const Matte& m) { return Matte(m.size()); }, "Clear the matte");
+        s.change_matte([](const Matte& m) { return Matte(m.size()); }, "Clear matte");
     }
     void operator()(const KeyMatteHere&) const {
-        s.change_matte([](const Matte& m) { return m; }, "Key the matte");
+        s.change_matte([](const Matte& m) { return m; }, "Add matte keyframe");
     }
     void operator()(const CopyKeyframe& a) const { s.copy_keyframe(a.from, a.to); }
     void operator()(const PaintInstead&) const { s.paint_instead(); }

@@ -44,49 +44,50 @@ std::string Session::texture_folder() const {
 // Copies library textures beside the project first, then changes all regions in one step.
 void Session::apply_textures(const ApplyTextures& action) {
     if (action.textures.empty()) return;
-    file_tasks_.start([this, wanted = action.textures, folder = texture_folder(),
-                       dir = project_dir(path_), library = options_.texture_library,
-                       excluded = licence_list(document().settings.excluded_licences)]() -> Finish {
-        const auto fetch = [&]() -> Expected<std::vector<std::pair<RegionId, std::string>>> {
-            auto kept = wanted;
-            for (auto& [region, path] : kept) {
-                if (!names_library_texture(path)) continue;
-                WEFT_TRY(texture, resolve_texture(library, path));
-                WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
-                WEFT_TRY(file, keep_texture(texture, folder));
-                path = dir.empty() ? file : fs::path(file).lexically_relative(dir).string();
-            }
-            return kept;
-        };
-        const auto kept = fetch();
-        return [this, kept] {
-            if (!kept) return notify(NoticeKind::kError, kept.error().text());
-            std::vector<Edit> edits;
-            for (const auto& [id, path] : *kept) {
-                const Region* region = region_by_id(document(), id);
-                if (!region) continue;
-                TextureSource texture = region->texture;
-                texture.sample = path;
-                texture.plane.clear();
-                edits.push_back(SetTexture{{id, {}}, texture});
-            }
-            auto changed = apply_edits(history_.current(), edits);
-            if (!changed) return notify(NoticeKind::kError, changed.error().text());
-            commit(std::move(*changed), "Textures for " + std::to_string(edits.size()) +
-                                            (edits.size() == 1 ? " region" : " regions"));
-        };
-    });
+    start_for_document(
+        [this, wanted = action.textures, folder = texture_folder(), dir = project_dir(path_),
+         library = options_.texture_library,
+         excluded = licence_list(document().settings.excluded_licences)]() -> Finish {
+            const auto fetch = [&]() -> Expected<std::vector<std::pair<RegionId, std::string>>> {
+                auto kept = wanted;
+                for (auto& [region, path] : kept) {
+                    if (!names_library_texture(path)) continue;
+                    WEFT_TRY(texture, resolve_texture(library, path));
+                    WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
+                    WEFT_TRY(file, keep_texture(texture, folder));
+                    path = dir.empty() ? file : fs::path(file).lexically_relative(dir).string();
+                }
+                return kept;
+            };
+            const auto kept = fetch();
+            return [this, kept] {
+                if (!kept) return notify(NoticeKind::kError, kept.error().text());
+                std::vector<Edit> edits;
+                for (const auto& [id, path] : *kept) {
+                    const Region* region = region_by_id(document(), id);
+                    if (!region) continue;
+                    TextureSource texture = region->texture;
+                    texture.sample = path;
+                    texture.plane.clear();
+                    edits.push_back(SetTexture{{id, {}}, texture});
+                }
+                auto changed = apply_edits(history_.current(), edits);
+                if (!changed) return notify(NoticeKind::kError, changed.error().text());
+                commit(std::move(*changed), "Textures for " + std::to_string(edits.size()) +
+                                                (edits.size() == 1 ? " region" : " regions"));
+            };
+        });
 }
 
 void Session::use_larger_original(RegionId id) {
     const Region* region = region_by_id(document(), id);
     if (!region || region->texture.sample.empty()) {
-        notify(NoticeKind::kWarning, "Choose a texture of the library first.");
+        notify(NoticeKind::kWarning, "Choose a texture from the library first.");
         return;
     }
     const std::string sample = resolve_path(project_dir(path_), region->texture.sample);
-    file_tasks_.start([this, id, sample, folder = texture_folder(), dir = project_dir(path_),
-                       library = options_.texture_library]() -> Finish {
+    start_for_document([this, id, sample, folder = texture_folder(), dir = project_dir(path_),
+                        library = options_.texture_library]() -> Finish {
         const auto larger = keep_larger_original(library, sample, folder);
         return [this, id, larger, dir] {
             const Region* now = region_by_id(document(), id);
@@ -111,15 +112,15 @@ void Session::use_larger_original(RegionId id) {
 void Session::pick_cryptomatte(const PickCryptomatte& action) {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !reader_) {
-        notify(NoticeKind::kWarning, "Add a region first; then pick the objects that it shows.");
+        notify(NoticeKind::kWarning, "Add a region first, then pick its objects.");
         return;
     }
     const MatteSource& source = layer_source(*region, layer_);
     const bool own = !source.select.crypto.empty() && !source.files.empty();
     const std::string files =
         own ? resolve_path(project_dir(path_), source.files) : reader_->path_of(playback_.frame());
-    file_tasks_.start([this, action, files, frame = playback_.frame(), id = region->id,
-                       layer = layer_]() -> Finish {
+    start_for_document([this, action, files, frame = playback_.frame(), id = region->id,
+                        layer = layer_]() -> Finish {
         const auto pick = [&]() -> Expected<CryptoObject> {
             WEFT_TRY(pattern, SequencePattern::parse(files));
             return weft::pick_cryptomatte(pattern.path_for(frame), action.at.x, action.at.y);
@@ -130,7 +131,7 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
             if (!now) return;
             if (!picked) return notify(NoticeKind::kWarning, picked.error().text());
             if (picked->name.empty())
-                return notify(NoticeKind::kWarning, "The Cryptomatte has no object here.");
+                return notify(NoticeKind::kWarning, "The Cryptomatte has no object at this pixel.");
             const MatteSource& before = layer_source(*now, layer);
             MatteSource matte;
             matte.select.crypto =
@@ -140,7 +141,7 @@ void Session::pick_cryptomatte(const PickCryptomatte& action) {
             auto changed =
                 apply_edit(history_.current(), set_layer(*now, layer, matte, begun_zone_));
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
-            commit(std::move(*changed), (action.subtract ? "Without " : "Pick ") + picked->name);
+            commit(std::move(*changed), (action.subtract ? "Subtract " : "Add ") + picked->name);
         };
     });
 }

@@ -1,39 +1,42 @@
-// Opening, editing, saving and recovering the document.
-#include <unistd.h>
-
+// Opening, editing and recovering the document; session_files.cpp saves it.
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "app/base/background.h"
+#include "app/exchange/move_project.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "app/session/session_measuring.h"
 #include "engine/color/color_space.h"
-#include "engine/media/atomic_file.h"
+#include "engine/core/text.h"
 #include "engine/media/plates.h"
-#include "texture_db/library/library.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Paths below the project's folder are stored relative to it, so that the folder can be moved.
-std::string relative_to(const std::string& dir, const std::string& path) {
-    if (dir.empty() || !path.starts_with('/')) return path;
-    const fs::path relative = fs::path(path).lexically_relative(dir);
-    if (relative.empty() || relative.begin()->string() == "..") return path;
-    return relative.string();
+// A display name: the first name, from the file upwards, that is not only a number, a pattern or
+// what every shot calls the folder of its frames.
+std::string shot_name(const std::string& path) {
+    static const std::set<std::string> kCommon{"frames", "frame",  "plate",  "plates", "images",
+                                               "image",  "png",    "exr",    "jpg",    "jpeg",
+                                               "rgb",    "beauty", "footage"};
+    const fs::path whole(path);
+    const std::string own = whole.filename().string();
+    for (fs::path at = whole; at.has_relative_path(); at = at.parent_path()) {
+        const std::string stem = at.stem().string();
+        const bool numbered = stem.find_first_not_of("0123456789#%d@") == std::string::npos;
+        if (!numbered && !kCommon.contains(lower_case(stem))) return at.filename().string();
+    }
+    return own;
 }
 
 Expected<Project> project_for_plate(const std::string& path) {
     Project project;
     project.plate.path = path;
-    // A display name: the folder's if the file name is only a number or a pattern.
-    const fs::path named(path);
-    const bool numbered =
-        named.stem().string().find_first_not_of("0123456789#%d@") == std::string::npos;
-    project.name =
-        (numbered && named.has_parent_path() ? named.parent_path() : named).filename().string();
+    project.name = shot_name(path);
     if (fs::is_directory(path)) {
         WEFT_TRY(sequence, find_sequence(path));
         project.plate.path = sequence.text();
@@ -45,33 +48,6 @@ Expected<Project> project_for_plate(const std::string& path) {
         }
     }
     return project;
-}
-
-// The document for saving to another place: paths below its folder become relative, and files
-// painted or fetched before the first save are copied beside it.
-Status move_to(const std::string& path, const std::string& unsaved, const std::string& from_dir,
-               Project& project, std::map<std::string, std::string>& moved) {
-    const std::string dir = project_dir(path), stem = fs::path(path).stem().string();
-    Status failed;
-    project = map_paths(resolve_paths(project, from_dir), [&](const std::string& from) {
-        if (!from.starts_with(unsaved)) return relative_to(dir, from);
-        const bool texture = from.find("/textures/") != std::string::npos;
-        const fs::path to = fs::path(dir) / (stem + (texture ? "_textures" : "_mattes")) /
-                            fs::path(from).filename();
-        Status copied = make_folder_of(to.string(), WriteRule::own());
-        if (copied) copied = copy_file_atomically(from, to.string(), WriteRule::own());
-        // Copies the credits (author, licence) too; the user's own textures have none.
-        std::error_code none;
-        const std::string credit = texture_credit_path(from);
-        if (copied && fs::exists(credit, none)) {
-            copied =
-                copy_file_atomically(credit, texture_credit_path(to.string()), WriteRule::own());
-        }
-        if (!copied && failed)
-            failed = fail_in(copied.error(), from + " cannot be copied beside the project");
-        return moved[from] = relative_to(dir, to.string());
-    });
-    return failed;
 }
 
 }  // namespace
@@ -117,15 +93,32 @@ void Session::document_changed() {
         selected_ = document().regions.empty() ? 0 : document().regions.back()->id;
 }
 
+// Nothing of the document before is kept: no picture, no unfinished change, no target.
 void Session::start_document(Project project, std::string path) {
-    preview_.clear();
+    ++document_id_;
+    preview_.forget(document_id_);
+    preview_reading_ = {};
     painting_.cancel();
+    abandon(changing_, [](Changing& one) { return std::move(one.matte); });
+    after_change_ = nullptr;
+    abandon(fetching_, [](Fetching& one) { return std::move(one.path); });
     tried_.reset();
     shown_mattes_.clear();
+    missed_mattes_.clear();
     last_result_.reset();
+    last_result_frame_ = 0;
     playback_.reset();
     solo_ = 0;
+    layer_ = 0;
+    begun_zone_ = {};
     locked_.clear();
+    strip_.show(StripKind::kNone, {}, false);
+    stages_ = false;
+    shown_layer_.reset();
+    overlay_ = Overlay::kNone;
+    end_measuring();
+    view_.report = {};
+    view_.missing.clear();
     path_ = std::move(path);
     history_ = History(std::move(project));
     open_ = true;
@@ -133,6 +126,8 @@ void Session::start_document(Project project, std::string path) {
     opener_.forget();
     update_trust(!path_.empty());
     document_changed();
+    look_for_missing_files();
+    find_render_folder();
 }
 
 void Session::open_project(const std::string& path) {
@@ -174,68 +169,34 @@ void Session::open_any(const std::string& given) {
     start_document(std::move(*project), "");
 }
 
-void Session::save(const std::string& path) {
-    if (!open_) return;
-    if (path.empty()) {
-        notify(NoticeKind::kWarning, "Choose where to save this project.");
-        return;
-    }
-    end_stroke();
-    const std::string whole = fs::absolute(path).string();
-    const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
-    view_.saving = true;
-    file_tasks_.start([this, whole, unsaved, from = path_, project = history_.current(),
-                       serial = history_.serial()]() mutable -> Finish {
-        shelf_.flush();
-        Status written;
-        std::map<std::string, std::string> moved;
-        if (whole != from) written = move_to(whole, unsaved, project_dir(from), project, moved);
-        if (written) written = save_project(whole, project, in_place());
-        return [this, whole, from, serial, written, moved = std::move(moved),
-                project = std::move(project)] {
-            view_.saving = false;
-            if (!written) {
-                notify(NoticeKind::kError, written.error().text());
-                return;
-            }
-            // Another project may have been opened in the meantime.
-            if (path_ != from) return;
-            if (whole != from) {
-                saved_as(project, whole, moved);
-            } else {
-                history_.mark_saved(serial);
-            }
-            if (!history_.modified()) recovery_.clear();
-            remember_recent(path_);
-            trust_saved();
-            ++document_version_;
-            notify(NoticeKind::kGood, "Saved " + fs::path(path_).filename().string() + ".");
-        };
-    });
-}
-
-// The document has a path now; changes made while it was being written are still unsaved.
-void Session::saved_as(const Project& written, const std::string& path,
-                       const std::map<std::string, std::string>& moved) {
-    const std::string dir = project_dir(path);
-    Project now =
-        map_paths(resolve_paths(history_.current(), project_dir(path_)), [&](const std::string& p) {
-            const auto found = moved.find(p);
-            return found == moved.end() ? relative_to(dir, p) : found->second;
-        });
-    path_ = path;
-    const bool same = now == written;
-    history_.push(std::move(now), "Save as " + fs::path(path).filename().string());
-    document_changed();
-    if (same) history_.mark_saved();
-}
-
 void Session::remember_recent(const std::string& path) {
     auto& recent = settings_->recent;
     std::erase(recent, path);
     recent.insert(recent.begin(), path);
     constexpr std::size_t kMost = 12;
     if (recent.size() > kMost) recent.resize(kMost);
+}
+
+// An editor that is being killed may take seconds to go, so another look follows after 1, 2, 4 and
+// 8 s.
+void Session::find_more_recoverable() {
+    constexpr double kLastLook_s = 8;
+    if (!options_.offer_recovery || now_s_ - first_update_s_ < look_for_recovery_s_ ||
+        look_for_recovery_s_ > kLastLook_s)
+        return;
+    look_for_recovery_s_ *= 2;
+    file_tasks_.start([this]() -> Finish {
+        auto found = find_recoverable((fs::path(options_.state_folder) / "recovery").string());
+        return [this, found = std::move(found)] {
+            for (const RecoveredProject& one : found) {
+                std::error_code none;
+                const bool known = std::any_of(
+                    recoverable_.begin(), recoverable_.end(),
+                    [&](const RecoveredProject& other) { return other.file == one.file; });
+                if (!known && fs::exists(one.file, none)) recoverable_.push_back(one);
+            }
+        };
+    });
 }
 
 void Session::recover(bool accept) {

@@ -130,8 +130,9 @@ void Session::submit(const SubmitJob& action) {
         return;
     }
     end_stroke();
-    auto request = render_request(action, resolve_paths(history_.current(), project_dir(path_)),
-                                  reader_->frames());
+    Project project = resolve_paths(history_.current(), project_dir(path_));
+    if (!path_.empty()) project.name = fs::path(path_).stem().string();
+    auto request = render_request(action, std::move(project), reader_->frames());
     if (!request) {
         notify(NoticeKind::kError, request.error().text());
         return;
@@ -164,17 +165,21 @@ void Session::watch_jobs() {
     view_.jobs = jobs_.jobs();
 }
 
+// It ends in the background, because it may be reading a large frame.
+void Session::end_measuring() {
+    if (!measuring_) return;
+    measuring_->cancelled = true;
+    shutdowns_.push_back(
+        in_background([old = std::exchange(measuring_, nullptr)]() mutable { old.reset(); }));
+}
+
 void Session::measure(const std::string& pattern) {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !reader_) {
-        notify(NoticeKind::kWarning, "Select the region that is to be measured.");
+        notify(NoticeKind::kWarning, "Select a region to measure.");
         return;
     }
-    if (measuring_) {
-        measuring_->cancelled = true;
-        shutdowns_.push_back(
-            in_background([old = std::exchange(measuring_, nullptr)]() mutable { old.reset(); }));
-    }
+    end_measuring();
     measuring_ = std::make_shared<Measuring>();
     measuring_->report.state = QualityReport::State::kMeasuring;
     measuring_->report.pattern = pattern;

@@ -35,7 +35,7 @@ void Session::write_mattes(const std::string& pattern_text,
                            std::function<void(const std::vector<int>&)> then) {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !reader_) {
-        notify(NoticeKind::kWarning, "Select the region whose mattes are to be written.");
+        notify(NoticeKind::kWarning, "Select a region to export its mattes.");
         return;
     }
     end_stroke();
@@ -44,9 +44,9 @@ void Session::write_mattes(const std::string& pattern_text,
                                   reader_->frames().begin() + last + 1);
     const Project absolute = resolve_paths(document(), project_dir(path_));
     const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
-    file_tasks_.start([this, pattern_text, frames, source, size = reader_->size(), absolute,
-                       file = path_, id = region->id, layer = layer_,
-                       then = std::move(then)]() -> Finish {
+    start_for_document([this, pattern_text, frames, source, size = reader_->size(), absolute,
+                        file = path_, id = region->id, layer = layer_,
+                        then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
             WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
@@ -69,11 +69,11 @@ void Session::write_mattes(const std::string& pattern_text,
             return {};
         };
         const Status done = write();
-        return [this, done, frames, pattern_text, then] {
+        return [this, done, frames, then] {
             if (done)
                 then(frames);
             else
-                notify(NoticeKind::kError, "The mattes are not written. " + done.error().text());
+                notify(NoticeKind::kError, "Cannot write the mattes. " + done.error().text());
         };
     });
 }
@@ -99,12 +99,12 @@ void Session::freeze_mattes(bool frozen) {
     }
     if (layer_ != 0) {
         notify(NoticeKind::kWarning,
-               "Holdouts and zones are not frozen. Choose the region's own matte.");
+               "Holdouts and zones cannot be frozen. Select the region's own matte.");
         return;
     }
     if (region->matte->keyframes.empty()) {
         notify(NoticeKind::kWarning,
-               "Only painted mattes can be frozen: those of files stay anyway.");
+               "Only painted mattes can be frozen. Mattes from files do not change.");
         return;
     }
     const fs::path any = new_matte_path(region->id, 0);
@@ -118,7 +118,7 @@ void Session::freeze_mattes(bool frozen) {
         matte.frozen_files = beside_project(pattern);
         edit(SetMatte{ref, matte}, true);
         notify(NoticeKind::kInfo,
-               std::to_string(frames.size()) + " frames are frozen: they stay as they are now.");
+               "Froze the mattes of " + std::to_string(frames.size()) + " frames.");
     });
 }
 

@@ -36,10 +36,11 @@ std::string keys_text(const MatteSource& matte) {
 
 }  // namespace
 
-RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
+RegionMatteView Session::matte_of(const Region& region, int layer, int frame, int place) {
     RegionMatteView out;
     out.region = region.id;
     out.layer = layer;
+    out.frame = frame;
     if (const auto stroke = painting_.at({region.id, layer, frame})) {
         out.kind = RegionMatteView::Kind::kPainted;
         out.pixels = stroke->pixels;
@@ -75,8 +76,8 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
         read = [path, select = source.select, size] { return read_matte(path, select, size); };
     } else {
         out.kind = RegionMatteView::Kind::kPropagated;
-        name = "propagated " + std::to_string(region.id) + " " + std::to_string(layer) + " " +
-               std::to_string(frame) + " " + keys_text(source);
+        name = "propagated " + std::to_string(document_id_) + " " + std::to_string(region.id) +
+               " " + std::to_string(layer) + " " + std::to_string(frame) + " " + keys_text(source);
         read = [this, id = region.id, layer, frame] {
             return preview_.propagated_matte(id, layer, frame);
         };
@@ -96,7 +97,7 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame) {
                                                    : RegionMatteView::Kind::kFailed;
         return out;
     }
-    Shown& shown = shown_mattes_[{region.id, layer}];
+    Shown& shown = shown_mattes_[{region.id, layer, place}];
     if (shown.matte != out.keep) shown = {out.keep, next_picture_id()};
     out.version = shown.version;
     out.pixels = out.keep->view();
@@ -228,6 +229,7 @@ void Session::take_changed_matte() {
     changing_.reset();
     keep_matte(std::make_shared<const Matte>(done.matte.get()), done.place,
                done.label + " on frame " + std::to_string(done.place.frame), done.shape);
+    if (const auto next = std::exchange(after_change_, nullptr)) next();
 }
 
 void Session::paint_instead() {
@@ -238,7 +240,8 @@ void Session::paint_instead() {
         return;
     const RegionMatteView shown = matte_of(*region, layer_, playback_.frame());
     if (!shown.keep) {
-        notify(NoticeKind::kWarning, "The matte of this frame is still being read.");
+        notify(NoticeKind::kWarning,
+               "The matte of this frame is still being read. Try again in a moment.");
         return;
     }
     const std::string path = new_matte_path(region->id, playback_.frame());
@@ -248,9 +251,9 @@ void Session::paint_instead() {
     painted.keyframes[playback_.frame()] = {beside_project(path), {}};
     const std::string name = layer_name(*region, layer_);
     edit(set_layer(*region, layer_, painted, begun_zone_), true);
-    notify(NoticeKind::kInfo, "The matte of '" + name + "' is painted now: frame " +
-                                  std::to_string(playback_.frame()) +
-                                  " is its keyframe, the other frames follow from it.");
+    notify(NoticeKind::kInfo, "Frame " + std::to_string(playback_.frame()) +
+                                  " is now a painted keyframe of '" + name +
+                                  "'. It is propagated to the other frames.");
 }
 
 void Session::copy_keyframe(int from, int to) {

@@ -33,8 +33,8 @@ void Session::scale_by_line(const ScaleByLine& action) {
     const Vec2 line = action.to - action.from;
     const double length = std::hypot(static_cast<double>(line.x), static_cast<double>(line.y));
     const std::string path = resolve_path(project_dir(path_), region->texture.sample);
-    file_tasks_.start([this, path, line, length, count = action.count,
-                       id = region->id]() -> Finish {
+    start_for_document([this, path, line, length, count = action.count,
+                        id = region->id]() -> Finish {
         const auto pitch = pitch_of(path, line);
         return [this, pitch, length, count, id] {
             if (!pitch) {

@@ -27,7 +27,7 @@ Matte drawn(const std::vector<std::vector<Vec2>>& lines, Size size) {
 
 void Session::scribble(const ScribbleSelect& action) {
     const PicturePtr picture = view_.plate_picture;
-    if (!picture || action.keep.empty()) return;
+    if (!picture || action.keep.empty() || follows_change(action)) return;
     change_matte(
         [action, picture](const Matte& before) {
             return segment_scribbles(before, shrink(*picture, 1 << 20),
@@ -39,7 +39,7 @@ void Session::scribble(const ScribbleSelect& action) {
 
 void Session::set_shape(const RotoShape& shape) {
     constexpr std::size_t kLeast = 3;
-    if (shape.points.size() < kLeast) return;
+    if (shape.points.size() < kLeast || follows_change(SetShape{shape})) return;
     end_stroke();
     if (!open_ || !may_paint()) return;
     changing_.emplace();
@@ -67,8 +67,8 @@ void Session::fill_between_shapes() {
         if (a->second.points.size() != b->second.points.size()) {
             notify(NoticeKind::kWarning, "The shapes of frames " + std::to_string(a->first) +
                                              " and " + std::to_string(b->first) +
-                                             " have different numbers of points. Move points "
-                                             "instead of adding them, then fill again.");
+                                             " have different numbers of points. Give them "
+                                             "the same points, then interpolate again.");
             return;
         }
         for (const int frame : reader_->frames()) {
@@ -80,12 +80,11 @@ void Session::fill_between_shapes() {
         }
     }
     if (list.empty()) {
-        notify(NoticeKind::kWarning,
-               "Draw the shape on two frames first; the frames between them are filled.");
+        notify(NoticeKind::kWarning, "Draw the shape on two frames first.");
         return;
     }
-    file_tasks_.start([this, list = std::move(list), size = reader_->size(), id = region->id,
-                       layer = layer_]() -> Finish {
+    start_for_document([this, list = std::move(list), size = reader_->size(), id = region->id,
+                        layer = layer_]() -> Finish {
         Status written;
         for (const Made& one : list) {
             std::error_code error;
@@ -106,7 +105,7 @@ void Session::fill_between_shapes() {
             auto changed =
                 apply_edit(history_.current(), set_layer(*now, layer, matte, begun_zone_));
             if (!changed) return notify(NoticeKind::kError, changed.error().text());
-            commit(std::move(*changed), "Fill between the shapes of " + layer_name(*now, layer));
+            commit(std::move(*changed), "Interpolate shapes of " + layer_name(*now, layer));
         };
     });
 }

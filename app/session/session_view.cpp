@@ -30,6 +30,7 @@ const char* depth_name(PixelDepth depth) {
 void Session::show_document() {
     view_.now_s = now_s_;
     view_.open = open_;
+    view_.document = document_id_;
     view_.selected = selected_;
     view_.solo = solo_;
     view_.locked.assign(locked_.begin(), locked_.end());
@@ -44,9 +45,9 @@ void Session::show_document() {
     shown_version_ = document_version_;
     view_.project = document();
     view_.path = path_;
-    view_.title = !document().name.empty() ? document().name
-                  : !path_.empty()         ? std::filesystem::path(path_).stem().string()
-                                           : "Untitled";
+    view_.title = !path_.empty()             ? std::filesystem::path(path_).stem().string()
+                  : !document().name.empty() ? document().name
+                                             : "Untitled";
     view_.history = history_.labels();
     view_.history_position = history_.position();
     view_.undo_label = history_.undo_label();
@@ -71,6 +72,7 @@ void Session::show_plate() {
     view_.frame = playback_.frame();
     view_.playing = playback_.direction();
     view_.play_fps = playback_.shown_fps();
+    view_.play_mode = playback_.mode();
     view_.frame_error.clear();
     view_.frame_file.clear();
     if (!reader_) {
@@ -122,7 +124,23 @@ void Session::show_mattes() {
         for (int layer = -1; layer > first_layer(*region) || layer >= layer_; --layer)
             view_.zones.push_back(matte_of(*region, layer, playback_.frame()));
     }
+    show_onion_skin();
     prepare_stroke();
+}
+
+// The nearest keyframes on both sides; each has a place of its own among the shown mattes, so that
+// it is uploaded once.
+void Session::show_onion_skin() {
+    view_.onion.clear();
+    view_.onion_skin = onion_skin_;
+    const Region* region = painted_region();
+    if (!onion_skin_ || !region || playback_.direction() != 0) return;
+    const auto& keys = layer_source(*region, layer_).keyframes;
+    constexpr int kBefore = 1, kAfter = 2;
+    if (const auto next = keys.lower_bound(playback_.frame()); next != keys.begin())
+        view_.onion.push_back(matte_of(*region, layer_, std::prev(next)->first, kBefore));
+    if (const auto next = keys.upper_bound(playback_.frame()); next != keys.end())
+        view_.onion.push_back(matte_of(*region, layer_, next->first, kAfter));
 }
 
 void Session::act_now(const std::vector<Action>& actions) {

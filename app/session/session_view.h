@@ -65,6 +65,7 @@ struct FrameMarks {
 struct RegionMatteView {
     RegionId region = 0;
     int layer = 0;  ///< As SelectMatteLayer::layer.
+    int frame = 0;
     enum class Kind : std::uint8_t { kNone, kLoading, kPainted, kPropagated, kFile, kFailed };
     Kind kind = Kind::kNone;
     ViewU8x1 pixels;            ///< Pixels; valid until the next update().
@@ -113,14 +114,19 @@ struct StripView {
 struct SessionView {
     double now_s = 0;
     bool open = false;  ///< A document is open.
-    Project project;    ///< The document, including an edit being dragged.
+    /// Which document: another number after another one was opened, also of the same file.
+    std::uint64_t document = 0;
+    Project project;  ///< The document, including an edit being dragged.
     std::string path, title;
+    std::vector<std::string> missing;  ///< Input files that were not found.
+    std::string render_folder;         ///< Where it renders to unless another place is chosen.
     bool modified = false, saving = false;
     PlateView plate;
 
     int frame = 0;
     int playing = 0;  ///< As Play::direction.
     double play_fps = 0;
+    PlayMode play_mode = PlayMode::kLoop;
     std::optional<int> mark_in, mark_out;
     std::vector<FrameMarks> marks;  ///< By index into plate.frames.
 
@@ -132,8 +138,11 @@ struct SessionView {
     std::vector<RegionMatteView> mattes;    ///< Mattes of all regions, bottom up.
     std::vector<RegionMatteView> holdouts;  ///< Of the selected region.
     std::vector<RegionMatteView> zones;     ///< Likewise.
-    int matte_layer = 0;                    ///< As SelectMatteLayer::layer.
-    Zone begun_zone;                        ///< What a stroke beyond the last zone adds.
+    /// Keyframes of the painted layer before and after the frame; empty without onion skin.
+    std::vector<RegionMatteView> onion;
+    bool onion_skin = false;
+    int matte_layer = 0;  ///< As SelectMatteLayer::layer.
+    Zone begun_zone;      ///< What a stroke beyond the last zone adds.
     bool painting = false, matte_busy = false;
     /// Shape of the selected region on this frame, or the last one before.
     std::optional<RotoShape> shape;

@@ -30,12 +30,12 @@ std::vector<Variant> variants_of(StripKind kind, const Region& region) {
             break;
         case StripKind::kLight:
             for (const double strength : {0.0, 0.35, 0.7, 1.0})
-                number("light.strength", strength, "Light %.2f");
+                number("light.strength", strength, "Strength %.2f");
             break;
         case StripKind::kSeams:
-            out.push_back({"Best cut", "synthesis.seam", std::string("graphcut")});
-            out.push_back({"Quick cut", "synthesis.seam", std::string("dp")});
-            out.push_back({"No cut", "synthesis.seam", std::string("none")});
+            out.push_back({"Graph cut", "synthesis.seam", std::string("graphcut")});
+            out.push_back({"Dynamic programming", "synthesis.seam", std::string("dp")});
+            out.push_back({"None (blocks)", "synthesis.seam", std::string("none")});
             for (const double factor : {0.5, 1.5})
                 number("synthesis.overlap_px",
                        std::max(12.0, std::round(region.synthesis.overlap_px * factor)),
@@ -78,7 +78,7 @@ struct CardMaker {
     void textures(const Region& region) const {
         const Project& base = subject.project;
         const bool suggested = question.kind == StripKind::kSuggested;
-        if (!suggested) add({"As it is", {}, base, question.frame, 0, {}}, std::nullopt);
+        if (!suggested) add({"Current", {}, base, question.frame, 0, {}}, std::nullopt);
         for (const std::string& path : question.textures) {
             TextureSource texture = region.texture;
             texture.sample =

@@ -76,8 +76,14 @@ std::vector<TextureSuggestion> ranked_for(TextureLibrary& library, const Surface
     request.regions.push_back({surface.region, surface.matte->view(), {}, {}});
     const auto found = library.recommend(request);
     std::vector<TextureSuggestion> out;
-    if (found && !found->regions.empty())
-        for (const Suggestion& one : found->regions[0].suggestions)
+    if (!found || found->regions.empty()) return out;
+    // What scores far below the best, or has nothing to say for it, is a guess and is not shown.
+    constexpr float kGuess = 0.6f;
+    float best = 0;
+    for (const Suggestion& one : found->regions[0].suggestions)
+        best = std::max(best, one.score);
+    for (const Suggestion& one : found->regions[0].suggestions)
+        if (one.score >= kGuess * best && !one.reasons.empty())
             out.push_back({"db:" + one.id, reason_of(one), one.score});
     return out;
 }

@@ -33,7 +33,7 @@ const std::vector<Exception> kAllowed{
      "the texture library, which SQLite keeps whole"},
     {"engine/core/child_process.cpp", "open for writing",
      "the streams of a child process, to files that its caller names"},
-    {"app/session/child_jobs.cpp", "open for writing",
+    {"app/base/detached_process.cpp", "open for writing",
      "the streams of a child process, in Weft's own folder"},
     {"app/render/analysis_cache.cpp", "rename",
      "a whole folder of the cache, to a name that is free"},

@@ -215,8 +215,9 @@ TEST(Kill, FramesAreWholeWhileRendering) {
         }
         expect_whole_files(sandbox.in(""));
         int frames = 0;
-        if (fs::exists(sandbox.in("render_v001")))
-            for (const auto& entry : fs::directory_iterator(sandbox.in("render_v001")))
+        const std::string folder = sandbox.in("shot_render_v001");
+        if (fs::exists(folder))
+            for (const auto& entry : fs::directory_iterator(folder))
                 frames += entry.path().extension() == ".png" &&
                           !entry.path().filename().string().starts_with('.');
         if (!both && !jobs.empty()) {

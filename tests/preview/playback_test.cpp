@@ -47,6 +47,29 @@ TEST(Playback, AnotherPlateKeepsTheFrameIfItHasIt) {
     EXPECT_EQ(playback.frame(), 1);
 }
 
+TEST(Playback, TurnsRoundOrEndsAtTheLastFrame) {
+    Playback playback = opened();
+    playback.set_mode(PlayMode::kPingPong);
+    playback.go_to(1005);
+    playback.play(1);
+    playback.advance(0, 25, all_decoded());
+    double now_s = 0;
+    std::vector<int> seen;
+    for (int k = 0; k < 3; ++k) {
+        playback.advance(now_s += 0.0401, 25, all_decoded());
+        seen.push_back(playback.frame());
+    }
+    EXPECT_THAT(seen, ElementsAre(1006, 1005, 1004));
+    playback.set_mode(PlayMode::kOnce);
+    playback.play(1);
+    for (int k = 0; k < 6; ++k)
+        playback.advance(now_s += 0.0401, 25, all_decoded());
+    EXPECT_EQ(playback.frame(), 1006);
+    EXPECT_EQ(playback.direction(), 0);
+    playback.play(1);
+    EXPECT_EQ(playback.frame(), 1001) << "it begins again";
+}
+
 TEST(Playback, MarksBoundTheRangeInEitherOrder) {
     Playback playback = opened();
     EXPECT_THAT(playback.range(), Pair(0, 4));

@@ -80,7 +80,7 @@ TEST(StripCards, TexturesAreAppliedAndLieBesideTheProject) {
     StripQuery asked = question(StripKind::kTextures);
     asked.textures = {"new/slate.png", "db:0123"};
     const StripCards cards = make_strip_cards(asked, subject());
-    EXPECT_THAT(labels(cards), ElementsAre("As it is", "slate", "db:0123"));
+    EXPECT_THAT(labels(cards), ElementsAre("Current", "slate", "db:0123"));
     EXPECT_EQ(cards.choices[0], std::nullopt);
     EXPECT_EQ(cards.choices[1], Action(ApplyTexture{"new/slate.png", 0}));
     EXPECT_EQ(cards.requests[1].project.regions[0]->texture.sample, "/shot/new/slate.png");

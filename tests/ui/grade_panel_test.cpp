@@ -78,13 +78,13 @@ TEST_F(GradePanel, QualityIsSwitchedBesideThePicture) {
     view.preview_quality = Quality::kDraft;
     robot->frames(3);
     clear();
-    ASSERT_TRUE(robot->click("View/Quality"));
+    ASSERT_TRUE(robot->click("View/Final"));
     ASSERT_THAT(emitted<SetPreviewQuality>(), SizeIs(1));
     EXPECT_EQ(emitted<SetPreviewQuality>()[0].quality, Quality::kFinal);
     view.preview_quality = Quality::kFinal;
     robot->frames(2);
     clear();
-    ASSERT_TRUE(robot->click("View/Quality"));
+    ASSERT_TRUE(robot->click("View/Draft"));
     ASSERT_THAT(emitted<SetPreviewQuality>(), SizeIs(1));
     EXPECT_EQ(emitted<SetPreviewQuality>()[0].quality, Quality::kDraft);
 }

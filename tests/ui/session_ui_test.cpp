@@ -389,7 +389,7 @@ TEST_F(EditorSession, TheStripShowsVariantsAndOneIsChosen) {
     EXPECT_EQ(sheet[3].frame, 4);
     EXPECT_TRUE(sheet[0].current);
     EXPECT_FALSE(sheet[4].current);
-    EXPECT_EQ(sheet[4].label, "Quick cut");
+    EXPECT_EQ(sheet[4].label, "Dynamic programming");
     EXPECT_EQ(sheet[16].label, "Overlap 54 px");
     // A marked range has frames of its own.
     session->act(MarkRange{2, 3});

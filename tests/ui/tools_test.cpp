@@ -123,7 +123,7 @@ TEST_F(Tools, ALampIsDraggedOnThePicture) {
 TEST_F(Tools, ALampIsAddedAndRemoved) {
     change([](Region& r) { r.light.source = LightSource::kPainted; });
     go("Seams & Light", Tool::kPan);
-    ASSERT_TRUE(robot->click("+ Lamp"));
+    ASSERT_TRUE(robot->click("+ Point"));
     auto set = edits<SetRegionParameter>();
     ASSERT_THAT(set, SizeIs(1));
     const auto lamps = std::get<std::vector<Lamp>>(set[0].value);

@@ -1,0 +1,73 @@
+#include "app/base/detached_process.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "engine/core/input_file.h"
+
+extern char** environ;
+
+namespace weft {
+
+pid_t start_detached(const std::vector<std::string>& arguments, const std::string& variable,
+                     const std::string& output, const std::string& errors) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), kNew, 0644);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), kNew, 0644);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    std::vector<char*> argv, environment;
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    for (char** entry = environ; *entry; ++entry)
+        environment.push_back(*entry);
+    environment.push_back(const_cast<char*>(variable.c_str()));
+    environment.push_back(nullptr);
+    pid_t pid = -1;
+    if (posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environment.data()) != 0)
+        pid = -1;
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return pid;
+}
+
+int follow_detached(pid_t pid, const std::string& output,
+                    const std::function<void(const std::string&)>& line) {
+    std::optional<InputFile> file;
+    std::string pending;
+    std::uint64_t offset = 0;
+    for (int status = 0;;) {
+        const bool over = waitpid(pid, &status, WNOHANG) == pid;
+        if (!file) {
+            if (auto opened = InputFile::open(output)) file = std::move(*opened);
+        }
+        char buffer[4096];
+        while (file) {
+            const std::size_t got = file->read_at(offset, buffer, sizeof buffer).value_or(0);
+            if (got == 0) break;
+            pending.append(buffer, got);
+            offset += got;
+        }
+        for (std::size_t end = pending.find('\n'); end != std::string::npos;
+             end = pending.find('\n')) {
+            line(pending.substr(0, end));
+            pending.erase(0, end + 1);
+        }
+        if (over) return status;
+        std::this_thread::sleep_for(std::chrono::milliseconds(80));
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,133 @@
+// Where a project and its files go.
+#include <fstream>
+
+#include "app/project/codec/project_file.h"
+#include "tests/session/session_fixture.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+class SessionFiles : public SessionByActions {
+  protected:
+    void save_as(const std::string& name) {
+        act(SaveAs{in(name)});
+        session_->flush();
+        update();
+    }
+    [[nodiscard]] std::string matte() const { return region().matte->keyframes.at(1).path; }
+    [[nodiscard]] std::string last_notice() const {
+        return view().notices.empty() ? "" : view().notices.back().text;
+    }
+};
+
+TEST_F(SessionFiles, AProjectIsNeverSavedAmongThePlatesFrames) {
+    open();
+    save_as("frames/shot.weft");
+    EXPECT_FALSE(fs::exists(in("frames/shot.weft")));
+    EXPECT_EQ(view().path, "");
+    EXPECT_THAT(last_notice(), HasSubstr("holds the plate's frames"));
+    save_as("shot.weft");
+    EXPECT_EQ(view().path, in("shot.weft"));
+}
+
+TEST_F(SessionFiles, TitleAndRendersFollowTheSavedName) {
+    open();
+    EXPECT_EQ(view().title, folder_.filename().string()) << "not 'frames', as every shot's folder";
+    EXPECT_THAT(view().render_folder, HasSubstr("/weft/" + folder_.filename().string()));
+    save_as("one.weft");
+    EXPECT_EQ(view().title, "one");
+    EXPECT_EQ(view().render_folder, in("one_render_v001"));
+    save_as("two.weft");
+    EXPECT_EQ(view().render_folder, in("two_render_v001"));
+}
+
+TEST_F(SessionFiles, SaveAsTakesMattesAlongAndUndoFindsThem) {
+    open();
+    paint();
+    save_as("one.weft");
+    EXPECT_THAT(matte(), testing::StartsWith("one_mattes/"));
+    ASSERT_TRUE(wait([&] { return view().mattes.at(0).keep != nullptr; }));
+    act(BeginStroke{pen(), {70, 20}, 1});
+    act(EndStroke{});
+    update();
+    save_as("elsewhere/two.weft");
+    EXPECT_THAT(matte(), testing::StartsWith("two_mattes/"));
+    EXPECT_TRUE(fs::exists(in("elsewhere/" + matte())));
+    const auto one = load_project(in("one.weft"));
+    ASSERT_TRUE(one);
+    EXPECT_TRUE(fs::exists(in(one->regions[0]->matte->keyframes.at(1).path)));
+    act(Undo{});
+    update();
+    const std::string before = matte();
+    EXPECT_TRUE(fs::exists(before.starts_with('/') ? before : in("elsewhere/" + before)))
+        << before << ": the stroke before, from the new place";
+}
+
+TEST_F(SessionFiles, VersionsAreCounted) {
+    open();
+    act(SaveVersion{});
+    update();
+    EXPECT_EQ(view().path, "");
+    save_as("shot.weft");
+    act(SaveVersion{});
+    session_->flush();
+    update();
+    EXPECT_EQ(view().path, in("shot_v002.weft"));
+    std::ofstream(in("shot_v003.weft")) << "another artist's";
+    act(SaveVersion{});
+    session_->flush();
+    update();
+    EXPECT_EQ(view().path, in("shot_v004.weft"));
+}
+
+TEST_F(SessionFiles, MissingFilesAreListedAndRelinkedInOneStep) {
+    open();
+    paint();
+    act(ApplyTexture{in("tile.png"), 0});
+    save_as("shot.weft");
+    fs::create_directories(in("moved"));
+    fs::rename(in("tile.png"), in("moved/tile.png"));
+    act(OpenProject{in("shot.weft")});
+    session_->flush();
+    update();
+    ASSERT_EQ(view().missing.size(), 1u);
+    EXPECT_THAT(view().missing[0], EndsWith("tile.png"));
+    act(RelinkFiles{in("moved")});
+    session_->flush();
+    update();
+    EXPECT_TRUE(view().missing.empty());
+    EXPECT_EQ(region().texture.sample, "moved/tile.png");
+    act(Undo{});
+    update();
+    EXPECT_EQ(region().texture.sample, "tile.png");
+}
+
+TEST_F(SessionFiles, CollectCopiesPlateMattesAndTextures) {
+    open();
+    paint();
+    act(ApplyTexture{in("tile.png"), 0});
+    save_as("shot.weft");
+    act(CollectProject{in("archive")});
+    session_->flush();
+    update();
+    EXPECT_TRUE(fs::exists(in("archive/shot/shot.weft"))) << last_notice();
+    const auto collected = load_project(in("archive/shot/shot.weft"));
+    ASSERT_TRUE(collected);
+    EXPECT_THAT(collected->plate.path, EndsWith("frames/####.png"));
+    EXPECT_TRUE(fs::exists(in("archive/shot/" + collected->regions[0]->texture.sample)));
+}
+
+// Scribbles drawn faster than mattes are found.
+TEST_F(SessionFiles, AScribbleDuringTheOneBeforeCounts) {
+    open();
+    act(ScribbleSelect{{{{30, 30}, {40, 34}}}, {}});
+    act(ScribbleSelect{{{{30, 30}, {40, 34}}}, {{{4, 4}, {90, 4}}}});
+    ASSERT_TRUE(wait([&] { return view().history.size() == 4; }))
+        << "a region and both scribbles: " << view().history.size();
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,99 @@
+// Habits of the hand: menus, modifiers, the wipe's line, and another shot.
+#include "tests/ui/canvas_fixture.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class Habits : public CanvasTest {};
+
+TEST_F(Habits, APressOutsideOfAMenuClosesItAndActs) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/File"));
+    ASSERT_NE(robot->find("Menu/Save"), nullptr);
+    ASSERT_TRUE(robot->click("Top/Motion"));
+    EXPECT_EQ(shell->state().workspace, Workspace::kMotion);
+    EXPECT_EQ(robot->find("Menu/Save"), nullptr);
+}
+
+TEST_F(Habits, AMenuIsClosedByItsNameAndByEsc) {
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/File"));
+    ASSERT_TRUE(robot->click("Top/File"));
+    EXPECT_EQ(robot->find("Menu/Save"), nullptr);
+    ASSERT_TRUE(robot->click("Top/File"));
+    ASSERT_NE(robot->find("Menu/Save"), nullptr);
+    robot->key("Esc");
+    EXPECT_EQ(robot->find("Menu/Save"), nullptr);
+    ASSERT_TRUE(robot->click("Top/File"));
+    robot->hover("Top/View");
+    robot->frames(2);
+    EXPECT_NE(robot->find("Menu/Fit to window"), nullptr) << "with a menu open, the next one opens";
+}
+
+TEST_F(Habits, APolygonSubtractsAsItBegan) {
+    go("Mask", Tool::kPolygon);
+    ImGui::GetIO().KeyCtrl = true;
+    click_at(on(40, 40));
+    ImGui::GetIO().KeyCtrl = false;
+    click_at(on(80, 40));
+    click_at(on(80, 80));
+    robot->key("Enter");
+    ASSERT_THAT(emitted<FillPolygon>(), SizeIs(1));
+    EXPECT_TRUE(emitted<FillPolygon>()[0].subtract);
+}
+
+TEST_F(Habits, TheWipeIsDraggedByItsLineAndNeverPaints) {
+    go("Mask", Tool::kBrush);
+    shell->state().viewer.compare = Compare::kWipe;
+    robot->frames(2);
+    clear();
+    const ImVec2 from = on(160, 90), to = on(220, 90);
+    robot->stroke({from, to});
+    EXPECT_THAT(emitted<BeginStroke>(), IsEmpty());
+    EXPECT_NEAR(shell->state().viewer.wipe, 220.0f / 320.0f, 0.01f);
+    // A stroke across the line goes on.
+    clear();
+    robot->stroke({on(200, 60), on(221, 60), on(240, 60)});
+    EXPECT_THAT(emitted<BeginStroke>(), SizeIs(1));
+    EXPECT_THAT(emitted<EndStroke>(), SizeIs(1));
+    EXPECT_NEAR(shell->state().viewer.wipe, 220.0f / 320.0f, 0.01f);
+}
+
+TEST_F(Habits, AnotherShotHasAnOutputAndAViewOfItsOwn) {
+    view.render_folder = "/shots/a_render_v001";
+    go("Jobs", Tool::kPan);
+    UiState& state = shell->state();
+    EXPECT_EQ(state.output.output, "/shots/a_render_v001/####.png");
+    state.output.output = "/elsewhere/####.png";
+    state.viewer.fit = false;
+    state.viewer.zoom = 8;
+    state.drawer.search = "brick";
+    state.measured = {Vec2{0, 0}, Vec2{4, 0}};
+    ++view.document;
+    view.render_folder = "/shots/b_render_v001";
+    robot->frames(2);
+    EXPECT_EQ(state.output.output, "/shots/b_render_v001/####.png");
+    EXPECT_TRUE(state.viewer.fit);
+    EXPECT_EQ(state.drawer.search, "");
+    EXPECT_FALSE(state.measured);
+    // Saved under another name: what was proposed follows, what was typed stays.
+    view.render_folder = "/shots/c_render_v001";
+    robot->frames(2);
+    EXPECT_EQ(state.output.output, "/shots/c_render_v001/####.png");
+}
+
+TEST_F(Habits, AnAutomaticReferenceFrameStaysWhenOneIsAdded) {
+    view.preview.references[1] = 1001;
+    robot->frames(2);
+    clear();
+    robot->key("Ctrl+E");
+    const auto set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_EQ(std::get<std::vector<double>>(set[0].value), (std::vector<double>{1001, 1003}));
+}
+
+}  // namespace
+}  // namespace weft::test
