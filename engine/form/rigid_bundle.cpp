@@ -188,6 +188,7 @@ void RigidBundle::descend(int most_steps) {
             reduced.diagonal() *= 1 + damping;
             Eigen::VectorXd right = -system.right;
             std::vector<Eigen::Matrix<double, 6, 6>> inverses;
+            inverses.reserve(system.frames.size());
             for (const FrameSystem& f : system.frames) {
                 Eigen::Matrix<double, 6, 6> poses = f.poses;
                 poses.diagonal() *= 1 + damping;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
 constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the long side
-constexpr double kNotRigid = 0.3;           // of the motion beyond a similarity that may be left
+constexpr double kNotRigid = 0.3;          // of the motion beyond a similarity that may be left
 constexpr std::array kTangents{0.5, 0.9, 1.5};
 constexpr std::array kSlopes{0.25, 0.7};
 constexpr int kDirections = 8, kFirstSteps = 4, kMoreSteps = 30;
@@ -160,6 +160,7 @@ std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size 
     flat.reach = most / flat.radius;
     const auto centred = [&](const std::vector<Vec2>& places) {
         std::vector<Eigen::Vector2d> to;
+        to.reserve(places.size());
         for (const Vec2 p : places)
             to.emplace_back((static_cast<double>(p.x) - flat.middle.x) / flat.long_side,
                             (static_cast<double>(p.y) - flat.middle.y) / flat.long_side);

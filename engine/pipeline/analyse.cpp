@@ -9,7 +9,9 @@ namespace weft {
 Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStore& store,
                     const CancelToken& cancel, const ProgressFn& progress, const Backend* backend) {
     ProgressEvent event{"analyse", 0,
-                        count_matte_steps(plan, store) + count_surface_steps(plan, store), 0, 0};
+                        count_matte_steps(plan, store) + count_surface_steps(plan, store) +
+                            count_form_steps(plan, store),
+                        0, 0};
     const PassContext context{source, plan, cancel,
                               [&](int frame, double seconds) {
                                   ++event.done;

@@ -1,6 +1,7 @@
 #include "engine/pipeline/form_pass.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "engine/core/setting.h"
@@ -81,13 +82,37 @@ Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& sto
     return out;
 }
 
+namespace {
+
+AnalysisKey form_key(const ShotPlan& plan, int region) {
+    const auto& references = plan.regions[static_cast<std::size_t>(region)].reference_frames;
+    return {region, references.front(), AnalysisKind::kForm};
+}
+
+}  // namespace
+
+bool lacks_form(const ShotPlan& plan, const AnalysisStore& store, int region) {
+    return plan.regions[static_cast<std::size_t>(region)].has_form() &&
+           !store.has(form_key(plan, region));
+}
+
+int count_form_steps(const ShotPlan& plan, const AnalysisStore& store) {
+    int out = 0;
+    for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k)
+        out += lacks_form(plan, store, k);
+    return out;
+}
+
 Status find_forms(const PassContext& context, AnalysisStore& store) {
     for (int k = 0; k < static_cast<int>(context.plan.regions.size()); ++k) {
-        const RegionPlan& region = context.plan.regions[static_cast<std::size_t>(k)];
-        const AnalysisKey key{k, region.reference_frames.front(), AnalysisKind::kForm};
-        if (!region.has_form() || store.has(key)) continue;
-        WEFT_TRY(form, form_from(context, store, k, region.form_evidence));
+        if (!lacks_form(context.plan, store, k)) continue;
+        const AnalysisKey key = form_key(context.plan, k);
+        const auto start = std::chrono::steady_clock::now();
+        const auto& evidence = context.plan.regions[static_cast<std::size_t>(k)].form_evidence;
+        WEFT_TRY(form, form_from(context, store, k, evidence));
         WEFT_CHECK_OK(store.put(key, encode(form)));
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        if (context.step) context.step(key.frame, taken.count());
     }
     return {};
 }

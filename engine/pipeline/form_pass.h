@@ -18,4 +18,8 @@ namespace weft {
 /// form_from().
 [[nodiscard]] Status find_forms(const PassContext& context, AnalysisStore& store);
 
+/// Whether a region's form is still to be found, and how many are.
+[[nodiscard]] bool lacks_form(const ShotPlan& plan, const AnalysisStore& store, int region);
+[[nodiscard]] int count_form_steps(const ShotPlan& plan, const AnalysisStore& store);
+
 }  // namespace weft

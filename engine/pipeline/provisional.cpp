@@ -62,6 +62,8 @@ std::set<int> unfinished_regions(const ShotPlan& plan, const AnalysisStore& know
     one.frames = {frame};
     for (const SurfaceJob& job : surface_jobs(one, known))
         out.insert(job.region);
+    for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k)
+        if (lacks_form(plan, known, k)) out.insert(k);
     return out;
 }
 
