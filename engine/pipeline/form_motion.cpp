@@ -51,7 +51,7 @@ Vec2 centre_of_pixel(int x, int y) {
 
 std::vector<FrameMatches> matches_of(const std::vector<FormEvidence>& evidence, Size plate) {
     const int margin =
-        std::max(1, static_cast<int>(kMargin * std::max(plate.width, plate.height) + 0.5));
+        std::max(1, static_cast<int>(std::lround(kMargin * std::max(plate.width, plate.height))));
     std::vector<FrameMatches> out;
     for (std::size_t k = 1; k < evidence.size(); ++k) {
         const FormEvidence& at = evidence[k];
