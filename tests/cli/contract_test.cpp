@@ -56,7 +56,7 @@ TEST_F(Contract, JsonProgressIsOneObjectALine) {
 
 TEST_F(Contract, JsonPutsOneObjectOnStdoutAndProgressOnStderr) {
     make_shot(2);
-    const Outcome outcome = run_replace({"--json", "--report", "report.json"});
+    const Outcome outcome = run_replace({"--json", "--report", "report.json", "--threads", "1"});
     expect_success(outcome);
     Json report = Json::parse(outcome.out);
     EXPECT_EQ(report["exit_code"], 0);
