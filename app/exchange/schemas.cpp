@@ -81,6 +81,16 @@ Json schema_of(const ParameterInfo& info) {
                       {{"kind", {{"enum", {"point", "directional", "gradient"}}}},
                        {"keys", keys({{"type", "array"}, {"items", any_of_type("number")}})}}}}}};
             break;
+        case ParameterKind::kGuides:
+            out = {{"type", "array"},
+                   {"maxItems", static_cast<std::int64_t>(info.max)},
+                   {"items",
+                    {{"type", "object"},
+                     {"required", {"kind", "numbers"}},
+                     {"properties",
+                      {{"kind", {{"enum", info.choices}}},
+                       {"numbers", {{"type", "array"}, {"items", any_of_type("number")}}}}}}}};
+            break;
     }
     out["description"] =
         std::string(info.help) + (info.unit.empty() ? "" : " (" + std::string(info.unit) + ")");
