@@ -40,6 +40,16 @@ FormGuide floor_quad(double near, double far) {
                      on_picture(on_floor(0.5, near)), on_picture(on_floor(-0.7, near))})};
 }
 
+// The same, turned by 37° on the floor: both pairs of sides run to a vanishing point.
+FormGuide turned_quad() {
+    const auto corner = [](double a, double b) {
+        const double x = 0.8 * a - 0.6 * b, deeper = 0.6 * a + 0.8 * b;
+        return on_picture(on_floor(x, 2.3 + 0.94 * deeper));
+    };
+    return {FormGuideKind::kPlane,
+            numbers({corner(-0.5, 0.6), corner(0.5, 0.6), corner(0.5, -0.6), corner(-0.5, -0.6)})};
+}
+
 Distortion laid(const DrawnSurface& drawn, const Surface& truth) {
     MetricField field(kSize, kSpacing);
     for (int y = 0; y < kSize.height; y += 2) {
@@ -79,7 +89,7 @@ Surface cylinder(float leaning) {
 }
 
 TEST(DrawnSurface, AQuadTellsThePlaneAndTheFieldOfView) {
-    const auto plane = drawn_surface(floor_quad(1.7, 3.6), {kSize, {}});
+    const auto plane = drawn_surface(turned_quad(), {kSize, {}});
     ASSERT_TRUE(plane);
     EXPECT_TRUE(plane->is_plane());
     EXPECT_NEAR(plane->tilt_deg, kFloorTilt_deg, 2.5);
@@ -89,6 +99,15 @@ TEST(DrawnSurface, AQuadTellsThePlaneAndTheFieldOfView) {
     EXPECT_LT(d.stretch_median, 1.06);
     EXPECT_LT(d.stretch_p90, 1.20);
     EXPECT_FALSE(d.flipped);
+}
+
+// One vanishing point says nothing of the focal length, and the error says so.
+TEST(DrawnSurface, TheErrorCoversWhatAQuadDoesNotTell) {
+    const auto plane = drawn_surface(floor_quad(1.7, 3.6), {kSize, {}});
+    ASSERT_TRUE(plane);
+    EXPECT_GT(plane->tilt_error_deg, 4);
+    EXPECT_LT(std::abs(plane->tilt_deg - kFloorTilt_deg), plane->tilt_error_deg);
+    EXPECT_LT(laid(*plane, seen(floor_below)).stretch_p90, 1.20);
 }
 
 TEST(DrawnSurface, AKnownFieldOfViewGivesTheTiltItself) {
