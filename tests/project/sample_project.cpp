@@ -48,7 +48,11 @@ Region full_region() {
     r.amendments = std::vector<PlaneAmendment>{
         {PlaneAmendment::Kind::kKeep, 0, {{10, 20, 30, 1, 2, 0, 0}, {10, 21, 1, 3, 4, 2, 5}}},
         {PlaneAmendment::Kind::kAgain, 4000000000u, {{-3, 7, 12, 0, 0, 0, 0}}}};
-    r.form = {"position/####.exr", "shot.Position", 0.75, {}};
+    r.form.position = "position/####.exr";
+    r.form.position_layer = "shot.Position";
+    r.form.amount = 0.75;
+    r.form.shape = {{FormGuideKind::kCylinder, {100, 40, 104, 300, 50, 52.5, -10}}};
+    r.form.strokes = {{FormGuideKind::kLevel, {80, 100, 130, 104}}};
     r.placement.uv = "uv/####.exr";
     r.placement.uv_layer = "shot.UV";
     r.motion = {"flow/####.flo",
