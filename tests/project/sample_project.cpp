@@ -50,6 +50,12 @@ Region full_region() {
         {PlaneAmendment::Kind::kAgain, 4000000000u, {{-3, 7, 12, 0, 0, 0, 0}}}};
     r.form.position = "position/####.exr";
     r.form.position_layer = "shot.Position";
+    r.form.normal = "normal/####.exr";
+    r.form.normal_layer = "shot.Normal";
+    r.form.normal_space = NormalSpace::kWorld;
+    r.form.source = FormSource::kShape;
+    r.form.depth_kind = DepthKind::kRay;
+    r.form.fov_deg = 40;
     r.form.amount = 0.75;
     r.form.shape = {{FormGuideKind::kCylinder, {100, 40, 104, 300, 50, 52.5, -10}}};
     r.form.strokes = {{FormGuideKind::kLevel, {80, 100, 130, 104}}};
