@@ -7,6 +7,7 @@
 #include "app/render/memory_plan.h"
 #include "app/render/version_up.h"
 #include "engine/core/frame_range.h"
+#include "engine/form/form_guide.h"
 #include "engine/lighting/lamp.h"
 #include "engine/media/sequence_pattern.h"
 
@@ -42,6 +43,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, unsigned long s
         }
         case 5:
             static_cast<void>(weft::parse_lamps(text));
+            if (const auto guides = weft::parse_form_guides(text))
+                for (const weft::FormGuide& guide : *guides)
+                    static_cast<void>(weft::check_form_guide(guide));
             static_cast<void>(weft::parse_keyed_numbers(text, 2));
             break;
         case 6: {

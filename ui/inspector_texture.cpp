@@ -15,6 +15,7 @@ constexpr double kMostMagnified = 1.5;
 bool may_have_form(const Region& region) {
     const FormParams& form = region.form;
     return form.source == FormSource::kDepth || form.source == FormSource::kAuto ||
+           form.source == FormSource::kShape ||
            (form.source == FormSource::kPass && (!form.position.empty() || !form.normal.empty()));
 }
 

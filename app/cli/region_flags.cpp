@@ -144,9 +144,10 @@ std::string joined(const ParameterInfo& info, const std::vector<std::string>& te
     std::string out;
     for (const std::string& t : texts) {
         if (!out.empty())
-            out += info.kind == ParameterKind::kCorners ? ' '
-                   : info.kind == ParameterKind::kPaths ? '\n'
-                                                        : ',';
+            out += info.kind == ParameterKind::kCorners  ? ' '
+                   : info.kind == ParameterKind::kPaths  ? '\n'
+                   : info.kind == ParameterKind::kGuides ? ';'
+                                                         : ',';
         out += t;
     }
     return out;

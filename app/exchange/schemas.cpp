@@ -31,6 +31,17 @@ Json keys(Json value) {
               {"properties", {{"frame", any_of_type("integer")}, {"value", std::move(value)}}}}}};
 }
 
+Json guides(const ParameterInfo& info) {
+    return {{"type", "array"},
+            {"maxItems", static_cast<std::int64_t>(info.max)},
+            {"items",
+             {{"type", "object"},
+              {"required", {"kind", "numbers"}},
+              {"properties",
+               {{"kind", {{"enum", info.choices}}},
+                {"numbers", {{"type", "array"}, {"items", any_of_type("number")}}}}}}}};
+}
+
 Json schema_of(const ParameterInfo& info) {
     Json out;
     switch (info.kind) {
@@ -80,6 +91,9 @@ Json schema_of(const ParameterInfo& info) {
                      {"properties",
                       {{"kind", {{"enum", {"point", "directional", "gradient"}}}},
                        {"keys", keys({{"type", "array"}, {"items", any_of_type("number")}})}}}}}};
+            break;
+        case ParameterKind::kGuides:
+            out = guides(info);
             break;
     }
     out["description"] =

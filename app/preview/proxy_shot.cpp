@@ -55,6 +55,13 @@ Lamp divided(Lamp lamp, double factor) {
     return lamp;
 }
 
+FormGuide divided(FormGuide guide, double factor) {
+    const std::size_t pixels = std::min(info_of(guide.kind).pixels, guide.numbers.size());
+    for (std::size_t k = 0; k < pixels; ++k)
+        guide.numbers[k] /= factor;
+    return guide;
+}
+
 RegionPlan divided(const RegionPlan& full, int factor) {
     const auto by = static_cast<float>(factor);
     RegionPlan plan = full;
@@ -69,6 +76,8 @@ RegionPlan divided(const RegionPlan& full, int factor) {
     plan.offset_keys = divided(plan.offset_keys, factor);
     for (Lamp& lamp : plan.lamps)
         lamp = divided(std::move(lamp), factor);
+    for (FormGuide& guide : plan.form_guides)
+        guide = divided(std::move(guide), factor);
     plan.grain = plan.focus = 0;
     plan.shutter_deg = 0.0f;
     plan.shutter_evidence.clear();

@@ -70,10 +70,11 @@ struct Choices<MotionConvention> {
 };
 template <>
 struct Choices<FormSource> {
-    static constexpr std::array<std::pair<FormSource, std::string_view>, 4> kNames{
+    static constexpr std::array<std::pair<FormSource, std::string_view>, 5> kNames{
         {{FormSource::kAuto, "auto"},
          {FormSource::kPass, "pass"},
          {FormSource::kDepth, "depth"},
+         {FormSource::kShape, "shape"},
          {FormSource::kFlat, "flat"}}};
 };
 template <>

@@ -37,6 +37,8 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kKeys;
     else if constexpr (std::same_as<T, std::vector<Lamp>>)
         return ParameterKind::kLamps;
+    else if constexpr (std::same_as<T, std::vector<FormGuide>>)
+        return ParameterKind::kGuides;
     else if constexpr (std::same_as<T, std::string>)
         return info.is_path ? ParameterKind::kPath : ParameterKind::kText;
     else
@@ -72,6 +74,9 @@ inline ParameterValue to_value(const KeyedNumbers& member) {
     return member;
 }
 inline ParameterValue to_value(const std::vector<Lamp>& member) {
+    return member;
+}
+inline ParameterValue to_value(const std::vector<FormGuide>& member) {
     return member;
 }
 inline ParameterValue to_value(const std::optional<int>& member) {
@@ -128,6 +133,9 @@ inline void from_value(const ParameterValue& value, KeyedNumbers& member) {
 }
 inline void from_value(const ParameterValue& value, std::vector<Lamp>& member) {
     member = std::get<std::vector<Lamp>>(value);
+}
+inline void from_value(const ParameterValue& value, std::vector<FormGuide>& member) {
+    member = std::get<std::vector<FormGuide>>(value);
 }
 inline void from_value(const ParameterValue& value, std::optional<int>& member) {
     const auto* number = std::get_if<std::int64_t>(&value);

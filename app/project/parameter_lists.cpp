@@ -18,8 +18,9 @@ bool is_empty_list(const ParameterValue& value) {
     const auto* texts = std::get_if<std::vector<std::string>>(&value);
     const auto* keyed = std::get_if<KeyedNumbers>(&value);
     const auto* lamps = std::get_if<std::vector<Lamp>>(&value);
-    return (numbers && numbers->empty()) || (texts && texts->empty()) ||
-           (keyed && keyed->empty()) || (lamps && lamps->empty());
+    const auto* guides = std::get_if<std::vector<FormGuide>>(&value);
+    return (numbers && numbers->empty()) || (guides && guides->empty()) ||
+           (texts && texts->empty()) || (keyed && keyed->empty()) || (lamps && lamps->empty());
 }
 
 Status check_keys(const KeyedNumbers& keyed, std::size_t count) {
@@ -111,11 +112,36 @@ Expected<ParameterValue> lamps(const ParameterInfo&, ParameterValue value) {
     return ParameterValue(std::move(out));
 }
 
+Expected<ParameterValue> guides(const ParameterInfo& info, ParameterValue value) {
+    if (is_empty_list(value)) return ParameterValue(std::vector<FormGuide>());
+    std::vector<FormGuide> out;
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        WEFT_TRY(parsed, parse_form_guides(*text));
+        out = std::move(parsed);
+    } else if (auto* typed = std::get_if<std::vector<FormGuide>>(&value)) {
+        out = std::move(*typed);
+    } else {
+        return fail(ErrorCode::kUsage, "it must be a list of shapes or strokes");
+    }
+    if (static_cast<double>(out.size()) > info.max)
+        return fail(ErrorCode::kUsage, fmt::format("it has more than {} of them", info.max));
+    for (const FormGuide& guide : out) {
+        const std::string_view name = info_of(guide.kind).name;
+        if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end())
+            return fail(ErrorCode::kUsage, fmt::format("{} is none of {}", quoted(name),
+                                                       fmt::join(info.choices, ", ")));
+        WEFT_CHECK_OK(check_form_guide(guide));
+    }
+    return ParameterValue(std::move(out));
+}
+
 std::string text_of(const ParameterValue& value) {
     if (const auto* names = std::get_if<std::vector<std::string>>(&value))
         return fmt::format("{}", fmt::join(*names, ","));
     if (const auto* keyed = std::get_if<KeyedNumbers>(&value)) return keyed_text(*keyed);
     if (const auto* lamps = std::get_if<std::vector<Lamp>>(&value)) return lamps_text(*lamps);
+    if (const auto* guides = std::get_if<std::vector<FormGuide>>(&value))
+        return form_guides_text(*guides);
     return {};
 }
 

@@ -50,6 +50,8 @@ std::string_view type_name(ParameterKind kind) {
             return "a list of keys";
         case ParameterKind::kLamps:
             return "a list of lamps";
+        case ParameterKind::kGuides:
+            return "a list of shapes or strokes";
     }
     return "";
 }
@@ -75,6 +77,9 @@ std::string shown(const ParameterValue& value) {
         }
         std::string operator()(const std::vector<Lamp>& v) const {
             return fmt::format("{} lamps", v.size());
+        }
+        std::string operator()(const std::vector<FormGuide>& v) const {
+            return fmt::format("{} shapes or strokes", v.size());
         }
     };
     return std::visit(Show{}, value);
@@ -331,6 +336,8 @@ Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue val
             return normalise_list(info, std::move(value), parameter_lists::keys);
         case ParameterKind::kLamps:
             return normalise_list(info, std::move(value), parameter_lists::lamps);
+        case ParameterKind::kGuides:
+            return normalise_list(info, std::move(value), parameter_lists::guides);
         case ParameterKind::kPoint:
         case ParameterKind::kRgb:
         case ParameterKind::kCorners:
@@ -352,7 +359,7 @@ std::string format_parameter(const ParameterInfo& info, const ParameterValue& va
     if (std::holds_alternative<std::monostate>(value)) return {};
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     if (info.kind == ParameterKind::kNames || info.kind == ParameterKind::kKeys ||
-        info.kind == ParameterKind::kLamps)
+        info.kind == ParameterKind::kLamps || info.kind == ParameterKind::kGuides)
         return parameter_lists::text_of(value);
     std::string out;
     if (const auto* paths = std::get_if<std::vector<std::string>>(&value)) {
@@ -391,6 +398,7 @@ std::string allowed_values(const ParameterInfo& info) {
         case ParameterKind::kPath:
         case ParameterKind::kPaths:
         case ParameterKind::kLamps:
+        case ParameterKind::kGuides:
             return {};
         case ParameterKind::kNames:
             return "all, or of " + choices_text(info);

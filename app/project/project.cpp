@@ -208,6 +208,9 @@ std::size_t own_bytes(const Region& r) {
         keys += heap_bytes_of(*keyed);
     for (const Lamp& lamp : r.light.lamps)
         keys += sizeof lamp + heap_bytes_of(lamp.numbers);
+    for (const auto* guides : {&r.form.shape, &r.form.strokes})
+        for (const FormGuide& guide : *guides)
+            keys += sizeof guide + guide.numbers.capacity() * sizeof(double);
     return sizeof r + pins + samples + keys + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.uv, r.placement.uv_layer, r.placement.extra,

@@ -20,6 +20,7 @@
 #include "engine/core/fields.h"
 #include "engine/core/keyed_numbers.h"
 #include "engine/form/depth_positions.h"
+#include "engine/form/form_guide.h"
 #include "engine/lighting/lamp.h"
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/shading.h"
@@ -186,9 +187,10 @@ struct Placement {
 
 /// What shows the shape of a surface.
 enum class FormSource {
-    kAuto,   ///< The pass if there is one, else the motion, as far as it tells.
+    kAuto,   ///< The pass if there is one, else what is drawn, else the motion, as far as it tells.
     kPass,   ///< The position pass, without one the normal pass; flat without both.
     kDepth,  ///< The depth pass (FinishParams::depth), with the camera's field of view.
+    kShape,  ///< What the artist drew: FormParams::shape, else the parallel ones of the strokes.
     kFlat
 };
 /// The axes of a normal pass.
@@ -206,8 +208,10 @@ struct FormParams {
     std::string normal_layer;    ///< Empty: found.
     NormalSpace normal_space = NormalSpace::kCamera;
     DepthKind depth_kind = DepthKind::kZ;
-    std::optional<double> fov_deg;  ///< Horizontal; unset: from the header of the pass.
-    double amount = 1;              ///< 0 flat, 1 as found.
+    std::optional<double> fov_deg;   ///< Horizontal; unset: from the header of the pass, or found.
+    std::vector<FormGuide> shape;    ///< At most one, over the surface on the reference frame.
+    std::vector<FormGuide> strokes;  ///< Along it.
+    double amount = 1;               ///< 0 flat, 1 as found.
     Extras extra;
     bool operator==(const FormParams&) const = default;
 };

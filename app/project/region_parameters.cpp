@@ -233,9 +233,27 @@ std::vector<Parameter<Region>> make_region_table() {
                                                  .key = "source",
                                                  .flag = "--form",
                                                  .help =
-                                                     "What shows the form: a pass or else the "
-                                                     "motion (auto), a position or normal pass, "
-                                                     "the depth pass, or nothing"}),
+                                                     "What shows the form: a pass, else a "
+                                                     "shape, else the motion (auto), a position "
+                                                     "or normal pass, the depth pass, a shape or "
+                                                     "strokes, or nothing"}),
+        entry<R, &R::form, &FormParams::shape>(
+            {.group = "form",
+             .key = "shape",
+             .flag = "--form-shape",
+             .help = "Shape over the surface on its reference frame: plane:x,y,x,y,x,y,x,y, "
+                     "cylinder:ax,ay,bx,by,ra,rb[,tilt], cone: the same, or ball:x,y,r",
+             .max = 1,
+             .choices = {"plane", "cylinder", "cone", "ball"}}),
+        entry<R, &R::form, &FormParams::strokes>(
+            {.group = "form",
+             .key = "strokes",
+             .flag = "--form-stroke",
+             .help = "Lines on the surface: parallel:x,y,x,y,…, a second group at right angles to "
+                     "the first; level:x,y,x,y along the rows of the texture; repeatable",
+             .max = 16,
+             .repeatable = true,
+             .choices = {"parallel", "level"}}),
         entry<R, &R::form, &FormParams::depth_kind>(
             {.group = "form",
              .key = "depth_kind",
@@ -246,8 +264,8 @@ std::vector<Parameter<Region>> make_region_table() {
             {.group = "form",
              .key = "fov_deg",
              .flag = "--fov",
-             .help = "Horizontal field of view in degrees, for normals, depth and motion; default "
-                     "from the pass's header, or found",
+             .help = "Horizontal field of view in degrees, for normals, depth, shapes and motion; "
+                     "default from the pass's header, or found",
              .min = 1,
              .max = 175,
              .optional = true}),

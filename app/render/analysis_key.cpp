@@ -186,8 +186,7 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
     Hasher hasher;
     hasher.text("form").value(kFormVersion).text(surface);
     add_form_settings(hasher, region);
-    if (plan.form_from != RegionPlan::FormFrom::kMotion)
-        WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
+    if (reads_form(plan.form_from)) WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
     for (const int frame : plan.form_evidence)
         hasher.value(frame);
     return hasher.finish().hex();

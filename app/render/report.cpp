@@ -17,7 +17,8 @@ Json value_json(const ParameterInfo& info, const ParameterValue& value) {
             if constexpr (std::is_same_v<T, std::monostate>) {
                 return nullptr;
             } else if constexpr (std::is_same_v<T, KeyedNumbers> ||
-                                 std::is_same_v<T, std::vector<Lamp>>) {
+                                 std::is_same_v<T, std::vector<Lamp>> ||
+                                 std::is_same_v<T, std::vector<FormGuide>>) {
                 return format_parameter(info, value);
             } else {
                 return v;

@@ -1,5 +1,6 @@
 #include "app/shot/form_files.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "engine/core/setting.h"
@@ -28,21 +29,36 @@ Expected<ViewCamera> view_camera(const FormParams& form, const HeaderCamera& hea
     return camera_with(*fov_deg, plate);
 }
 
+// Whether a shape or a plane's strokes are drawn.
+bool draws_form(const FormParams& form) {
+    return !form.shape.empty() ||
+           std::any_of(form.strokes.begin(), form.strokes.end(), [](const FormGuide& stroke) {
+               return stroke.kind == FormGuideKind::kParallel;
+           });
+}
+
 }  // namespace
+
+bool reads_form(RegionPlan::FormFrom from) {
+    return from == RegionPlan::FormFrom::kPositions || from == RegionPlan::FormFrom::kNormals;
+}
 
 FormFiles form_files(const Region& region) {
     using From = RegionPlan::FormFrom;
     const FormParams& form = region.form;
+    const FormFiles drawn{From::kShape, "", "The shape"};
     switch (form.source) {
         case FormSource::kAuto:
         case FormSource::kPass:
             if (!form.position.empty())
                 return {From::kPositions, form.position, "The position pass"};
             if (!form.normal.empty()) return {From::kNormals, form.normal, "The normal pass"};
-            if (form.source == FormSource::kAuto) return {From::kMotion, "", "The motion"};
-            return {};
+            if (form.source == FormSource::kPass) return {};
+            return draws_form(form) ? drawn : FormFiles{From::kMotion, "", "The motion"};
         case FormSource::kDepth:
             return {From::kPositions, region.finish.depth, "The depth pass"};
+        case FormSource::kShape:
+            return drawn;
         case FormSource::kFlat:
             return {};
     }
@@ -56,6 +72,14 @@ void add_form_settings(Hasher& hasher, const Region& region) {
     hasher.text(form.position_layer).text(form.normal_layer);
     hasher.value(static_cast<int>(form.normal_space)).value(static_cast<int>(form.depth_kind));
     hasher.value(form.fov_deg.value_or(0));
+    for (const auto* guides : {&form.shape, &form.strokes}) {
+        hasher.value(static_cast<std::uint64_t>(guides->size()));
+        for (const FormGuide& guide : *guides) {
+            hasher.value(static_cast<int>(guide.kind));
+            for (const double number : guide.numbers)
+                hasher.value(number);
+        }
+    }
 }
 
 Expected<ImageF3> read_form_places(const Region& region, const std::string& path, Size plate) {

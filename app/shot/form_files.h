@@ -13,9 +13,11 @@ namespace weft {
 /// The pass that decides, by FormParams::source.
 struct FormFiles {
     RegionPlan::FormFrom from = RegionPlan::FormFrom::kNothing;
-    std::string pattern;    ///< Empty without one, and for motion.
+    std::string pattern;    ///< Empty without one, for motion and for a shape.
     std::string what = {};  ///< "The position pass"
 };
+/// Whether that source is a pass.
+[[nodiscard]] bool reads_form(RegionPlan::FormFrom from);
 [[nodiscard]] FormFiles form_files(const Region& region);
 
 /// Hashes all settings on which what the pass shows depends, but the files themselves.

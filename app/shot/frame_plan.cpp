@@ -223,7 +223,8 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
     constexpr int kReach = 48, kOthers = 11;
     const int reference = plan.reference_frames.front();
     std::vector<int> chosen{reference};
-    if (plan.form_from != RegionPlan::FormFrom::kMotion) {
+    if (plan.form_from == RegionPlan::FormFrom::kShape) return chosen;
+    if (reads_form(plan.form_from)) {
         WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
         if (pattern.is_single()) return chosen;
     }
@@ -310,8 +311,7 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     }
     if (plan.has_uv)
         WEFT_CHECK_OK(check_pattern(region.placement.uv, "The UV pass", shot.frames, plate));
-    if (plan.form_from != RegionPlan::FormFrom::kNothing &&
-        plan.form_from != RegionPlan::FormFrom::kMotion) {
+    if (reads_form(plan.form_from)) {
         const FormFiles pass = form_files(region);
         const std::string remedy =
             "The form is found from them, whichever frames are rendered. Add the files, or give "

@@ -138,10 +138,42 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
     return {};
 }
 
+Status project_drawn_form(const Region& region, bool laid, RegionPlan& plan) {
+    if (!laid) {
+        return fail(ErrorCode::kUsage,
+                    "A shape needs the locked temporal mode, and no UV pass beside it, which gives "
+                    "the exact place already. Set the mode" +
+                        by({{setting::kTemporalMode, "locked"}}) + ", or leave the shape out.");
+    }
+    const bool plane = std::any_of(
+        region.form.strokes.begin(), region.form.strokes.end(),
+        [](const FormGuide& stroke) { return stroke.kind == FormGuideKind::kParallel; });
+    if (region.form.shape.empty() && !plane) {
+        return fail(ErrorCode::kUsage,
+                    "The form is to come from a shape, but there is none. Draw one" +
+                        by({{setting::kFormShape}, {setting::kFormStrokes}}) +
+                        ", or choose another source" + by({{setting::kFormSource}}) + ".");
+    }
+    if (!region.form.shape.empty() && plane) {
+        return fail(ErrorCode::kUsage,
+                    "A shape and parallel strokes both say what the form is. Remove the one" +
+                        by({{setting::kFormShape}}) + " or the others" +
+                        by({{setting::kFormStrokes}}) + ".");
+    }
+    plan.form_from = RegionPlan::FormFrom::kShape;
+    plan.form_fov_deg = region.form.fov_deg;
+    plan.form_guides = region.form.shape;
+    plan.form_guides.insert(plan.form_guides.end(), region.form.strokes.begin(),
+                            region.form.strokes.end());
+    return {};
+}
+
 Status project_form(const Region& region, RegionPlan& plan) {
     const FormFiles pass = form_files(region);
     plan.form_amount = static_cast<float>(region.form.amount);
     if (!(region.form.amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
+    for (const FormGuide& stroke : region.form.strokes)
+        if (stroke.kind == FormGuideKind::kLevel) plan.form_guides.push_back(stroke);
     const bool locked = region.temporal.mode == TemporalMode::kLocked;
     if (pass.from == RegionPlan::FormFrom::kMotion) {
         // Corners are the artist's own perspective.
@@ -150,6 +182,8 @@ Status project_form(const Region& region, RegionPlan& plan) {
         plan.form_fov_deg = region.form.fov_deg;
         return {};
     }
+    if (pass.from == RegionPlan::FormFrom::kShape)
+        return project_drawn_form(region, locked && !plan.has_uv, plan);
     if (pass.pattern.empty()) {
         return fail(ErrorCode::kUsage,
                     "The form is to come from the depth pass, but there is none. Give it" +

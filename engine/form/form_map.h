@@ -8,16 +8,17 @@ namespace weft {
 /// What a form was found from, and how sure it is.
 struct FormFinding {
     enum class Source : std::uint8_t {
-        kNone,   ///< Nothing: the surface stays flat.
-        kPass,   ///< A renderer's pass.
-        kMotion  ///< The motion of a rigid thing.
+        kNone,    ///< Nothing: the surface stays flat.
+        kPass,    ///< A renderer's pass.
+        kMotion,  ///< The motion of a rigid thing.
+        kShape    ///< A shape or strokes that were drawn.
     };
     Source source = Source::kNone;
-    bool plane = false;                      ///< Of motion: a plane, not a curved surface.
+    bool plane = false;                      ///< A plane, not a curved surface.
     int frames = 0;                          ///< That show it.
     float belief = 1;                        ///< How much of it is likely to be there, 0–1.
-    float tilt_deg = 0, tilt_error_deg = 0;  ///< Of motion: at the middle, against the picture.
-    float fov_deg = 0;                       ///< Of motion: horizontal.
+    float tilt_deg = 0, tilt_error_deg = 0;  ///< Of a plane or of motion, in the middle.
+    float fov_deg = 0;                       ///< Horizontal; of motion or a shape.
     bool operator==(const FormFinding&) const = default;
 };
 

@@ -218,7 +218,7 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
     reader.value(f.tilt_deg).value(f.tilt_error_deg).value(f.fov_deg);
     f.plane = plane != 0;
     if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y) ||
-        f.source > FormFinding::Source::kMotion || !(f.belief >= 0 && f.belief <= 1))
+        f.source > FormFinding::Source::kShape || !(f.belief >= 0 && f.belief <= 1))
         return damaged("form");
     return out;
 }

@@ -69,6 +69,10 @@ MetricField field_over(Size plate, const std::vector<FormEvidence>& evidence) {
     Recti domain = rect_of(plate);
     for (const FormEvidence& at : evidence)
         domain = domain.united(place_of(at));
+    return field_over(plate, domain);
+}
+
+MetricField field_over(Size plate, const Recti& domain) {
     return {plate, domain, spacing_for(plate, domain.size())};
 }
 

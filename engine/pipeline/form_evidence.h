@@ -25,4 +25,7 @@ struct FormEvidence {
 /// most a frame's size away.
 [[nodiscard]] MetricField field_over(Size plate, const std::vector<FormEvidence>& evidence);
 
+/// A field, still empty, over a rectangle of the reference frame's plane.
+[[nodiscard]] MetricField field_over(Size plate, const Recti& domain);
+
 }  // namespace weft

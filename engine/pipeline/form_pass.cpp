@@ -8,6 +8,7 @@
 #include "engine/form/flatten.h"
 #include "engine/form/normal_metric.h"
 #include "engine/form/position_metric.h"
+#include "engine/pipeline/form_drawn.h"
 #include "engine/pipeline/form_evidence.h"
 #include "engine/pipeline/form_motion.h"
 
@@ -62,14 +63,15 @@ Status add_pass(const PassContext& context, int region, int frame, const FormEvi
     return {};
 }
 
-}  // namespace
-
-Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& store, int region,
-                            const std::vector<int>& frames) {
+// What the region's own source says of its form.
+Expected<FormMap> form_as_found(const PassContext& context, int region,
+                                const std::vector<int>& frames,
+                                const std::vector<FormEvidence>& evidence) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
-    WEFT_TRY(evidence, form_evidence_on(context, store, region, frames));
     if (plan.form_from == RegionPlan::FormFrom::kMotion)
         return form_from_motion(evidence, context.source.size(), plan.form_fov_deg);
+    if (plan.form_from == RegionPlan::FormFrom::kShape)
+        return form_from_drawing(evidence.front(), context.source.size(), plan);
     MetricField field = field_over(context.source.size(), evidence);
     for (std::size_t k = 0; k < frames.size(); ++k) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
@@ -82,14 +84,21 @@ Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& sto
     return out;
 }
 
-namespace {
-
 AnalysisKey form_key(const ShotPlan& plan, int region) {
     const auto& references = plan.regions[static_cast<std::size_t>(region)].reference_frames;
     return {region, references.front(), AnalysisKind::kForm};
 }
 
 }  // namespace
+
+Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& store, int region,
+                            const std::vector<int>& frames) {
+    const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
+    WEFT_TRY(evidence, form_evidence_on(context, store, region, frames));
+    WEFT_TRY(form, form_as_found(context, region, frames, evidence));
+    WEFT_CHECK_OK(level_form(evidence.front(), plan, form));
+    return form;
+}
 
 bool lacks_form(const ShotPlan& plan, const AnalysisStore& store, int region) {
     return plan.regions[static_cast<std::size_t>(region)].has_form() &&

@@ -14,6 +14,7 @@
 #include "engine/compute/backend.h"
 #include "engine/core/image.h"
 #include "engine/core/keyed_numbers.h"
+#include "engine/form/form_guide.h"
 #include "engine/lighting/lamp.h"
 #include "engine/lighting/light_source.h"
 #include "engine/lighting/plate_detail.h"
@@ -130,12 +131,14 @@ struct RegionPlan {
     /// A UV pass gives the place of the plane that each pixel shows.
     bool has_uv = false;
     /// What shows the surface's form: places (a position pass, or depth with the camera), normals,
-    /// or the motion of the surface.
-    enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals, kMotion };
+    /// the motion of the surface, or what the artist drew.
+    enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals, kMotion, kShape };
     FormFrom form_from = FormFrom::kNothing;
     float form_amount = 1;  ///< 0 flat, 1 as found.
-    /// Horizontal field of view for kMotion; empty: found as well.
+    /// Horizontal field of view for kMotion and kShape; empty: found as well.
     std::optional<double> form_fov_deg;
+    /// Shapes and strokes on the reference frame, in plate pixels; level strokes turn every form.
+    std::vector<FormGuide> form_guides;
     /// Frames that show the form, the reference frame first; they do not depend on the part of the
     /// shot that is rendered.
     std::vector<int> form_evidence;

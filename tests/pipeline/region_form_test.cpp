@@ -106,6 +106,47 @@ TEST(RegionForm, APassWithoutFormIsAnError) {
     EXPECT_FALSE(store.has({0, kFirst, AnalysisKind::kForm}));
 }
 
+RegionPlan drawn(FormGuide guide) {
+    RegionPlan region = formed();
+    region.form_from = RegionPlan::FormFrom::kShape;
+    region.form_fov_deg = 5;  // almost without perspective
+    region.form_guides = {std::move(guide)};
+    return region;
+}
+
+TEST(RegionForm, FollowsADrawnShape) {
+    const FormGuide column{FormGuideKind::kCylinder, {80, 0, 80, 112, 80, 80}};
+    EXPECT_NEAR(widened(Column(), drawn(column), 30), 1 / 0.78f, 0.04f);
+}
+
+TEST(RegionForm, ALevelStrokeTurnsIt) {
+    RegionPlan region = drawn({FormGuideKind::kCylinder, {80, 0, 80, 112, 80, 80}});
+    region.form_guides.push_back({FormGuideKind::kLevel, {70, 50, 90, 60}});
+    MemoryAnalysisStore store;
+    const Column shot;
+    ASSERT_TRUE(analyse_shot(shot, make_plan(region), store, {}, {}));
+    const auto form = region_form(region, store, 0);
+    ASSERT_TRUE(form);
+    const Vec2 along = (*form)->flat({90, 60}) - (*form)->flat({70, 50});
+    EXPECT_NEAR(along.y, 0, 0.01f * along.x);
+}
+
+TEST(RegionForm, ADrawingOutsideOfTheRegionIsAnError) {
+    const auto refused = [](FormGuide guide) {
+        MemoryAnalysisStore store;
+        const Column shot;
+        const Status found = analyse_shot(shot, make_plan(drawn(std::move(guide))), store, {}, {});
+        EXPECT_FALSE(found);
+        return found ? std::string() : found.error().message;
+    };
+    EXPECT_THAT(refused({FormGuideKind::kBall, {900, 900, 20}}),
+                ::testing::HasSubstr("does not lie on the region"));
+    EXPECT_THAT(refused({FormGuideKind::kParallel, {900, 900, 950, 900, 900, 950, 950, 960}}),
+                ::testing::HasSubstr("outside of the region"));
+    EXPECT_THAT(refused({FormGuideKind::kParallel, {40, 40, 90, 80, 40, 80, 90, 40}}),
+                ::testing::HasSubstr("cross each other"));
+}
+
 // Another form does not make the surface be followed again.
 TEST(RegionForm, IsAStageOfItsOwn) {
     MemoryAnalysisStore store;

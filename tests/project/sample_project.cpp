@@ -48,16 +48,17 @@ Region full_region() {
     r.amendments = std::vector<PlaneAmendment>{
         {PlaneAmendment::Kind::kKeep, 0, {{10, 20, 30, 1, 2, 0, 0}, {10, 21, 1, 3, 4, 2, 5}}},
         {PlaneAmendment::Kind::kAgain, 4000000000u, {{-3, 7, 12, 0, 0, 0, 0}}}};
-    r.form = {FormSource::kDepth,
-              "position/####.exr",
-              "shot.Position",
-              "normal/####.exr",
-              "shot.Normal",
-              NormalSpace::kWorld,
-              DepthKind::kRay,
-              47.5,
-              0.75,
-              {}};
+    r.form.position = "position/####.exr";
+    r.form.position_layer = "shot.Position";
+    r.form.normal = "normal/####.exr";
+    r.form.normal_layer = "shot.Normal";
+    r.form.normal_space = NormalSpace::kWorld;
+    r.form.source = FormSource::kShape;
+    r.form.depth_kind = DepthKind::kRay;
+    r.form.fov_deg = 47.5;
+    r.form.amount = 0.75;
+    r.form.shape = {{FormGuideKind::kCylinder, {100, 40, 104, 300, 50, 52.5, -10}}};
+    r.form.strokes = {{FormGuideKind::kLevel, {80, 100, 130, 104}}};
     r.placement.uv = "uv/####.exr";
     r.placement.uv_layer = "shot.UV";
     r.motion = {"flow/####.flo",

@@ -197,8 +197,10 @@ Expected<ParameterValue> read_value(const Json& value, const std::string& path) 
     };
     if (all([](const Json& element) { return element.is_string(); }))
         return ParameterValue(value.get<std::vector<std::string>>());
-    if (all([](const Json& element) { return element.is_object(); }))
+    if (all([](const Json& element) { return element.is_object(); })) {
+        if (value[0].contains("numbers")) return read_guides(value, path);
         return value[0].contains("kind") ? read_lamps(value, path) : read_keys(value, path);
+    }
     std::vector<double> numbers;
     for (const Json& element : value) {
         if (!element.is_number())
@@ -216,8 +218,9 @@ bool is_nothing(const ParameterValue& value) {
     const auto* texts = std::get_if<std::vector<std::string>>(&value);
     const auto* keyed = std::get_if<KeyedNumbers>(&value);
     const auto* lamps = std::get_if<std::vector<Lamp>>(&value);
-    return std::holds_alternative<std::monostate>(value) || (text && text->empty()) ||
-           (texts && texts->empty()) || (numbers && numbers->empty()) ||
+    const auto* guides = std::get_if<std::vector<FormGuide>>(&value);
+    return std::holds_alternative<std::monostate>(value) || (guides && guides->empty()) ||
+           (text && text->empty()) || (texts && texts->empty()) || (numbers && numbers->empty()) ||
            (keyed && keyed->empty()) || (lamps && lamps->empty());
 }
 
@@ -229,6 +232,8 @@ OrderedJson write_value(const ParameterInfo& info, const ParameterValue& value) 
     if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return *texts;
     if (const auto* keyed = std::get_if<KeyedNumbers>(&value)) return write_keys(*keyed);
     if (const auto* lamps = std::get_if<std::vector<Lamp>>(&value)) return write_lamps(*lamps);
+    if (const auto* guides = std::get_if<std::vector<FormGuide>>(&value))
+        return write_guides(*guides);
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     if (!numbers) return {};
     if (info.kind != ParameterKind::kFrames) return *numbers;

@@ -72,6 +72,9 @@ void write_extras(OrderedJson& object, const Extras& extra);
 [[nodiscard]] Expected<ParameterValue> read_lamps(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_keys(const KeyedNumbers& keyed);
 [[nodiscard]] OrderedJson write_lamps(const std::vector<Lamp>& lamps);
+// Shapes and strokes, [{"kind": "ball", "numbers": [x, y, r]}].
+[[nodiscard]] Expected<ParameterValue> read_guides(const Json& value, const std::string& path);
+[[nodiscard]] OrderedJson write_guides(const std::vector<FormGuide>& guides);
 // Roto shapes: {"points": [[x, y, in x, in y, out x, out y, feather], …]}, plate pixels.
 [[nodiscard]] Expected<RotoShape> read_shape(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_shape(const RotoShape& shape);

@@ -1,4 +1,4 @@
-// Keyed numbers and lamps to and from JSON, as described in docs/FORMATS.md.
+// Keyed numbers, lamps and guides of form to and from JSON, as described in docs/FORMATS.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,6 +67,29 @@ Expected<ParameterValue> read_lamps(const Json& value, const std::string& path) 
     return ParameterValue(std::move(lamps));
 }
 
+Expected<ParameterValue> read_guides(const Json& value, const std::string& path) {
+    std::vector<FormGuide> guides;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        WEFT_TRY(object, ObjectReader::open(value[i], fmt::format("{}[{}]", path, i)));
+        WEFT_TRY(name, object.text("kind"));
+        const auto* const info =
+            std::find_if(kFormGuides.begin(), kFormGuides.end(),
+                         [&](const FormGuideInfo& known) { return known.name == name; });
+        if (info == kFormGuides.end())
+            return fail_at(object.path_of("kind"),
+                           "This must be plane, cylinder, cone, ball, parallel or level");
+        const Json* numbers = object.take("numbers");
+        WEFT_CHECK_OK(object.expect_no_rest());
+        const bool fits = numbers && numbers->is_array() &&
+                          numbers->size() <= kMostParallelNumbers &&
+                          std::all_of(numbers->begin(), numbers->end(),
+                                      [](const Json& number) { return number.is_number(); });
+        if (!fits) return fail_at(object.path_of("numbers"), "This must be a list of numbers");
+        guides.push_back({info->kind, numbers->get<std::vector<double>>()});
+    }
+    return ParameterValue(std::move(guides));
+}
+
 OrderedJson write_keys(const KeyedNumbers& keyed) {
     OrderedJson list = OrderedJson::array();
     for (const auto& [frame, numbers] : keyed.keys) {
@@ -85,6 +108,13 @@ OrderedJson write_lamps(const std::vector<Lamp>& lamps) {
     for (const Lamp& lamp : lamps)
         list.push_back(
             OrderedJson{{"kind", info_of(lamp.kind).name}, {"keys", write_keys(lamp.numbers)}});
+    return list;
+}
+
+OrderedJson write_guides(const std::vector<FormGuide>& guides) {
+    OrderedJson list = OrderedJson::array();
+    for (const FormGuide& guide : guides)
+        list.push_back(OrderedJson{{"kind", info_of(guide.kind).name}, {"numbers", guide.numbers}});
     return list;
 }
 

@@ -1,0 +1,253 @@
+#include "engine/form/plane_from_lines.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/form/rigid_bundle.h"
+
+namespace weft {
+namespace {
+
+constexpr double kHand_px = 1;  // how exactly a line is drawn, at the picture's long side kSide
+constexpr double kSide = 960;
+constexpr double kKnown = 1e-3;  // deviation of a tangent that is given
+constexpr double kLeastNearness = 0.02;
+constexpr double kStep = 1e-6;  // of the numeric derivatives
+constexpr int kSteps = 40;
+constexpr std::array kTangents{0.5, 0.9, 1.5};
+constexpr std::array kSlopes{0.25, 0.7};
+constexpr int kDirections = 8;
+
+using Vector4 = Eigen::Vector4d;
+using Matrix4 = Eigen::Matrix4d;
+
+// Slopes, tangent, and the direction of `along`: in view space, unit, not yet in the plane.
+struct Guess {
+    double slope_x = 0, slope_y = 0, tangent = 1;
+    glm::dvec3 direction{1, 0, 0};
+};
+
+glm::dvec3 unit(const glm::dvec3& v) {
+    return v / std::sqrt(glm::dot(v, v));
+}
+
+class Lines {
+  public:
+    Lines(const std::vector<PictureLine>& along, const std::vector<PictureLine>& across,
+          Size picture, std::optional<double> tangent)
+        : along_(along), across_(across) {
+        flat_.middle =
+            0.5f * Vec2(static_cast<float>(picture.width), static_cast<float>(picture.height));
+        flat_.long_side = std::max(picture.width, picture.height);
+        sigma_ = kHand_px * flat_.long_side / kSide;
+        if (tangent) prior_.tangent = *tangent, prior_.tangent_deviation = kKnown;
+        glm::dvec2 sum{0};
+        const auto each = [&](auto&& visit) {
+            for (const auto* group : {&along_, &across_})
+                for (const PictureLine& line : *group)
+                    visit(line.from), visit(line.to);
+        };
+        each([&](glm::dvec2 p) { sum += p; });
+        centre_ = sum / (2.0 * static_cast<double>(along.size() + across.size()));
+        each([&](glm::dvec2 p) {
+            const glm::dvec2 d = p - centre_;
+            radius_ = std::max(radius_, std::sqrt(d.x * d.x + d.y * d.y));
+        });
+    }
+
+    [[nodiscard]] std::vector<Guess> starts() const {
+        std::vector<double> tangents(kTangents.begin(), kTangents.end());
+        if (prior_.tangent_deviation == kKnown) tangents = {prior_.tangent};
+        // Eighths of a turn, without trigonometry.
+        constexpr double kDiagonal = std::numbers::sqrt2 / 2;
+        constexpr std::array<glm::dvec2, kDirections> kAround{{{1, 0},
+                                                               {kDiagonal, kDiagonal},
+                                                               {0, 1},
+                                                               {-kDiagonal, kDiagonal},
+                                                               {-1, 0},
+                                                               {-kDiagonal, -kDiagonal},
+                                                               {0, -1},
+                                                               {kDiagonal, -kDiagonal}}};
+        std::vector<Guess> out;
+        for (const double tangent : tangents) {
+            out.push_back(start(tangent, {0, 0}));
+            for (const double slope : kSlopes)
+                for (const glm::dvec2& d : kAround)
+                    out.push_back(start(tangent, slope * d));
+        }
+        return out;
+    }
+
+    // Squares of all errors in units of their deviation.
+    [[nodiscard]] double cost(const Guess& g) const {
+        const Eigen::VectorXd r = errors(g);
+        return r.size() == 0 ? std::numeric_limits<double>::infinity() : r.squaredNorm();
+    }
+
+    // Normal equations; false where the guess is impossible.
+    bool linearise(const Guess& g, Matrix4& matrix, Vector4& right) const {
+        const Eigen::VectorXd at = errors(g);
+        if (at.size() == 0) return false;
+        Eigen::Matrix<double, Eigen::Dynamic, 4> slopes(at.size(), 4);
+        for (int k = 0; k < 4; ++k) {
+            const Eigen::VectorXd moved = errors(stepped(g, kStep * Vector4::Unit(k)));
+            if (moved.size() == 0) return false;
+            slopes.col(k) = (moved - at) / kStep;
+        }
+        matrix = slopes.transpose() * slopes;
+        right = -slopes.transpose() * at;
+        return true;
+    }
+
+    [[nodiscard]] Guess stepped(const Guess& g, const Vector4& step) const {
+        Guess out{g.slope_x + step[0], g.slope_y + step[1], std::max(0.02, g.tangent + step[2]),
+                  g.direction};
+        const glm::dvec3 n = unit(normal(out));
+        const glm::dvec3 flat = unit(out.direction - n * glm::dot(n, out.direction));
+        out.direction = unit(flat + step[3] * glm::cross(n, flat));
+        return out;
+    }
+
+    [[nodiscard]] RigidSurface surface(const Guess& g) const {
+        RigidSurface out = flat_;
+        out.tangent = g.tangent;
+        out.centre = Vec2(centre_);
+        out.radius = radius_;
+        out.slope_x = g.slope_x;
+        out.slope_y = g.slope_y;
+        return out;
+    }
+
+    // n with n · P = 1 on the plane, whose depth at the centre is 1.
+    [[nodiscard]] glm::dvec3 normal(const Guess& g) const {
+        const double by = flat_.long_side / (g.tangent * radius_);
+        const glm::dvec2 off = (glm::dvec2(flat_.middle) - centre_) / radius_;
+        return {g.slope_x * by, g.slope_y * by, 1 + g.slope_x * off.x + g.slope_y * off.y};
+    }
+
+    [[nodiscard]] double cosine(const Guess& g) const { return std::abs(unit(normal(g)).z); }
+
+  private:
+    [[nodiscard]] glm::dvec3 ray(glm::dvec2 place, double tangent) const {
+        const glm::dvec2 d = (place - glm::dvec2(flat_.middle)) * tangent / flat_.long_side;
+        return {d.x, d.y, 1};
+    }
+    [[nodiscard]] double nearness(const Guess& g, glm::dvec2 place) const {
+        const glm::dvec2 y = (place - centre_) / radius_;
+        return 1 + g.slope_x * y.x + g.slope_y * y.y;
+    }
+    [[nodiscard]] Guess start(double tangent, glm::dvec2 slope) const {
+        Guess out{slope.x, slope.y, tangent, {1, 0, 0}};
+        const PictureLine& line = along_.front();
+        const glm::dvec3 step = ray(line.to, tangent) / std::max(0.1, nearness(out, line.to)) -
+                                ray(line.from, tangent) / std::max(0.1, nearness(out, line.from));
+        out.direction = unit(step);
+        return out;
+    }
+
+    // How far a line's ends are off the line through its middle and the vanishing point of a
+    // direction, px.
+    [[nodiscard]] double off(const PictureLine& line, const glm::dvec3& direction,
+                             double tangent) const {
+        const glm::dvec2 mid = 0.5 * (line.from + line.to), half = 0.5 * (line.to - line.from);
+        // The picture of a step along the direction from the middle: finite also for a vanishing
+        // point at infinity.
+        const glm::dvec3 at = ray(mid, tangent);
+        const glm::dvec2 to(direction.x - at.x * direction.z, direction.y - at.y * direction.z);
+        const double length = std::sqrt(to.x * to.x + to.y * to.y);
+        if (!(length > 1e-9)) return std::sqrt(half.x * half.x + half.y * half.y);
+        return (half.x * to.y - half.y * to.x) / length;
+    }
+
+    [[nodiscard]] Eigen::VectorXd errors(const Guess& g) const {
+        for (const auto* group : {&along_, &across_})
+            for (const PictureLine& line : *group)
+                for (const glm::dvec2& end : {line.from, line.to})
+                    if (nearness(g, end) < kLeastNearness) return {};
+        const glm::dvec3 n = unit(normal(g));
+        const glm::dvec3 first = unit(g.direction - n * glm::dot(n, g.direction)),
+                         second = glm::cross(n, first);
+        Eigen::VectorXd out(static_cast<Eigen::Index>(along_.size() + across_.size()) + 3);
+        Eigen::Index k = 0;
+        for (const PictureLine& line : along_)
+            out[k++] = off(line, first, g.tangent) / sigma_;
+        for (const PictureLine& line : across_)
+            out[k++] = off(line, second, g.tangent) / sigma_;
+        out[k++] = g.slope_x / prior_.slope;
+        out[k++] = g.slope_y / prior_.slope;
+        out[k++] = (g.tangent - prior_.tangent) / prior_.tangent_deviation;
+        return out;
+    }
+
+    const std::vector<PictureLine>&along_, &across_;
+    RigidSurface flat_;
+    RigidPrior prior_;
+    glm::dvec2 centre_{0};
+    double radius_ = 1, sigma_ = 1;
+};
+
+Guess descended(const Lines& lines, Guess at) {
+    double before = lines.cost(at), damping = 1e-3;
+    for (int k = 0; k < kSteps && damping < 1e8; ++k) {
+        Matrix4 matrix;
+        Vector4 right;
+        if (!lines.linearise(at, matrix, right)) return at;
+        const Matrix4 damped =
+            matrix + damping * Matrix4(matrix.diagonal().asDiagonal()) + 1e-9 * Matrix4::Identity();
+        const Guess next = lines.stepped(at, damped.ldlt().solve(right));
+        const double after = lines.cost(next);
+        if (!(after < before)) {
+            damping *= 10;
+            continue;
+        }
+        const bool enough = before - after < 1e-9 * (1 + before);
+        at = next;
+        before = after;
+        damping = std::max(1e-9, damping * 0.1);
+        if (enough) break;
+    }
+    return at;
+}
+
+double degrees_of_cosine(double c) {
+    // Long double: see docs/decisions/0002-determinism.md.
+    return static_cast<double>(std::acos(static_cast<long double>(std::clamp(c, -1.0, 1.0))) * 180 /
+                               std::numbers::pi_v<long double>);
+}
+
+}  // namespace
+
+PlaneFromLines plane_from_lines(const std::vector<PictureLine>& along,
+                                const std::vector<PictureLine>& across, Size picture,
+                                std::optional<double> tangent) {
+    const Lines lines(along, across, picture, tangent);
+    Guess best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Guess& start : lines.starts()) {
+        const Guess at = descended(lines, start);
+        const double cost = lines.cost(at);
+        if (cost < least * (1 - 1e-6)) best = at, least = cost;
+    }
+    PlaneFromLines out{lines.surface(best), degrees_of_cosine(lines.cosine(best)), 0};
+    Matrix4 matrix;
+    Vector4 right;
+    if (lines.linearise(best, matrix, right)) {
+        Vector4 slope;
+        for (int k = 0; k < 4; ++k) {
+            constexpr double kWide = 1e-4;
+            const auto tilt = [&](double by) {
+                return degrees_of_cosine(lines.cosine(lines.stepped(best, by * Vector4::Unit(k))));
+            };
+            slope[k] = (tilt(kWide) - tilt(-kWide)) / (2 * kWide);
+        }
+        const Vector4 solved = (matrix + 1e-9 * Matrix4::Identity()).ldlt().solve(slope);
+        out.tilt_error_deg = std::sqrt(std::max(0.0, slope.dot(solved)));
+    }
+    return out;
+}
+
+}  // namespace weft
