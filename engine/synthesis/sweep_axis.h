@@ -1,6 +1,7 @@
 #pragma once
 // The geometry of placements along one axis of the first sweep.
 
+#include <optional>
 #include <vector>
 
 namespace weft {
@@ -24,5 +25,9 @@ struct SweepAxis {
 /// is always an aligned translation.
 [[nodiscard]] SweepAxis make_sweep_axis(int sample_px, int plane_px, bool torus, int overlap_px,
                                         int period_px = 0);
+/// With at least `range_px` translations beyond the first, for patches on a lattice; nothing where
+/// that would leave a patch less than a third of its size to fill.
+[[nodiscard]] std::optional<SweepAxis> make_ranged_axis(int sample_px, int plane_px, bool torus,
+                                                        int overlap_px, int range_px);
 
 }  // namespace weft
