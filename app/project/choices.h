@@ -69,6 +69,15 @@ struct Choices<MotionConvention> {
          {MotionConvention::kArnold, "arnold"}}};
 };
 template <>
+struct Choices<PlaneMode> {
+    static constexpr std::array<std::pair<PlaneMode, std::string_view>, 5> kNames{
+        {{PlaneMode::kAuto, "auto"},
+         {PlaneMode::kSynthesize, "synthesize"},
+         {PlaneMode::kTile, "tile"},
+         {PlaneMode::kStretch, "stretch"},
+         {PlaneMode::kMirror, "mirror"}}};
+};
+template <>
 struct Choices<SeamMethod> {
     static constexpr std::array<std::pair<SeamMethod, std::string_view>, 3> kNames{
         {{SeamMethod::kGraphCut, "graphcut"},

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding_px = 0.75;  // No point of the plane is farther from a texel: √½.
 constexpr double kLargestTolerance_px = 2;
-constexpr double kExactStrain = 0.001;
+constexpr double kExactStrain = 0.0025;
 constexpr int kLargestSide = 16384;
 
 double to_whole(double v) {
@@ -82,20 +82,26 @@ glm::dvec2 PlaneLattice::miss(glm::dvec2 offset) const {
     return best;
 }
 
+bool PlaneLattice::holds(Vec2i offset) const {
+    return count_ == 0 || held(offset, {1, 1}).at(0, 0) != 0;
+}
+
 Image<std::uint8_t, 1> PlaneLattice::held(Vec2i first, Size size) const {
     Image<std::uint8_t, 1> out(size, 0);
+    if (count_ < 2) {
+        const double turns = count_ == 0 ? HUGE_VAL : tolerance_px_ / glm::length(steps_[0]);
+        for (int y = 0; y < size.height; ++y) {
+            const double start = glm::dot(waves_[0], glm::dvec2(first + Vec2i{0, y}));
+            for (int x = 0; x < size.width; ++x)
+                out.at(x, y) = std::abs(to_whole(start + waves_[0].x * x)) <= turns;
+        }
+        return out;
+    }
     const double most = tolerance_px_ * tolerance_px_;
     const auto test = [&](int x, int y) {
         const glm::dvec2 d = miss(glm::dvec2(first + Vec2i{x, y}));
         if (glm::dot(d, d) <= most) out.at(x, y) = 1;
     };
-    if (count_ < 2) {
-        for (int y = 0; y < size.height; ++y) {
-            for (int x = 0; x < size.width; ++x)
-                test(x, y);
-        }
-        return out;
-    }
     // The texels around the lattice's points, which are few.
     const int reach = static_cast<int>(std::ceil(tolerance_px_));
     double a0 = HUGE_VAL, a1 = -HUGE_VAL, b0 = HUGE_VAL, b1 = -HUGE_VAL;

@@ -30,6 +30,8 @@ class PlaneLattice {
 
     /// From an offset to the nearest point of the lattice, in pixels.
     [[nodiscard]] glm::dvec2 miss(glm::dvec2 offset) const;
+    /// Whether an offset lies within the tolerance; always without a lattice.
+    [[nodiscard]] bool holds(Vec2i offset) const;
     /// One byte for each of the offsets first + (x, y): 1 within the tolerance of the lattice.
     [[nodiscard]] Image<std::uint8_t, 1> held(Vec2i first, Size size) const;
     /// Sizes of rectangles of offsets that hold a point of the lattice wherever they lie.
@@ -43,7 +45,7 @@ class PlaneLattice {
 };
 
 /// The size of a torus of whole periods: the smallest of at least `least` whose strain is below
-/// 0.1 %, or, where none of up to an eighth more is, the one of least strain. `least` without a
+/// 0.25 %, or, where none of up to an eighth more is, the one of least strain. `least` without a
 /// lattice.
 [[nodiscard]] Size whole_periods(const SampleLattice& lattice, Size least);
 

@@ -195,6 +195,7 @@ void Refiner::forbid_off_lattice(const Window& window, Vec2i to_canvas,
                                  std::vector<Vec2i>& forbidden) const {
     const Size size{1 - window.lo.x, 1 - window.lo.y};
     const Image<std::uint8_t, 1> held = lattice_.held(window.lo + to_canvas, size);
+    forbidden.reserve(forbidden.size() + held.size_bytes());
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
             if (!held.at(x, y)) forbidden.push_back(window.lo + Vec2i{x, y});
@@ -214,14 +215,14 @@ std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) {
         }
     }
     const Vec2i to_canvas = Vec2i{block.rect.x0, block.rect.y0} - start;
-    std::vector<Vec2i>& forbidden = shown;
+    std::vector<Vec2i> forbidden = shown;
     if (!lattice_.empty()) forbid_off_lattice(window, to_canvas, forbidden);
     auto found = device_.find(block.rect, window.rect, window.lo, {0, 0}, forbidden);
     const Shortlist list =
         found ? *std::move(found)
               : window.search->find({block.pixels, block.filled, {}, {}, 1, 0}, forbidden);
-    if (std::find(forbidden.begin(), forbidden.end(), list.best) != forbidden.end())
-        return std::nullopt;
+    if (std::find(shown.begin(), shown.end(), list.best) != shown.end()) return std::nullopt;
+    if (!lattice_.holds(list.best + to_canvas)) return std::nullopt;
     return list.good[rng.below(list.good.size())] + to_canvas;
 }
 

@@ -186,10 +186,24 @@ Status upgrade_from_2(Json& document) {
     return {};
 }
 
+/// 3 → 4. A new region lays the patches of a periodic sample on one lattice; one that was saved
+/// keeps its plane.
+Status upgrade_from_3(Json& document) {
+    const auto regions = document.find("regions");
+    if (regions == document.end() || !regions->is_array()) return {};
+    for (Json& region : *regions) {
+        if (!region.is_object()) continue;
+        if (!region.contains("texture")) region["texture"] = Json::object();
+        Json& texture = region["texture"];
+        if (texture.is_object() && !texture.contains("mode")) texture["mode"] = "synthesize";
+    }
+    return {};
+}
+
 using Upgrade = Status (*)(Json&);
 /// kUpgrades[n] upgrades version n to n + 1.
 constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1,
-                                                               upgrade_from_2};
+                                                               upgrade_from_2, upgrade_from_3};
 
 /// The n of "weft.project/n".
 std::optional<int> version_of(std::string_view schema) {
