@@ -17,7 +17,7 @@ enum class SampleKind {
 struct SampleDescription {
     SampleKind kind = SampleKind::kStochastic;
     SampleLattice lattice;  ///< Of a periodic sample.
-    /// Variance in the outer tenth over that inside: near 0 for an object or a print on a ground.
+    /// Variance in the outer eighth over that inside: near 0 for an object or a print on a ground.
     double border = 1;
     /// Share of the variance of large areas that follows the distance from the middle, and how far
     /// the corners differ from the middle in standard deviations: a vignette.

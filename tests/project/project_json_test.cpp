@@ -45,7 +45,7 @@ TEST(ProjectJson, EverythingSurvivesARoundTrip) {
 TEST(ProjectJson, TheSameProjectGivesTheSameBytes) {
     const std::string once = write(full_project());
     EXPECT_EQ(write(read(once)), once);
-    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/3\",\n")) << once.substr(0, 60);
+    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/4\",\n")) << once.substr(0, 60);
     EXPECT_TRUE(once.ends_with("}\n"));
     EXPECT_THAT(once, HasSubstr("\"scale\": 0.1,"));
     EXPECT_THAT(once, HasSubstr("\"seed\": 9007199254740991"));
@@ -74,7 +74,7 @@ TEST(ProjectJson, UnknownKeysSurviveAtEveryLevel) {
 
 TEST(ProjectJson, MissingKeysHaveTheirDefaults) {
     const Project project =
-        read(R"({"schema": "weft.project/3", "regions": [{"name": "a"}, {"id": 5}, {}]})");
+        read(R"({"schema": "weft.project/4", "regions": [{"name": "a"}, {"id": 5}, {}]})");
     ASSERT_EQ(project.regions.size(), 3u);
     Region expected;
     expected.id = 6;  // after the largest that is given
@@ -132,11 +132,24 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     second.texture.plane = "p.png";
     second.light.source = LightSource::kNone;
     for (Region* region : {&wall, &second})  // what later versions do of their own accord
-        region->light.cast = 0, region->grade.match = 0;
+        region->light.cast = 0, region->grade.match = 0,
+        region->texture.mode = PlaneMode::kSynthesize;
     expected.regions = {Leaf(wall), Leaf(second)};
     expected.next_region_id = 3;
     EXPECT_EQ(project, expected);
-    EXPECT_THAT(write(project), HasSubstr("\"weft.project/3\""));
+    EXPECT_THAT(write(project), HasSubstr("\"weft.project/4\""));
+}
+
+// A new region lays a periodic sample on one lattice; one that was saved before keeps its plane.
+TEST(ProjectJson, ThePlaneOfVersion3Stays) {
+    const Project saved = read(R"({"schema": "weft.project/3", "regions": [
+        {"id": 1, "texture": {"sample": "a.png"}}, {"id": 2}]})");
+    EXPECT_EQ(saved.regions[0]->texture.mode, PlaneMode::kSynthesize);
+    EXPECT_EQ(saved.regions[0]->texture.sample, "a.png");
+    EXPECT_EQ(saved.regions[1]->texture.mode, PlaneMode::kSynthesize);
+    const Project fresh = read(R"({"schema": "weft.project/4", "regions": [
+        {"id": 1, "texture": {"sample": "a.png"}}]})");
+    EXPECT_EQ(fresh.regions[0]->texture.mode, PlaneMode::kAuto);
 }
 
 // A new region is matched to the plate; one that was saved before that keeps its look.
@@ -182,11 +195,11 @@ TEST(ProjectJson, WhatVersion1CouldNotRenderIsAnErrorWithItsPlace) {
 }
 
 TEST(ProjectJson, ANewerVersionIsRefusedWithWhatToDo) {
-    const auto project = project_from_json(R"({"schema": "weft.project/4"})");
+    const auto project = project_from_json(R"({"schema": "weft.project/5"})");
     ASSERT_FALSE(project);
     EXPECT_EQ(project.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(project.error().text(), HasSubstr("version 4"));
-    EXPECT_THAT(project.error().text(), HasSubstr("up to version 3"));
+    EXPECT_THAT(project.error().text(), HasSubstr("version 5"));
+    EXPECT_THAT(project.error().text(), HasSubstr("up to version 4"));
     EXPECT_THAT(project.error().text(), HasSubstr("update Weft"));
 }
 

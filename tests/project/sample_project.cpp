@@ -33,8 +33,13 @@ Region full_region() {
     Zone zone_in_files;
     zone_in_files.matte = holdout;
     r.zones = std::vector<Zone>{zone, zone_in_files};
-    r.texture = {
-        "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};
+    r.texture = {"brick.jpg",
+                 {"brick2.jpg", "brick3.jpg"},
+                 PlaneMode::kStretch,
+                 "plane.exr",
+                 WrapMode::kMirror,
+                 "linear",
+                 {}};
     r.placement.scale = 0.1;
     r.placement.rotate_deg = -12.5;
     r.placement.offset_px = {3, -4.25};
@@ -111,7 +116,7 @@ Project full_project() {
 
 std::string json_with_unknown_keys() {
     return R"({
-  "schema": "weft.project/3",
+  "schema": "weft.project/4",
   "future_top": {"deep": [1, {"x": null}], "big": 1e300},
   "plate": {"path": "frames/####.png", "future_plate": "p"},
   "color": {"future_color": 0.1},
