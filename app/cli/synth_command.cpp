@@ -81,10 +81,10 @@ Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
 Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const PlaneOptions& grow,
                                     Vec2i at) {
     if (samples.size() > 1 || grow.tileable || grow.guide || grow.orientations.rotations ||
-        grow.orientations.mirror) {
+        grow.orientations.mirror || shows_sample(grow.mode)) {
         return fail(ErrorCode::kUsage,
-                    "An unbounded plane (--endless) needs one upright sample, without "
-                    "--tileable and --light.");
+                    "An unbounded plane (--endless) needs one upright sample that is synthesized, "
+                    "without --tileable and --light.");
     }
     constexpr int kFurthest = 1 << 30, kLargestSide = 16384;
     if (std::max(grow.size.width, grow.size.height) > kLargestSide || at.x < -kFurthest ||
