@@ -43,30 +43,17 @@ void Sweep::make_axes() {
         common.width = std::min(common.width, page.rect.width());
         common.height = std::min(common.height, page.rect.height());
     }
-    if (make_lattice_axes(common)) return;
+    if (const auto axes = make_lattice_axes(lattice_, common, options_.size, canvas_.torus(),
+                                            options_.overlap_px)) {
+        x_ = axes->x, y_ = axes->y;
+        return;
+    }
     lattice_ = {};
     const Size period = period_.axis_px();
     x_ = make_sweep_axis(common.width, options_.size.width, canvas_.torus(), options_.overlap_px,
                          period.width);
     y_ = make_sweep_axis(common.height, options_.size.height, canvas_.torus(), options_.overlap_px,
                          period.height);
-}
-
-// Of all rectangles of translations that are sure to hold a point of the lattice, the one that
-// leaves a patch most to fill.
-bool Sweep::make_lattice_axes(Size common) {
-    const Size plane = options_.size;
-    int most = 0;
-    for (const Size range : lattice_.covers()) {
-        const auto x = make_ranged_axis(common.width, plane.width, canvas_.torus(),
-                                        options_.overlap_px, range.width);
-        const auto y = make_ranged_axis(common.height, plane.height, canvas_.torus(),
-                                        options_.overlap_px, range.height);
-        if (!x || !y || x->advance * y->advance <= most) continue;
-        most = x->advance * y->advance;
-        x_ = *x, y_ = *y;
-    }
-    return most > 0;
 }
 
 void Sweep::make_places() {

@@ -76,7 +76,6 @@ class Sweep {
     };
 
     void make_axes();
-    [[nodiscard]] bool make_lattice_axes(Size common);
     void make_places();
     void make_bands();
     void grow_band(std::size_t index);

@@ -75,4 +75,18 @@ std::vector<int> window_starts(int sample_px, int window_px) {
     return starts;
 }
 
+std::optional<SweepAxes> make_lattice_axes(const PlaneLattice& lattice, Size sample, Size plane,
+                                           bool torus, int overlap_px) {
+    std::optional<SweepAxes> best;
+    for (const Size range : lattice.covers()) {
+        const auto x = make_ranged_axis(sample.width, plane.width, torus, overlap_px, range.width);
+        const auto y =
+            make_ranged_axis(sample.height, plane.height, torus, overlap_px, range.height);
+        if (!x || !y) continue;
+        if (!best || x->advance * y->advance > best->x.advance * best->y.advance)
+            best = SweepAxes{*x, *y};
+    }
+    return best;
+}
+
 }  // namespace weft

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/synthesis/plane_lattice.h"
+
 namespace weft {
 
 /// A block starts `overlap` before the first unfilled pixel. The sample's window lies on it at t ∈
@@ -29,5 +31,13 @@ struct SweepAxis {
 /// that would leave a patch less than a third of its size to fill.
 [[nodiscard]] std::optional<SweepAxis> make_ranged_axis(int sample_px, int plane_px, bool torus,
                                                         int overlap_px, int range_px);
+
+struct SweepAxes {
+    SweepAxis x, y;
+};
+/// Axes whose translations hold a point of the lattice wherever a block lies, those that leave a
+/// patch most to fill; nothing without a lattice, or where it is too wide for the patches.
+[[nodiscard]] std::optional<SweepAxes> make_lattice_axes(const PlaneLattice& lattice, Size sample,
+                                                         Size plane, bool torus, int overlap_px);
 
 }  // namespace weft

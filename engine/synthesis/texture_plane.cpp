@@ -12,6 +12,7 @@
 #include "engine/synthesis/plane_energy.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/sample_cover.h"
+#include "engine/synthesis/sweep_axis.h"
 
 namespace weft {
 namespace {
@@ -75,14 +76,16 @@ PlaneStructure structure_of(const SampleAtlas& atlas, PlaneOptions& options) {
     if (options.mode != PlaneMode::kAuto || options.guide) return structure;
     const SampleLattice lattice = find_lattice(atlas.pixels(), self);
     if (lattice.count == 0) return structure;
-    if (!options.tileable) {
-        structure.lattice = PlaneLattice(lattice);
+    const bool torus = options.tileable;
+    const Size size =
+        torus && options.whole_periods ? whole_periods(lattice, options.size) : options.size;
+    const PlaneLattice on_plane(lattice, torus ? std::optional<Size>(size) : std::nullopt);
+    // Checked before the size grows for it.
+    if (on_plane.strain() > kLargestStrain ||
+        !make_lattice_axes(on_plane, atlas.pixels().size(), size, torus, options.overlap_px)) {
         return structure;
     }
-    const Size size = options.whole_periods ? whole_periods(lattice, options.size) : options.size;
-    const PlaneLattice strained(lattice, size);
-    if (strained.strain() > kLargestStrain) return structure;
-    structure.lattice = strained;
+    structure.lattice = on_plane;
     options.size = size;
     return structure;
 }
