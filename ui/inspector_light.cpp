@@ -54,9 +54,9 @@ void light_inspector(Ctx& c) {
     }
     if (section(c, "Seams")) {
         const PanelName panel(c, "Seams");
-        const bool grown = region->texture.plane.empty();
+        const bool grown = region->texture.plane.empty() && !shows_sample(region->texture.mode);
         if (!grown) {
-            wrapped(c, "This texture is tiled, so it has no seams.", t.quiet);
+            wrapped(c, "This texture is not synthesized, so it has no seams.", t.quiet);
         } else {
             region_parameter(c, *region, "synthesis.seam", "Cut");
             region_parameter(c, *region, "synthesis.overlap_px");

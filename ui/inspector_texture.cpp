@@ -114,19 +114,26 @@ void texture_inspector(Ctx& c) {
             text_in(list, t.strong, {x, at.y + t.px(4)}, {right, at.y + t.px(24)}, t.text,
                     fitted(c.textures.name_of_texture(path), right - x).c_str(), 0);
             text_in(list, t.small, {x, at.y + t.px(24)}, {right, at.y + t.px(42)}, t.quiet,
-                    plane ? "Tiled" : "Synthesized", 0);
+                    plane || shows_sample(region->texture.mode) ? "Not synthesized" : "Synthesized",
+                    0);
             ImGui::Dummy({side, side});
-            const bool as_plane = plane;
-            int how = as_plane ? 1 : 0;
-            if (segments(c, "How", {"Synthesize", "Tile"}, how)) {
-                TextureSource source = region->texture;
-                source.sample = how == 0 ? path : "";
-                source.plane = how == 1 ? path : "";
-                const std::string keep = path;
-                if (how == 0) source.sample = keep;
-                c.edit(SetTexture{{region->id, {}}, source});
+            if (plane) {
+                if (button(c, "Use as a sample",
+                           {.icon = icons::kTexture,
+                            .tip = "Synthesize, tile, stretch or mirror this image instead of "
+                                   "showing it as a finished plane",
+                            .width = -1})) {
+                    TextureSource source = region->texture;
+                    source.sample = std::exchange(source.plane, {});
+                    c.edit(SetTexture{{region->id, {}}, source});
+                }
+                region_parameter(c, *region, "texture.wrap", "Wrap mode");
+            } else {
+                region_parameter(c, *region, "texture.mode", "Mode");
+                const auto kind = c.view.preview.samples.find(region->id);
+                if (kind != c.view.preview.samples.end())
+                    wrapped(c, "Taken for " + kind->second + ".", t.quiet);
             }
-            if (plane) region_parameter(c, *region, "texture.wrap", "Wrap mode");
         }
         section_gap(c);
     }

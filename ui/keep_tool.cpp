@@ -99,7 +99,8 @@ void keep_section(Ctx& c, const Region& region) {
     if (!section(c, "Lock and regenerate patches")) return;
     const PanelName panel(c, "Keep");
     const Theme& t = c.theme;
-    if (!region.texture.plane.empty() || region.temporal.mode != TemporalMode::kLocked) {
+    if (!region.texture.plane.empty() || shows_sample(region.texture.mode) ||
+        region.temporal.mode != TemporalMode::kLocked) {
         wrapped(c, "Only a synthesized texture that is locked to the surface has patches to lock.",
                 t.quiet);
         return section_gap(c);

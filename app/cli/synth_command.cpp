@@ -15,7 +15,9 @@
 #include "engine/synthesis/endless_plane.h"
 #include "engine/synthesis/light_guide.h"
 #include "engine/synthesis/plane_energy.h"
+#include "engine/synthesis/plane_phase.h"
 #include "engine/synthesis/repetition.h"
+#include "engine/synthesis/sample_kind.h"
 
 namespace weft {
 namespace {
@@ -79,10 +81,10 @@ Image<std::uint8_t, 1> illumination(const ImageU8x3& picture, Size plane) {
 Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const PlaneOptions& grow,
                                     Vec2i at) {
     if (samples.size() > 1 || grow.tileable || grow.guide || grow.orientations.rotations ||
-        grow.orientations.mirror) {
+        grow.orientations.mirror || shows_sample(grow.mode)) {
         return fail(ErrorCode::kUsage,
-                    "An unbounded plane (--endless) needs one upright sample, without "
-                    "--tileable and --light.");
+                    "An unbounded plane (--endless) needs one upright sample that is synthesized, "
+                    "without --tileable and --light.");
     }
     constexpr int kFurthest = 1 << 30, kLargestSide = 16384;
     if (std::max(grow.size.width, grow.size.height) > kLargestSide || at.x < -kFurthest ||
@@ -110,7 +112,23 @@ Expected<TexturePlane> read_endless(const std::vector<ImageU8x3>& samples, const
     return plane;
 }
 
-Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) {
+struct Synthesized {
+    TexturePlane plane;
+    SampleDescription sample;  ///< Of the first sample.
+};
+
+// What the mode does with the kind that the sample has.
+std::string mode_remark(const SampleDescription& sample, const PlaneOptions& options,
+                        const PlaneStats& stats) {
+    std::string out = std::string(kind_name(sample.kind)) + ": " + reason_of(sample);
+    if (options.mode != PlaneMode::kAuto) return out;
+    if (sample.kind == SampleKind::kPicture) return out + "; consider --mode stretch or mirror";
+    if (sample.kind == SampleKind::kPeriodic)
+        return out + (stats.lattice.empty() ? "; not laid on one lattice" : "; on one lattice");
+    return out;
+}
+
+Expected<Synthesized> run(const SynthOptions& options, const Backend& backend) {
     std::vector<std::string> reads = options.samples;
     if (!options.light.empty()) reads.push_back(options.light);
     WEFT_TRY(rule, write_rule(options.write, reads));
@@ -151,11 +169,46 @@ Expected<TexturePlane> run(const SynthOptions& options, const Backend& backend) 
     WEFT_CHECK_OK(write_plane(options.output, *plane, rule));
     if (!options.source_map.empty())
         WEFT_CHECK_OK(write_source_map(options.source_map, *plane, rule));
-    return plane;
+    return Synthesized{*std::move(plane), describe_sample(samples.front())};
 }
 
-nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repetition,
+nlohmann::ordered_json json_of(const PlanePhase& phase) {
+    return {{"median_px", phase.median_px},
+            {"p95_px", phase.p95_px},
+            {"worst_px", phase.worst_px},
+            {"share", phase.share}};
+}
+
+nlohmann::ordered_json json_of(const SampleDescription& sample) {
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    for (int i = 0; i < sample.lattice.count; ++i) {
+        const glm::dvec2 step = sample.lattice.steps[static_cast<std::size_t>(i)];
+        steps.push_back({step.x, step.y});
+    }
+    return {{"kind", kind_name(sample.kind)},
+            {"reason", reason_of(sample)},
+            {"steps", steps},
+            {"confidence", sample.lattice.confidence},
+            {"residual_px", sample.lattice.residual_px},
+            {"border", sample.border},
+            {"radial", sample.radial},
+            {"uneven", sample.uneven}};
+}
+
+// How far the plane strays from the lattice of its sample.
+nlohmann::ordered_json phase_json(const TexturePlane& plane, const SampleLattice& sample,
+                                  bool tileable) {
+    if (sample.count == 0 || !plane.origin.empty()) return nullptr;
+    const PlaneLattice lattice =
+        tileable ? PlaneLattice(sample, plane.pixels.size()) : PlaneLattice(sample);
+    return {{"source", json_of(source_phase(plane.source, sample, lattice))},
+            {"seen", json_of(seen_phase(plane.pixels, lattice))},
+            {"strain", lattice.strain()}};
+}
+
+nlohmann::ordered_json json_of(const Synthesized& made, const Repetition& repetition,
                                const Backend& backend, const SynthOptions& options) {
+    const TexturePlane& plane = made.plane;
     const PlaneStats& s = plane.stats;
     nlohmann::ordered_json period = nlohmann::ordered_json::array();
     for (int i = 0; i < s.period.count; ++i) {
@@ -182,6 +235,9 @@ nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repe
             {"verbatim_at", {repetition.verbatim_at.x, repetition.verbatim_at.y}},
             {"period", period},
             {"period_correlation", repetition.own_period},
+            {"sample", json_of(made.sample)},
+            {"on_lattice", !s.lattice.empty()},
+            {"phase", phase_json(plane, made.sample.lattice, options.plane.tileable)},
             {"backend", backend.name()},
             {"isa", isa_name(current_isa())},
             {"threads", thread_count()},
@@ -193,10 +249,11 @@ nlohmann::ordered_json json_of(const TexturePlane& plane, const Repetition& repe
 CommandResult synth_command(const SynthOptions& options) {
     WEFT_TRY(chosen, choose_engine(options.threads, options.isa, options.backend));
     const Backend& backend = *chosen.backend;
-    WEFT_TRY(plane, run(options, backend));
+    WEFT_TRY(made, run(options, backend));
+    const TexturePlane& plane = made.plane;
     Answer answer;
     // Only for JSON: measuring repetition takes longer than synthesizing a small plane.
-    if (json_output()) answer.json = json_of(plane, measure_repetition(plane), backend, options);
+    if (json_output()) answer.json = json_of(made, measure_repetition(plane), backend, options);
     const PlaneStats& s = plane.stats;
     char line[256];
     std::snprintf(line, sizeof line,
@@ -204,7 +261,7 @@ CommandResult synth_command(const SynthOptions& options) {
                   "%.3f, refine %.3f, other %.3f)\n",
                   options.output.c_str(), plane.pixels.width(), plane.pixels.height(), s.placements,
                   s.seam_energy_per_area, s.total_s, s.search_s, s.seam_s, s.refine_s, s.other_s);
-    answer.text = line;
+    answer.text = line + ("The sample is " + mode_remark(made.sample, options.plane, s)) + "\n";
     return answer;
 }
 

@@ -64,6 +64,18 @@ void add_synth(CLI::App& app, CommandResult& result) {
             "Rounds of refinement: cuts all seams again, then puts patches over the worst [2]")
         ->transform(whole_number(0, 100))
         ->type_name("");
+    options->plane.mode = PlaneMode::kAuto;
+    options->plane.whole_periods = true;
+    command
+        ->add_option("--mode", options->plane.mode,
+                     "How the sample covers the plane: auto, synthesize, tile, stretch or mirror; "
+                     "auto lays a periodic sample on one lattice [auto]")
+        ->transform(choice<PlaneMode>({{"auto", PlaneMode::kAuto},
+                                       {"synthesize", PlaneMode::kSynthesize},
+                                       {"tile", PlaneMode::kTile},
+                                       {"stretch", PlaneMode::kStretch},
+                                       {"mirror", PlaneMode::kMirror}}))
+        ->type_name("");
     command->add_flag("--rotations", options->plane.orientations.rotations,
                       "Also use the sample rotated by quarter turns");
     command->add_flag("--mirror", options->plane.orientations.mirror,

@@ -232,7 +232,7 @@ Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan, 
     }
     PlaneOptions grow = plane_options(plan, static_cast<std::uint64_t>(project.settings.seed),
                                       plane_size(plan.placement, plate));
-    grow.tileable = true;
+    grow.tileable = grow.whole_periods = true;
     WEFT_TRY(plane, grow_plane({samples.begin(), samples.end()}, grow));
     return std::move(plane.pixels);
 }

@@ -129,8 +129,10 @@ struct PreviewView {
     double seconds_left = 0;  ///< Estimated time of the analysis, s; 0: not known yet.
     std::vector<std::string> warnings;
     std::map<RegionId, int> references;  ///< The reference frame of each region.
-    std::uint64_t changes = 0;           ///< Increases with every change.
-    double frame_seconds = 0;            ///< Render time of the last full-size frame, s.
+    /// What each region's sample was taken for: "Periodic: …".
+    std::map<RegionId, std::string> samples;
+    std::uint64_t changes = 0;  ///< Increases with every change.
+    double frame_seconds = 0;   ///< Render time of the last full-size frame, s.
     /// Time from the request to the first picture of its frame, provisional or not, s.
     double first_seconds = 0;
 };

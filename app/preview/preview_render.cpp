@@ -29,6 +29,17 @@ void forget_pictures(std::map<RegionId, std::map<int, FrameHealth>>& healths) {
                 health.seam_motion = health.seam = -1;
 }
 
+std::map<RegionId, std::string> samples_of(const Shot& shot) {
+    std::map<RegionId, std::string> out;
+    for (std::size_t k = 0; k < shot.textures.size(); ++k) {
+        const ShotTexture& texture = shot.textures[k];
+        if (texture.sample_reason.empty()) continue;
+        out[shot.project.regions[shot.region_index[k]]->id] =
+            std::string(kind_name(texture.sample_kind)) + ": " + texture.sample_reason;
+    }
+    return out;
+}
+
 }  // namespace
 
 Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget)
@@ -226,6 +237,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     forget_pictures(shared->healths);
     shared->shown.warnings = std::move(warnings);
     shared->shown.references = references_of(**shot);
+    shared->shown.samples = samples_of(**shot);
     changed(*shared);
     if (!same_analysis) {
         shared->confidences.clear();

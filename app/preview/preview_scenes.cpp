@@ -52,6 +52,7 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         hasher.value(plan.orientations.rotations).value(plan.orientations.mirror);
         hasher.text(amendments_text(plan.amendments));
         hasher.value(static_cast<int>(region.texture.wrap)).value(plan.texture->is_plane);
+        hasher.value(static_cast<int>(region.texture.mode));
         const Size size = plane_size(plan.placement, shot.source->size());
         const std::string size_key = plan.texture->is_plane ? std::string()
                                                             : " " + std::to_string(size.width) +

@@ -88,6 +88,15 @@ struct Choices<DepthKind> {
         {{DepthKind::kZ, "z"}, {DepthKind::kRay, "ray"}}};
 };
 template <>
+struct Choices<PlaneMode> {
+    static constexpr std::array<std::pair<PlaneMode, std::string_view>, 5> kNames{
+        {{PlaneMode::kAuto, "auto"},
+         {PlaneMode::kSynthesize, "synthesize"},
+         {PlaneMode::kTile, "tile"},
+         {PlaneMode::kStretch, "stretch"},
+         {PlaneMode::kMirror, "mirror"}}};
+};
+template <>
 struct Choices<SeamMethod> {
     static constexpr std::array<std::pair<SeamMethod, std::string_view>, 3> kNames{
         {{SeamMethod::kGraphCut, "graphcut"},

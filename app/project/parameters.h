@@ -121,6 +121,7 @@ template <class Owner>
 [[nodiscard]] std::string_view choice_name(Quality value);
 [[nodiscard]] std::string_view choice_name(OutputDepth value);
 [[nodiscard]] std::string_view choice_name(WrapMode value);
+[[nodiscard]] std::string_view choice_name(PlaneMode value);
 [[nodiscard]] std::string_view choice_name(MotionDirection value);
 [[nodiscard]] std::string_view choice_name(SeamMethod value);
 [[nodiscard]] std::string_view choice_name(TemporalMode value);

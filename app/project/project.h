@@ -32,6 +32,7 @@
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
+#include "engine/synthesis/plane_mode.h"
 #include "engine/temporal/temporal_mode.h"
 
 namespace weft {
@@ -160,6 +161,7 @@ struct Zone {
 struct TextureSource {
     std::string sample;
     std::vector<std::string> also;      ///< Further samples of the same material.
+    PlaneMode mode = PlaneMode::kAuto;  ///< How the sample covers the surface.
     std::string plane;                  ///< Image used without synthesis.
     WrapMode wrap = WrapMode::kRepeat;  ///< Continuation beyond the border of `plane`.
     std::string space;                  ///< Colour space; empty: the project's texture space.

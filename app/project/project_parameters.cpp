@@ -145,6 +145,9 @@ std::string_view choice_name(OutputDepth value) {
 std::string_view choice_name(WrapMode value) {
     return name_of(value);
 }
+std::string_view choice_name(PlaneMode value) {
+    return name_of(value);
+}
 std::string_view choice_name(MotionDirection value) {
     return name_of(value);
 }

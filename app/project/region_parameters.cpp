@@ -113,6 +113,12 @@ std::vector<Parameter<Region>> make_region_table() {
              .max = 63,
              .repeatable = true,
              .is_path = true}),
+        entry<R, &R::texture, &TextureSource::mode>(
+            {.group = "texture",
+             .key = "mode",
+             .flag = "--texture-mode",
+             .help = "How the sample covers the surface: as its kind suggests, synthesized, or the "
+                     "sample itself tiled, stretched or mirrored"}),
         entry<R, &R::texture, &TextureSource::plane>(
             {.group = "texture",
              .key = "plane",

@@ -77,7 +77,8 @@ void check_texture(Finder& find, const Region& region) {
     if (texture.sample.empty() && !texture.also.empty())
         find.error("texture.also", "It has further samples, but no sample",
                    "Set the first one" + by({{setting::kSample}}));
-    if (!texture.plane.empty() && region.temporal.mode != TemporalMode::kLocked)
+    if ((!texture.plane.empty() || shows_sample(texture.mode)) &&
+        region.temporal.mode != TemporalMode::kLocked)
         find.warning(
             "temporal.mode",
             fmt::format(

@@ -47,7 +47,8 @@ Json plane_json(const PlaneStats& stats) {
             {"seam_energy_per_area", stats.seam_energy_per_area},
             {"peak_graph_bytes", stats.peak_graph_bytes},
             {"placements", stats.placements},
-            {"refinements", stats.refinements}};
+            {"refinements", stats.refinements},
+            {"on_lattice", !stats.lattice.empty()}};
 }
 
 void add_credit(const ShotTexture& texture, Json& entry) {
@@ -67,6 +68,10 @@ Json textures_json(const JobResult& result) {
                    {"size", {t.size.width, t.size.height}},
                    {"space", result.spaces.textures[k].name},
                    {"kind", t.is_plane ? "plane" : "sample"}};
+        if (!t.sample_reason.empty()) {
+            entry["sample_kind"] = kind_name(t.sample_kind);
+            entry["sample_reason"] = t.sample_reason;
+        }
         add_credit(t, entry);
         for (const ShotTexture& further : t.also) {
             Json sample{{"path", further.path},

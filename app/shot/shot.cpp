@@ -10,11 +10,13 @@
 #include "app/shot/project_source.h"
 #include "app/shot/region_projection.h"
 #include "app/shot/shot_inputs.h"
+#include "app/shot/shown_sample.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
 #include "engine/core/luma.h"
 #include "engine/core/setting.h"
 #include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/plate_views.h"
 #include "engine/synthesis/texture_plane.h"
 #include "texture_db/library/library.h"
 
@@ -320,14 +322,25 @@ class ShotOpener {
         }
         Hasher hasher;
         hasher.image(out.pixels);
-        out.named = {region.name, path,          hasher.finish().hex(), out.pixels.size(), is_plane,
-                     credit.id,   credit.author, credit.licence,        credit.source,     {}};
+        out.named = {region.name,
+                     path,
+                     hasher.finish().hex(),
+                     out.pixels.size(),
+                     is_plane,
+                     SampleKind::kStochastic,
+                     {},
+                     credit.id,
+                     credit.author,
+                     credit.licence,
+                     credit.source,
+                     {}};
         return out;
     }
 
     Status add_texture(const Region& region, RegionPlan& plan) {
-        const bool is_plane = !region.texture.plane.empty();
-        const std::string& path = is_plane ? region.texture.plane : region.texture.sample;
+        const bool given = !region.texture.plane.empty();
+        const bool is_plane = given || shows_sample(region.texture.mode);
+        const std::string& path = given ? region.texture.plane : region.texture.sample;
         if (path.empty()) {
             return fail(ErrorCode::kUsage, "It has no texture. Choose a sample or a plane" +
                                                by({{setting::kSample}, {setting::kPlane}}) + ".");
@@ -340,8 +353,16 @@ class ShotOpener {
         texture->pixels = std::move(first.pixels);
         texture->is_plane = is_plane;
         texture->wrap = region.texture.wrap;
-        if (is_plane && region.placement.fit)
-            plan.placement.picture_texels = texture->pixels.size();
+        if (given && region.placement.fit) plan.placement.picture_texels = texture->pixels.size();
+        if (!given) {
+            const SampleDescription sample =
+                describe_sample(make_views(texture->pixels, *display_from_texture).display);
+            first.named.sample_kind = sample.kind;
+            first.named.sample_reason = reason_of(sample);
+        }
+        plan.mode = given ? PlaneMode::kTile : region.texture.mode;
+        if (is_plane && !given)
+            show_sample(shot_.plate->size(), *display_from_texture, *texture, plan);
         for (const std::string& further : region.texture.also) {
             if (is_plane) break;
             WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));

@@ -14,6 +14,7 @@
 #include "engine/media/frame_cache.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
+#include "engine/synthesis/sample_kind.h"
 
 namespace weft {
 
@@ -28,6 +29,8 @@ struct ShotTexture {
     std::string region, path, id;  ///< id: hash of the decoded pixels.
     Size size;
     bool is_plane = false;
+    SampleKind sample_kind = SampleKind::kStochastic;  ///< Of a sample, with the reason for it.
+    std::string sample_reason;
     /// For library textures; empty: not known.
     std::string library_id, author, licence, source;
     std::vector<ShotTexture> also;  ///< Further samples that are used together with it.

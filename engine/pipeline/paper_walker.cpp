@@ -90,6 +90,7 @@ Expected<ImageU8x3> PaperWalker::advance(int frame, const LatticeField& prev_fro
 Expected<ImageU8x3> PaperWalker::synthesise(int frame, const Warped* previous,
                                             const CancelToken& cancel) const {
     PlaneOptions options = plane_options(region_, seed_, plane_->size, backend_);
+    options.mode = PlaneMode::kSynthesize;  // As the paper does.
     options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame));
     if (previous) options.guide = PlaneGuide{previous->picture, previous->known, region_.weight};
     WEFT_TRY(plane, grow_texture(region_, options, cancel));

@@ -28,6 +28,7 @@
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
+#include "engine/synthesis/plane_mode.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
@@ -106,7 +107,8 @@ struct RegionPlan {
     int refine_passes = 2;
     Orientations orientations;
     bool align = true;
-    std::vector<PlaneAmendment> amendments;  ///< Of the grown plane.
+    PlaneMode mode = PlaneMode::kSynthesize;  ///< Of planes for the whole shot.
+    std::vector<PlaneAmendment> amendments;   ///< Of the grown plane.
     // Time.
     TemporalMode temporal = TemporalMode::kLocked;
     float blend = 0.2f;   ///< α of the paper mode.

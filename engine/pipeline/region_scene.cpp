@@ -94,7 +94,7 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
     }
     PlaneOptions options =
         plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
-    options.tileable = true;
+    options.tileable = options.whole_periods = true;
     options.amendments = region.amendments;
     WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
     RegionPlane out{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat),

@@ -112,6 +112,7 @@ Expected<SurfaceLookup> RegionSurface::lookup(const Recti& box) const {
         region_.working_from_display->apply(picture);
     } else {
         PlaneOptions options = plane_options(region_, plan_.seed, frame_area.size, &backend_);
+        options.mode = PlaneMode::kSynthesize;  // The comparison to the locked mode.
         options.frame = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame_));
         WEFT_TRY(plane, grow_texture(region_, options));
         picture = plane_in_working_space(region_, plane);

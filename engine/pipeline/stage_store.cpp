@@ -4,7 +4,7 @@ namespace weft {
 namespace {
 
 // Raise this whenever the pixels of grown planes change.
-constexpr int kPlaneVersion = 1;
+constexpr int kPlaneVersion = 2;
 
 }  // namespace
 
@@ -18,6 +18,7 @@ Hash128 plane_key(const std::vector<ImageU8x3>& samples, const PlaneOptions& opt
     hasher.value(options.overlap_px).value(options.feather_px).value(options.seed);
     hasher.value(options.region).value(options.frame).value(options.tileable);
     hasher.value(options.refine_passes).value(options.align);
+    hasher.value(static_cast<int>(options.mode)).value(options.whole_periods);
     hasher.value(options.orientations.rotations).value(options.orientations.mirror);
     for (const PlaneAmendment& amendment : options.amendments) {
         hasher.value(static_cast<int>(amendment.kind)).value(amendment.seed);

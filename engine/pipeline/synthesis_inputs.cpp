@@ -26,6 +26,7 @@ PlaneOptions plane_options(const RegionPlan& region, std::uint64_t seed, Size si
     options.refine_passes = region.refine_passes;
     options.orientations = region.orientations;
     options.align = region.align;
+    options.mode = region.mode;
     return options;
 }
 

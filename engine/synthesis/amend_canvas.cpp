@@ -16,8 +16,13 @@ constexpr int kAgainRim_px = 6;
 
 class Amender {
   public:
-    Amender(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas)
-        : atlas_(atlas), options_(options), canvas_(canvas), kept_(canvas.size(), 0) {}
+    Amender(const SampleAtlas& atlas, const PlaneOptions& options, const PlaneStructure& structure,
+            Canvas& canvas)
+        : atlas_(atlas),
+          options_(options),
+          structure_(structure),
+          canvas_(canvas),
+          kept_(canvas.size(), 0) {}
 
     [[nodiscard]] bool carry_out(const PlaneAmendment& amendment, std::size_t index,
                                  PlaneStats& stats, const CancelToken& cancel) {
@@ -110,7 +115,7 @@ class Amender {
         options.refine_passes = std::min(options.refine_passes, 1);
         if (salt != 0) options.seed = mix64(options.seed + mix64(salt + (index << 32)));
         PlaneStats part;
-        const bool done = grow_canvas(atlas_, options, fresh, part, cancel, {});
+        const bool done = grow_canvas(atlas_, options, structure_, fresh, part, cancel, {});
         stats.search_s += part.search_s, stats.seam_s += part.seam_s;
         stats.refine_s += part.refine_s;
         stats.peak_graph_bytes = std::max(stats.peak_graph_bytes, part.peak_graph_bytes);
@@ -120,16 +125,18 @@ class Amender {
 
     const SampleAtlas& atlas_;
     const PlaneOptions& options_;
+    const PlaneStructure& structure_;
     Canvas& canvas_;
     Image<std::uint8_t, 1> kept_;
 };
 
 }  // namespace
 
-bool amend_canvas(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
-                  PlaneStats& stats, const CancelToken& cancel) {
+bool amend_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
+                  const PlaneStructure& structure, Canvas& canvas, PlaneStats& stats,
+                  const CancelToken& cancel) {
     if (options.amendments.empty()) return true;
-    Amender amender(atlas, options, canvas);
+    Amender amender(atlas, options, structure, canvas);
     for (std::size_t k = 0; k < options.amendments.size(); ++k)
         if (!amender.carry_out(options.amendments[k], k, stats, cancel)) return false;
     return true;

@@ -5,6 +5,7 @@
 
 #include "engine/core/cancel.h"
 #include "engine/synthesis/canvas.h"
+#include "engine/synthesis/plane_structure.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_plane.h"
 
@@ -16,6 +17,7 @@ namespace weft {
 /// regenerate are grown again inside a rim of their own, except for kept texels. Texels that lie
 /// outside the plane, or come from outside the atlas, are ignored. False if cancelled.
 [[nodiscard]] bool amend_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
-                                Canvas& canvas, PlaneStats& stats, const CancelToken& cancel);
+                                const PlaneStructure& structure, Canvas& canvas, PlaneStats& stats,
+                                const CancelToken& cancel);
 
 }  // namespace weft

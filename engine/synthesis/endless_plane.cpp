@@ -61,7 +61,8 @@ PlaneOptions EndlessPlane::part_options(Size size, std::uint64_t number) const {
     o.tileable = false;
     o.guide.reset();
     o.orientations = {};
-    o.align = false;  // A frame has no first placement to align with; the costs keep it aligned.
+    // A frame has no first placement to align with; the costs keep it aligned.
+    o.align = false;
     o.region = mix64(options_.region) + number;
     return o;
 }
@@ -100,7 +101,7 @@ std::optional<Canvas> EndlessPlane::grow_strip(bool upright, int kind,
     const PlaneOptions o =
         part_options(canvas.size(), 100 + 2 * static_cast<std::uint64_t>(upright) +
                                         static_cast<std::uint64_t>(kind));
-    if (!grow_canvas(*atlas_, o, canvas, stats, cancel, {})) return std::nullopt;
+    if (!grow_canvas(*atlas_, o, {}, canvas, stats, cancel, {})) return std::nullopt;
     return canvas;
 }
 
@@ -149,7 +150,8 @@ Expected<const EndlessPlane::Part*> EndlessPlane::tile(const Borders& b,
     if (!tile.part) {
         Canvas canvas = frame_of(b);
         PlaneStats stats;
-        if (!grow_canvas(*atlas_, part_options(canvas.size(), index), canvas, stats, cancel, {})) {
+        if (!grow_canvas(*atlas_, part_options(canvas.size(), index), {}, canvas, stats, cancel,
+                         {})) {
             return stopped(cancel);
         }
         tile.part =

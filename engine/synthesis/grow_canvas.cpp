@@ -18,14 +18,15 @@ bool refines(const PlaneOptions& o) {
 
 }  // namespace
 
-bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
-                 PlaneStats& stats, const CancelToken& cancel, const ProgressFn& progress) {
+bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
+                 const PlaneStructure& structure, Canvas& canvas, PlaneStats& stats,
+                 const CancelToken& cancel, const ProgressFn& progress) {
     std::optional<Canvas> again;
     if (refines(options)) {
         canvas.any_locked() ? again.emplace(canvas) : again.emplace(canvas.size(), canvas.torus());
     }
     DeviceSearch device(atlas, options, canvas);
-    Sweep sweep(atlas, options, canvas, device);
+    Sweep sweep(atlas, options, structure, canvas, device);
     if (!sweep.run(stats, cancel, progress)) return false;
     if (!again) return true;
 
@@ -37,7 +38,7 @@ bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& 
         device.show(canvas, rect_of(canvas.size()));
     }
     again.reset();
-    Refiner refiner(atlas, options, canvas, device);
+    Refiner refiner(atlas, options, sweep.lattice(), canvas, device);
     for (int pass = 1; pass < options.refine_passes; ++pass) {
         if (cancel.cancelled()) return false;
         if (refiner.pass(pass, stats) <= 0) break;

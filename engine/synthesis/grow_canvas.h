@@ -4,6 +4,7 @@
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
 #include "engine/synthesis/canvas.h"
+#include "engine/synthesis/plane_structure.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_plane.h"
 
@@ -13,7 +14,7 @@ namespace weft {
 /// refines it if the options say so. False if cancelled. Adds to the stage times, counts and peak
 /// bytes.
 [[nodiscard]] bool grow_canvas(const SampleAtlas& atlas, const PlaneOptions& options,
-                               Canvas& canvas, PlaneStats& stats, const CancelToken& cancel,
-                               const ProgressFn& progress);
+                               const PlaneStructure& structure, Canvas& canvas, PlaneStats& stats,
+                               const CancelToken& cancel, const ProgressFn& progress);
 
 }  // namespace weft

@@ -60,9 +60,9 @@ void add_unary(SeamProblem& problem, int x, int y, std::int32_t cost_of_new) {
 
 }  // namespace
 
-Refiner::Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
-                 DeviceSearch& device)
-    : atlas_(atlas), options_(options), canvas_(canvas), device_(device) {
+Refiner::Refiner(const SampleAtlas& atlas, const PlaneOptions& options, const PlaneLattice& lattice,
+                 Canvas& canvas, DeviceSearch& device)
+    : atlas_(atlas), options_(options), lattice_(lattice), canvas_(canvas), device_(device) {
     Size least = atlas.pages().front().rect.size();
     for (const SampleAtlas::Page& page : atlas.pages()) {
         least.width = std::min(least.width, page.rect.width());
@@ -191,6 +191,18 @@ Vec2i Refiner::source_at(int x, int y) const {
     return {s[0], s[1]};
 }
 
+void Refiner::forbid_off_lattice(const Window& window, Vec2i to_canvas,
+                                 std::vector<Vec2i>& forbidden) const {
+    const Size size{1 - window.lo.x, 1 - window.lo.y};
+    const Image<std::uint8_t, 1> held = lattice_.held(window.lo + to_canvas, size);
+    forbidden.reserve(forbidden.size() + held.size_bytes());
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            if (!held.at(x, y)) forbidden.push_back(window.lo + Vec2i{x, y});
+        }
+    }
+}
+
 // The best place in one window of the atlas for the block, other than what the block already shows.
 std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) {
     const Window& window = windows_[rng.below(windows_.size())];
@@ -202,12 +214,16 @@ std::optional<Vec2i> Refiner::find_origin(const Block& block, Rng& rng) {
             if (shown.empty() || shown.back() != t) shown.push_back(t);
         }
     }
-    auto found = device_.find(block.rect, window.rect, window.lo, {0, 0}, shown);
+    const Vec2i to_canvas = Vec2i{block.rect.x0, block.rect.y0} - start;
+    std::vector<Vec2i> forbidden = shown;
+    if (!lattice_.empty()) forbid_off_lattice(window, to_canvas, forbidden);
+    auto found = device_.find(block.rect, window.rect, window.lo, {0, 0}, forbidden);
     const Shortlist list =
         found ? *std::move(found)
-              : window.search->find({block.pixels, block.filled, {}, {}, 1, 0}, shown);
+              : window.search->find({block.pixels, block.filled, {}, {}, 1, 0}, forbidden);
     if (std::find(shown.begin(), shown.end(), list.best) != shown.end()) return std::nullopt;
-    return list.good[rng.below(list.good.size())] + Vec2i{block.rect.x0, block.rect.y0} - start;
+    if (!lattice_.holds(list.best + to_canvas)) return std::nullopt;
+    return list.good[rng.below(list.good.size())] + to_canvas;
 }
 
 // With x = 1 where the new picture shows, a pair that is an old seam of cost a costs

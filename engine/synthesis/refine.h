@@ -10,6 +10,7 @@
 #include "engine/synthesis/canvas.h"
 #include "engine/synthesis/device_search.h"
 #include "engine/synthesis/placement_search.h"
+#include "engine/synthesis/plane_lattice.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_plane.h"
 
@@ -25,9 +26,9 @@ inline constexpr float kRefineGradientFloor = 64;
 /// undone, so the energy never rises. Ignores guides.
 class Refiner {
   public:
-    /// `device` belongs to the canvas and is updated with every block.
-    Refiner(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
-            DeviceSearch& device);
+    /// `device` belongs to the canvas and is updated with every block. Blocks keep to the lattice.
+    Refiner(const SampleAtlas& atlas, const PlaneOptions& options, const PlaneLattice& lattice,
+            Canvas& canvas, DeviceSearch& device);
 
     /// One round over the plane's worst places, which lie far enough apart to be refined in
     /// parallel. Returns the energy that it removed, and adds to the refinements and peak bytes.
@@ -50,12 +51,15 @@ class Refiner {
     [[nodiscard]] std::vector<Vec2i> apart(const std::vector<Vec2i>& corners) const;
     [[nodiscard]] double energy_around(const Recti& rect) const;
     [[nodiscard]] Outcome refine_block(const Recti& rect, Rng rng);
+    void forbid_off_lattice(const Window& window, Vec2i to_canvas,
+                            std::vector<Vec2i>& forbidden) const;
     [[nodiscard]] std::optional<Vec2i> find_origin(const Block& block, Rng& rng);
     [[nodiscard]] SeamProblem problem_for(const Block& block, Vec2i origin) const;
     [[nodiscard]] Vec2i source_at(int x, int y) const;
 
     const SampleAtlas& atlas_;
     const PlaneOptions& options_;
+    const PlaneLattice& lattice_;
     Canvas& canvas_;
     DeviceSearch& device_;
     Size block_;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <vector>
 
-#include "engine/core/luma.h"
-#include "engine/synthesis/plane_fft.h"
+#include "engine/synthesis/autocovariance.h"
 
 namespace weft {
 namespace {
@@ -20,47 +20,6 @@ Recti middle(Size s) {
     const int w = std::min(s.width, kLargest), h = std::min(s.height, kLargest);
     const int x0 = (s.width - w) / 2, y0 = (s.height - h) / 2;
     return {x0, y0, x0 + w, y0 + h};
-}
-
-// Σ a(p)·a(p + d) for |dx| ≤ reach.x, 0 ≤ dy ≤ reach.y, divided by the number of pairs.
-Image<double, 1> autocovariance(ViewU8x3 picture, Vec2i reach) {
-    const int w = picture.width(), h = picture.height();
-    const PlaneFft fft({fast_fft_size(w + reach.x + 1), fast_fft_size(h + reach.y + 1)});
-    double sum = 0;
-    const auto luma = [&](int x, int y) {
-        const std::uint8_t* p = picture.pixel(x, y);
-        return luma_709(static_cast<float>(p[0]), static_cast<float>(p[1]),
-                        static_cast<float>(p[2]));
-    };
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x)
-            sum += static_cast<double>(luma(x, y));
-    }
-    const auto mean = static_cast<float>(sum / (static_cast<double>(w) * h));
-    std::vector<float> plane;
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x)
-            plane.push_back(luma(x, y) - mean);
-    }
-    std::vector<FftLanes> rows(fft.spectrum_size());
-    fft.forward_rows(plane.data(), picture.size(), rows.data());
-    std::vector<FftLanes> spectrum = rows;
-    fft.forward_columns(spectrum.data());
-    const PlaneFft::Product itself{rows.data(), spectrum.data(), 1.0f};
-    fft.correlate({&itself, 1}, rows.data());
-    std::vector<float> data(fft.row_stride() * static_cast<std::size_t>(fft.padded_height()));
-    fft.backward_rows(rows.data(), 0, reach.y + 1, data.data());
-    Image<double, 1> out(2 * reach.x + 1, reach.y + 1);
-    const double scale = 1.0 / (4.0 * fft.size().width * fft.size().height);
-    for (int dy = 0; dy <= reach.y; ++dy) {
-        for (int dx = -reach.x; dx <= reach.x; ++dx) {
-            const std::size_t at = static_cast<std::size_t>(dy) * fft.row_stride() +
-                                   static_cast<std::size_t>(dx < 0 ? dx + fft.size().width : dx);
-            const double pairs = static_cast<double>(w - std::abs(dx)) * (h - dy);
-            out.at(dx + reach.x, dy) = static_cast<double>(data[at]) * scale / pairs;
-        }
-    }
-    return out;
 }
 
 bool is_peak(const Image<double, 1>& c, int x, int y) {
@@ -116,9 +75,9 @@ void find_verbatim(const TexturePlane& plane, Repetition& out) {
     }
 }
 
-}  // namespace
-
-Repetition measure_repetition(ViewU8x3 picture, const TexturePeriod& period) {
+// `own`: true for steps of the texture's own period.
+template <class Own>
+Repetition measure(ViewU8x3 picture, const Own& own_step) {
     Repetition out;
     const ViewU8x3 part = picture.crop(middle(picture.size()));
     const Vec2i reach{part.width() / 2, part.height() / 2};
@@ -130,7 +89,7 @@ Repetition measure_repetition(ViewU8x3 picture, const TexturePeriod& period) {
         for (int dx = -reach.x + 1; dx < reach.x; ++dx) {
             if ((dy == 0 && dx <= 0) || std::hypot(dx, dy) < kLeastStep) continue;
             const double value = c.at(dx + reach.x, dy) / variance;
-            const bool own = period.count > 0 && period.holds({dx, dy}, kPeriodTolerance_px);
+            const bool own = own_step(Vec2i{dx, dy});
             if (value <= (own ? out.own_period : out.peak)) continue;
             if (!is_peak(c, dx + reach.x, dy)) continue;
             if (own) {
@@ -143,8 +102,20 @@ Repetition measure_repetition(ViewU8x3 picture, const TexturePeriod& period) {
     return out;
 }
 
+}  // namespace
+
+Repetition measure_repetition(ViewU8x3 picture, const TexturePeriod& period) {
+    return measure(
+        picture, [&](Vec2i d) { return period.count > 0 && period.holds(d, kPeriodTolerance_px); });
+}
+
 Repetition measure_repetition(const TexturePlane& plane) {
-    Repetition out = measure_repetition(plane.pixels.view(), plane.stats.period);
+    const PlaneLattice& lattice = plane.stats.lattice;
+    Repetition out = lattice.empty() ? measure_repetition(plane.pixels.view(), plane.stats.period)
+                                     : measure(plane.pixels.view(), [&](Vec2i d) {
+                                           return glm::length(lattice.miss(glm::dvec2(d))) <=
+                                                  kPeriodTolerance_px;
+                                       });
     find_verbatim(plane, out);
     return out;
 }

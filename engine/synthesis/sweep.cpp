@@ -17,10 +17,14 @@ constexpr double kAlignTolerance_px = 2;
 
 }  // namespace
 
-Sweep::Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
-             DeviceSearch& device)
-    : atlas_(atlas), options_(options), canvas_(canvas), device_(device) {
-    if (options.align && atlas.pages().size() == 1) period_ = find_period(atlas.pixels());
+Sweep::Sweep(const SampleAtlas& atlas, const PlaneOptions& options, const PlaneStructure& structure,
+             Canvas& canvas, DeviceSearch& device)
+    : atlas_(atlas),
+      options_(options),
+      canvas_(canvas),
+      device_(device),
+      lattice_(structure.lattice),
+      period_(structure.period) {
     const Size plane = options.size;
     if (canvas.torus() && (!period_.holds({plane.width, 0}, kAlignTolerance_px) ||
                            !period_.holds({0, plane.height}, kAlignTolerance_px))) {
@@ -39,6 +43,12 @@ void Sweep::make_axes() {
         common.width = std::min(common.width, page.rect.width());
         common.height = std::min(common.height, page.rect.height());
     }
+    if (const auto axes = make_lattice_axes(lattice_, common, options_.size, canvas_.torus(),
+                                            options_.overlap_px)) {
+        x_ = axes->x, y_ = axes->y;
+        return;
+    }
+    lattice_ = {};
     const Size period = period_.axis_px();
     x_ = make_sweep_axis(common.width, options_.size.width, canvas_.torus(), options_.overlap_px,
                          period.width);
@@ -103,6 +113,7 @@ bool Sweep::run(PlaneStats& stats, const CancelToken& cancel, const ProgressFn& 
     stats.search_s += search_s * share;
     stats.seam_s += seam_s * share;
     stats.period = period_;
+    stats.lattice = lattice_;
     return !stopped_;
 }
 
@@ -255,7 +266,11 @@ std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
         const Vec2i t = p.origin - to_canvas - Vec2i{x_.lo, y_.lo};
         if (rect_of(bad.size()).contains(t.x, t.y)) bad.at(t.x, t.y) = 1;
     }
-    if (period_.count > 0) forbid_misaligned(block.rect, to_canvas, memory, bad);
+    if (!lattice_.empty()) {
+        forbid_off_lattice(to_canvas, bad);
+    } else if (period_.count > 0) {
+        forbid_misaligned(block.rect, to_canvas, memory, bad);
+    }
     // Bands keep the overlap above and to the left. Only on a torus, or beside locked texels, can a
     // patch touch filled pixels on the other side.
     if (canvas_.torus() || canvas_.any_locked()) forbid_thin_contacts(block, bad);
@@ -266,6 +281,19 @@ std::vector<Vec2i> Sweep::forbidden(const Block& block, Vec2i to_canvas,
         }
     }
     return out;
+}
+
+// The axes make sure that a point of the lattice is in reach, so the rule has no exception; one
+// that continues an earlier placement is better than one beside the lattice.
+void Sweep::forbid_off_lattice(Vec2i to_canvas, Image<std::uint8_t, 1>& bad) const {
+    const Image<std::uint8_t, 1> held = lattice_.held(Vec2i{x_.lo, y_.lo} + to_canvas, bad.size());
+    bool any = false;
+    for (std::size_t i = 0; i < held.size_bytes(); ++i)
+        any |= held.data()[i] && !bad.data()[i];
+    for (std::size_t i = 0; i < held.size_bytes(); ++i) {
+        const bool earlier = any && bad.data()[i];
+        bad.data()[i] = !held.data()[i] || earlier;
+    }
 }
 
 // Aligned with the placements that the block overlaps. Farther placements are not used, because the

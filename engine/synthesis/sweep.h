@@ -15,9 +15,9 @@
 #include "engine/synthesis/patch_seam.h"
 #include "engine/synthesis/placement_memory.h"
 #include "engine/synthesis/placement_search.h"
+#include "engine/synthesis/plane_structure.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/sweep_axis.h"
-#include "engine/synthesis/texture_period.h"
 #include "engine/synthesis/texture_plane.h"
 
 namespace weft {
@@ -29,8 +29,8 @@ namespace weft {
 class Sweep {
   public:
     /// `device` belongs to the canvas and is updated with every patch.
-    Sweep(const SampleAtlas& atlas, const PlaneOptions& options, Canvas& canvas,
-          DeviceSearch& device);
+    Sweep(const SampleAtlas& atlas, const PlaneOptions& options, const PlaneStructure& structure,
+          Canvas& canvas, DeviceSearch& device);
     ~Sweep();
 
     /// Fills the canvas with up to thread_count() threads; false if cancelled. Adds to the stage
@@ -43,7 +43,8 @@ class Sweep {
     [[nodiscard]] bool cut_again(Canvas& canvas, float gradient_floor, PlaneStats& stats,
                                  const CancelToken& cancel);
 
-    [[nodiscard]] const TexturePeriod& period() const { return period_; }
+    /// The lattice that all patches lie on; empty where there is none, or patches are too small.
+    [[nodiscard]] const PlaneLattice& lattice() const { return lattice_; }
 
   private:
     // A window of a page that one search covers.
@@ -92,6 +93,7 @@ class Sweep {
     [[nodiscard]] PlacementMemory memory(std::size_t index, const Recti& block) const;
     [[nodiscard]] std::vector<Vec2i> forbidden(const Block& block, Vec2i to_canvas,
                                                const PlacementMemory& memory) const;
+    void forbid_off_lattice(Vec2i to_canvas, Image<std::uint8_t, 1>& bad) const;
     void forbid_misaligned(const Recti& block, Vec2i to_canvas, const PlacementMemory& memory,
                            Image<std::uint8_t, 1>& bad) const;
     void forbid_thin_contacts(const Block& block, Image<std::uint8_t, 1>& bad) const;
@@ -100,8 +102,9 @@ class Sweep {
     const PlaneOptions& options_;
     Canvas& canvas_;
     DeviceSearch& device_;
-    TexturePeriod period_;
-    SweepAxis x_, y_;  ///< Of the smallest page; all others fit it.
+    PlaneLattice lattice_;
+    TexturePeriod period_;  ///< Without a lattice.
+    SweepAxis x_, y_;       ///< Of the smallest page; all others fit it.
     std::vector<Place> places_;
     std::deque<Band> bands_;
     std::atomic<bool> stopped_{false};

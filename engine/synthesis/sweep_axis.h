@@ -1,7 +1,10 @@
 #pragma once
 // The geometry of placements along one axis of the first sweep.
 
+#include <optional>
 #include <vector>
+
+#include "engine/synthesis/plane_lattice.h"
 
 namespace weft {
 
@@ -24,5 +27,17 @@ struct SweepAxis {
 /// is always an aligned translation.
 [[nodiscard]] SweepAxis make_sweep_axis(int sample_px, int plane_px, bool torus, int overlap_px,
                                         int period_px = 0);
+/// With at least `range_px` translations beyond the first, for patches on a lattice; nothing where
+/// that would leave a patch less than a third of its size to fill.
+[[nodiscard]] std::optional<SweepAxis> make_ranged_axis(int sample_px, int plane_px, bool torus,
+                                                        int overlap_px, int range_px);
+
+struct SweepAxes {
+    SweepAxis x, y;
+};
+/// Axes whose translations hold a point of the lattice wherever a block lies, those that leave a
+/// patch most to fill; nothing without a lattice, or where it is too wide for the patches.
+[[nodiscard]] std::optional<SweepAxes> make_lattice_axes(const PlaneLattice& lattice, Size sample,
+                                                         Size plane, bool torus, int overlap_px);
 
 }  // namespace weft

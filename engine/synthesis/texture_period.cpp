@@ -68,7 +68,7 @@ double variance(ViewU8x3 s) {
 }
 
 // Mismatches of the moves d with |dx| ≤ reach.x, 0 ≤ dy ≤ reach.y.
-Image<double, 1> self_mismatch(ViewU8x3 s, Vec2i reach) {
+Image<double, 1> mismatch_of(ViewU8x3 s, Vec2i reach) {
     const FftCorrelation correlation(s, s.size(), {-reach.x, 0}, reach);
     const Image<std::uint8_t, 1> all(s.size(), 1);
     const auto estimate = correlation.estimate({s, all, {}, {}, 1, 0});
@@ -213,13 +213,17 @@ Size TexturePeriod::axis_px() const {
     return out;
 }
 
-TexturePeriod find_period(ViewU8x3 sample) {
+SelfMismatch self_mismatch(ViewU8x3 sample) {
     const Size s{std::min(sample.width(), kLargest), std::min(sample.height(), kLargest)};
     const int x0 = (sample.width() - s.width) / 2, y0 = (sample.height() - s.height) / 2;
-    const ViewU8x3 middle = sample.crop({x0, y0, x0 + s.width, y0 + s.height});
     const Vec2i reach{s.width / 2, s.height / 2};
+    return {mismatch_of(sample.crop({x0, y0, x0 + s.width, y0 + s.height}), reach), reach};
+}
+
+TexturePeriod find_period(const SelfMismatch& self) {
+    const Image<double, 1>& mismatch = self.mismatch;
+    const Vec2i reach = self.reach;
     TexturePeriod period;
-    const Image<double, 1> mismatch = self_mismatch(middle, reach);
     for (const bool along_x : {true, false}) {
         if (const auto step = step_across(mismatch, reach, along_x)) {
             period.count = 1;
@@ -253,6 +257,10 @@ TexturePeriod find_period(ViewU8x3 sample) {
         period = {};
     }
     return period;
+}
+
+TexturePeriod find_period(ViewU8x3 sample) {
+    return find_period(self_mismatch(sample));
 }
 
 }  // namespace weft

@@ -25,8 +25,18 @@ struct TexturePeriod {
     [[nodiscard]] Size axis_px() const;
 };
 
+/// How the sample (of a large one its middle 256 px) differs from itself moved by d, for
+/// |d.x| ≤ reach.x and 0 ≤ d.y ≤ reach.y, at (d.x + reach.x, d.y): the mean squared difference over
+/// that of unrelated pixels.
+struct SelfMismatch {
+    Image<double, 1> mismatch;
+    Vec2i reach{0, 0};
+};
+[[nodiscard]] SelfMismatch self_mismatch(ViewU8x3 sample);
+
 /// Searches steps of at least 8 px and at most half the sample (of a large one, its middle 256 px).
 /// Thread-safe.
 [[nodiscard]] TexturePeriod find_period(ViewU8x3 sample);
+[[nodiscard]] TexturePeriod find_period(const SelfMismatch& self);
 
 }  // namespace weft

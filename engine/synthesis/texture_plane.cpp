@@ -11,6 +11,8 @@
 #include "engine/synthesis/grow_canvas.h"
 #include "engine/synthesis/plane_energy.h"
 #include "engine/synthesis/sample_atlas.h"
+#include "engine/synthesis/sample_cover.h"
+#include "engine/synthesis/sweep_axis.h"
 
 namespace weft {
 namespace {
@@ -62,16 +64,43 @@ void name_sources(const SampleAtlas& atlas, TexturePlane& plane) {
     }
 }
 
-Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, const PlaneOptions& options,
+// Above it a patch would drift by more than a pixel from its middle to its border.
+constexpr double kLargestStrain = 0.02;
+
+// What the sample's repetition asks of the plane, whose size may grow by it.
+PlaneStructure structure_of(const SampleAtlas& atlas, PlaneOptions& options) {
+    PlaneStructure structure;
+    if (!options.align || atlas.pages().size() > 1) return structure;
+    const SelfMismatch self = self_mismatch(atlas.pixels());
+    structure.period = find_period(self);
+    if (options.mode != PlaneMode::kAuto || options.guide) return structure;
+    const SampleLattice lattice = find_lattice(atlas.pixels(), self);
+    if (lattice.count == 0) return structure;
+    const bool torus = options.tileable;
+    const Size size =
+        torus && options.whole_periods ? whole_periods(lattice, options.size) : options.size;
+    const PlaneLattice on_plane(lattice, torus ? std::optional<Size>(size) : std::nullopt);
+    // Checked before the size grows for it.
+    if (on_plane.strain() > kLargestStrain ||
+        !make_lattice_axes(on_plane, atlas.pixels().size(), size, torus, options.overlap_px)) {
+        return structure;
+    }
+    structure.lattice = on_plane;
+    options.size = size;
+    return structure;
+}
+
+Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, PlaneOptions options,
                             const CancelToken& cancel, const ProgressFn& progress) {
     TexturePlane plane;
     PlaneStats& stats = plane.stats;
     {
         const ScopeTimer total(stats.total_s);
         const SampleAtlas atlas(samples, options.orientations);
+        const PlaneStructure structure = structure_of(atlas, options);
         Canvas canvas(options.size, options.tileable);
-        if (!grow_canvas(atlas, options, canvas, stats, cancel, progress) ||
-            !amend_canvas(atlas, options, canvas, stats, cancel))
+        if (!grow_canvas(atlas, options, structure, canvas, stats, cancel, progress) ||
+            !amend_canvas(atlas, options, structure, canvas, stats, cancel))
             return stopped(cancel);
         const PlaneEnergy energy = recount_energy(atlas, canvas.source(), options.tileable);
         stats.seam_energy = energy.energy;
@@ -128,6 +157,7 @@ Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples, const Pl
                                   const CancelToken& cancel, const ProgressFn& progress) {
     WEFT_CHECK_OK(check(samples, options));
     try {
+        if (shows_sample(options.mode)) return lay_sample(samples.front(), options);
         return grow(samples, options, cancel, progress);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::kNoSpace, "Not enough memory for a texture plane of " +

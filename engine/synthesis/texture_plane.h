@@ -15,6 +15,8 @@
 #include "engine/seam/seam.h"
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
+#include "engine/synthesis/plane_lattice.h"
+#include "engine/synthesis/plane_mode.h"
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/synthesis/texture_period.h"
 
@@ -53,6 +55,11 @@ struct PlaneOptions {
     Orientations orientations;               ///< Turned and mirrored samples besides upright ones.
     std::vector<PlaneAmendment> amendments;  ///< Carried out in this order once it is grown.
     bool align = true;  ///< Keep a texture that repeats by itself (bricks, tiles) in step.
+    /// Of one upright sample without a guide; otherwise kAuto is kSynthesize.
+    PlaneMode mode = PlaneMode::kSynthesize;
+    /// Whether a tileable plane of kAuto may become larger than `size`, by up to an eighth, to hold
+    /// whole periods of its sample.
+    bool whole_periods = false;
     /// Searches for placements if it can do so faster than the CPU; the plane is the same.
     const Backend* backend = nullptr;
     /// Searches by direct sums and cuts by max-flow alone, as the paper does, to compare times. The
@@ -68,9 +75,10 @@ struct PlaneStats {
     std::int64_t seam_length_px = 0;  ///< Neighbouring pairs that are not neighbours in the source.
     double seam_energy_per_area = 0;
     std::size_t peak_graph_bytes = 0;
-    int placements = 0;   ///< Of the first sweep.
-    int refinements = 0;  ///< Blocks that refinement laid over seams.
-    TexturePeriod period;
+    int placements = 0;    ///< Of the first sweep.
+    int refinements = 0;   ///< Blocks that refinement laid over seams.
+    TexturePeriod period;  ///< That patches kept to their neighbours.
+    PlaneLattice lattice;  ///< That all patches lie on (PlaneMode::kAuto); empty: none.
 };
 
 struct TexturePlane {
@@ -90,10 +98,11 @@ struct TexturePlane {
 /// sizes that are allowed.
 [[nodiscard]] Status check_sample(Size sample, int overlap_px);
 
-/// Grows a plane. Deterministic: the same samples and options give the same bytes for any number of
-/// threads. Errors: Usage if there is no sample or more than 64, a sample is smaller than 24 px on
-/// a side or than the overlap, or the size is not in [1, 16384]; NoSpace; cancelled. A sample of
-/// one colour is not an error: the plane has that colour.
+/// Grows a plane, or lays the sample itself as the mode says. Deterministic: the same samples and
+/// options give the same bytes for any number of threads. Errors: Usage if there is no sample or
+/// more than 64, a sample is smaller than 24 px on a side or than the overlap, or the size is not
+/// in [1, 16384]; NoSpace; cancelled. A sample of one colour is not an error: the plane has that
+/// colour.
 [[nodiscard]] Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples,
                                                 const PlaneOptions& options,
                                                 const CancelToken& cancel = {},

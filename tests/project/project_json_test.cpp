@@ -132,11 +132,24 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     second.texture.plane = "p.png";
     second.light.source = LightSource::kNone;
     for (Region* region : {&wall, &second})  // what later versions do of their own accord
-        region->light.cast = 0, region->grade.match = 0, region->form.source = FormSource::kPass;
+        region->light.cast = 0, region->grade.match = 0, region->form.source = FormSource::kPass,
+        region->texture.mode = PlaneMode::kSynthesize;
     expected.regions = {Leaf(wall), Leaf(second)};
     expected.next_region_id = 3;
     EXPECT_EQ(project, expected);
     EXPECT_THAT(write(project), HasSubstr("\"weft.project/4\""));
+}
+
+// A new region lays a periodic sample on one lattice; one that was saved before keeps its plane.
+TEST(ProjectJson, ThePlaneOfVersion3Stays) {
+    const Project saved = read(R"({"schema": "weft.project/3", "regions": [
+        {"id": 1, "texture": {"sample": "a.png"}}, {"id": 2}]})");
+    EXPECT_EQ(saved.regions[0]->texture.mode, PlaneMode::kSynthesize);
+    EXPECT_EQ(saved.regions[0]->texture.sample, "a.png");
+    EXPECT_EQ(saved.regions[1]->texture.mode, PlaneMode::kSynthesize);
+    const Project fresh = read(R"({"schema": "weft.project/4", "regions": [
+        {"id": 1, "texture": {"sample": "a.png"}}]})");
+    EXPECT_EQ(fresh.regions[0]->texture.mode, PlaneMode::kAuto);
 }
 
 // A new region is matched to the plate; one that was saved before that keeps its look.

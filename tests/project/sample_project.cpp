@@ -33,8 +33,13 @@ Region full_region() {
     Zone zone_in_files;
     zone_in_files.matte = holdout;
     r.zones = std::vector<Zone>{zone, zone_in_files};
-    r.texture = {
-        "brick.jpg", {"brick2.jpg", "brick3.jpg"}, "plane.exr", WrapMode::kMirror, "linear", {}};
+    r.texture = {"brick.jpg",
+                 {"brick2.jpg", "brick3.jpg"},
+                 PlaneMode::kStretch,
+                 "plane.exr",
+                 WrapMode::kMirror,
+                 "linear",
+                 {}};
     r.placement.scale = 0.1;
     r.placement.rotate_deg = -12.5;
     r.placement.offset_px = {3, -4.25};

@@ -15,6 +15,7 @@
 #include "engine/media/atomic_file.h"
 #include "engine/media/frame_reader.h"
 #include "engine/media/image_files.h"
+#include "engine/synthesis/sample_kind.h"
 #include "texture_db/describe/picture_file.h"
 
 namespace weft {
@@ -276,16 +277,22 @@ CommandResult texture_similar_command(const TextureCommandOptions& common,
 CommandResult texture_info_command(const TextureCommandOptions& common, const std::string& id) {
     WEFT_TRY(library, open_texture_library(common, false));
     WEFT_TRY(info, library->info(id));
+    WEFT_TRY(picture, library->original(info.id));
+    const SampleDescription sample = describe_sample(picture);
     std::string looks;
     for (const std::string& word : attribute_words(info.measured))
         looks += ", " + word;
-    return Answer{to_json(info), info.id + "\n  name      " + info.name + "\n  material  " +
-                                     info.material + "\n  looks     " +
-                                     colour_name(info.measured.mean) + looks + "\n  origin    " +
-                                     name_of(info.origin) + " " + info.package + "\n  source    " +
-                                     info.source + "\n  author    " +
-                                     (info.author.empty() ? "unknown" : info.author) +
-                                     "\n  licence   " + info.licence + "\n"};
+    Json json = to_json(info);
+    json["sample_kind"] = kind_name(sample.kind);
+    json["sample_reason"] = reason_of(sample);
+    return Answer{std::move(json),
+                  info.id + "\n  name      " + info.name + "\n  material  " + info.material +
+                      "\n  looks     " + colour_name(info.measured.mean) + looks +
+                      "\n  kind      " + kind_name(sample.kind) + ": " + reason_of(sample) +
+                      "\n  origin    " + name_of(info.origin) + " " + info.package +
+                      "\n  source    " + info.source + "\n  author    " +
+                      (info.author.empty() ? "unknown" : info.author) + "\n  licence   " +
+                      info.licence + "\n"};
 }
 
 CommandResult texture_export_command(const TextureCommandOptions& common,

@@ -186,7 +186,8 @@ Status upgrade_from_2(Json& document) {
     return {};
 }
 
-/// 3 → 4. A new region takes its form from what the clip shows; one that was saved stays as it lay.
+/// 3 → 4. A new region takes its form from what the clip shows, and lays the patches of a periodic
+/// sample on one lattice; one that was saved stays as it lay.
 Status upgrade_from_3(Json& document) {
     const auto regions = document.find("regions");
     if (regions == document.end() || !regions->is_array()) return {};
@@ -195,6 +196,9 @@ Status upgrade_from_3(Json& document) {
         if (!region.contains("form")) region["form"] = Json::object();
         Json& form = region["form"];
         if (form.is_object() && !form.contains("source")) form["source"] = "pass";
+        if (!region.contains("texture")) region["texture"] = Json::object();
+        Json& texture = region["texture"];
+        if (texture.is_object() && !texture.contains("mode")) texture["mode"] = "synthesize";
     }
     return {};
 }
