@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/core/parallel.h"
 
 namespace weft {
+namespace {
+
+using F4 = float __attribute__((vector_size(16)));
+
+}  // namespace
 
 std::vector<float> gaussian_kernel(float sigma) {
     const int radius = std::max(1, static_cast<int>(std::ceil(3.0f * sigma)));
@@ -28,27 +34,34 @@ void blur_inside(ImageView<float, 3> picture, ViewU8x1 matte, float sigma_px) {
     const int w = picture.width(), h = picture.height();
     Image<float, 4> rows(w, h);  // colour times weight, weight
     parallel_rows(h, 8, [&](int y0, int y1) {
+        // A row between borders of weight 0, which no sum notices.
+        std::vector<F4> padded(static_cast<std::size_t>(w + 2 * r));
         for (int y = y0; y < y1; ++y) {
+            const float* p = picture.row(y);
+            const std::uint8_t* m = matte.row(y);
+            for (int x = 0; x < w; ++x, p += 3)
+                padded[static_cast<std::size_t>(x + r)] =
+                    m[x] == 0 ? F4{} : F4{p[0], p[1], p[2], 1.0f};
             for (int x = 0; x < w; ++x) {
-                float* to = rows.pixel(x, y);
-                for (int u = std::max(0, x - r); u <= std::min(w - 1, x + r); ++u) {
-                    if (matte.row(y)[u] == 0) continue;
-                    const float k = kernel[static_cast<std::size_t>(u - x + r)];
-                    const float* p = picture.pixel(u, y);
-                    to[0] += k * p[0], to[1] += k * p[1], to[2] += k * p[2], to[3] += k;
-                }
+                const F4* from = padded.data() + x;
+                F4 sum{};
+                for (const float k : kernel)
+                    sum += k * *from++;
+                std::memcpy(rows.pixel(x, y), &sum, sizeof sum);
             }
         }
     });
     parallel_rows(h, 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
+            const int first = std::max(0, y - r), last = std::min(h - 1, y + r);
             for (int x = 0; x < w; ++x) {
                 if (matte.row(y)[x] == 0) continue;
-                float sum[4] = {0, 0, 0, 0};
-                for (int v = std::max(0, y - r); v <= std::min(h - 1, y + r); ++v) {
-                    const float k = kernel[static_cast<std::size_t>(v - y + r)];
-                    for (int c = 0; c < 4; ++c)
-                        sum[c] += k * rows.pixel(x, v)[c];
+                const float* from = rows.pixel(x, first);
+                F4 sum{};
+                for (int v = first; v <= last; ++v, from += rows.stride()) {
+                    F4 there;
+                    std::memcpy(&there, from, sizeof there);
+                    sum += kernel[static_cast<std::size_t>(v - y + r)] * there;
                 }
                 for (int c = 0; c < 3; ++c)
                     picture.pixel(x, y)[c] = sum[c] / sum[3];
