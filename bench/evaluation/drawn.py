@@ -4,6 +4,7 @@ import numpy as np
 import drift
 import fields
 import images
+import mattes
 from rendered import RenderedSurface
 
 KNOWN = 0.5 / 65535
@@ -18,7 +19,7 @@ def kitti(path):
 class DrawnSurface(RenderedSurface):
     """Has no form, light or tiled rendering to compare with; what passes in front of it is given as a holdout."""
 
-    measures = {"deliver": (None,), "motion": ("draft", "final"), "matte": (None,)}
+    measures = {"deliver": (None,), "motion": ("draft", "final"), "matte": mattes.PAINTED}
 
     def __init__(self, scene, part, runs):
         super().__init__(scene, part, runs)

@@ -1,4 +1,5 @@
 """A surface of a film clip: its truth is a mask by frame, and the motion where that is known."""
+import mattes
 from clips import EDGE_PX
 from drawn import DrawnSurface
 from rendered import RenderedSurface
@@ -12,7 +13,7 @@ class FilmSurface(DrawnSurface):
         self.true_motion = ("--motion", scene.pattern("motion", self.name, ending="png"))
         self.moving = scene.file(1, "motion", self.name, ending="png").is_file()
         followed = {"motion": ("draft", "final")} if self.moving else {}
-        self.measures = {"deliver": (None,), **followed, "matte": (None,)}
+        self.measures = {"deliver": (None,), **followed, "matte": mattes.PAINTED}
 
     def deliver(self):
         self.deliver_with()

@@ -24,7 +24,7 @@ class RenderedSurface:
     `delivered` comes first, so that its seconds are those of a whole run without a cache."""
 
     measures = {"deliver": (None,), "light": ("draft", "final", "multiply", "constant"), "motion": ("draft", "final"),
-                "form": (None,), "tiled": (None,), "matte": (None,)}
+                "form": (None,), "tiled": (None,), "matte": mattes.PAINTED}
 
     def __init__(self, scene, part, runs):
         self.scene, self.runs, self.truth = scene, runs, SurfaceTruth(scene, part)
@@ -93,17 +93,29 @@ class RenderedSurface:
         laid = self.lay("tiled", "tiled", "--plane", self.tile, "--uv", coordinates_pattern)
         return light.measure(self.truth, "tiled", laid)
 
-    def matte(self):
-        painted = self.truth.painted_frame
-        paint = self.runs.work / ("painted-%04d.png" % painted)
-        images.write(paint, self.truth.coverage(painted) >= 0.5, "uint8")
-        pattern = self.runs.work / "matte" / "####.png"
-        self.runs("matte", "matte", "--plate", self.plate, "--matte", "%d=%s" % (painted, paint), "-o", pattern,
-                  "--overwrite", "--progress", "none")
-        figures = mattes.measure(list(self.scene.frames), painted, self.truth.coverage,
-                                 lambda f: images.grey(frame_file(str(pattern), f)),
+    def matte(self, how):
+        """Painted on one frame exactly, on one loosely, or on three exactly, and propagated."""
+        keys = three_of(self.truth) if how == "three" else [self.truth.painted_frame]
+        pattern = self.propagated(how, keys)
+        figures = mattes.measure(list(self.scene.frames), keys, self.truth.coverage,
+                                 lambda f: images.grey(frame_file(pattern, f)),
                                  self.motion_to_previous if self.moving else None)
-        return {**figures, "chatter_px": self.chatter(pattern) if self.moving else None, "painted": painted}
+        chatter = self.chatter(pattern) if self.moving and how == "one" else None
+        return {**figures, "chatter_px": chatter, "painted": keys}
+
+    def propagated(self, how, keys):
+        """The pattern of the mattes that weft makes of the painted frames `keys`."""
+        painted = []
+        for frame in keys:
+            file = self.runs.work / ("painted-%s-%04d.png" % (how, frame))
+            coverage = self.truth.coverage(frame)
+            paint = mattes.loosely_painted(coverage, frame) if how == "loose" else coverage >= 0.5
+            images.write(file, paint, "uint8")
+            painted += ["--matte", "%d=%s" % (frame, file)]
+        pattern = self.runs.work / ("matte" if how == "one" else "matte-" + how) / "####.png"
+        self.runs("matte-" + how, "matte", "--plate", self.plate, *painted, "-o", pattern, "--overwrite",
+                  "--progress", "none")
+        return str(pattern)
 
     def motion_to_previous(self, frame):
         data = self.truth.data(frame)
@@ -116,9 +128,17 @@ class RenderedSurface:
 
     def tidy(self):
         """Leaves the pictures that sheets show."""
-        for name in ("cache", "uv", "light-draft", "light-draft-layers", "light-final-layers", "followed-draft",
+        for name in ("cache", "uv", "matte-loose", "matte-three", "light-draft", "light-draft-layers", "light-final-layers", "followed-draft",
                      "followed-draft-layers", "followed-final", "followed-final-layers", "tiled-layers"):
             shutil.rmtree(self.runs.work / name, ignore_errors=True)
+
+
+def three_of(truth):
+    """The painted frame, and of the first, the middle and the last frame those two that lie furthest from it."""
+    frames = [f for f in truth.areas if truth.areas[f] >= mattes.LEAST_AREA_PX]
+    candidates = sorted({frames[0], frames[len(frames) // 2], frames[-1]} - {truth.painted_frame},
+                        key=lambda f: -abs(f - truth.painted_frame))
+    return sorted([truth.painted_frame] + candidates[:2])
 
 
 def patch(path):

@@ -56,7 +56,7 @@ def last_rendered(scene):
 
 def worst_frame(title, surface):
     return {"Motion": surface.get("motion", {}).get("final", {}).get("drift_worst_frame"),
-            "Matte": surface.get("matte", {}).get("worst_frame")}.get(title)
+            "Matte": surface.get("matte", {}).get("one", {}).get("worst_frame")}.get(title)
 
 
 def plate(scene, frame):

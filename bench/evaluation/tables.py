@@ -8,10 +8,10 @@ WORST = 10
 
 
 class Column:
-    """`path`: measure, [variant,] figure. `better`: "less" or "more", or "one" where 1 is right."""
+    """`path`: measure, [variant,] figure. `better`: "less" or "more", or "one" where 1 is right. `scale`: as shown."""
 
-    def __init__(self, title, path, decimals, better="less"):
-        self.title, self.path, self.decimals, self.better = title, path.split("."), decimals, better
+    def __init__(self, title, path, decimals, better="less", scale=1):
+        self.title, self.path, self.decimals, self.better, self.scale = title, path.split("."), decimals, better, scale
 
     def value(self, surface):
         found = surface
@@ -23,7 +23,7 @@ class Column:
         return {"less": value, "more": -value, "one": abs(value - 1)}[self.better]
 
     def text(self, value):
-        return "–" if value is None else "%.*f" % (self.decimals, value)
+        return "–" if value is None else "%.*f" % (self.decimals, self.scale * value)
 
 
 # The first column of each table is the one its worst surfaces are ordered by.
@@ -42,11 +42,24 @@ TABLES = {
               Column("plate multiplied on: levels", "light.multiply.levels", 1),
               Column("no light: levels", "light.constant.levels", 1),
               Column("true light's deviation, levels", "light.final.true_deviation_levels", 1)],
-    "Matte": [Column("IoU", "matte.iou", 3, "more"), Column("IoU, worst frame", "matte.iou_worst", 3, "more"),
-              Column("boundary F", "matte.boundary_f", 3, "more"),
-              Column("leak, worst frame, of the area", "matte.leak_worst", 3),
-              Column("soft edge, levels", "matte.edge_levels", 1),
-              Column("its change, levels", "matte.edge_change_levels", 1), Column("chatter px", "matte.chatter_px", 2)],
+    "Matte": [Column("IoU", "matte.one.iou", 3, "more"), Column("IoU, worst frame", "matte.one.iou_worst", 3, "more"),
+              Column("boundary F", "matte.one.boundary_f", 3, "more"),
+              Column("leak %", "matte.one.leak", 2, scale=100),
+              Column("leak %, worst frame", "matte.one.leak_worst", 2, scale=100),
+              Column("hole %", "matte.one.hole", 2, scale=100),
+              Column("hole %, worst frame", "matte.one.hole_worst", 2, scale=100),
+              Column("soft edge, levels", "matte.one.edge_levels", 1),
+              Column("its change, levels", "matte.one.edge_change_levels", 1),
+              Column("chatter px", "matte.one.chatter_px", 2)],
+    "Matte, painted loosely or on three frames": [
+              Column("loosely: IoU", "matte.loose.iou", 3, "more"),
+              Column("IoU, worst frame", "matte.loose.iou_worst", 3, "more"),
+              Column("leak %, worst frame", "matte.loose.leak_worst", 2, scale=100),
+              Column("hole %, worst frame", "matte.loose.hole_worst", 2, scale=100),
+              Column("three: IoU", "matte.three.iou", 3, "more"),
+              Column("IoU, worst frame", "matte.three.iou_worst", 3, "more"),
+              Column("leak %, worst frame", "matte.three.leak_worst", 2, scale=100),
+              Column("hole %, worst frame", "matte.three.hole_worst", 2, scale=100)],
     "Form": [Column("stretch, median", "form.stretch_median", 2), Column("stretch, 90 %", "form.stretch_p90", 2),
              Column("area, median %", "form.area_median", 0), Column("area, 90 %", "form.area_p90", 0),
              Column("rim: stretch, 90 %", "form.rim_stretch_p90", 2),

@@ -82,7 +82,7 @@ class Mini(unittest.TestCase):
         images.write(runs.work / "painted.png", truth.coverage(1) >= 0.5, "uint8")
         pattern = runs.work / "matte" / "####.png"
         runs("matte", "matte", "--plate", plate, "--matte", "1=%s" % (runs.work / "painted.png"), "-o", pattern)
-        found = mattes.measure(list(scene.frames), 1, truth.coverage,
+        found = mattes.measure(list(scene.frames), [1], truth.coverage,
                                lambda f: images.grey(frame_file(str(pattern), f)))
         return {"iou": found["iou_worst"], "leak": found["leak_worst"]}
 

@@ -17,7 +17,7 @@ def still(frame):
 
 class Mattes(unittest.TestCase):
     def measured(self, matte):
-        return mattes.measure([1, 2, 3, 4], 1, lambda f: disc(70), matte, still)
+        return mattes.measure([1, 2, 3, 4], [1], lambda f: disc(70), matte, still)
 
     def test_the_truth_is_without_error(self):
         found = self.measured(lambda f: disc(70))
@@ -55,9 +55,34 @@ class Mattes(unittest.TestCase):
         self.assertEqual(found["iou"], 0)
 
     def test_frames_that_hide_the_surface_count_their_leaks_only(self):
-        found = mattes.measure([1, 2, 3], 1, lambda f: disc(70) * (f != 3), lambda f: disc(70))
+        found = mattes.measure([1, 2, 3], [1], lambda f: disc(70) * (f != 3), lambda f: disc(70))
         self.assertEqual(found["iou_worst"], 1)
         self.assertGreater(found["leak_worst"], 0.9)
+
+    def test_a_ragged_edge_is_neither_leak_nor_hole_and_a_piece_far_away_is(self):
+        far = mattes.far_px(160)
+        near = self.measured(lambda f: disc(70, 30 + 0.5 * far))
+        self.assertEqual((near["leak"], near["hole"]), (0, 0))
+        self.assertEqual(self.measured(lambda f: disc(70, 30 - 0.5 * far))["hole"], 0)
+        island = self.measured(lambda f: np.maximum(disc(70), disc(130, 6) * (f == 3)))
+        area = (disc(70) >= 0.5).sum()
+        self.assertAlmostEqual(island["leak_worst"], (disc(130, 6) >= 0.5).sum() / area, places=4)
+        self.assertAlmostEqual(island["leak"], island["leak_worst"] / 3, places=4)
+        self.assertEqual([row["leak"] > 0 for row in island["frames"]], [False, True, False])
+
+    def test_a_lost_limb_is_a_hole_however_thin_it_is(self):
+        limb = np.zeros((120, 160), bool)
+        limb[58:63, 100:150] = True
+        found = mattes.measure([1, 2], [1], lambda f: np.maximum(disc(70), limb), lambda f: disc(70))
+        self.assertGreater(found["hole"], 0.05)
+
+    def test_a_loose_outline_is_smooth_near_the_true_one_and_the_same_every_time(self):
+        true = disc(70)
+        loose = mattes.loosely_painted(true, 7)
+        np.testing.assert_array_equal(loose, mattes.loosely_painted(true, 7))
+        self.assertTrue((loose != mattes.loosely_painted(true, 8)).any())
+        self.assertFalse((loose & ~mattes.fields.dilated(true >= 0.5, 3)).any())
+        self.assertLess(mattes.intersection_over_union(loose, true >= 0.5), 0.999)
 
 
 if __name__ == "__main__":

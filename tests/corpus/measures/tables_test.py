@@ -11,7 +11,7 @@ import tables
 
 
 def surface(name, drift, iou=None):
-    return {"name": name, "motion": {"final": {"drift_worst_median_px": drift}}, "matte": {"iou": iou}}
+    return {"name": name, "motion": {"final": {"drift_worst_median_px": drift}}, "matte": {"one": {"iou": iou}}}
 
 
 def header(**more):
@@ -71,7 +71,7 @@ class Results(unittest.TestCase):
         facts = {"family": "room", "seed": 1}
         self.scene = SimpleNamespace(name="room-1", facts=facts, surfaces=[{"name": "wall"}, {"name": "floor"}])
         self.measured = {"name": "room-1", "family": "room", "seed": 1, "verified": True, "failures": [],
-                         "surfaces": [{"name": "floor", "matte": {"iou": 0.5}}]}
+                         "surfaces": [{"name": "floor", "matte": {"one": {"iou": 0.5}}}]}
 
     def test_only_what_is_not_measured_is_measured(self):
         found = header()
@@ -98,7 +98,7 @@ class Results(unittest.TestCase):
         results.put(found, self.scene, self.measured)
         results.save(path, found)
         before = path.read_bytes()
-        found["scenes"][0]["surfaces"][0]["matte"]["iou"] = "good"
+        found["scenes"][0]["surfaces"][0]["matte"]["one"]["iou"] = "good"
         self.assertRaises(results.jsonschema.ValidationError, results.save, path, found)
         self.assertEqual(path.read_bytes(), before)
         self.assertEqual(len(list(Path(self.folder.name).iterdir())), 1)
