@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -34,7 +35,7 @@ struct Work {
     std::exception_ptr error;
 
     void run() {
-        inside_parallel = true;
+        const bool nested = std::exchange(inside_parallel, true);
         std::size_t done = 0;
         for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < n; ++done) {
             try {
@@ -44,7 +45,7 @@ struct Work {
                 if (!error) error = std::current_exception();
             }
         }
-        inside_parallel = false;
+        inside_parallel = nested;
         if (done > 0 && finished.fetch_add(done) + done == n) {
             const std::lock_guard lock(mutex);
             all_done.notify_all();
@@ -74,11 +75,17 @@ class Pool {
     void set_count(int count) {
         const std::lock_guard lock(mutex_);
         count_ = count > 0 ? count : processors();
+        note_usable();
     }
 
     int count() {
         const std::lock_guard lock(mutex_);
         return count_;
+    }
+
+    /// Whether a helper has nothing to do. A hint: the next moment it may.
+    [[nodiscard]] bool has_idle_helper() const {
+        return busy_.load(std::memory_order_relaxed) < usable_.load(std::memory_order_relaxed);
     }
 
     void run(const std::shared_ptr<Work>& work) {
@@ -87,6 +94,7 @@ class Pool {
             while (static_cast<int>(helpers_.size()) < count_ - 1) {
                 const int index = static_cast<int>(helpers_.size());
                 helpers_.emplace_back([this, index] { loop(index); });
+                note_usable();
             }
             queue_.push_back(work);
         }
@@ -107,9 +115,11 @@ class Pool {
             std::shared_ptr<Work> work;
             wake_.wait(lock, [&] { return stop_ || (work = claim(index)) != nullptr; });
             if (stop_) return;
+            ++busy_;
             lock.unlock();
             work->run();
             lock.lock();
+            --busy_;
         }
     }
 
@@ -122,8 +132,11 @@ class Pool {
         return nullptr;
     }
 
+    void note_usable() { usable_ = std::min(static_cast<int>(helpers_.size()), count_ - 1); }
+
     std::mutex mutex_;
     std::condition_variable wake_;
+    std::atomic<int> busy_{0}, usable_{0};  // helpers that run work; that may
     std::vector<std::thread> helpers_;
     std::vector<std::shared_ptr<Work>> queue_;
     int count_ = processors();
@@ -141,7 +154,8 @@ int thread_count() {
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
     if (n == 0) return;
-    if (n == 1 || inside_parallel || thread_count() == 1) {
+    // Inside a body all threads have work of their own, until the last bodies run.
+    if (n == 1 || thread_count() == 1 || (inside_parallel && !Pool::instance().has_idle_helper())) {
         for (std::size_t i = 0; i < n; ++i)
             body(i);
         return;

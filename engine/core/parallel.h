@@ -11,8 +11,8 @@ void set_thread_count(int count);
 
 /// Calls body(i) for every i in [0, n), on up to thread_count() threads, in no order. Returns when
 /// all are done. Each index must write only what no other index touches; then results do not depend
-/// on the number of threads. Called inside a body, it runs in the calling thread. An exception from
-/// a body is rethrown here after the others have finished.
+/// on the number of threads. Inside a body: in the calling thread, helped by threads without work.
+/// An exception from a body is rethrown here after the others have finished.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
 
 /// The same over bands of rows: body(y0, y1) for consecutive bands of [0, height) of `band` rows.

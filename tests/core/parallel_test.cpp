@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -30,6 +31,38 @@ TEST_F(Parallel, NestedCallsRun) {
     std::atomic<int> calls{0};
     parallel_for(8, [&](std::size_t) { parallel_for(8, [&](std::size_t) { ++calls; }); });
     EXPECT_EQ(calls, 64);
+}
+
+TEST_F(Parallel, AnIdleThreadHelpsInsideTheLastBody) {
+    set_thread_count(2);
+    std::atomic<bool> helped{false};
+    parallel_for(2, [&](std::size_t i) {
+        if (i == 0) return;
+        // The other thread has no body of its own left; soon it takes a part of this one.
+        const std::thread::id own = std::this_thread::get_id();
+        const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (!helped && std::chrono::steady_clock::now() < until) {
+            parallel_for(2, [&](std::size_t) {
+                helped = helped || std::this_thread::get_id() != own;
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            });
+        }
+    });
+    EXPECT_TRUE(helped);
+}
+
+TEST_F(Parallel, AnErrorInsideANestedCallReachesTheOuterOne) {
+    set_thread_count(3);
+    std::atomic<int> calls{0};
+    EXPECT_THROW(parallel_for(3,
+                              [&](std::size_t i) {
+                                  parallel_for(50, [&](std::size_t k) {
+                                      ++calls;
+                                      if (i == 2 && k == 7) throw std::runtime_error("seven");
+                                  });
+                              }),
+                 std::runtime_error);
+    EXPECT_EQ(calls, 150);
 }
 
 TEST_F(Parallel, CallersFromSeveralThreadsDoNotMix) {
