@@ -94,7 +94,8 @@ void BackgroundPlate::move(ViewF2 background_from_cur) {
     known_ = std::move(known);
 }
 
-ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, const Recti& area) const {
+ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, ViewF1 surface_difference,
+                              const Recti& area) const {
     const int w = area.width(), h = area.height();
     cv::Mat differences(h, w, CV_32F, cv::Scalar(0)), sure(h, w, CV_32FC2, cv::Scalar::all(0));
     parallel_rows(h, 8, [&](int y0, int y1) {
@@ -124,9 +125,13 @@ ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, const Recti& 
                 const auto& n = noise.at<cv::Vec2f>(y, x);
                 const float local = (n[1] + 0.05f * mean_noise) / (n[0] + 0.05f);
                 const float scale = std::max(kLeastNoise, local);
-                // Laplacian for the background, uniform for anything else.
-                const float value =
-                    std::log(2 * scale / kForeignRange) + patch.at<float>(y, x) / scale;
+                // Laplacian for the background and for what the surface showed here, uniform for
+                // anything else.
+                const float shown =
+                    surface_difference.empty() ? -1.0f : surface_difference.row(y)[x];
+                const float foreign = std::log(2 * scale / kForeignRange);
+                const float value = (shown < 0 ? foreign : std::max(foreign, -shown / scale)) +
+                                    patch.at<float>(y, x) / scale;
                 odds.row(y)[x] = std::clamp(value, -kMostOdds, kMostOdds);
             }
         }

@@ -18,8 +18,11 @@ class BackgroundPlate {
 
     /// Log odds for inside on the frame that the plate was moved to: how badly a pixel agrees with
     /// the plate, relative to how badly the surroundings of the expected shape do. 0 where the
-    /// plate is unknown. `frame`, `expected_phi` and the result cover `area`.
-    [[nodiscard]] ImageF1 odds(ViewU8x3 frame, ViewF1 expected_phi, const Recti& area) const;
+    /// plate is unknown. `surface_difference`: how badly it agrees with the surface, 8-bit levels,
+    /// −1 where that is unknown; may be empty. `frame`, the other views and the result cover
+    /// `area`.
+    [[nodiscard]] ImageF1 odds(ViewU8x3 frame, ViewF1 expected_phi, ViewF1 surface_difference,
+                               const Recti& area) const;
 
     /// Adds what lies outside the found shape.
     void update(ViewU8x3 frame, ViewF1 phi);

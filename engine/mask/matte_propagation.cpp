@@ -9,10 +9,12 @@
 #include "engine/mask/background_motion.h"
 #include "engine/mask/background_plate.h"
 #include "engine/mask/boundary_refiner.h"
+#include "engine/mask/growth_evidence.h"
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
+#include "engine/mask/surface_palette.h"
 
 namespace weft {
 namespace {
@@ -20,6 +22,7 @@ namespace {
 constexpr float kClearancePx = 1.5f;  // nearer to a boundary, colours are mixed
 // Of the new frame, only what lies well outside the expected boundary counts: new background.
 constexpr float kUnsureClearancePx = 6;
+constexpr float kFarBands = 0.8f;      // motion that leads so far outside is believed
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
 template <class T, int C>
@@ -102,6 +105,7 @@ struct MatteWalker::State {
     ImageF2 key_from_prev;  ///< Where each pixel's surface lay on the keyframe, pixels.
     RefineScale scale;
     BackgroundPlate plate;
+    SurfacePalette palette;
     MatteOptions options;
     float confidence = 1;
     ImageF1 key_softness;               ///< Half the width of the keyframe's edge, pixels.
@@ -125,6 +129,7 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            own_places(frame.size()),
                                            scale,
                                            BackgroundPlate(frame, phi),
+                                           SurfacePalette(frame, phi),
                                            options,
                                            1.0f,
                                            {},
@@ -206,9 +211,13 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
             match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
                             Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
                            s.scale.band_px);
+        const GrowthInput growth{part,    shape.phi, shape.prev_from_cur, area,
+                                 s.frame, s.phi,     &prev_from_cur};
+        ImageF1 wide = s.plate.odds(part, shape.phi,
+                                    surface_difference(growth, s.palette, s.scale.band_px), area);
+        limit_growth(wide, growth, s.palette, kFarBands * s.scale.band_px);
         const RefinedBoundary found =
-            refine_boundary(part, shape.phi, colors, matched, s.plate.odds(part, shape.phi, area),
-                            s.scale, s.options.steadiness);
+            refine_boundary(part, shape.phi, colors, matched, wide, s.scale, s.options.steadiness);
         // Confidence falls with each frame whose boundary had to be guessed. It ranks frames by
         // quality and is not calibrated to be the overlap itself.
         const BoundaryEvidence& e = found.evidence;
@@ -221,6 +230,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     }
     estimate.confidence = s.confidence;
     s.plate.update(frame, phi);
+    s.palette.follow(frame, phi, s.scale.band_px);
     s.phi = std::move(phi);
     s.frame = copy_of(frame);
     s.last = estimate.matte;

@@ -61,10 +61,10 @@ const std::vector<Floor> kFloors{
     // also uses the function that writes files
     {"app/project",
      {"engine/core", "engine/composite/blend_mode.h", "engine/compute/wrap_mode.h",
-      "engine/form/depth_positions.h", "engine/form/form_guide.h", "engine/lighting/lamp.h", "engine/lighting/light_source.h",
-      "engine/lighting/shading.h", "engine/mask/matte_reach.h", "engine/mask/roto_shape.h",
-      "engine/pipeline/layer_kind.h", "engine/pipeline/zone_kind.h", "engine/seam/seam.h",
-      "engine/seam/seam_cost.h", "engine/synthesis/plane_amendment.h",
+      "engine/form/depth_positions.h", "engine/form/form_guide.h", "engine/lighting/lamp.h",
+      "engine/lighting/light_source.h", "engine/lighting/shading.h", "engine/mask/matte_reach.h",
+      "engine/mask/roto_shape.h", "engine/pipeline/layer_kind.h", "engine/pipeline/zone_kind.h",
+      "engine/seam/seam.h", "engine/seam/seam_cost.h", "engine/synthesis/plane_amendment.h",
       "engine/temporal/temporal_mode.h", "engine/media/image_files.h"}},
     {"app/project/codec", {"engine/core", "engine/media/atomic_file.h", "app/project"}},
     // 5: shared by the command line and the editor

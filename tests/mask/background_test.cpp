@@ -71,7 +71,7 @@ TEST(BackgroundPlate, TellsTheShapeFromWhatItStoodBefore) {
     }
     // Expected where it was long ago: right at neither edge.
     const ImageF1 expected = distance_of(scene.matte(6));
-    const ImageF1 odds = plate.odds(scene.frame(12), expected, whole(scene.size));
+    const ImageF1 odds = plate.odds(scene.frame(12), expected, {}, whole(scene.size));
     const ImageF1 truth = distance_of(scene.matte(12)), began = distance_of(scene.matte(0));
     int wrong = 0, told = 0, never_seen = 0;
     for (int y = 0; y < scene.size.height; ++y) {
@@ -107,8 +107,8 @@ TEST(BackgroundPlate, IsSilentWhereTheBackgroundItselfChanges) {
         }
     }
     const ImageF1 expected = distance_of(scene.matte(0));
-    const ImageF1 calm = plate.odds(scene.frame(1), expected, whole(scene.size));
-    const ImageF1 odds = plate.odds(frame, expected, whole(scene.size));
+    const ImageF1 calm = plate.odds(scene.frame(1), expected, {}, whole(scene.size));
+    const ImageF1 odds = plate.odds(frame, expected, {}, whole(scene.size));
     double mean_calm = 0, mean = 0;
     int n = 0, taken_for_surface = 0;
     for (int y = 0; y < frame.height(); ++y) {
