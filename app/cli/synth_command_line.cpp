@@ -26,6 +26,21 @@ void add_backend(CLI::App& command, std::string& backend) {
         ->type_name("");
 }
 
+void add_mode(CLI::App& command, PlaneOptions& plane) {
+    plane.mode = PlaneMode::kAuto;
+    plane.whole_periods = true;
+    command
+        .add_option("--mode", plane.mode,
+                     "How the sample covers the plane: auto, synthesize, tile, stretch or mirror; "
+                     "auto lays a periodic sample on one lattice [auto]")
+        ->transform(choice<PlaneMode>({{"auto", PlaneMode::kAuto},
+                                       {"synthesize", PlaneMode::kSynthesize},
+                                       {"tile", PlaneMode::kTile},
+                                       {"stretch", PlaneMode::kStretch},
+                                       {"mirror", PlaneMode::kMirror}}))
+        ->type_name("");
+}
+
 void add_synth(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand("synth", "Synthesize a texture plane from a sample");
     const auto options = std::make_shared<SynthOptions>();
@@ -64,18 +79,7 @@ void add_synth(CLI::App& app, CommandResult& result) {
             "Rounds of refinement: cuts all seams again, then puts patches over the worst [2]")
         ->transform(whole_number(0, 100))
         ->type_name("");
-    options->plane.mode = PlaneMode::kAuto;
-    options->plane.whole_periods = true;
-    command
-        ->add_option("--mode", options->plane.mode,
-                     "How the sample covers the plane: auto, synthesize, tile, stretch or mirror; "
-                     "auto lays a periodic sample on one lattice [auto]")
-        ->transform(choice<PlaneMode>({{"auto", PlaneMode::kAuto},
-                                       {"synthesize", PlaneMode::kSynthesize},
-                                       {"tile", PlaneMode::kTile},
-                                       {"stretch", PlaneMode::kStretch},
-                                       {"mirror", PlaneMode::kMirror}}))
-        ->type_name("");
+    add_mode(*command, options->plane);
     command->add_flag("--rotations", options->plane.orientations.rotations,
                       "Also use the sample rotated by quarter turns");
     command->add_flag("--mirror", options->plane.orientations.mirror,

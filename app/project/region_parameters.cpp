@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "app/project/form_parameters.h"
 #include "app/project/look_parameters.h"
 #include "app/project/parameter_entry.h"
 
@@ -207,81 +208,6 @@ std::vector<Parameter<Region>> make_region_table() {
              .key = "uv_layer",
              .flag = "--uv-layer",
              .help = "EXR layer of the UV pass; default the one that ends in UV"}),
-        entry<R, &R::form, &FormParams::position>(
-            {.group = "form",
-             .key = "position",
-             .flag = "--position-pass",
-             .help = "Position pass, EXR: the texture follows the form of the surface",
-             .is_path = true}),
-        entry<R, &R::form, &FormParams::position_layer>(
-            {.group = "form",
-             .key = "position_layer",
-             .flag = "--position-layer",
-             .help = "EXR layer of the position pass; default Position, P or P_World"}),
-        entry<R, &R::form, &FormParams::normal>(
-            {.group = "form",
-             .key = "normal",
-             .flag = "--normal-pass",
-             .help =
-                 "Normal pass, EXR or a normal map: the texture follows the form of the surface",
-             .is_path = true}),
-        entry<R, &R::form, &FormParams::normal_layer>(
-            {.group = "form",
-             .key = "normal_layer",
-             .flag = "--normal-layer",
-             .help = "EXR layer of the normal pass; default Normal or N"}),
-        entry<R, &R::form, &FormParams::normal_space>(
-            {.group = "form",
-             .key = "normal_space",
-             .flag = "--normal-space",
-             .help = "Axes of the normal pass; world needs the camera in the file's header"}),
-        entry<R, &R::form, &FormParams::source>({.group = "form",
-                                                 .key = "source",
-                                                 .flag = "--form",
-                                                 .help =
-                                                     "What shows the form: a pass, else a "
-                                                     "shape, else the motion (auto), a position "
-                                                     "or normal pass, the depth pass, a shape or "
-                                                     "strokes, or nothing"}),
-        entry<R, &R::form, &FormParams::shape>(
-            {.group = "form",
-             .key = "shape",
-             .flag = "--form-shape",
-             .help = "Shape over the surface on its reference frame: plane:x,y,x,y,x,y,x,y, "
-                     "cylinder:ax,ay,bx,by,ra,rb[,tilt], cone: the same, or ball:x,y,r",
-             .max = 1,
-             .choices = {"plane", "cylinder", "cone", "ball"}}),
-        entry<R, &R::form, &FormParams::strokes>(
-            {.group = "form",
-             .key = "strokes",
-             .flag = "--form-stroke",
-             .help = "Lines on the surface: parallel:x,y,x,y,…, a second group at right angles to "
-                     "the first; level:x,y,x,y along the rows of the texture; repeatable",
-             .max = 16,
-             .repeatable = true,
-             .choices = {"parallel", "level"}}),
-        entry<R, &R::form, &FormParams::depth_kind>(
-            {.group = "form",
-             .key = "depth_kind",
-             .flag = "--depth-kind",
-             .help =
-                 "What the depth pass holds: distances along the camera's axis or along the rays"}),
-        entry<R, &R::form, &FormParams::fov_deg>(
-            {.group = "form",
-             .key = "fov_deg",
-             .flag = "--fov",
-             .help = "Horizontal field of view in degrees, for normals, depth, shapes and motion; "
-                     "default from the pass's header, or found",
-             .min = 1,
-             .max = 175,
-             .optional = true}),
-        entry<R, &R::form, &FormParams::amount>(
-            {.group = "form",
-             .key = "amount",
-             .flag = "--form-amount",
-             .help = "How far the texture follows the form: 0 flat, 1 as found",
-             .min = 0,
-             .max = 1}),
         entry<R, &R::reference_frames>(
             {.key = "reference_frames",
              .flag = "--reference-frame",
@@ -388,8 +314,8 @@ std::vector<Parameter<Region>> make_region_table() {
              .max = 100}),
     };
     table.insert(table.end(), std::begin(rest), std::end(rest));
-    for (Parameter<Region>& p : look_parameters())
-        table.push_back(std::move(p));
+    for (auto& part : {form_parameters(), look_parameters()})
+        table.insert(table.end(), part.begin(), part.end());
     return table;
 }
 

@@ -11,6 +11,7 @@
 #include "app/shot/region_projection.h"
 #include "app/shot/shot_inputs.h"
 #include "app/shot/shown_sample.h"
+#include "app/shot/texture_file.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
 #include "engine/core/luma.h"
@@ -265,28 +266,6 @@ class ShotOpener {
         shot_.warnings.push_back(empty_reference_text(region.name, reference));
     }
 
-    struct ReadTexture {
-        PlateFrame picture;
-        TextureCredit credit;
-    };
-    // Reads an image file, or a sample "db:ID" of a texture library.
-    [[nodiscard]] Expected<ReadTexture> read_texture(const std::string& path) const {
-        ReadTexture out;
-        if (!names_library_texture(path)) {
-            WEFT_TRY(picture, read_image(watched(path)));
-            out.picture = std::move(picture);
-            if (auto credit = read_texture_credit(path)) out.credit = std::move(*credit);
-            return out;
-        }
-        WEFT_TRY(resolved, resolve_texture(options_.texture_library, path));
-        out.credit = std::move(resolved.credit);
-        out.picture.rgb = ImageF3(resolved.pixels.size());
-        std::transform(
-            resolved.pixels.data(), resolved.pixels.data() + resolved.pixels.size_bytes(),
-            out.picture.rgb.data(), [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
-        return out;
-    }
-
     struct OpenTexture {
         ImageF3 pixels;
         ColorSpace space;
@@ -294,7 +273,8 @@ class ShotOpener {
     };
     Expected<OpenTexture> open_texture(const Region& region, const std::string& path, bool is_plane,
                                        int overlap_px) {
-        WEFT_TRY(read, read_texture(path));
+        if (!names_library_texture(path) && shot_.inputs) shot_.inputs->before_read(path);
+        WEFT_TRY(read, read_texture(path, options_.texture_library));
         auto& [picture, credit] = read;
         if (!is_plane) {
             // Checked now instead of after minutes of analysis.

@@ -254,6 +254,44 @@ Found two_steps(const SelfCorrelation& c) {
     return out;
 }
 
+struct WaveFit {
+    glm::dvec2 wave{0};
+    double residual_px = -1;  ///< Below 0: nothing could be fitted.
+};
+
+// n = (u, v) · wave over the ridges' crests of `at`(u, v), by least squares, near ridges first.
+template <class At>
+WaveFit fitted_wave(const At& at, int along, int across, double step) {
+    double uu = 0, uv = 0, vv = 0, un = 0, vn = 0, squares = 0, weights = 0;
+    glm::dvec2 wave{0, 1 / step};
+    for (const int far : {1, 2, 4, 8, 16}) {
+        uu = uv = vv = un = vn = squares = weights = 0;
+        for (int n = 1; n <= far; ++n) {
+            for (int u = -along; u <= along; ++u) {
+                const double expected = (n - wave.x * u) / wave.y;
+                const int v = static_cast<int>(std::lround(expected)), radius = 2;
+                if (v - radius < 1 || v + radius >= across) continue;
+                int crest = v - radius;
+                for (int k = v - radius; k <= v + radius; ++k)
+                    if (at(u, k) > at(u, crest)) crest = k;
+                const double before = at(u, crest - 1), here = at(u, crest),
+                             after = at(u, crest + 1);
+                const double bend = before - 2 * here + after;
+                if (here < before || here < after || here <= 0 || bend > -1e-9) continue;
+                const double w = here * here, p = crest + 0.5 * (before - after) / bend;
+                uu += w * u * u, uv += w * u * p, vv += w * p * p;
+                un += w * u * n, vn += w * p * n;
+                squares += w * (p - expected) * (p - expected), weights += w;
+            }
+        }
+        const double det = uu * vv - uv * uv;
+        if (det <= 1e-9 * (uu + vv) * (uu + vv)) break;
+        wave = {(vv * un - uv * vn) / det, (uu * vn - uv * un) / det};
+    }
+    if (weights <= 0 || !(wave.y > 0)) return {};
+    return {wave, std::sqrt(squares / weights)};
+}
+
 // Planks and stripes along x (or y): all moves along them are alike, and the waves across may lean
 // a little.
 Found one_step(const SelfCorrelation& c, bool along_x) {
@@ -293,41 +331,15 @@ Found one_step(const SelfCorrelation& c, bool along_x) {
         step = v, out.contrast = contrast;
     }
     if (step == 0) return out;
-    // n = (u, v) · wave over the ridges' crests.
-    double uu = 0, uv = 0, vv = 0, un = 0, vn = 0, squares = 0, weights = 0;
-    glm::dvec2 wave{0, 1 / step};
-    for (const int far : {1, 2, 4, 8, 16}) {
-        uu = uv = vv = un = vn = squares = weights = 0;
-        for (int n = 1; n <= far; ++n) {
-            for (int u = -along; u <= along; ++u) {
-                const double expected = (n - wave.x * u) / wave.y;
-                const int v = static_cast<int>(std::lround(expected)), radius = 2;
-                if (v - radius < 1 || v + radius >= across) continue;
-                int crest = v - radius;
-                for (int k = v - radius; k <= v + radius; ++k)
-                    if (at(u, k) > at(u, crest)) crest = k;
-                const double before = at(u, crest - 1), here = at(u, crest),
-                             after = at(u, crest + 1);
-                const double bend = before - 2 * here + after;
-                if (here < before || here < after || here <= 0 || bend > -1e-9) continue;
-                const double w = here * here, p = crest + 0.5 * (before - after) / bend;
-                uu += w * u * u, uv += w * u * p, vv += w * p * p;
-                un += w * u * n, vn += w * p * n;
-                squares += w * (p - expected) * (p - expected), weights += w;
-            }
-        }
-        const double det = uu * vv - uv * uv;
-        if (det <= 1e-9 * (uu + vv) * (uu + vv)) break;
-        wave = {(vv * un - uv * vn) / det, (uu * vn - uv * un) / det};
-    }
-    if (weights <= 0 || !(wave.y > 0)) return out;
-    const glm::dvec2 turned = along_x ? wave : glm::dvec2{wave.y, wave.x};
+    const WaveFit fit = fitted_wave(at, along, across, step);
+    if (fit.residual_px < 0) return out;
+    const glm::dvec2 turned = along_x ? fit.wave : glm::dvec2{fit.wave.y, fit.wave.x};
     out.lattice = {1,
                    {turned / glm::dot(turned, turned), {}},
                    std::clamp(out.contrast.value, 0.0, 1.0),
                    out.contrast.match,
                    out.contrast.repeats,
-                   std::sqrt(squares / weights)};
+                   fit.residual_px};
     return out;
 }
 

@@ -138,6 +138,20 @@ std::vector<glm::dvec2> strongest(const Image<float, 1>& luma, const PlaneLattic
     return {};
 }
 
+// A strained lattice may be reduced to other steps than the sample's: both phases count in the
+// sample's, which differ from the plane's by the strain alone.
+LatticeWaves waves_on_plane(const LatticeWaves& sample, const PlaneLattice& plane, int count) {
+    LatticeWaves out = plane.waves();
+    if (count < 2) return out;
+    const auto steps = steps_of(plane.waves(), count);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double i = std::round(glm::dot(sample[k], steps[0]));
+        const double j = std::round(glm::dot(sample[k], steps[1]));
+        out[k] = i * plane.waves()[0] + j * plane.waves()[1];
+    }
+    return out;
+}
+
 }  // namespace
 
 PlanePhase source_phase(ImageView<const std::int32_t, 2> source, const SampleLattice& sample,
@@ -145,17 +159,7 @@ PlanePhase source_phase(ImageView<const std::int32_t, 2> source, const SampleLat
     if (sample.count == 0 || lattice.empty()) return {};
     const auto count = static_cast<std::size_t>(sample.count);
     const LatticeWaves waves = waves_of(sample);
-    const auto steps = steps_of(lattice.waves(), sample.count);
-    // A strained lattice may be reduced to other steps than the sample's: both phases count in the
-    // sample's, which differ from the plane's by the strain alone.
-    LatticeWaves on_plane = lattice.waves();
-    if (count == 2) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const double i = std::round(glm::dot(waves[k], steps[0]));
-            const double j = std::round(glm::dot(waves[k], steps[1]));
-            on_plane[k] = i * lattice.waves()[0] + j * lattice.waves()[1];
-        }
-    }
+    const LatticeWaves on_plane = waves_on_plane(waves, lattice, sample.count);
     const auto plane_steps = steps_of(on_plane, sample.count);
     const auto turns = [&](int x, int y) {
         const std::int32_t* s = source.pixel(x, y);

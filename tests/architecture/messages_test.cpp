@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kAllowed{
     "app/exchange/schemas.cpp",  // describe the output of --json
     "app/main.cpp",              // parses the editor's command line
+    "app/project/form_parameters.cpp",
     "app/project/look_parameters.cpp",
     "app/project/project_parameters.cpp",
     "app/project/region_parameters.cpp",

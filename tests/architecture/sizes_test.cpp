@@ -91,7 +91,6 @@ const std::vector<Exception> kLongFunctions{
       {"ui/welcome.cpp", "welcome", 70}}},
     {"One short case for each kind of action or step; the list is to be read as one.",
      {{"app/editor/script.cpp", "ScriptRunner::step", 105}, {"ui/parameters.cpp", "control", 105}}},
-    {"A list, one name a line.", {{"engine/core/setting.h", "kAll", 70}}},
     {"One pass whose steps use nearly all of its local values.",
      {{"app/base/folder_lister.cpp", "list_folder", 65},
       {"app/preview/preview_flicker.cpp", "Preview::Impl::step_flicker", 70},

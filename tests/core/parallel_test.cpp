@@ -34,11 +34,11 @@ TEST_F(Parallel, NestedCallsRun) {
 }
 
 TEST_F(Parallel, AnIdleThreadHelpsInsideTheLastBody) {
-    set_thread_count(2);
+    set_thread_count(3);  // whoever runs the last body, a helper is left
     std::atomic<bool> helped{false};
     parallel_for(2, [&](std::size_t i) {
         if (i == 0) return;
-        // The other thread has no body of its own left; soon it takes a part of this one.
+        // That helper has no body of its own left; soon it takes a part of this one.
         const std::thread::id own = std::this_thread::get_id();
         const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
         while (!helped && std::chrono::steady_clock::now() < until) {
@@ -62,7 +62,9 @@ TEST_F(Parallel, AnErrorInsideANestedCallReachesTheOuterOne) {
                                   });
                               }),
                  std::runtime_error);
-    EXPECT_EQ(calls, 150);
+    // Called in place, the third one ends with its error; the others are whole.
+    EXPECT_GE(calls, 108);
+    EXPECT_LE(calls, 150);
 }
 
 TEST_F(Parallel, CallersFromSeveralThreadsDoNotMix) {
