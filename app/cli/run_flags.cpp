@@ -104,7 +104,7 @@ void add_trust_flag(CLI::App& command, bool& trust) {
                      "Let the project write outside its folder in this run ('weft trust')");
 }
 
-void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
+void add_analysis_flags(CLI::App& command, RunOptions& run) {
     add_threads_flag(command, run.threads);
     command.add_option("--cache", run.cache.folder, "Folder of the analysis cache [~/.cache/weft]")
         ->type_name("PATH");
@@ -123,6 +123,10 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     command.add_flag("--version-up", run.version_up,
                      "Write to the next free version: v003 in the output's path becomes v004");
     command.add_flag("--restart", run.overwrite, "Same as --overwrite: render all frames again");
+}
+
+void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
+    add_analysis_flags(command, run);
     command.add_option("--recipe", run.recipe, "Write the recipe for 'weft verify' here")
         ->type_name("PATH");
     add_memory_flag(command, run);

@@ -237,6 +237,8 @@ struct Attempt {
 };
 
 Expected<JobResult> attempt_job(const JobSpec& spec, const std::vector<int>& leave_out,
+    WEFT_TRY(forms, form_reports(job.shot(), *job.store));
+    result.forms = std::move(forms);
                                 const CancelToken& cancel, const ProgressFn& progress,
                                 Attempt& attempt) {
     const auto start = Clock::now();

@@ -8,6 +8,7 @@
 
 #include "app/exchange/input_files.h"
 #include "app/render/analysis_cache.h"
+#include "app/render/form_report.h"
 #include "app/shot/shot.h"
 #include "engine/compute/backend_registry.h"
 #include "engine/core/cancel.h"
@@ -89,6 +90,7 @@ struct JobResult {
     std::vector<std::optional<PlaneStats>> planes;
     ShotSpaces spaces;
     std::vector<ShotTexture> textures;
+    std::vector<FormReport> forms;  ///< Of the regions whose form is known.
     std::string movie;
     Size size;
     /// Checked write rules of the report and the recipe.
