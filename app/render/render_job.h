@@ -58,6 +58,8 @@ struct JobSpec {
     /// Required settings_hash() of a job that other machines share; empty: any.
     std::string settings;
     WriteLimits limits;
+    std::string plane;    ///< Picture of the texture plane to write (plane_file.h); empty: none.
+    std::string st_maps;  ///< Pattern of ST-maps to write (st_map_files.h); empty: none.
     /// Files that the caller writes afterwards; checked with the frames.
     std::string report, recipe;
 };
@@ -88,9 +90,9 @@ struct JobResult {
     /// Inputs that changed during the run: frames may be mixed.
     std::vector<std::string> changed_inputs;
     std::vector<std::optional<PlaneStats>> planes;
+    std::vector<FormReport> forms;  ///< Of the regions whose form is known.
     ShotSpaces spaces;
     std::vector<ShotTexture> textures;
-    std::vector<FormReport> forms;  ///< Of the regions whose form is known.
     std::string movie;
     Size size;
     /// Checked write rules of the report and the recipe.
