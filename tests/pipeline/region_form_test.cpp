@@ -142,7 +142,8 @@ TEST(RegionForm, ADrawingOutsideOfTheRegionIsAnError) {
     EXPECT_THAT(refused({FormGuideKind::kBall, {900, 900, 20}}),
                 ::testing::HasSubstr("does not lie on the region"));
     EXPECT_THAT(refused({FormGuideKind::kParallel, {900, 900, 950, 900, 900, 950, 950, 960}}),
-                ::testing::HasSubstr("outside of the region"));
+                ::testing::AllOf(::testing::HasSubstr("outside of the region"),
+                                 ::testing::EndsWith("Draw it on the surface (form.strokes).")));
     EXPECT_THAT(refused({FormGuideKind::kParallel, {40, 40, 90, 80, 40, 80, 90, 40}}),
                 ::testing::HasSubstr("cross each other"));
 }
