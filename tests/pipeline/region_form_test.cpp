@@ -148,6 +148,28 @@ TEST(RegionForm, ADrawingOutsideOfTheRegionIsAnError) {
                 ::testing::HasSubstr("cross each other"));
 }
 
+// A wall that only moves past could have any form.
+TEST(RegionForm, WhatMotionDoesNotTellIsFlatAndSaysHowManyFramesWereCompared) {
+    const auto finding = [](std::vector<int> evidence) {
+        RegionPlan region = formed(std::move(evidence));
+        region.form_from = RegionPlan::FormFrom::kMotion;
+        MemoryAnalysisStore store;
+        const Column shot;
+        EXPECT_TRUE(analyse_shot(shot, make_plan(region), store, {}, {}));
+        const auto form = decode_form(store.get({0, kFirst, AnalysisKind::kForm}).value());
+        EXPECT_TRUE(form);
+        EXPECT_EQ(region_form(region, store, 0).value(), nullptr);
+        return form ? form->finding : FormFinding();
+    };
+    const FormFinding several = finding({1, 4, 7, 10});
+    EXPECT_EQ(several.source, FormFinding::Source::kNone);
+    EXPECT_EQ(several.frames, 3);
+    const FormFinding alone = finding({1});
+    EXPECT_EQ(alone.source, FormFinding::Source::kNone);
+    EXPECT_EQ(alone.frames, 0);
+    EXPECT_EQ(alone.belief, 0);
+}
+
 // Another form does not make the surface be followed again.
 TEST(RegionForm, IsAStageOfItsOwn) {
     MemoryAnalysisStore store;
