@@ -19,6 +19,7 @@ struct RunOptions;
 void add_commands(CLI::App& app, CommandResult& result, const EditCommand& edit);
 
 void add_render_commands(CLI::App& app, CommandResult& result);
+void add_form_command(CLI::App& app, CommandResult& result);
 void add_project_commands(CLI::App& app, CommandResult& result);
 void add_synth_commands(CLI::App& app, CommandResult& result);
 void add_tool_commands(CLI::App& app, CommandResult& result);
@@ -46,6 +47,8 @@ void add_threads_flag(CLI::App& command, int& threads);
 void add_map_flag(CLI::App& command, RunOptions& run);
 /// --progress.
 void add_progress_flag(CLI::App& command, RunOptions& run);
+/// --threads, --cache and --no-cache.
+void add_analysis_flags(CLI::App& command, RunOptions& run);
 /// --threads, --backend, --progress and the like.
 void add_run_flags(CLI::App& command, RunOptions& run, bool renders);
 /// The folder of the demo and other assets: beside an installed program, otherwise in the source

@@ -41,6 +41,7 @@ struct RunOptions {
     AnalysisCacheOptions cache;
     std::string texture_library;  ///< Library of textures "db:ID"; empty: the user's own.
     std::string report;           ///< Path of the JSON report.
+    std::string plane, st_maps;   ///< As JobSpec has them.
     ProgressStyle progress = ProgressStyle::kPlain;
 };
 

@@ -170,9 +170,14 @@ Status apply_given(Owner& owner, const List& given) {
 
 bool ProjectFlags::given(std::string_view key) const {
     return std::any_of(project_.begin(), project_.end(), [&](const Given<Project>& g) {
-        return g.parameter->full_key() == key &&
-               (!g.texts.empty() || (g.option && g.option->count() > 0));
+        return g.parameter->full_key() == key && g.is_given();
     });
+}
+
+bool ProjectFlags::gives_region() const {
+    return !mattes_.empty() || !holdouts_.empty() || !zones_.empty() || !crypto_files_.empty() ||
+           std::any_of(region_.begin(), region_.end(),
+                       [](const Given<Region>& g) { return g.is_given(); });
 }
 
 Status ProjectFlags::apply(Project& project) const {

@@ -25,6 +25,8 @@ class ProjectFlags {
     [[nodiscard]] Status apply(Region& region) const;
     /// Returns true if the flag of a project's parameter was given, by Parameter::full_key().
     [[nodiscard]] bool given(std::string_view key) const;
+    /// Returns true if a flag of a region was given: matte, placement, form and the like.
+    [[nodiscard]] bool gives_region() const;
     /// Builds a project of one region from the flags alone; paths as given.
     [[nodiscard]] Expected<Project> project() const;
 
@@ -35,6 +37,9 @@ class ProjectFlags {
         std::vector<std::string> texts;
         bool flag = false;  ///< --flag, or --flag=false
         const CLI::Option* option = nullptr;
+        [[nodiscard]] bool is_given() const {
+            return !texts.empty() || (option && option->count() > 0);
+        }
     };
     template <class Owner>
     void add(CLI::App& command, const Parameter<Owner>& parameter, std::list<Given<Owner>>& into);

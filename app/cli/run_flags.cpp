@@ -45,6 +45,19 @@ void add_stage_flag(CLI::App& command, RunOptions& run) {
         ->type_name("NAME");
 }
 
+// For other programs.
+void add_export_flags(CLI::App& command, RunOptions& run) {
+    command
+        .add_option("--export-plane", run.plane,
+                    "Also write the texture plane, unlit, as a picture: .png (16 bit) or .exr")
+        ->type_name("PATH");
+    command
+        .add_option("--export-st-maps", run.st_maps,
+                    "Also write ST-maps between the reference frame and each frame "
+                    "('st/####.exr')")
+        ->type_name("PATH");
+}
+
 }  // namespace
 
 void add_project_path(CLI::App& command, std::string& path) {
@@ -104,12 +117,16 @@ void add_trust_flag(CLI::App& command, bool& trust) {
                      "Let the project write outside its folder in this run ('weft trust')");
 }
 
-void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
+void add_analysis_flags(CLI::App& command, RunOptions& run) {
     add_threads_flag(command, run.threads);
     command.add_option("--cache", run.cache.folder, "Folder of the analysis cache [~/.cache/weft]")
         ->type_name("PATH");
     command.add_flag_callback(
         "--no-cache", [&run] { run.cache.keep = false; }, "Do not cache the analysis");
+}
+
+void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
+    add_analysis_flags(command, run);
     command.add_flag("--overwrite", run.overwrite, "Replace existing output files");
     add_output_root_flag(command, run.output_root);
     add_progress_flag(command, run);
@@ -125,6 +142,7 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     command.add_flag("--restart", run.overwrite, "Same as --overwrite: render all frames again");
     command.add_option("--recipe", run.recipe, "Write the recipe for 'weft verify' here")
         ->type_name("PATH");
+    add_export_flags(command, run);
     add_memory_flag(command, run);
     add_library_option(command, run.texture_library);
     command.add_option("--backend", run.backend, "auto, cpu or cuda [auto]")->type_name("NAME");

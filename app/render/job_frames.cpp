@@ -7,6 +7,7 @@
 
 #include "app/render/burn_in.h"
 #include "app/render/layer_files.h"
+#include "app/render/st_map_files.h"
 #include "app/render/version_up.h"
 #include "engine/core/parallel.h"
 #include "engine/media/image_files.h"
@@ -54,8 +55,22 @@ bool is_black(const Shot& shot, int frame) {
            shot.plate->shown_frame(frame) != frame;
 }
 
+// A black frame shows nothing of any surface.
+Status write_maps(const FrameInputs& in, int frame) {
+    if (!in.setup.st_map_pattern) return {};
+    const Shot& shot = *in.setup.shot;
+    const Size size = shot.plate->size();
+    StMaps maps{{ImageF2(size), ImageF1(size)}, {ImageF2(size), ImageF1(size)}};
+    if (!is_black(shot, frame)) {
+        WEFT_TRY(found, st_maps(*shot.source, in.plan, in.store, shot.plate->shown_frame(frame)));
+        maps = std::move(found);
+    }
+    return write_st_maps(in.setup.st_map_pattern->path_for(frame), maps, in.setup.write);
+}
+
 Status make_frame(const FrameInputs& in, FrameResult& result) {
     const Shot& shot = *in.setup.shot;
+    WEFT_CHECK_OK(write_maps(in, result.frame));
     if (is_black(shot, result.frame))
         return write_image(result.path, ImageF3(shot.plate->size()), {}, in.setup.write);
     // A held frame equals the frame it repeats, grain included.

@@ -5,7 +5,9 @@
 #include "app/render/existing_frames.h"
 #include "app/render/job_frames.h"
 #include "app/render/memory_plan.h"
+#include "app/render/plane_file.h"
 #include "app/render/recipe.h"
+#include "app/render/st_map_files.h"
 #include "app/shot/frame_plan.h"
 #include "engine/core/setting.h"
 #include "engine/media/movies.h"
@@ -108,6 +110,22 @@ Status choose_layer_files(JobSetup& setup) {
     return {};
 }
 
+// The texture plane and the ST-maps.
+Status choose_exports(const JobSpec& spec, JobSetup& setup) {
+    if (!spec.plane.empty()) WEFT_CHECK_OK(check_plane_file(spec.plane, setup.plan));
+    if (spec.st_maps.empty()) return {};
+    WEFT_CHECK_OK(check_st_maps(spec.st_maps, setup.plan));
+    WEFT_TRY(pattern, SequencePattern::parse(spec.st_maps));
+    if (pattern.is_single() && setup.plan.frames.size() > 1) {
+        return fail(ErrorCode::kUsage, "The ST-maps " + pattern.text() +
+                                           " have no frame number for " +
+                                           std::to_string(setup.plan.frames.size()) +
+                                           " frames. Write it like 'st/####.exr'.");
+    }
+    setup.st_map_pattern = std::move(pattern);
+    return {};
+}
+
 Status choose_format(const JobSpec& spec, JobSetup& setup) {
     const Shot& shot = *setup.shot;
     const Output& output = shot.project.output;
@@ -122,6 +140,7 @@ Status choose_format(const JobSpec& spec, JobSetup& setup) {
     write.rule.fence = fence;
     write.rule.existing = existing_by(spec.existing != ExistingFrames::kRefuse);
     WEFT_CHECK_OK(choose_layer_files(setup));
+    WEFT_CHECK_OK(choose_exports(spec, setup));
     return check_format(output.path, write);
 }
 
@@ -137,6 +156,8 @@ ExistingFrames existing_frames(const JobSpec& spec) {
 Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folders) {
     const Size size = setup.shot->plate->size();
     OutputPlan outputs{setup.pattern, {}, setup.plan.frames, size, {}, {}, {}};
+    outputs.st_maps = setup.st_map_pattern;
+    outputs.plane = spec.plane;
     if (spec.stage == JobStage::kAll || spec.stage == JobStage::kFrames)
         outputs.layers = setup.layer_pattern;
     outputs.report = spec.report;
@@ -150,6 +171,7 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
     setup.result.report_rule = rules.report;
     setup.result.recipe_rule = rules.recipe;
     setup.movie_rule = rules.movie;
+    setup.plane_rule = rules.plane;
     WEFT_TRY(kept, frames_to_keep(setup.pattern, setup.plan.frames, size, existing_frames(spec),
                                   setup.write.metadata));
     std::vector<int> to_render;

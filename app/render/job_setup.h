@@ -20,7 +20,8 @@ struct JobSetup {
     /// Pattern of separate EXR files for the layers.
     std::optional<SequencePattern> layer_pattern;
     WriteOptions write;
-    WriteRule movie_rule;
+    std::optional<SequencePattern> st_map_pattern;  ///< Pattern of the ST-maps.
+    WriteRule movie_rule, plane_rule;
     std::size_t frames_at_once = 1;  ///< Frames rendered in parallel, limited by memory.
     /// Results known so far: frames (with skipped ones), spaces, textures, warnings.
     JobResult result;

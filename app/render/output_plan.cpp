@@ -20,7 +20,10 @@ std::vector<PlannedFile> planned_files(const OutputPlan& plan) {
         files.push_back({"Frame " + number, plan.frames.path_for(frame)});
         if (plan.layers)
             files.push_back({"The layers of frame " + number, plan.layers->path_for(frame)});
+        if (plan.st_maps)
+            files.push_back({"The ST-maps of frame " + number, plan.st_maps->path_for(frame)});
     }
+    if (!plan.plane.empty()) files.push_back({"The texture plane", plan.plane});
     if (!plan.movie.empty()) files.push_back({"The movie", plan.movie});
     if (!plan.report.empty()) files.push_back({"The report", plan.report});
     if (!plan.recipe.empty()) files.push_back({"The recipe", plan.recipe});
@@ -78,7 +81,8 @@ Status prepare_frames(const SequencePattern& pattern, int first, WriteRule rule,
     return prepare(pattern.path_for(first), rule, folders);
 }
 
-Status check_layers(const SequencePattern& layers, const std::vector<int>& frames,
+// Of files beside the frames, one for each.
+Status check_beside(const SequencePattern& layers, const std::vector<int>& frames,
                     ExistingFrames existing) {
     std::error_code ignored;
     for (const int frame : frames) {
@@ -101,23 +105,28 @@ Expected<OutputRules> check_outputs(const OutputPlan& plan, ExistingFrames exist
         WEFT_CHECK_OK(check_outputs(plan, existing, frames, OutputFolders::kLeave));
     WEFT_CHECK_OK(check_apart(planned_files(plan)));
     WEFT_CHECK_OK(check_fence(plan.frames, plan.numbers, frames));
-    if (plan.layers) WEFT_CHECK_OK(check_fence(*plan.layers, plan.numbers, frames));
-    for (const std::string& path : {plan.movie, plan.report, plan.recipe}) {
+    for (const auto& pattern : {plan.layers, plan.st_maps})
+        if (pattern) WEFT_CHECK_OK(check_fence(*pattern, plan.numbers, frames));
+    for (const std::string& path : {plan.movie, plan.report, plan.recipe, plan.plane}) {
         if (!path.empty() && frames.fence && !is_device(path))
             WEFT_CHECK_OK(frames.fence->check(path, real_path(path)));
     }
     const int first = plan.numbers.front();
     WEFT_CHECK_OK(prepare_frames(plan.frames, first, frames, folders));
-    if (plan.layers) {
-        WEFT_CHECK_OK(prepare_frames(*plan.layers, first, frames, folders));
-        WEFT_CHECK_OK(check_layers(*plan.layers, plan.numbers, existing));
+    for (const auto& pattern : {plan.layers, plan.st_maps}) {
+        if (!pattern) continue;
+        WEFT_CHECK_OK(prepare_frames(*pattern, first, frames, folders));
+        WEFT_CHECK_OK(check_beside(*pattern, plan.numbers, existing));
     }
     const OutputRules rules{
         rule_beside(frames, existing, is_review_movie(plan.movie, plan.size), false),
         rule_beside(frames, existing, is_of_schema(plan.report, "weft.report/1"), true),
-        rule_beside(frames, existing, is_of_schema(plan.recipe, "weft.recipe/1"), true)};
-    const std::pair<const std::string&, const WriteRule&> beside[]{
-        {plan.movie, rules.movie}, {plan.report, rules.report}, {plan.recipe, rules.recipe}};
+        rule_beside(frames, existing, is_of_schema(plan.recipe, "weft.recipe/1"), true),
+        rule_beside(frames, existing, !plan.plane.empty() && is_frame_of_weft(plan.plane), false)};
+    const std::pair<const std::string&, const WriteRule&> beside[]{{plan.movie, rules.movie},
+                                                                   {plan.report, rules.report},
+                                                                   {plan.recipe, rules.recipe},
+                                                                   {plan.plane, rules.plane}};
     for (const auto& [path, rule] : beside)
         if (!path.empty()) WEFT_CHECK_OK(prepare(path, rule, folders));
     return rules;

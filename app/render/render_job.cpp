@@ -14,6 +14,7 @@
 #include "app/render/job_frames.h"
 #include "app/render/job_setup.h"
 #include "app/render/job_warnings.h"
+#include "app/render/plane_file.h"
 #include "app/render/planes_ahead.h"
 #include "app/render/stage_cache.h"
 #include "app/render/unreadable_evidence.h"
@@ -173,6 +174,22 @@ Status plane_stage(JobRun& job, std::optional<PlanesAhead>& planes) {
     return {};
 }
 
+// The plane of the scene, or, where no frame is left to be rendered, the same made again.
+Status export_plane(const JobRun& job) {
+    if (job.spec.plane.empty()) return {};
+    PlanePyramid plane;
+    if (!job.scenes.empty()) {
+        plane = job.scenes.front().plane;
+    } else {
+        WEFT_TRY(made, make_plane(job.plan, job.plan.regions.front(), job.shot().source->size(),
+                                  job.cancel, {}, job.setup.backend.get()));
+        plane = made.pyramid;
+    }
+    WriteOptions write = job.setup.write;
+    write.rule = job.setup.plane_rule;
+    return write_plane_file(job.spec.plane, plane, job.shot().spaces, write);
+}
+
 // ---- frames ----------------------------------------------------------------------------------
 
 Status frame_stage(JobRun& job, std::int64_t& done) {
@@ -220,7 +237,10 @@ Status run_stages(JobRun& job, Clock::time_point start, std::int64_t& frames_don
     std::optional<PlanesAhead> planes;
     grow_planes_ahead(job, planes);
     WEFT_CHECK_OK(timed(result.seconds.analyse, [&] { return analysis_stage(job); }));
+    WEFT_TRY(forms, form_reports(job.shot(), *job.store));
+    result.forms = std::move(forms);
     WEFT_CHECK_OK(timed(result.seconds.synthesise, [&] { return plane_stage(job, planes); }));
+    WEFT_CHECK_OK(export_plane(job));
     if (stage == JobStage::kAnalyse || stage == JobStage::kPlanes) return {};
     WEFT_CHECK_OK(timed(result.seconds.render, [&] { return frame_stage(job, frames_done); }));
     result.fps = static_cast<double>(job.plan.frames.size()) / std::max(1e-9, seconds_since(work));

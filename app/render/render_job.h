@@ -8,6 +8,7 @@
 
 #include "app/exchange/input_files.h"
 #include "app/render/analysis_cache.h"
+#include "app/render/form_report.h"
 #include "app/shot/shot.h"
 #include "engine/compute/backend_registry.h"
 #include "engine/core/cancel.h"
@@ -57,6 +58,8 @@ struct JobSpec {
     /// Required settings_hash() of a job that other machines share; empty: any.
     std::string settings;
     WriteLimits limits;
+    std::string plane;    ///< Picture of the texture plane to write (plane_file.h); empty: none.
+    std::string st_maps;  ///< Pattern of ST-maps to write (st_map_files.h); empty: none.
     /// Files that the caller writes afterwards; checked with the frames.
     std::string report, recipe;
 };
@@ -87,6 +90,7 @@ struct JobResult {
     /// Inputs that changed during the run: frames may be mixed.
     std::vector<std::string> changed_inputs;
     std::vector<std::optional<PlaneStats>> planes;
+    std::vector<FormReport> forms;  ///< Of the regions whose form is known.
     ShotSpaces spaces;
     std::vector<ShotTexture> textures;
     std::string movie;

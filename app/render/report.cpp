@@ -98,6 +98,13 @@ Json references_json(const JobResult& result) {
     return out;
 }
 
+Json forms_json(const JobResult& result) {
+    Json out = Json::array();
+    for (const FormReport& form : result.forms)
+        out.push_back(form_json(form));
+    return out;
+}
+
 Json frames_json(const JobResult& result) {
     Json out = Json::array();
     for (const FrameResult& f : result.frames) {
@@ -134,6 +141,7 @@ std::string report_json(const JobSpec& spec, const JobResult& result) {
                   {"working", result.spaces.working.name},
                   {"out", result.spaces.out.name}}},
                 {"references", references_json(result)},
+                {"forms", forms_json(result)},
                 {"frames", frames_json(result)},
                 {"fps", result.fps},
                 {"seconds_per_stage",

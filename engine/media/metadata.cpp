@@ -21,10 +21,12 @@ std::string value_of(const NamedTexts& metadata, const std::string& name) {
 
 std::string software_text(const NamedTexts& metadata) {
     if (metadata.empty()) return {};
+    const std::string plane = value_of(metadata, "weft:plane");
     return "weft " + value_of(metadata, "weft:version") +
            " settings=" + value_of(metadata, "weft:settings") +
            " seed=" + value_of(metadata, "weft:seed") +
-           " backend=" + value_of(metadata, "weft:backend");
+           " backend=" + value_of(metadata, "weft:backend") +
+           (plane.empty() ? "" : " plane=" + plane);
 }
 
 std::string copyright_text(const NamedTexts& metadata) {

@@ -52,12 +52,10 @@ Status check_on_region(const FormGuide& stroke, const Matte& visible) {
     return {};
 }
 
-Expected<DrawnSurface> surface_of(const RegionPlan& region, const Matte& visible, Size plate) {
+Expected<DrawnSurface> surface_of(const RegionPlan& region, Size plate) {
     const DrawnCamera camera{plate, region.form_fov_deg};
     for (const FormGuide& guide : region.form_guides)
         if (is_shape(guide.kind)) return drawn_surface(guide, camera);
-    for (const FormGuide& guide : region.form_guides)
-        if (guide.kind == FormGuideKind::kParallel) WEFT_CHECK_OK(check_on_region(guide, visible));
     return drawn_plane(region.form_guides, camera);
 }
 
@@ -88,7 +86,10 @@ Recti domain_of(const Recti& box, Size plate, bool plane) {
 
 Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
                                     const RegionPlan& region) {
-    auto surface = surface_of(region, evidence.visible, plate);
+    for (const FormGuide& guide : region.form_guides)
+        if (guide.kind == FormGuideKind::kParallel)
+            WEFT_CHECK_OK(check_on_region(guide, evidence.visible));
+    auto surface = surface_of(region, plate);
     if (!surface) {
         Error error = std::move(surface).error();
         error.message += by({{setting::kFormShape}, {setting::kFormStrokes}}) + ".";

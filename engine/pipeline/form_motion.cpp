@@ -30,8 +30,18 @@ constexpr double kLeastNearness = 0.04;      // of a plane towards its horizon
 constexpr double kFurther = 0.6;
 constexpr double kOtherFrames = 0.01;  // weight of places that the reference frame does not show
 
-FormMap flat_over(Size plate) {
-    return {{}, LatticeField(plate, std::max(plate.width, plate.height)), {}};
+FormMap flat_over(Size plate, const FormFinding& finding) {
+    return {{}, LatticeField(plate, std::max(plate.width, plate.height)), finding};
+}
+
+FormFinding finding_of(const RigidFit& fit, FormFinding::Source source) {
+    return {source,
+            fit.plane,
+            fit.frames,
+            static_cast<float>(fit.belief()),
+            static_cast<float>(fit.tilt_deg),
+            static_cast<float>(fit.tilt_error_deg),
+            static_cast<float>(fit.fov_deg)};
 }
 
 // Whether a place and its surroundings lie inside of a matte.
@@ -112,9 +122,14 @@ bool believable(const RigidFit& fit, Size plate) {
 
 FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
                          std::optional<double> fov_deg) {
-    const auto fit =
-        fit_rigid_surface(matches_of(evidence, plate), plate, tangent_of(fov_deg, plate));
-    if (!fit || !believable(*fit, plate)) return flat_over(plate);
+    const std::vector<FrameMatches> matches = matches_of(evidence, plate);
+    const auto fit = fit_rigid_surface(matches, plate, tangent_of(fov_deg, plate));
+    FormFinding flat;
+    flat.frames = static_cast<int>(matches.size());
+    flat.belief = 0;
+    if (!fit) return flat_over(plate, flat);
+    flat = finding_of(*fit, FormFinding::Source::kNone);
+    if (!believable(*fit, plate)) return flat_over(plate, flat);
     const RigidSurface& surface = fit->surface;
     MetricField field = field_over(plate, evidence);
     double least = add_places(field, surface, evidence.front(), 1);
@@ -128,15 +143,9 @@ FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
                                                     : std::nullopt;
         };
     }
-    if (!field.finish(beyond)) return flat_over(plate);
+    if (!field.finish(beyond)) return flat_over(plate, flat);
     FormMap out = flat_from_reference(field);
-    out.finding = {FormFinding::Source::kMotion,
-                   fit->plane,
-                   fit->frames,
-                   static_cast<float>(fit->belief()),
-                   static_cast<float>(fit->tilt_deg),
-                   static_cast<float>(fit->tilt_error_deg),
-                   static_cast<float>(fit->fov_deg)};
+    out.finding = finding_of(*fit, FormFinding::Source::kMotion);
     return out;
 }
 

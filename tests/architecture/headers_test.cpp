@@ -31,6 +31,8 @@ const std::vector<Untested> kThroughOthers{
     {"app/project/parameter_entry.h", "internal: tests/project, through parameters.h"},
     {"app/project/parameter_lists.h", "internal: tests/project, through parameters.h"},
     {"app/render/output_plan.h", "tests/cli: every command that writes"},
+    {"app/render/plane_file.h", "tests/cli: the exported plane"},
+    {"app/render/st_map_files.h", "tests/cli: the exported ST-maps"},
     {"app/shot/form_files.h", "internal: tests/shot and tests/render, through shot.h"},
     {"app/session/action.h", "tests/ui, through session.h"},
     {"app/base/detached_process.h", "tests/ui, through app/session/child_jobs.cpp"},

@@ -142,9 +142,32 @@ TEST(RegionForm, ADrawingOutsideOfTheRegionIsAnError) {
     EXPECT_THAT(refused({FormGuideKind::kBall, {900, 900, 20}}),
                 ::testing::HasSubstr("does not lie on the region"));
     EXPECT_THAT(refused({FormGuideKind::kParallel, {900, 900, 950, 900, 900, 950, 950, 960}}),
-                ::testing::HasSubstr("outside of the region"));
+                ::testing::AllOf(::testing::HasSubstr("outside of the region"),
+                                 ::testing::EndsWith("Draw it on the surface (form.strokes).")));
     EXPECT_THAT(refused({FormGuideKind::kParallel, {40, 40, 90, 80, 40, 80, 90, 40}}),
                 ::testing::HasSubstr("cross each other"));
+}
+
+// A wall that only moves past could have any form.
+TEST(RegionForm, WhatMotionDoesNotTellIsFlatAndSaysHowManyFramesWereCompared) {
+    const auto finding = [](std::vector<int> evidence) {
+        RegionPlan region = formed(std::move(evidence));
+        region.form_from = RegionPlan::FormFrom::kMotion;
+        MemoryAnalysisStore store;
+        const Column shot;
+        EXPECT_TRUE(analyse_shot(shot, make_plan(region), store, {}, {}));
+        const auto form = decode_form(store.get({0, kFirst, AnalysisKind::kForm}).value());
+        EXPECT_TRUE(form);
+        EXPECT_EQ(region_form(region, store, 0).value(), nullptr);
+        return form ? form->finding : FormFinding();
+    };
+    const FormFinding several = finding({1, 4, 7, 10});
+    EXPECT_EQ(several.source, FormFinding::Source::kNone);
+    EXPECT_EQ(several.frames, 3);
+    const FormFinding alone = finding({1});
+    EXPECT_EQ(alone.source, FormFinding::Source::kNone);
+    EXPECT_EQ(alone.frames, 0);
+    EXPECT_EQ(alone.belief, 0);
 }
 
 // Another form does not make the surface be followed again.

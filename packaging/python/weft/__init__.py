@@ -20,8 +20,8 @@ import json
 import os
 import subprocess
 
-__all__ = ["Error", "run", "version", "replace", "render", "matte", "synth", "bench", "measure", "study", "diff",
-           "verify", "cryptomatte", "demo", "new", "region_add", "region_set", "region_remove", "region_correct",
+__all__ = ["Error", "run", "version", "replace", "render", "form", "matte", "synth", "bench", "measure", "study",
+           "diff", "verify", "cryptomatte", "demo", "new", "region_add", "region_set", "region_remove", "region_correct",
            "region_list", "apply", "info", "validate", "look_save", "look_apply", "collect", "submit", "task",
            "trust", "doctor", "schema", "texture_build", "texture_import", "texture_search", "texture_list", "texture_similar",
            "texture_recommend", "texture_info", "texture_stats", "texture_verify", "texture_train", "texture_model",
@@ -104,6 +104,11 @@ def replace(**options):
 def render(project, **options):
     """weft render: renders a project; returns the report, or what is estimated with dry_run=True."""
     return run("render", project, **options)
+
+
+def form(project=None, **options):
+    """weft form: the list of what form is found for each region of a project, or of plate= and matte=."""
+    return run("form", *([] if project is None else [project]), **options)["forms"]
 
 
 def matte(**options):

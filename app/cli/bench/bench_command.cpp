@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/cli/bench_lighting.h"
+#include "app/cli/bench/bench_lighting.h"
 #include "app/cli/commands.h"
 #include "app/cli/engine_choice.h"
 #include "engine/color/color_space.h"

@@ -1,4 +1,4 @@
-#include "app/cli/bench_lighting.h"
+#include "app/cli/bench/bench_lighting.h"
 
 #include <time.h>
 

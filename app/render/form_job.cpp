@@ -1,0 +1,68 @@
+#include "app/render/form_job.h"
+
+#include <set>
+
+#include "app/render/stage_cache.h"
+#include "engine/core/setting.h"
+#include "engine/pipeline/analyse.h"
+
+namespace weft {
+namespace {
+
+// Nothing of a region's analysis but what its form needs.
+void keep_form_only(RegionPlan& region) {
+    region.light_source = LightSource::kNone;
+    region.light_evidence.clear();
+    region.grain = 0;
+    region.grain_frames.clear();
+    region.shutter_deg = 0;
+    region.shutter_evidence.clear();
+    region.zones.clear();
+    if (region.has_form()) return;
+    region.temporal = TemporalMode::kNone;
+    region.matte_keys.clear();
+    region.painted_holdouts.clear();
+}
+
+// The plan of a shot that is to be followed as far as its forms need.
+ShotPlan form_plan(const ShotPlan& shot) {
+    ShotPlan plan = shot;
+    std::set<int> references;
+    for (RegionPlan& region : plan.regions) {
+        keep_form_only(region);
+        references.insert(region.reference_frames.front());
+    }
+    plan.frames.assign(references.begin(), references.end());
+    return plan;
+}
+
+}  // namespace
+
+Expected<FormJobResult> run_form_job(const JobSpec& spec, const CancelToken& cancel,
+                                     const ProgressFn& progress) {
+    use_threads(spec.threads);
+    OpenShotOptions options;
+    options.textures = false;
+    options.watch_inputs = true;
+    WEFT_TRY(shot, open_shot(spec.project, options));
+    if (shot->plan.regions.empty()) {
+        return fail(ErrorCode::kUsage, "The project has no region. Add one with a matte" +
+                                           by({{setting::kAddRegion}}) + ".");
+    }
+    FormJobResult out;
+    out.notes = shot->notes;
+    out.warnings = shot->warnings;
+    WEFT_TRY(store, open_analysis_cache(*shot, spec.cache, out.warnings));
+    ShotPlan plan = form_plan(shot->plan);
+    if (const std::string root = cache_root(spec.cache); spec.cache.keep && !root.empty())
+        plan.stages = open_stage_cache(*shot, root);
+    WEFT_CHECK_OK(analyse_shot(*shot->source, plan, *store, cancel, progress));
+    WEFT_TRY(forms, form_reports(*shot, *store));
+    WEFT_CHECK_OK(check_unchanged(shot->inputs->changed()));
+    out.forms = std::move(forms);
+    const std::vector<std::string> remarks = store->remarks();
+    out.warnings.insert(out.warnings.end(), remarks.begin(), remarks.end());
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,59 @@
+#include "app/render/plane_file.h"
+
+#include <algorithm>
+
+#include "app/render/job_frames.h"
+#include "engine/core/setting.h"
+#include "engine/pipeline/region_scene.h"
+
+namespace weft {
+namespace {
+
+bool is_png(const std::string& path) {
+    return path.ends_with(".png") || path.ends_with(".PNG");
+}
+
+}  // namespace
+
+Status check_plane_file(const std::string& path, const ShotPlan& plan) {
+    if (!is_png(path) && !is_exr(path)) {
+        return fail(ErrorCode::kUsage,
+                    "The texture plane is written as .png (16 bit) or .exr, and " + path +
+                        " is neither. Choose one of them.");
+    }
+    if (plan.regions.size() != 1) {
+        return fail(ErrorCode::kUsage,
+                    "The project has " + std::to_string(plan.regions.size()) +
+                        " regions, and one file holds the texture plane of one. Disable the "
+                        "others" +
+                        by({{"enabled"}}) + ".");
+    }
+    if (has_plane(plan.regions.front())) return {};
+    return fail(ErrorCode::kUsage,
+                "There is no texture plane: the texture is synthesized for every frame. Set the "
+                "locked temporal mode" +
+                    by({{setting::kTemporalMode, "locked"}}) + ".");
+}
+
+Status write_plane_file(const std::string& path, const PlanePyramid& plane,
+                        const ShotSpaces& spaces, WriteOptions write) {
+    const Size size = plane.size();
+    const PlanePyramid::Level& texels = plane.levels().front();
+    ImageF3 picture(size);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const float* from = texels.pixel(x, y);
+            std::copy(from, from + 3, picture.pixel(x, y));
+        }
+    }
+    WEFT_TRY(texture_from_working, make_color_transform(spaces.working, spaces.textures.front()));
+    texture_from_working->apply(picture);
+    write.depth = is_exr(path) ? PixelDepth::kFloat : PixelDepth::kU16;
+    write.exr_compression = "zip";
+    write.pixel_aspect = 1;
+    write.metadata.emplace_back("weft:plane",
+                                std::to_string(size.width) + "x" + std::to_string(size.height));
+    return write_image(path, picture, {}, write);
+}
+
+}  // namespace weft
