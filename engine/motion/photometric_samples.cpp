@@ -230,57 +230,67 @@ RegistrationFit registration_fit(const RegistrationPicture& anchor, const Regist
 
 namespace {
 
-// Sums of one cell for the correlation under a map and under its four shifts.
+// Sums of one cell for the correlations under two maps.
 struct CellSums {
-    std::array<double, 5> product{}, there{}, here{};
+    std::array<double, 2> product{}, there{};
+    double here = 0;
     int count = 0;
 
-    [[nodiscard]] double correlation(std::size_t k) const {
+    [[nodiscard]] double lead() const {
         constexpr double kNothing = 1e-9;
-        return product[k] / std::sqrt(there[k] * here[k] + kNothing);
-    }
-    [[nodiscard]] double evidence() const {
-        return correlation(0) -
-               (correlation(1) + correlation(2) + correlation(3) + correlation(4)) / 4;
+        const auto correlation = [&](std::size_t k) {
+            return product[k] / std::sqrt(there[k] * here + kNothing);
+        };
+        return correlation(0) - correlation(1);
     }
 };
 
+// The mean in units of its standard error.
+double student(const std::vector<double>& values) {
+    constexpr std::size_t kFewest = 3;
+    constexpr double kLeast = 1e-4;  // standard error: two maps may be the same
+    if (values.size() < kFewest) return 0;
+    const double n = static_cast<double>(values.size());
+    double sum = 0, squares = 0;
+    for (const double v : values) {
+        sum += v;
+        squares += v * v;
+    }
+    const double mean = sum / n, variance = std::max(0.0, squares / n - mean * mean);
+    return mean / std::max(kLeast, std::sqrt(variance / (n - 1)));
+}
+
 }  // namespace
 
-double registration_evidence(const RegistrationPicture& anchor, const RegistrationPicture& cur,
-                             const LatticeField& anchor_from_cur) {
-    constexpr int kSamples = 40000, kFewest = 40;
-    const float unit = std::max(1.0f, static_cast<float>(anchor_from_cur.full_size().width) / 640);
-    const float shift = 4 * unit, cell_px = 32 * unit;
-    const std::array<Vec2, 5> shifts{Vec2(0), Vec2(shift, 0), Vec2(-shift, 0), Vec2(0, shift),
-                                     Vec2(0, -shift)};
+double registration_lead(const RegistrationPicture& anchor, const RegistrationPicture& cur,
+                         const LatticeField& a, const LatticeField& b) {
+    constexpr int kSamples = 40000, kFewest = 30;
+    const float unit = std::max(1.0f, static_cast<float>(a.full_size().width) / 640);
+    const float cell_px = 24 * unit;
     const auto cell_of = [&](float from) { return static_cast<std::size_t>(from / cell_px); };
     const std::size_t across = cell_of(static_cast<float>(cur.area.width())) + 1;
     const std::size_t down = cell_of(static_cast<float>(cur.area.height())) + 1;
     std::vector<CellSums> cells(across * down);
     const RegistrationSamples samples = registration_samples(cur, kSamples);
-    const std::vector<Vec2> places = places_under(anchor_from_cur, samples);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::vector<Vec2> by_a = places_under(a, samples), by_b = places_under(b, samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto first = look_up(anchor, by_a[i]), second = look_up(anchor, by_b[i]);
+        if (!first || !second) continue;
         const std::size_t column = cell_of(samples.p[i].x - static_cast<float>(cur.area.x0));
         const std::size_t row = cell_of(samples.p[i].y - static_cast<float>(cur.area.y0));
         CellSums& cell = cells[row * across + column];
         const double here = samples.value[i];
+        cell.product[0] += here * *first;
+        cell.product[1] += here * *second;
+        cell.there[0] += static_cast<double>(*first) * *first;
+        cell.there[1] += static_cast<double>(*second) * *second;
+        cell.here += here * here;
         ++cell.count;
-        for (std::size_t k = 0; k < shifts.size(); ++k) {
-            const auto there = look_up(anchor, places[i] + shifts[k]);
-            if (!there) continue;
-            cell.product[k] += here * *there;
-            cell.there[k] += static_cast<double>(*there) * *there;
-            cell.here[k] += here * here;
-        }
     }
-    std::vector<double> found;
+    std::vector<double> leads;
     for (const CellSums& cell : cells)
-        if (cell.count >= kFewest) found.push_back(cell.evidence());
-    if (found.empty()) return 0;
-    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-    std::nth_element(found.begin(), middle, found.end());
-    return *middle;
+        if (cell.count >= kFewest) leads.push_back(cell.lead());
+    return student(leads);
 }
 
 }  // namespace weft

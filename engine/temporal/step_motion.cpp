@@ -6,6 +6,7 @@
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/photometric_register.h"
 #include "engine/motion/surface_fit.h"
+#include "engine/motion/surface_flow.h"
 
 namespace weft {
 namespace {
@@ -38,31 +39,24 @@ Matte copy_of(ViewU8x1 v) {
     return out;
 }
 
-// The outline's motion of a thing with limbs lies near the truth, and so does that of a plane whose
-// outline has corners: the picture's own has to be clearly better, or to be found again almost
-// everywhere. (Picture and outline: plaster 0.36 and 0.17, a floor of faint tiles 0.83 and 0.80;
-// blender_fox_gt's fox, which the outline holds better, 0.55 and 0.51, at most 0.72; assets/drawn
-// 0.11 to 0.62 and 0.23 to 0.64.)
-double lead_of(double picture, double outline) {
-    constexpr double kClearly = 1.3, kAlmostEverywhere = 0.75;
-    return std::max(picture - kClearly * outline, picture - kAlmostEverywhere);
-}
+// The most that one frame adds: a single one is no reason to change.
+constexpr double kMostLead = 4;
 
 }  // namespace
 
-void MotionChoice::note(double picture, double outline) {
-    constexpr double kShare = 0.2, kClear = 0.02;
-    constexpr double kByChance = 0.03;  // grain alone has 0.01
-    // A frame that shows neither, black or blurred, is no reason to change.
-    if (std::max(picture, outline) < kByChance) return;
-    const double lead = lead_of(picture, outline);
+void MotionChoice::note(double lead) {
+    constexpr double kShare = 0.2;
+    // Standard errors. (Plaster, tiles, a faint cloth: 2.8 to 8 in each frame. blender_fox_gt's
+    // fox, whose speckle is new in each: -2.9 to 0.6; flat drawn fills -5 to 0.4.)
+    constexpr double kPicture = 1.5, kOutline = -0.5;
+    lead = std::clamp(lead, -kMostLead, kMostLead);
     if (!lead_) {
         lead_ = lead;
-        by_outline_ = lead <= 0;
+        by_outline_ = lead <= kPicture;
         return;
     }
     *lead_ += kShare * (lead - *lead_);
-    if (by_outline_ ? *lead_ > kClear : *lead_ < -kClear) by_outline_ = !by_outline_;
+    if (by_outline_ ? *lead_ > kPicture : *lead_ < kOutline) by_outline_ = !by_outline_;
 }
 
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
@@ -79,10 +73,17 @@ const OutlineShape& StepFrame::outline() const {
 }
 
 StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
-                             const FlowField& prev_from_cur, int spacing_px) {
+                             const FlowField& prev_from_cur, FlowQuality quality, int spacing_px) {
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
-    StepEvidence out{by_picture(now, prev_from_cur, spacing_px), {}, 0, 0};
+    const RegistrationPicture &there = prev.picture(), &here = cur.picture();
+    StepEvidence out{by_picture(now, prev_from_cur, spacing_px), {}, 0};
+    const FlowField flow =
+        estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
+    // Under grain, or where little of the surface is in view, the plate's own motion is steadier.
+    LatticeField freed = by_picture(now, flow, spacing_px);
+    if (registration_lead(there, here, freed, out.by_picture) > 0)
+        out.by_picture = std::move(freed);
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         return out;
@@ -90,14 +91,14 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
     out.by_outline = by_outline(prev, cur, spacing_px);
-    out.for_picture = registration_evidence(prev.picture(), cur.picture(), out.by_picture);
-    out.for_outline = registration_evidence(prev.picture(), cur.picture(), *out.by_outline);
+    out.lead = registration_lead(there, here, out.by_picture, *out.by_outline);
     return out;
 }
 
 StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
+    // Structure that stands out speaks for the picture where it does not for a moment, too.
+    choice.note(evidence.by_outline ? evidence.lead : kMostLead);
     if (!evidence.by_outline) return {evidence.by_picture, false};
-    choice.note(evidence.for_picture, evidence.for_outline);
     const bool outline = choice.by_outline();
     return {outline ? *evidence.by_outline : evidence.by_picture, outline};
 }

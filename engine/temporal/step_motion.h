@@ -33,29 +33,30 @@ class StepFrame {
 /// What two neighbouring frames of a walk say of the step between them. It does not depend on where
 /// the walk has led, so it can be gathered ahead of it.
 struct StepEvidence {
-    LatticeField by_picture;                  ///< prev_from_cur of the picture inside.
-    std::optional<LatticeField> by_outline;   ///< The outline's, where structure is faint;
-    double for_picture = 0, for_outline = 0;  ///< then registration_evidence() for either.
+    LatticeField by_picture;                 ///< prev_from_cur of the picture inside.
+    std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
+    double lead = 0;  ///< then registration_lead() of the picture's motion before the outline's.
 };
 
-/// Gathers it from raw motion `prev_from_cur`. Where the structure inside stands out of its noise
-/// (structure_to_noise()), that is the picture's alone. Pure, but for the caches of the frames:
-/// outlines are compared, so one thread at a time may use a frame.
+/// Gathers it. The picture's motion comes from the plate's raw motion `prev_from_cur`, or from
+/// pictures that are freed of light (estimate_surface_flow()) where that explains more. The
+/// outline's is measured where structure is faint (structure_to_noise()). Pure, but for the caches
+/// of the frames: outlines are compared, so one thread at a time may use a frame.
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
-                                           const FlowField& prev_from_cur, int spacing_px);
+                                           const FlowField& prev_from_cur, FlowQuality quality,
+                                           int spacing_px);
 
 /// Whether a surface with little structure follows the picture inside it or its outline. One frame
 /// says little, so leads are averaged, and a choice changes only where the other one leads clearly.
 /// Not thread-safe.
 class MotionChoice {
   public:
-    /// What the pictures of one step say (registration_evidence()) for the motion of the picture
-    /// inside and for the outline's. Without evidence for either the choice stays.
-    void note(double picture, double outline);
+    /// How far the picture's motion leads before the outline's in one step (registration_lead()).
+    void note(double lead);
     [[nodiscard]] bool by_outline() const { return by_outline_; }
 
   private:
-    std::optional<double> lead_;  // of the picture's motion, the mean of the last frames
+    std::optional<double> lead_;  // the mean of the last frames
     bool by_outline_ = true;
 };
 

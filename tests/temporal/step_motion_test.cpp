@@ -73,42 +73,72 @@ TEST(StepMotion, GrainAloneIsNoEvidence) {
     MotionChoice choice;
     const StepMotion step =
         choose_motion(gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
-                                      flow_between(luma, last), 8),
+                                      flow_between(luma, last), FlowQuality::kFinal, 8),
                       choice);
     EXPECT_TRUE(step.by_outline);
 }
 
-TEST(MotionChoice, TakesThePictureWhereItIsClearlyBetterOrFoundAlmostEverywhere) {
-    const auto first = [](double picture, double outline) {
+// A faint pattern that moves to the right, under a shade that moves down, three times as strong.
+TEST(StepMotion, FollowsAFaintClothUnderAMovingShade) {
+    const auto shaded = [](int t) {
+        const WaveTexture texture(11);
+        Rng rng(100 + static_cast<std::uint64_t>(t));
+        return draw(kFrame, [&](Vec2 p) {
+            const float value = texture(p - Vec2(kStep_px * static_cast<float>(t), 0)) - 0.5f;
+            const float shade = std::sin((p.y - 4 * static_cast<float>(t)) / 14);
+            return 0.5f + 0.05f * value + 0.07f * shade + 1.0f / 255 * normal(rng);
+        });
+    };
+    const Matte matte = window(), last = shaded(0), luma = shaded(1);
+    const StepEvidence found =
+        gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                        flow_between(luma, last), FlowQuality::kFinal, 8);
+    for (const Vec2 p : std::array{Vec2(60, 60), Vec2(128, 88), Vec2(200, 120)}) {
+        const Vec2 moved = found.by_picture.at(p);
+        EXPECT_NEAR(moved.x, -kStep_px, 0.7f);
+        EXPECT_NEAR(moved.y, 0, 0.7f);
+    }
+}
+
+TEST(MotionChoice, TakesThePictureWhereItClearlyLeads) {
+    const auto first = [](double lead) {
         MotionChoice choice;
-        choice.note(picture, outline);
+        choice.note(lead);
         return choice.by_outline() ? "outline" : "picture";
     };
-    EXPECT_STREQ(first(0.36, 0.17), "picture");
-    EXPECT_STREQ(first(0.83, 0.80), "picture");
-    EXPECT_STREQ(first(0.60, 0.58), "outline");
-    EXPECT_STREQ(first(0.0, 0.0), "outline");
+    EXPECT_STREQ(first(3.0), "picture");
+    EXPECT_STREQ(first(0.6), "outline");
+    EXPECT_STREQ(first(-3.0), "outline");
     EXPECT_TRUE(MotionChoice().by_outline());
 }
 
 TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
     MotionChoice choice;
-    choice.note(0.4, 0.1);
+    choice.note(4);
     ASSERT_FALSE(choice.by_outline());
-    choice.note(0.1, 0.4);
+    choice.note(-30);
     EXPECT_FALSE(choice.by_outline()) << "one frame is no reason";
     for (int k = 0; k < 4; ++k)
-        choice.note(0.1, 0.4);
+        choice.note(-4);
     EXPECT_TRUE(choice.by_outline());
 }
 
-TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
+TEST(MotionChoice, StructureThatFadesForAFrameKeepsThePicture) {
+    const LatticeField still(kFrame, 8);
     MotionChoice choice;
-    choice.note(0.36, 0.17);
-    ASSERT_FALSE(choice.by_outline());
-    for (int k = 0; k < 50; ++k)
-        choice.note(0.01, 0.0);
-    EXPECT_FALSE(choice.by_outline());
+    EXPECT_FALSE(choose_motion({still, {}, 0}, choice).by_outline);
+    EXPECT_FALSE(choose_motion({still, still, 0.5}, choice).by_outline);
+}
+
+TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
+    for (const double lead : {4.0, -4.0}) {
+        MotionChoice choice;
+        choice.note(lead);
+        const bool before = choice.by_outline();
+        for (int k = 0; k < 50; ++k)
+            choice.note(0);
+        EXPECT_EQ(choice.by_outline(), before);
+    }
 }
 
 }  // namespace
