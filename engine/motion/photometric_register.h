@@ -60,6 +60,12 @@ struct PlanarRegistration {
                                                const LatticeField& anchor_from_cur,
                                                const RegistrationOptions& options);
 
+/// The mean correlation of the two pictures under a map, in cells of 24 px (of 640): 1 where all of
+/// the surface is found again, 0 if too few places can be compared. Pure; deterministic.
+[[nodiscard]] double registration_agreement(const RegistrationPicture& anchor,
+                                            const RegistrationPicture& cur,
+                                            const LatticeField& anchor_from_cur);
+
 /// How much better one map explains the picture than another: the correlations of the two pictures
 /// under either, compared in pairs in cells of 24 px; the mean of their differences in units of its
 /// standard error, positive for `a`. A Student's t: beyond ±2 it is hardly chance, in noise it is

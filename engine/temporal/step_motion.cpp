@@ -42,21 +42,59 @@ Matte copy_of(ViewU8x1 v) {
 // The most that one frame adds: a single one is no reason to change.
 constexpr double kMostLead = 4;
 
+// The share of the surface whose motion is known.
+double known_share(const FlowField& flow, ViewU8x1 visible) {
+    std::int64_t inside = 0, known = 0;
+    for (int y = 0; y < visible.height(); ++y) {
+        const std::uint8_t *seen = visible.row(y), *valid = flow.valid.row(y);
+        for (int x = 0; x < visible.width(); ++x) {
+            inside += seen[x] >= 128;
+            known += seen[x] >= 128 && valid[x] != 0;
+        }
+    }
+    return inside == 0 ? 0 : static_cast<double>(known) / static_cast<double>(inside);
+}
+
+// Adds the motion of the pictures freed of light to `out`.
+void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
+               FlowQuality quality, int spacing_px, StepEvidence& out) {
+    // Where the surface is found again almost everywhere, nothing is left to be explained.
+    constexpr double kAlmostEverywhere = 0.95;
+    // A twenty-fifth of the surface weighs as much as a standard error.
+    constexpr double kShareWeight = 25;
+    // Motion that is so much less consistent is not worth its fit.
+    constexpr double kHopeless = -2;
+    const OutlineView before = prev.view(), now = cur.view();
+    const RegistrationPicture &there = prev.picture(), &here = cur.picture();
+    if (registration_agreement(there, here, out.by_picture) >= kAlmostEverywhere) return;
+    const FlowField flow =
+        estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
+    out.freed_lead = kShareWeight * (known_share(flow, now.visible) -
+                                     known_share(prev_from_cur, now.visible));
+    if (out.freed_lead < kHopeless) return;
+    out.by_freed = by_picture(now, flow, spacing_px);
+    out.freed_lead += registration_lead(there, here, *out.by_freed, out.by_picture);
+}
+
 }  // namespace
 
+void MotionChoice::Lead::note(double lead, double above, double below) {
+    constexpr int kFrames = 5;
+    noted = std::min(noted + 1, kFrames);
+    mean += (std::clamp(lead, -kMostLead, kMostLead) - mean) / noted;
+    leads = mean > (leads ? below : above);
+}
+
 void MotionChoice::note(double lead) {
-    constexpr double kShare = 0.2;
     // Standard errors. (Plaster, tiles, a faint cloth: 2.8 to 8 in each frame. blender_fox_gt's
     // fox, whose speckle is new in each: -2.9 to 0.6; flat drawn fills -5 to 0.4.)
     constexpr double kPicture = 1.5, kOutline = -0.5;
-    lead = std::clamp(lead, -kMostLead, kMostLead);
-    if (!lead_) {
-        lead_ = lead;
-        by_outline_ = lead <= kPicture;
-        return;
-    }
-    *lead_ += kShare * (lead - *lead_);
-    if (by_outline_ ? *lead_ > kPicture : *lead_ < kOutline) by_outline_ = !by_outline_;
+    picture_.note(lead, kPicture, kOutline);
+}
+
+void MotionChoice::note_freed(double lead) {
+    constexpr double kFreed = 1, kPlate = 0;
+    freed_.note(lead, kFreed, kPlate);
 }
 
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
@@ -76,14 +114,9 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
                              const FlowField& prev_from_cur, FlowQuality quality, int spacing_px) {
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
-    const RegistrationPicture &there = prev.picture(), &here = cur.picture();
-    StepEvidence out{by_picture(now, prev_from_cur, spacing_px), {}, 0};
-    const FlowField flow =
-        estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
-    // Under grain, or where little of the surface is in view, the plate's own motion is steadier.
-    LatticeField freed = by_picture(now, flow, spacing_px);
-    if (registration_lead(there, here, freed, out.by_picture) > 0)
-        out.by_picture = std::move(freed);
+    StepEvidence out;
+    out.by_picture = by_picture(now, prev_from_cur, spacing_px);
+    add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         return out;
@@ -91,16 +124,18 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
     out.by_outline = by_outline(prev, cur, spacing_px);
-    out.lead = registration_lead(there, here, out.by_picture, *out.by_outline);
+    const bool freed = out.by_freed && out.freed_lead > 0;
+    out.lead = registration_lead(prev.picture(), cur.picture(),
+                                 freed ? *out.by_freed : out.by_picture, *out.by_outline);
     return out;
 }
 
 StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
     // Structure that stands out speaks for the picture where it does not for a moment, too.
     choice.note(evidence.by_outline ? evidence.lead : kMostLead);
-    if (!evidence.by_outline) return {evidence.by_picture, false};
-    const bool outline = choice.by_outline();
-    return {outline ? *evidence.by_outline : evidence.by_picture, outline};
+    choice.note_freed(evidence.freed_lead);
+    if (evidence.by_outline && choice.by_outline()) return {*evidence.by_outline, true};
+    return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture, false};
 }
 
 LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
