@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "engine/core/rng.h"
@@ -90,14 +91,28 @@ TEST(StepMotion, FollowsAFaintClothUnderAMovingShade) {
         });
     };
     const Matte matte = window(), last = shaded(0), luma = shaded(1);
-    const StepEvidence found =
-        gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
-                        flow_between(luma, last), FlowQuality::kFinal, 8);
+    MotionChoice choice;
+    const StepMotion found =
+        choose_motion(gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                                      flow_between(luma, last), FlowQuality::kFinal, 8),
+                      choice);
+    ASSERT_TRUE(choice.freed());
     for (const Vec2 p : std::array{Vec2(60, 60), Vec2(128, 88), Vec2(200, 120)}) {
-        const Vec2 moved = found.by_picture.at(p);
+        const Vec2 moved = found.prev_from_cur.at(p);
         EXPECT_NEAR(moved.x, -kStep_px, 0.7f);
         EXPECT_NEAR(moved.y, 0, 0.7f);
     }
+}
+
+TEST(StepMotion, WhatIsFoundAgainEverywhereIsNotSearchedTwice) {
+    constexpr float kContrast = 0.6f, kGrain = 0.5f;
+    const Matte matte = window();
+    const Matte last = frame_of(0, kContrast, kGrain), luma = frame_of(1, kContrast, kGrain);
+    const StepEvidence found =
+        gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                        flow_between(luma, last), FlowQuality::kFinal, 8);
+    EXPECT_FALSE(found.by_freed);
+    EXPECT_EQ(found.freed_lead, 0);
 }
 
 TEST(MotionChoice, TakesThePictureWhereItClearlyLeads) {
@@ -126,18 +141,48 @@ TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
 TEST(MotionChoice, StructureThatFadesForAFrameKeepsThePicture) {
     const LatticeField still(kFrame, 8);
     MotionChoice choice;
-    EXPECT_FALSE(choose_motion({still, {}, 0}, choice).by_outline);
-    EXPECT_FALSE(choose_motion({still, still, 0.5}, choice).by_outline);
+    EXPECT_FALSE(choose_motion({still, {}, 0, {}, 0}, choice).by_outline);
+    EXPECT_FALSE(choose_motion({still, {}, 0, still, 0.5}, choice).by_outline);
+}
+
+// A striped ball under dappled shade leads by half a standard error, and is not the better for it.
+TEST(MotionChoice, TakesMotionFreedOfLightWhereItLeads) {
+    const auto after = [](std::initializer_list<double> leads) {
+        MotionChoice choice;
+        for (const double lead : leads)
+            choice.note_freed(lead);
+        return choice.freed();
+    };
+    EXPECT_FALSE(after({}));
+    EXPECT_FALSE(after({0.6, 0.4, 0.6, 1.8}));
+    EXPECT_TRUE(after({2}));
+    EXPECT_TRUE(after({-0.7, 2.8})) << "the first frames are averaged evenly";
+    EXPECT_TRUE(after({2, 2, 2, 2, -30})) << "one frame is no reason";
+    EXPECT_FALSE(after({2, -2, -2, -2}));
+}
+
+TEST(MotionChoice, FramesWithoutMotionFreedOfLightKeepThePlates) {
+    LatticeField plate(kFrame, 8), freed(kFrame, 8);
+    freed.set_node(0, 0, {1, 0});
+    const auto moved = [](const StepMotion& step) { return step.prev_from_cur.node(0, 0).x; };
+    MotionChoice choice;
+    EXPECT_EQ(moved(choose_motion({plate, freed, 3, {}, 0}, choice)), 1);
+    EXPECT_EQ(moved(choose_motion({plate, {}, 0, {}, 0}, choice)), 0);
+    EXPECT_EQ(moved(choose_motion({plate, freed, 0.5, {}, 0}, choice)), 1);
 }
 
 TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
     for (const double lead : {4.0, -4.0}) {
         MotionChoice choice;
         choice.note(lead);
-        const bool before = choice.by_outline();
-        for (int k = 0; k < 50; ++k)
+        choice.note_freed(lead);
+        const bool outline = choice.by_outline(), freed = choice.freed();
+        for (int k = 0; k < 50; ++k) {
             choice.note(0);
-        EXPECT_EQ(choice.by_outline(), before);
+            choice.note_freed(0);
+        }
+        EXPECT_EQ(choice.by_outline(), outline);
+        EXPECT_EQ(choice.freed(), freed);
     }
 }
 
