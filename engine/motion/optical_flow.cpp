@@ -92,9 +92,13 @@ FlowField estimate_flow(ViewU8x1 source, ViewU8x1 target, FlowQuality quality) {
 }
 
 FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality) {
+    return estimate_flows(a, b, quality, a.size());
+}
+
+FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality, Size frame) {
     assert(a.size() == b.size());
     const auto of_a = search_pyramid(a), of_b = search_pyramid(b);
-    const SearchDepth depth = depth_for(a.size(), quality, of_a.size());
+    const SearchDepth depth = depth_for(frame, quality, of_a.size());
     return {at_full_size(search(of_a, of_b, depth), a.size()),
             at_full_size(search(of_b, of_a, depth), a.size())};
 }

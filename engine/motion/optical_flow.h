@@ -18,6 +18,8 @@ struct FlowPair {
 };
 /// The motion in both directions, which share their work.
 [[nodiscard]] FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality);
+/// The same of a part of frames of the size `frame`, searched as finely as those are.
+[[nodiscard]] FlowPair estimate_flows(ViewU8x1 a, ViewU8x1 b, FlowQuality quality, Size frame);
 
 /// Marks pixels as invalid whose way there and back misses by more than `tolerance_px` plus 5 % of
 /// its length, or leaves the frame (Sundaram et al. 2010). Only `valid` changes.

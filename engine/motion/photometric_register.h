@@ -60,14 +60,19 @@ struct PlanarRegistration {
                                                const LatticeField& anchor_from_cur,
                                                const RegistrationOptions& options);
 
-/// How much the pictures inside say for a map, in most places of the region: the correlation of the
-/// two under it, less the mean of their correlations under the map shifted by 4 px (of 640) up,
-/// down, left and right, in cells of 32 px; the median of the cells. Near 0 where there is only
-/// noise, whose correlation does not depend on the map, and where structure is sparse, as in a
-/// drawn fill with a few lines; 1 at most. 0 if too few places can be compared. Pure;
-/// deterministic.
-[[nodiscard]] double registration_evidence(const RegistrationPicture& anchor,
-                                           const RegistrationPicture& cur,
-                                           const LatticeField& anchor_from_cur);
+/// The mean correlation of the two pictures under a map, in cells of 24 px (of 640): 1 where all of
+/// the surface is found again, 0 if too few places can be compared. Pure; deterministic.
+[[nodiscard]] double registration_agreement(const RegistrationPicture& anchor,
+                                            const RegistrationPicture& cur,
+                                            const LatticeField& anchor_from_cur);
+
+/// How much better one map explains the picture than another: the correlations of the two pictures
+/// under either, compared in pairs in cells of 24 px; the mean of their differences in units of its
+/// standard error, positive for `a`. A Student's t: beyond ±2 it is hardly chance, in noise it is
+/// about ±1, however faint the surface or strong the grain. 0 if too few cells can be compared.
+/// Pure; deterministic.
+[[nodiscard]] double registration_lead(const RegistrationPicture& anchor,
+                                       const RegistrationPicture& cur, const LatticeField& a,
+                                       const LatticeField& b);
 
 }  // namespace weft

@@ -230,57 +230,103 @@ RegistrationFit registration_fit(const RegistrationPicture& anchor, const Regist
 
 namespace {
 
-// Sums of one cell for the correlation under a map and under its four shifts.
+// Sums of one cell for the correlations under some maps.
+template <std::size_t N>
 struct CellSums {
-    std::array<double, 5> product{}, there{}, here{};
+    std::array<double, N> product{}, there{};
+    double here = 0;
     int count = 0;
 
+    void add(float value, const std::array<float, N>& found) {
+        for (std::size_t k = 0; k < N; ++k) {
+            product[k] += static_cast<double>(value) * found[k];
+            there[k] += static_cast<double>(found[k]) * found[k];
+        }
+        here += static_cast<double>(value) * value;
+        ++count;
+    }
     [[nodiscard]] double correlation(std::size_t k) const {
         constexpr double kNothing = 1e-9;
-        return product[k] / std::sqrt(there[k] * here[k] + kNothing);
-    }
-    [[nodiscard]] double evidence() const {
-        return correlation(0) -
-               (correlation(1) + correlation(2) + correlation(3) + correlation(4)) / 4;
+        return product[k] / std::sqrt(there[k] * here + kNothing);
     }
 };
 
-}  // namespace
+template <std::size_t N>
+std::optional<std::array<float, N>> look_up_all(const RegistrationPicture& picture,
+                                                const std::array<std::vector<Vec2>, N>& places,
+                                                std::size_t i) {
+    std::array<float, N> found{};
+    for (std::size_t k = 0; k < N; ++k) {
+        const auto value = look_up(picture, places[k][i]);
+        if (!value) return std::nullopt;
+        found[k] = *value;
+    }
+    return found;
+}
 
-double registration_evidence(const RegistrationPicture& anchor, const RegistrationPicture& cur,
-                             const LatticeField& anchor_from_cur) {
-    constexpr int kSamples = 40000, kFewest = 40;
-    const float unit = std::max(1.0f, static_cast<float>(anchor_from_cur.full_size().width) / 640);
-    const float shift = 4 * unit, cell_px = 32 * unit;
-    const std::array<Vec2, 5> shifts{Vec2(0), Vec2(shift, 0), Vec2(-shift, 0), Vec2(0, shift),
-                                     Vec2(0, -shift)};
+// The correlations of the two pictures in cells of 24 px (of 640), by cell under every map; of
+// cells that hold enough. At most `most` samples.
+template <std::size_t N>
+std::vector<std::array<double, N>> correlations(const RegistrationPicture& anchor,
+                                                const RegistrationPicture& cur,
+                                                const std::array<const LatticeField*, N>& maps,
+                                                int most) {
+    constexpr int kFewest = 30;
+    const float unit = std::max(1.0f, static_cast<float>(maps[0]->full_size().width) / 640);
+    const float cell_px = 24 * unit;
     const auto cell_of = [&](float from) { return static_cast<std::size_t>(from / cell_px); };
     const std::size_t across = cell_of(static_cast<float>(cur.area.width())) + 1;
     const std::size_t down = cell_of(static_cast<float>(cur.area.height())) + 1;
-    std::vector<CellSums> cells(across * down);
-    const RegistrationSamples samples = registration_samples(cur, kSamples);
-    const std::vector<Vec2> places = places_under(anchor_from_cur, samples);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    std::vector<CellSums<N>> cells(across * down);
+    const RegistrationSamples samples = registration_samples(cur, most);
+    std::array<std::vector<Vec2>, N> places;
+    for (std::size_t k = 0; k < N; ++k)
+        places[k] = places_under(*maps[k], samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto found = look_up_all(anchor, places, i);
+        if (!found) continue;
         const std::size_t column = cell_of(samples.p[i].x - static_cast<float>(cur.area.x0));
         const std::size_t row = cell_of(samples.p[i].y - static_cast<float>(cur.area.y0));
-        CellSums& cell = cells[row * across + column];
-        const double here = samples.value[i];
-        ++cell.count;
-        for (std::size_t k = 0; k < shifts.size(); ++k) {
-            const auto there = look_up(anchor, places[i] + shifts[k]);
-            if (!there) continue;
-            cell.product[k] += here * *there;
-            cell.there[k] += static_cast<double>(*there) * *there;
-            cell.here[k] += here * here;
-        }
+        cells[row * across + column].add(samples.value[i], *found);
     }
-    std::vector<double> found;
-    for (const CellSums& cell : cells)
-        if (cell.count >= kFewest) found.push_back(cell.evidence());
-    if (found.empty()) return 0;
-    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-    std::nth_element(found.begin(), middle, found.end());
-    return *middle;
+    std::vector<std::array<double, N>> out;
+    for (const CellSums<N>& cell : cells) {
+        if (cell.count < kFewest) continue;
+        std::array<double, N>& of_cell = out.emplace_back();
+        for (std::size_t k = 0; k < N; ++k)
+            of_cell[k] = cell.correlation(k);
+    }
+    return out;
+}
+
+}  // namespace
+
+double registration_agreement(const RegistrationPicture& anchor, const RegistrationPicture& cur,
+                              const LatticeField& anchor_from_cur) {
+    constexpr int kSamples = 24000;
+    const auto cells = correlations<1>(anchor, cur, {&anchor_from_cur}, kSamples);
+    double sum = 0;
+    for (const auto& cell : cells)
+        sum += cell[0];
+    return cells.empty() ? 0 : sum / static_cast<double>(cells.size());
+}
+
+double registration_lead(const RegistrationPicture& anchor, const RegistrationPicture& cur,
+                         const LatticeField& a, const LatticeField& b) {
+    constexpr int kSamples = 40000;
+    constexpr std::size_t kFewest = 3;
+    constexpr double kLeast = 1e-4;  // standard error: two maps may be the same
+    const auto cells = correlations<2>(anchor, cur, {&a, &b}, kSamples);
+    if (cells.size() < kFewest) return 0;
+    const double n = static_cast<double>(cells.size());
+    double sum = 0, squares = 0;
+    for (const auto& cell : cells) {
+        const double lead = cell[0] - cell[1];
+        sum += lead;
+        squares += lead * lead;
+    }
+    const double mean = sum / n, variance = std::max(0.0, squares / n - mean * mean);
+    return mean / std::max(kLeast, std::sqrt(variance / (n - 1)));
 }
 
 }  // namespace weft

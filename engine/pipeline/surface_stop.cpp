@@ -47,7 +47,8 @@ Expected<SurfaceStop> SurfaceStops::stop_at(const SurfaceJob& job, Before& befor
     const bool first = begins(job, leg_, at.frame);
     if (out.held && !first) return out;
     const StepFrame* last = first ? nullptr : before.frame.get();
-    out.step = prepare_step(*at.views, out.visible, out.extent, at.prev_from_cur.get(), last);
+    out.step = prepare_step(*at.views, out.visible, out.extent, at.prev_from_cur.get(), last,
+                            context_.plan.quality);
     before.frame = out.step->frame;
     return out;
 }

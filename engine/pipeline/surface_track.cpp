@@ -49,16 +49,17 @@ SurfaceWalker walker_at(const PlateViews& views, const Matte& visible, const Mat
 }  // namespace
 
 WalkStep prepare_step(const PlateViews& views, const Matte& visible, const Matte& extent,
-                      const FlowField* prev_from_cur, const StepFrame* prev) {
+                      const FlowField* prev_from_cur, const StepFrame* prev, FlowQuality quality) {
     const Size followed = views.followed().size();
     const SurfaceWalkerOptions options =
-        walker_options(followed, SurfaceTrack::Motion::kEstimated, FlowQuality::kFinal);
+        walker_options(followed, SurfaceTrack::Motion::kEstimated, quality);
     WalkStep out{std::make_shared<const StepFrame>(views.followed(), Followed(visible, followed),
                                                    Followed(extent, followed)),
                  {}};
     static_cast<void>(out.frame->picture());  // the walk registers it
     if (prev && prev_from_cur)
-        out.evidence = gather_evidence(*prev, *out.frame, *prev_from_cur, options.spacing_px);
+        out.evidence =
+            gather_evidence(*prev, *out.frame, *prev_from_cur, quality, options.spacing_px);
     return out;
 }
 

@@ -14,7 +14,7 @@ namespace weft {
 /// raw motion of that of PlateViews::followed(). Pure as gather_evidence().
 [[nodiscard]] WalkStep prepare_step(const PlateViews& views, const Matte& visible,
                                     const Matte& extent, const FlowField* prev_from_cur,
-                                    const StepFrame* prev);
+                                    const StepFrame* prev, FlowQuality quality);
 
 /// All mattes and lattices are of the plate's size; motion that was estimated from frame to frame
 /// is of the size of PlateViews::followed(). A surface whose motion is known is not followed and

@@ -6,6 +6,7 @@
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/photometric_register.h"
 #include "engine/motion/surface_fit.h"
+#include "engine/motion/surface_flow.h"
 
 namespace weft {
 namespace {
@@ -38,31 +39,62 @@ Matte copy_of(ViewU8x1 v) {
     return out;
 }
 
-// The outline's motion of a thing with limbs lies near the truth, and so does that of a plane whose
-// outline has corners: the picture's own has to be clearly better, or to be found again almost
-// everywhere. (Picture and outline: plaster 0.36 and 0.17, a floor of faint tiles 0.83 and 0.80;
-// blender_fox_gt's fox, which the outline holds better, 0.55 and 0.51, at most 0.72; assets/drawn
-// 0.11 to 0.62 and 0.23 to 0.64.)
-double lead_of(double picture, double outline) {
-    constexpr double kClearly = 1.3, kAlmostEverywhere = 0.75;
-    return std::max(picture - kClearly * outline, picture - kAlmostEverywhere);
+// The most that one frame adds: a single one is no reason to change.
+constexpr double kMostLead = 4;
+
+// The share of the surface whose motion is known.
+double known_share(const FlowField& flow, ViewU8x1 visible) {
+    std::int64_t inside = 0, known = 0;
+    for (int y = 0; y < visible.height(); ++y) {
+        const std::uint8_t *seen = visible.row(y), *valid = flow.valid.row(y);
+        for (int x = 0; x < visible.width(); ++x) {
+            inside += seen[x] >= 128;
+            known += seen[x] >= 128 && valid[x] != 0;
+        }
+    }
+    return inside == 0 ? 0 : static_cast<double>(known) / static_cast<double>(inside);
+}
+
+// Adds the motion of the pictures freed of light to `out`.
+void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
+               FlowQuality quality, int spacing_px, StepEvidence& out) {
+    // Where the surface is found again almost everywhere, nothing is left to be explained.
+    constexpr double kAlmostEverywhere = 0.95;
+    // A twenty-fifth of the surface weighs as much as a standard error.
+    constexpr double kShareWeight = 25;
+    // Motion that is so much less consistent is not worth its fit.
+    constexpr double kHopeless = -2;
+    const OutlineView before = prev.view(), now = cur.view();
+    const RegistrationPicture &there = prev.picture(), &here = cur.picture();
+    if (registration_agreement(there, here, out.by_picture) >= kAlmostEverywhere) return;
+    const FlowField flow =
+        estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
+    out.freed_lead = kShareWeight * (known_share(flow, now.visible) -
+                                     known_share(prev_from_cur, now.visible));
+    if (out.freed_lead < kHopeless) return;
+    out.by_freed = by_picture(now, flow, spacing_px);
+    out.freed_lead += registration_lead(there, here, *out.by_freed, out.by_picture);
 }
 
 }  // namespace
 
-void MotionChoice::note(double picture, double outline) {
-    constexpr double kShare = 0.2, kClear = 0.02;
-    constexpr double kByChance = 0.03;  // grain alone has 0.01
-    // A frame that shows neither, black or blurred, is no reason to change.
-    if (std::max(picture, outline) < kByChance) return;
-    const double lead = lead_of(picture, outline);
-    if (!lead_) {
-        lead_ = lead;
-        by_outline_ = lead <= 0;
-        return;
-    }
-    *lead_ += kShare * (lead - *lead_);
-    if (by_outline_ ? *lead_ > kClear : *lead_ < -kClear) by_outline_ = !by_outline_;
+void MotionChoice::Lead::note(double lead, double above, double below) {
+    constexpr int kFrames = 5;
+    noted = std::min(noted + 1, kFrames);
+    mean += (std::clamp(lead, -kMostLead, kMostLead) - mean) / noted;
+    leads = mean > (leads ? below : above);
+}
+
+void MotionChoice::note(double lead) {
+    // Standard errors. (Plaster, tiles, a faint cloth: 2.8 to 8 in each frame. blender_fox_gt's
+    // fox, whose speckle is new in each: -2.9 to 0.6; flat drawn fills -5 to 0.4.)
+    constexpr double kPicture = 1.5, kOutline = -0.5;
+    picture_.note(lead, kPicture, kOutline);
+}
+
+void MotionChoice::note_freed(double lead) {
+    constexpr double kFreed = 1, kPlate = 0;
+    freed_.note(lead, kFreed, kPlate);
 }
 
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
@@ -79,10 +111,12 @@ const OutlineShape& StepFrame::outline() const {
 }
 
 StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
-                             const FlowField& prev_from_cur, int spacing_px) {
+                             const FlowField& prev_from_cur, FlowQuality quality, int spacing_px) {
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
-    StepEvidence out{by_picture(now, prev_from_cur, spacing_px), {}, 0, 0};
+    StepEvidence out;
+    out.by_picture = by_picture(now, prev_from_cur, spacing_px);
+    add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         return out;
@@ -90,16 +124,18 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
     out.by_outline = by_outline(prev, cur, spacing_px);
-    out.for_picture = registration_evidence(prev.picture(), cur.picture(), out.by_picture);
-    out.for_outline = registration_evidence(prev.picture(), cur.picture(), *out.by_outline);
+    const bool freed = out.by_freed && out.freed_lead > 0;
+    out.lead = registration_lead(prev.picture(), cur.picture(),
+                                 freed ? *out.by_freed : out.by_picture, *out.by_outline);
     return out;
 }
 
 StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
-    if (!evidence.by_outline) return {evidence.by_picture, false};
-    choice.note(evidence.for_picture, evidence.for_outline);
-    const bool outline = choice.by_outline();
-    return {outline ? *evidence.by_outline : evidence.by_picture, outline};
+    // Structure that stands out speaks for the picture where it does not for a moment, too.
+    choice.note(evidence.by_outline ? evidence.lead : kMostLead);
+    choice.note_freed(evidence.freed_lead);
+    if (evidence.by_outline && choice.by_outline()) return {*evidence.by_outline, true};
+    return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture, false};
 }
 
 LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,

@@ -33,30 +33,45 @@ class StepFrame {
 /// What two neighbouring frames of a walk say of the step between them. It does not depend on where
 /// the walk has led, so it can be gathered ahead of it.
 struct StepEvidence {
-    LatticeField by_picture;                  ///< prev_from_cur of the picture inside.
-    std::optional<LatticeField> by_outline;   ///< The outline's, where structure is faint;
-    double for_picture = 0, for_outline = 0;  ///< then registration_evidence() for either.
+    LatticeField by_picture;  ///< prev_from_cur of the picture inside, from the plate's raw motion.
+    /// The same from pictures that are freed of light, where that may explain more.
+    std::optional<LatticeField> by_freed;
+    double freed_lead = 0;  ///< Of by_freed before by_picture, standard errors.
+    std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
+    double lead = 0;  ///< then registration_lead() of the picture's motion before the outline's.
 };
 
-/// Gathers it from raw motion `prev_from_cur`. Where the structure inside stands out of its noise
-/// (structure_to_noise()), that is the picture's alone. Pure, but for the caches of the frames:
-/// outlines are compared, so one thread at a time may use a frame.
+/// Gathers it. Pictures that are freed of light (estimate_surface_flow()) are searched where the
+/// plate's raw motion `prev_from_cur` does not find the surface again almost everywhere; how far
+/// they lead is registration_lead(), and what their motion gains in places that are consistent there
+/// and back. The outline's motion is measured where structure is faint (structure_to_noise()).
+/// Pure, but for the caches of the frames: outlines are compared, so one thread at a time may use a
+/// frame.
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
-                                           const FlowField& prev_from_cur, int spacing_px);
+                                           const FlowField& prev_from_cur, FlowQuality quality,
+                                           int spacing_px);
 
-/// Whether a surface with little structure follows the picture inside it or its outline. One frame
-/// says little, so leads are averaged, and a choice changes only where the other one leads clearly.
-/// Not thread-safe.
+/// Which motion a surface follows: of the picture inside it, from the plate or freed of light, or of
+/// its outline. One frame says little, so leads are averaged, and a choice changes only where the
+/// other one leads clearly. Not thread-safe.
 class MotionChoice {
   public:
-    /// What the pictures of one step say (registration_evidence()) for the motion of the picture
-    /// inside and for the outline's. Without evidence for either the choice stays.
-    void note(double picture, double outline);
-    [[nodiscard]] bool by_outline() const { return by_outline_; }
+    /// How far the picture's motion leads before the outline's in one step (registration_lead()).
+    void note(double lead);
+    /// How far that of pictures freed of light leads before the plate's (StepEvidence::freed_lead).
+    void note_freed(double lead);
+    [[nodiscard]] bool by_outline() const { return !picture_.leads; }
+    [[nodiscard]] bool freed() const { return freed_.leads; }
 
   private:
-    std::optional<double> lead_;  // of the picture's motion, the mean of the last frames
-    bool by_outline_ = true;
+    struct Lead {
+        double mean = 0;  // of the last frames
+        int noted = 0;    // of them
+        bool leads = false;
+
+        void note(double lead, double above, double below);
+    };
+    Lead picture_, freed_;
 };
 
 struct StepMotion {
@@ -64,8 +79,8 @@ struct StepMotion {
     bool by_outline = false;  ///< There is nothing inside to register either.
 };
 
-/// The surface's motion: the picture's, or where both were measured the one that `choice` takes
-/// after what the pictures bear out.
+/// The surface's motion: of those that were measured the one that `choice` takes after what the
+/// pictures bear out.
 [[nodiscard]] StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice);
 
 /// The surface's motion by motion that is exact, followed closely.

@@ -272,7 +272,8 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
         s.last = std::move(cur);
         return s.ref_from_cur;
     }
-    StepEvidence evidence = gather_evidence(*s.last, *cur, prev_from_cur, s.options.spacing_px);
+    StepEvidence evidence =
+        gather_evidence(*s.last, *cur, prev_from_cur, s.options.quality, s.options.spacing_px);
     return advance({std::move(cur), std::move(evidence)});
 }
 

@@ -1,6 +1,6 @@
 """Renders the mini corpus in draft, and compares with its truth: usage: mini_test.py WEFT.
 
-The limits guard what is reached: each is the figure of 23 November 2026 with a margin for what rounding and another
+The limits guard what is reached: each is the figure of 23 or 24 November 2026 with a margin for what rounding and another
 compiler may change. Whoever makes a figure better moves its limit."""
 import json
 import sys
@@ -31,15 +31,15 @@ WEFT = None
 # propagated matte's IoU and leak on the worst frame.
 LIMITS = {
     "cloth-12, hanging": {
-        "tde_over_floor": 34.05, "drift_px": 8.62, "correlation": 0.972, "levels": 1.74, "iou": 0.989, "leak": 0.005},
+        "tde_over_floor": 9.92, "drift_px": 1.75, "correlation": 0.972, "levels": 1.74, "iou": 0.989, "leak": 0.005},
     "cloth-12, wall": {
         "tde_over_floor": 4.35, "drift_px": 0.41, "correlation": 0.979, "levels": 0.64, "iou": 0.986, "leak": 0.005},
     "leaves-13, ball": {
         "tde_over_floor": 44.08, "drift_px": 11.11, "correlation": 0.843, "levels": 14.91, "iou": 0.969, "leak": 0.0054},
     "leaves-13, floor": {
-        "tde_over_floor": 5.6, "drift_px": 1.64, "correlation": 0.717, "levels": 23.9, "iou": 0.983, "leak": 0.005},
+        "tde_over_floor": 5.31, "drift_px": 1.46, "correlation": 0.717, "levels": 23.9, "iou": 0.983, "leak": 0.005},
     "leaves-13, wall": {
-        "tde_over_floor": 6.54, "drift_px": 1.47, "correlation": 0.761, "levels": 14.8, "iou": 0.987, "leak": 0.005},
+        "tde_over_floor": 6.25, "drift_px": 1.28, "correlation": 0.761, "levels": 14.8, "iou": 0.987, "leak": 0.005},
     "room-11, floor": {
         "tde_over_floor": 1.36, "drift_px": 0.14, "correlation": 0.929, "levels": 5.61, "iou": 0.984, "leak": 0.005},
     "room-11, table": {

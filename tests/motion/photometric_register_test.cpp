@@ -40,16 +40,23 @@ Pair pair(const Map& map, bool shadow) {
     return out;
 }
 
-// The truth plus an error of about a pixel, as a chain leaves it.
-LatticeField roughly(const Map& map) {
+// The truth plus `error` by place.
+LatticeField field_of(const Map& map, const std::function<Vec2(Vec2)>& error) {
     LatticeField field(kFrame, 8);
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
             const Vec2 p = field.node_position(i, j);
-            field.set_node(i, j, map(p) - p + Vec2(0.7f, -0.6f + p.x / 400.0f));
+            field.set_node(i, j, map(p) - p + error(p));
         }
     }
     return field;
+}
+LatticeField exactly(const Map& map) {
+    return field_of(map, [](Vec2) { return Vec2(0); });
+}
+// With an error of about a pixel, as a chain leaves it.
+LatticeField roughly(const Map& map) {
+    return field_of(map, [](Vec2 p) { return Vec2(0.7f, -0.6f + p.x / 400.0f); });
 }
 
 float mean_error(const LatticeField& field, const Map& map, const Recti& area) {
@@ -128,6 +135,27 @@ TEST(Registration, WithoutARegionLeavesTheField) {
     EXPECT_EQ(register_lattice(nothing, cur, start, {}).nodes(), start.nodes());
     EXPECT_EQ(register_lattice(cur, nothing, start, {}).nodes(), start.nodes());
     EXPECT_EQ(registration_fit(nothing, cur, start, {}).share, 0);
+}
+
+TEST(RegistrationAgreement, IsOneWhereTheSurfaceIsFoundAgain) {
+    const Pair p = pair(plane, false);
+    const RegistrationPicture anchor = registration_picture(p.anchor, p.visible);
+    const RegistrationPicture frame = registration_picture(p.frame, p.visible);
+    const LatticeField truth = exactly(plane), rough = roughly(plane);
+    EXPECT_GT(registration_agreement(anchor, frame, truth), 0.97);
+    EXPECT_LT(registration_agreement(anchor, frame, rough), 0.9);
+    EXPECT_EQ(registration_agreement({}, {}, truth), 0);
+}
+
+TEST(RegistrationLead, IsPositiveForTheMapThatExplainsMore) {
+    const Pair p = pair(plane, true);
+    const RegistrationPicture anchor = registration_picture(p.anchor, p.visible);
+    const RegistrationPicture frame = registration_picture(p.frame, p.visible);
+    const LatticeField truth = exactly(plane), rough = roughly(plane);
+    EXPECT_GT(registration_lead(anchor, frame, truth, rough), 5);
+    EXPECT_LT(registration_lead(anchor, frame, rough, truth), -5);
+    EXPECT_EQ(registration_lead(anchor, frame, truth, truth), 0);
+    EXPECT_EQ(registration_lead({}, {}, truth, rough), 0);
 }
 
 }  // namespace

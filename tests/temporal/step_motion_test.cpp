@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "engine/core/rng.h"
@@ -73,42 +74,116 @@ TEST(StepMotion, GrainAloneIsNoEvidence) {
     MotionChoice choice;
     const StepMotion step =
         choose_motion(gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
-                                      flow_between(luma, last), 8),
+                                      flow_between(luma, last), FlowQuality::kFinal, 8),
                       choice);
     EXPECT_TRUE(step.by_outline);
 }
 
-TEST(MotionChoice, TakesThePictureWhereItIsClearlyBetterOrFoundAlmostEverywhere) {
-    const auto first = [](double picture, double outline) {
+// A faint pattern that moves to the right, under a shade that moves down and is far stronger.
+TEST(StepMotion, FollowsAFaintClothUnderAMovingShade) {
+    const auto shaded = [](int t) {
+        const WaveTexture texture(11);
+        Rng rng(100 + static_cast<std::uint64_t>(t));
+        return draw(kFrame, [&](Vec2 p) {
+            const float value = texture(p - Vec2(kStep_px * static_cast<float>(t), 0)) - 0.5f;
+            const float shade = 1 + 0.5f * std::sin((p.y - 4 * static_cast<float>(t)) / 14);
+            return (0.5f + 0.05f * value) * shade + 1.0f / 255 * normal(rng);
+        });
+    };
+    const Matte matte = window(), last = shaded(0), luma = shaded(1);
+    MotionChoice choice;
+    const StepMotion found =
+        choose_motion(gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                                      flow_between(luma, last), FlowQuality::kFinal, 8),
+                      choice);
+    ASSERT_TRUE(choice.freed());
+    for (const Vec2 p : std::array{Vec2(60, 60), Vec2(128, 88), Vec2(200, 120)}) {
+        const Vec2 moved = found.prev_from_cur.at(p);
+        EXPECT_NEAR(moved.x, -kStep_px, 0.3f);
+        EXPECT_NEAR(moved.y, 0, 0.3f);
+    }
+}
+
+TEST(StepMotion, WhatIsFoundAgainEverywhereIsNotSearchedTwice) {
+    constexpr float kContrast = 0.6f, kGrain = 0.5f;
+    const Matte matte = window();
+    const Matte last = frame_of(0, kContrast, kGrain), luma = frame_of(1, kContrast, kGrain);
+    const StepEvidence found =
+        gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, matte, matte),
+                        flow_between(luma, last), FlowQuality::kFinal, 8);
+    EXPECT_FALSE(found.by_freed);
+    EXPECT_EQ(found.freed_lead, 0);
+}
+
+TEST(MotionChoice, TakesThePictureWhereItClearlyLeads) {
+    const auto first = [](double lead) {
         MotionChoice choice;
-        choice.note(picture, outline);
+        choice.note(lead);
         return choice.by_outline() ? "outline" : "picture";
     };
-    EXPECT_STREQ(first(0.36, 0.17), "picture");
-    EXPECT_STREQ(first(0.83, 0.80), "picture");
-    EXPECT_STREQ(first(0.60, 0.58), "outline");
-    EXPECT_STREQ(first(0.0, 0.0), "outline");
+    EXPECT_STREQ(first(3.0), "picture");
+    EXPECT_STREQ(first(0.6), "outline");
+    EXPECT_STREQ(first(-3.0), "outline");
     EXPECT_TRUE(MotionChoice().by_outline());
 }
 
 TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
     MotionChoice choice;
-    choice.note(0.4, 0.1);
+    choice.note(4);
     ASSERT_FALSE(choice.by_outline());
-    choice.note(0.1, 0.4);
+    choice.note(-30);
     EXPECT_FALSE(choice.by_outline()) << "one frame is no reason";
     for (int k = 0; k < 4; ++k)
-        choice.note(0.1, 0.4);
+        choice.note(-4);
     EXPECT_TRUE(choice.by_outline());
 }
 
-TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
+TEST(MotionChoice, StructureThatFadesForAFrameKeepsThePicture) {
+    const LatticeField still(kFrame, 8);
     MotionChoice choice;
-    choice.note(0.36, 0.17);
-    ASSERT_FALSE(choice.by_outline());
-    for (int k = 0; k < 50; ++k)
-        choice.note(0.01, 0.0);
-    EXPECT_FALSE(choice.by_outline());
+    EXPECT_FALSE(choose_motion({still, {}, 0, {}, 0}, choice).by_outline);
+    EXPECT_FALSE(choose_motion({still, {}, 0, still, 0.5}, choice).by_outline);
+}
+
+// A striped ball under dappled shade leads by half a standard error, and is not the better for it.
+TEST(MotionChoice, TakesMotionFreedOfLightWhereItLeads) {
+    const auto after = [](std::initializer_list<double> leads) {
+        MotionChoice choice;
+        for (const double lead : leads)
+            choice.note_freed(lead);
+        return choice.freed();
+    };
+    EXPECT_FALSE(after({}));
+    EXPECT_FALSE(after({0.6, 0.4, 0.6, 1.8}));
+    EXPECT_TRUE(after({2}));
+    EXPECT_TRUE(after({-0.7, 2.8})) << "the first frames are averaged evenly";
+    EXPECT_TRUE(after({2, 2, 2, 2, -30})) << "one frame is no reason";
+    EXPECT_FALSE(after({2, -2, -2, -2}));
+}
+
+TEST(MotionChoice, FramesWithoutMotionFreedOfLightKeepThePlates) {
+    LatticeField plate(kFrame, 8), freed(kFrame, 8);
+    freed.set_node(0, 0, {1, 0});
+    const auto moved = [](const StepMotion& step) { return step.prev_from_cur.node(0, 0).x; };
+    MotionChoice choice;
+    EXPECT_EQ(moved(choose_motion({plate, freed, 3, {}, 0}, choice)), 1);
+    EXPECT_EQ(moved(choose_motion({plate, {}, 0, {}, 0}, choice)), 0);
+    EXPECT_EQ(moved(choose_motion({plate, freed, 0.5, {}, 0}, choice)), 1);
+}
+
+TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
+    for (const double lead : {4.0, -4.0}) {
+        MotionChoice choice;
+        choice.note(lead);
+        choice.note_freed(lead);
+        const bool outline = choice.by_outline(), freed = choice.freed();
+        for (int k = 0; k < 50; ++k) {
+            choice.note(0);
+            choice.note_freed(0);
+        }
+        EXPECT_EQ(choice.by_outline(), outline);
+        EXPECT_EQ(choice.freed(), freed);
+    }
 }
 
 }  // namespace
