@@ -69,8 +69,8 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
     if (registration_agreement(there, here, out.by_picture) >= kAlmostEverywhere) return;
     const FlowField flow =
         estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
-    out.freed_lead = kShareWeight * (known_share(flow, now.visible) -
-                                     known_share(prev_from_cur, now.visible));
+    out.freed_lead =
+        kShareWeight * (known_share(flow, now.visible) - known_share(prev_from_cur, now.visible));
     if (out.freed_lead < kHopeless) return;
     out.by_freed = by_picture(now, flow, spacing_px);
     out.freed_lead += registration_lead(there, here, *out.by_freed, out.by_picture);

@@ -36,24 +36,24 @@ struct StepEvidence {
     LatticeField by_picture;  ///< prev_from_cur of the picture inside, from the plate's raw motion.
     /// The same from pictures that are freed of light, where that may explain more.
     std::optional<LatticeField> by_freed;
-    double freed_lead = 0;  ///< Of by_freed before by_picture, standard errors.
+    double freed_lead = 0;                   ///< Of by_freed before by_picture, standard errors.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
     double lead = 0;  ///< then registration_lead() of the picture's motion before the outline's.
 };
 
 /// Gathers it. Pictures that are freed of light (estimate_surface_flow()) are searched where the
 /// plate's raw motion `prev_from_cur` does not find the surface again almost everywhere; how far
-/// they lead is registration_lead(), and what their motion gains in places that are consistent there
-/// and back. The outline's motion is measured where structure is faint (structure_to_noise()).
-/// Pure, but for the caches of the frames: outlines are compared, so one thread at a time may use a
-/// frame.
+/// they lead is registration_lead(), and what their motion gains in places that are consistent
+/// there and back. The outline's motion is measured where structure is faint
+/// (structure_to_noise()). Pure, but for the caches of the frames: outlines are compared, so one
+/// thread at a time may use a frame.
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
                                            const FlowField& prev_from_cur, FlowQuality quality,
                                            int spacing_px);
 
-/// Which motion a surface follows: of the picture inside it, from the plate or freed of light, or of
-/// its outline. One frame says little, so leads are averaged, and a choice changes only where the
-/// other one leads clearly. Not thread-safe.
+/// Which motion a surface follows: of the picture inside it, from the plate or freed of light, or
+/// of its outline. One frame says little, so leads are averaged, and a choice changes only where
+/// the other one leads clearly. Not thread-safe.
 class MotionChoice {
   public:
     /// How far the picture's motion leads before the outline's in one step (registration_lead()).
