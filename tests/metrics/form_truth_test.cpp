@@ -120,9 +120,9 @@ TEST(FormTruth, FlatCoordinatesInPerspectiveAreStretchedAsTheMapSays) {
                                        }));
     ASSERT_TRUE(form.stretch && form.area_percent);
     EXPECT_NEAR(form.stretch->median, 1 / std::cos(0.8), 0.05);
-    // |3/2 ln z| for rows spread evenly, less its median.
+    // A pixel's area is as z³: |3 ln z| for rows spread evenly, less its median.
     EXPECT_NEAR(form.area_percent->median,
-                100 * 1.5 * std::tan(0.8) * 0.25 * kPicture.height / kFocalPx, 2);
+                100 * 3 * std::tan(0.8) * 0.25 * kPicture.height / kFocalPx, 2);
 }
 
 TEST(FormTruth, AMirroredTextureIsFlippedEverywhere) {
@@ -156,12 +156,12 @@ TEST(FormTruth, BreathingCountsAsAreaAgainstTheBaseFrame) {
     }
     const FormMeasures form = truth.summary(1);
     ASSERT_TRUE(form.area_percent && form.stretch);
-    EXPECT_NEAR(form.area_percent->p90, 100 * std::log(1.1), 0.1);
+    EXPECT_NEAR(form.area_percent->p90, 100 * std::log(1.21), 0.1);
     EXPECT_NEAR(form.stretch->p90, 1, 0.002);
     ASSERT_EQ(form.frames.size(), 2u);
     ASSERT_TRUE(form.frames[0].area_shift_percent && form.frames[1].area_shift_percent);
     EXPECT_NEAR(*form.frames[0].area_shift_percent, 0, 0.01);
-    EXPECT_NEAR(*form.frames[1].area_shift_percent, 100 * std::log(1.1), 0.1);
+    EXPECT_NEAR(*form.frames[1].area_shift_percent, 100 * std::log(1.21), 0.1);
     // A frame that was not measured: the first that shows the surface is the base.
     EXPECT_EQ(truth.summary(7).base_frame, 1);
     EXPECT_EQ(truth.summary(2).base_frame, 2);
