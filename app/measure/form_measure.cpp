@@ -8,7 +8,9 @@
 #include "engine/core/setting.h"
 #include "engine/media/form_passes.h"
 #include "engine/media/image_files.h"
+#include "engine/media/raster.h"
 #include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/sweep.h"
 
 namespace weft {
 namespace {
