@@ -8,7 +8,6 @@
 #include "engine/core/setting.h"
 #include "engine/media/form_passes.h"
 #include "engine/media/image_files.h"
-#include "engine/media/raster.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/sweep.h"
 
@@ -44,19 +43,6 @@ class Files {
     SequencePattern pattern_;
     std::string text_;
 };
-
-Expected<ImageF2> read_st(const std::string& path, Size plate) {
-    WEFT_CHECK_OK(check_picture_exists(path));
-    WEFT_TRY(channels, exr_channels(path));
-    for (const char* name : {"st.R", "st.G"}) {
-        if (std::find(channels.begin(), channels.end(), name) == channels.end()) {
-            return fail(ErrorCode::kUnreadable,
-                        path + " cannot be measured: it has no layer st. Render with that layer" +
-                            by({{setting::kLayers, "st"}}) + ".");
-        }
-    }
-    return read_uv(path, "st", plate);
-}
 
 Expected<Size> plane_texels(const Region& region) {
     if (region.texture.plane.empty()) {
@@ -106,7 +92,7 @@ Expected<FormMeasures> measure_form(const Shot& shot, const Region& region, cons
     for (const int frame : frames) {
         if (cancel.cancelled()) return cancelled(cancel);
         WEFT_TRY(positions, read_positions(passes.on(frame), region.form.position_layer, size));
-        WEFT_TRY(coordinates, read_st(layers.on(frame), size));
+        WEFT_TRY(coordinates, read_st_layer(layers.on(frame), size));
         WEFT_TRY(matte, visible_matte(shot, frame));
         const FormTruth::Seen seen = truth.add(frame, positions, coordinates, matte);
         all.inside += seen.inside, all.placed += seen.placed, all.laid += seen.laid;
