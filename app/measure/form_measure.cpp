@@ -6,6 +6,7 @@
 #include "app/measure/measure_job.h"
 #include "app/shot/frame_plan.h"
 #include "engine/core/setting.h"
+#include "engine/form/view_camera.h"
 #include "engine/media/form_passes.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
@@ -55,6 +56,18 @@ Expected<Size> plane_texels(const Region& region) {
     return picture.rgb.size();
 }
 
+// Of the camera, if it is given or in the header of a frame's pass.
+Expected<std::optional<double>> focal_px(const Region& region, const std::string& pass,
+                                         Size plate) {
+    std::optional<double> fov_deg = region.form.fov_deg;
+    if (!fov_deg) {
+        WEFT_TRY(header, read_camera(pass));
+        fov_deg = header.fov_deg;
+    }
+    if (!fov_deg) return std::optional<double>();
+    return std::optional<double>(camera_with(*fov_deg, plate).focal_px);
+}
+
 // Nothing was measured: says which of the two is empty.
 Status check_seen(const FormTruth::Seen& seen, const std::string& positions,
                   const std::string& st) {
@@ -87,7 +100,9 @@ Expected<FormMeasures> measure_form(const Shot& shot, const Region& region, cons
     WEFT_TRY(passes, Files::open(region.form.position, "The position pass", frames));
     WEFT_TRY(layers, Files::open(st, "The layer st", frames));
     const Size size = shot.plate->size();
-    FormTruth truth(texels);
+    WEFT_CHECK_OK(check_picture_exists(passes.on(frames.front())));
+    WEFT_TRY(focal, focal_px(region, passes.on(frames.front()), size));
+    FormTruth truth(texels, focal);
     FormTruth::Seen all;
     for (const int frame : frames) {
         if (cancel.cancelled()) return cancelled(cancel);

@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr int kMarginPx = 4, kRingPx = 12, kSmoothPx = 2;
+constexpr int kMarginPx = 4, kRingPx = 12;
 constexpr double kLeastCosine = 0.15;
 constexpr double kFoldCosine = 0.9;  // between the normals on either side of a pixel
 constexpr double kMostUneven = 2;    // of two steps side by side: more is another sheet
@@ -81,9 +81,11 @@ class Pixels {
         return out;
     }
 
-    // Not finite where a neighbour has no place.
+    // Not finite where a neighbour has no place; one-sided at the picture's border.
     [[nodiscard]] Place normal(int x, int y) const {
-        Place n = cross(metres(x - 1, y, x + 1, y), metres(x, y - 1, x, y + 1));
+        const int left = std::max(x - 1, 0), right = std::min(x + 1, positions_.width() - 1);
+        const int top = std::max(y - 1, 0), bottom = std::min(y + 1, positions_.height() - 1);
+        Place n = cross(metres(left, y, right, y), metres(x, top, x, bottom));
         const double length = std::sqrt(dot(n, n));
         for (double& v : n)
             v /= length;
@@ -115,28 +117,46 @@ class Pixels {
 struct Metric {
     double xx = 0, xy = 0, yy = 0;
     [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
-    // The cosine at which a camera far away sees a surface of this metric: how much shorter a pixel
-    // is one way than the other.
-    [[nodiscard]] double facing() const {
-        const double half = 0.5 * (xx + yy);
-        const double root = std::sqrt(std::max(half * half - determinant(), 0.0));
-        return std::sqrt(std::max(half - root, 0.0) / (half + root));
-    }
 };
+
+struct Eigenvalues {
+    double larger = 0, smaller = 0;
+};
+
+// Of below⁻¹ above.
+Eigenvalues eigenvalues(const Metric& above, const Metric& below) {
+    const double area = below.determinant();
+    const double half =
+        (below.yy * above.xx - 2 * below.xy * above.xy + below.xx * above.yy) / (2 * area);
+    const double product = std::max(above.determinant() / area, 0.0);
+    const double larger = half + std::sqrt(std::max(half * half - product, 0.0));
+    return {larger, product / std::max(larger, kTiny)};
+}
+
+// The metric of a pixel's directions, up to a factor: (a, b, 1) is the ray.
+Metric ray_metric(double a, double b) {
+    const double square = 1 + a * a + b * b;
+    return {1 - a * a / square, -a * b / square, 1 - b * b / square};
+}
+
+// With P = r e along the ray e of unit length, the metric is r² that of e, plus ∇r ∇rᵀ; so of the
+// one by the other the eigenvalues are r² and r² over the cosine's square.
+double cosine(const Metric& surface, int x, int y, Size picture, std::optional<double> focal_px) {
+    Metric rays{1, 0, 1};  // from far away
+    if (focal_px) {
+        rays = ray_metric((x + 0.5 - 0.5 * picture.width) / *focal_px,
+                          (y + 0.5 - 0.5 * picture.height) / *focal_px);
+    }
+    const auto [larger, smaller] = eigenvalues(surface, rays);
+    return std::sqrt(smaller / larger);
+}
 
 struct Laid {
     double log_stretch = 0, log_area = 0;
 };
 
-// From the eigenvalues of surface⁻¹ texture.
 Laid laid(const Metric& texture, const Metric& surface) {
-    const double area = surface.determinant();
-    const double half =
-        (surface.yy * texture.xx - 2 * surface.xy * texture.xy + surface.xx * texture.yy) /
-        (2 * area);
-    const double product = std::max(texture.determinant() / area, 0.0);
-    const double larger = half + std::sqrt(std::max(half * half - product, 0.0));
-    const double smaller = product / std::max(larger, kTiny);
+    const auto [larger, smaller] = eigenvalues(texture, surface);
     constexpr double kMostStretched = 1e-12;
     const double least = std::max(smaller, kMostStretched * std::max(larger, kTiny));
     return {0.5 * std::log(std::max(larger, least) / least),
@@ -175,7 +195,8 @@ double covered(ViewU8x1 matte) {
 
 }  // namespace
 
-FormTruth::FormTruth(Size plane) : plane_(plane) {}
+FormTruth::FormTruth(Size plane, std::optional<double> focal_px)
+    : plane_(plane), focal_px_(focal_px) {}
 
 FormTruth::Seen FormTruth::add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 matte) {
     const Image<int, 1> depth = squared_depth(matte, kRingPx);
@@ -183,8 +204,8 @@ FormTruth::Seen FormTruth::add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 
     Seen seen;
     std::vector<double> stretches, areas;
     std::int64_t flipped = 0;
-    for (int y = kSmoothPx; y < matte.height() - kSmoothPx; ++y) {
-        for (int x = kSmoothPx; x < matte.width() - kSmoothPx; ++x) {
+    for (int y = 1; y < matte.height() - 1; ++y) {
+        for (int x = 1; x < matte.width() - 1; ++x) {
             if (depth.at(x, y) <= kMarginPx * kMarginPx) continue;
             ++seen.inside;
             const Place px = pixels.metres(x - 1, y, x + 1, y),
@@ -198,8 +219,8 @@ FormTruth::Seen FormTruth::add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 
                                  ty[0] * ty[0] + ty[1] * ty[1]};
             if (!std::isfinite(texture.xx + texture.yy)) continue;
             seen.laid += texture.xx + texture.yy > 0 ? 1 : 0;
-            if (surface.facing() < kLeastCosine || !pixels.smooth(x, y, 1, 0) ||
-                !pixels.smooth(x, y, 0, 1))
+            if (cosine(surface, x, y, matte.size(), focal_px_) < kLeastCosine ||
+                !pixels.smooth(x, y, 1, 0) || !pixels.smooth(x, y, 0, 1))
                 continue;
             const Laid here = laid(texture, surface);
             stretches.push_back(here.log_stretch), areas.push_back(here.log_area);

@@ -43,8 +43,9 @@ struct FormMeasures {
 class FormTruth {
   public:
     /// `plane`: texels of the picture that the coordinates 0–1 span; both positive. Only its
-    /// proportions count.
-    explicit FormTruth(Size plane);
+    /// proportions count. `focal_px`: of the camera, whose axis meets the picture's middle;
+    /// nothing: the cosine is that of a camera far away, whose pixels are as high as they are wide.
+    explicit FormTruth(Size plane, std::optional<double> focal_px = std::nullopt);
 
     /// What a frame showed, in pixels at least 4 px inside the matte.
     struct Seen {
@@ -69,6 +70,7 @@ class FormTruth {
     [[nodiscard]] const Frame* base_frame(int reference) const;
 
     Size plane_;
+    std::optional<double> focal_px_;
     std::vector<Frame> frames_;
     ValueCounts stretch_, log_area_, rim_stretch_, rim_log_area_;  // natural logarithms
     std::int64_t flipped_ = 0, torn_ = 0;
