@@ -126,6 +126,7 @@ struct MeasureCommandOptions {
     std::string motion_estimator = "deepflow";
     std::string truth;  ///< Ground truth: the scene rendered with the new material; empty: none.
     double truth_blur_px = 0;
+    std::string st;        ///< EXRs with the layer st; empty: none.
     std::string pictures;  ///< Folder for images of the light; empty: none.
     std::string cache;
     int threads = 0;

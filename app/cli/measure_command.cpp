@@ -80,6 +80,27 @@ std::string to_text(const LightMeasures& light) {
            line("true deviation     ", light.true_deviation_levels) + edges_text(light.edges);
 }
 
+std::string line(const char* name, const std::optional<MedianAnd90>& v, const char* unit) {
+    if (!v) return std::string(name) + "  not measured\n";
+    char text[160];
+    std::snprintf(text, sizeof text, "%s  median %.3f%s, 90 %% below %.3f%s\n", name, v->median,
+                  unit, v->p90, unit);
+    return text;
+}
+
+std::string to_text(const FormMeasures& form) {
+    const std::string begin = "The texture on the surface of the position pass:\n";
+    if (!form.base_frame) return begin + "too little of the surface to measure\n";
+    char shares[160];
+    std::snprintf(shares, sizeof shares,
+                  "flipped              %.3f %% of the pixels, torn %.3f %%\n",
+                  100 * form.flipped_share.value_or(0), 100 * form.torn_share.value_or(0));
+    return begin + line("stretch            ", form.stretch, "") +
+           line("area distortion    ", form.area_percent, " %") +
+           line("stretch at the rim ", form.rim_stretch, "") +
+           line("area at the rim    ", form.rim_area_percent, " %") + shares;
+}
+
 }  // namespace
 
 CommandResult measure_command(const MeasureCommandOptions& options) {
@@ -91,6 +112,7 @@ CommandResult measure_command(const MeasureCommandOptions& options) {
                                                             : MeasuringEstimator::kDeepFlow;
     job.truth = options.truth;
     job.truth_blur_px = static_cast<float>(options.truth_blur_px);
+    job.st = options.st;
     job.pictures = options.pictures;
     job.overwrite = options.write.overwrite;
     job.limits.root = options.write.root;
@@ -107,6 +129,10 @@ CommandResult measure_command(const MeasureCommandOptions& options) {
     if (outcome.light) {
         answer.json["light"] = light_json(*outcome.light);
         answer.text += to_text(*outcome.light);
+    }
+    if (outcome.form) {
+        answer.json["form"] = form_measures_json(*outcome.form);
+        answer.text += to_text(*outcome.form);
     }
     answer.json["warnings"] = outcome.warnings;
     return answer;

@@ -10,8 +10,8 @@ namespace weft {
 namespace {
 
 void add_measure(CLI::App& app, CommandResult& result) {
-    CLI::App* command =
-        app.add_subcommand("measure", "Measure flicker, sharpness, drift and light of a result");
+    CLI::App* command = app.add_subcommand(
+        "measure", "Measure flicker, sharpness, drift, light and form of a result");
     const auto options = std::make_shared<MeasureCommandOptions>();
     command->add_option("--result", options->result, "The rendered frames ('out/####.png')")
         ->required()
@@ -35,6 +35,11 @@ void add_measure(CLI::App& app, CommandResult& result) {
         ->check(number(0.0, 100.0))
         ->type_name("PX");
     command
+        ->add_option("--st", options->st,
+                     "EXRs of the render with the layer st: how the texture lies on the surface of "
+                     "--position-pass")
+        ->type_name("PATH");
+    command
         ->add_option("--light-pictures", options->pictures,
                      "Folder for images of light and reflectance, before and after")
         ->type_name("PATH");
@@ -44,6 +49,8 @@ void add_measure(CLI::App& app, CommandResult& result) {
     add_threads_flag(*command, options->threads);
     command->footer(
         "With --albedo or --lighting the light that Weft estimates is compared with the true one.\n"
+        "With --position-pass, --st and --plane the texture's stretch on the true surface is "
+        "measured.\n"
         "With --motion (true motion) and the texture and placement of the render, the floor of the "
         "TDE and the\n"
         "sharpness kept are measured too. Light is part of the picture: render with --light none "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/measure/form_measure.h"
 #include "app/measure/truth_measure.h"
 #include "app/shot/frame_plan.h"
 #include "engine/composite/focus.h"
@@ -25,6 +26,11 @@ class Measurer {
 
     Expected<MeasureJobResult> run() {
         WEFT_CHECK_OK(open());
+        if (!options_.st.empty()) {
+            WEFT_TRY(form, measure_form(*shot_, *options_.project.regions.front(), options_.st,
+                                        frames_, cancel_));
+            out_.form = std::move(form);
+        }
         WEFT_TRY(measure_options, make_options());
         std::vector<SequenceMeasure> measures;
         for (std::size_t k = 0; k < readers_.size(); ++k) {
@@ -130,6 +136,7 @@ class Measurer {
         WriteLimits limits = options_.limits;
         limits.reads.insert(limits.reads.end(), options_.results.begin(), options_.results.end());
         if (!options_.truth.empty()) limits.reads.push_back(options_.truth);
+        if (!options_.st.empty()) limits.reads.push_back(options_.st);
         WEFT_TRY(fence, make_fence(options_.project, limits));
         rule.fence = fence;
         rule.existing = existing_by(options_.overwrite);

@@ -11,6 +11,7 @@
 #include "app/measure/light_measure.h"
 #include "app/shot/shot.h"
 #include "engine/core/cancel.h"
+#include "engine/metrics/form_truth.h"
 #include "engine/metrics/light_truth.h"
 #include "engine/metrics/sequence_measure.h"
 
@@ -30,6 +31,9 @@ struct MeasureJobOptions {
     std::string truth;
     /// Gaussian blur before comparing, because the truth's texture is placed differently.
     float truth_blur_px = 0;
+    /// EXRs with the layer `st` of the first result, to compare with the region's position pass;
+    /// empty: none.
+    std::string st;
     /// Folder for images of the light of the plate and of the first result; empty: none.
     std::string pictures;
     bool overwrite = false;  ///< Replace existing images.
@@ -62,6 +66,7 @@ struct MeasureJobResult {
     std::vector<MeasuredResult> results;  ///< In the requested order.
     std::optional<TruthMeasures> truth;   ///< For the first result.
     std::optional<LightMeasures> light;   ///< Set if a pass gives the true light.
+    std::optional<FormMeasures> form;     ///< Set if the layer `st` is given.
     std::vector<std::string> warnings;
 };
 

@@ -63,7 +63,31 @@ Json edges_json(const ShadowEdges::Summary& e) {
             {"missing_share", e.missing_share}};
 }
 
+Json two(const std::optional<MedianAnd90>& v) {
+    return v ? Json{{"median", v->median}, {"p90", v->p90}} : Json();
+}
+
 }  // namespace
+
+Json form_measures_json(const FormMeasures& form) {
+    Json frames = Json::array();
+    for (const FormMeasures::Frame& f : form.frames) {
+        frames.push_back({{"frame", f.frame},
+                          {"pixels", f.pixels},
+                          {"stretch", two(f.stretch)},
+                          {"area_shift_percent", number(f.area_shift_percent)},
+                          {"flipped_share", number(f.flipped_share)}});
+    }
+    return {{"base_frame", form.base_frame ? Json(*form.base_frame) : Json()},
+            {"pixels", form.pixels},
+            {"stretch", two(form.stretch)},
+            {"area_percent", two(form.area_percent)},
+            {"rim_stretch", two(form.rim_stretch)},
+            {"rim_area_percent", two(form.rim_area_percent)},
+            {"flipped_share", number(form.flipped_share)},
+            {"torn_share", number(form.torn_share)},
+            {"per_frame", std::move(frames)}};
+}
 
 Json truth_json(const TruthMeasures& t) {
     return {{"inside", spread(t.inside)},

@@ -123,6 +123,29 @@ Expected<ImageF3> read_positions(const std::string& path, const std::string& lay
     return out;
 }
 
+Expected<ImageF2> read_st_layer(const std::string& path, Size expected) {
+    WEFT_CHECK_OK(check_picture_exists(path));
+    WEFT_TRY(all, exr_channels(path));
+    ImageF2 out;
+    for (std::size_t c = 0; c < 2; ++c) {
+        const std::string name = c == 0 ? "st.R" : "st.G";
+        if (std::find(all.begin(), all.end(), name) == all.end()) {
+            return tl::unexpected(unreadable(path, "it has no layer st",
+                                             "Render with that layer" +
+                                                 by({{setting::kLayers, "st"}}) +
+                                                 "; its channels are: " + list_of(all) + "."));
+        }
+        Size size;
+        WEFT_TRY(values, read_pass_channel(path, name, "st", size));
+        WEFT_CHECK_OK(check_plate_size(path, "its layer st", size, expected,
+                                       "give the layers of a render of this plate"));
+        if (out.empty()) out = ImageF2(size);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            out.data()[2 * i + c] = values[i];
+    }
+    return out;
+}
+
 Expected<ImageF3> read_normals(const std::string& path, const std::string& layer, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
     if (is_exr(path)) return read_vectors(path, kNormals, layer, expected);

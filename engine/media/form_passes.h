@@ -1,5 +1,6 @@
 #pragma once
-// Passes that show the shape of what a renderer saw: places, normals, depth, and the camera.
+// Passes that show the shape of what a renderer saw: places, normals, depth, and the camera; and
+// where a render's texture lies on it.
 
 #include <array>
 #include <optional>
@@ -26,6 +27,10 @@ namespace weft {
 /// A depth pass of half or float: "Z", "depth.Z" or any "….Depth.Z", or the first channel of a file
 /// of its own. Errors: as read_motion(); Unreadable for codes of 8 or 16 bits, which have no scale.
 [[nodiscard]] Expected<ImageF1> read_depth(const std::string& path, Size expected);
+
+/// The layer `st` that a render writes (docs/FORMATS.md, "Layers"): texture coordinates, 0–1,
+/// origin at the bottom left. Errors: as read_motion().
+[[nodiscard]] Expected<ImageF2> read_st_layer(const std::string& path, Size expected);
 
 /// What the header of a rendered EXR says about its camera.
 struct HeaderCamera {

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -188,6 +189,84 @@ TEST_F(Tools, MeasureComparesLightWithAPassAndTheResultWithATruth) {
         run({"measure", "--result", "out/####.exr", "--plate", "frames/####.exr", "--matte",
              "masks/####.png", "--truth", "none/####.exr"});
     EXPECT_EQ(missing.exit, 4);
+}
+
+class MeasureForm : public CliTest {
+  protected:
+    static constexpr double kTilt = 0.8;
+
+    void SetUp() override {
+        CliTest::SetUp();
+        make_shot(3);
+        fs::create_directory(folder_ / "p");
+        for (const char* name : {"p/0001.exr", "p/0002.exr", "p/0003.exr"})
+            put_places(name, Card::kPlate);
+    }
+
+    // A plane that turns away downwards, seen from far: flat coordinates are stretched by 1 / cos.
+    void put_places(const std::string& name, Size size, float unknown = 0) const {
+        ImageF3 places(size);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                places.at(x, y, 0) = 0.01f * static_cast<float>(x) + unknown;
+                places.at(x, y, 1) = 0.01f * static_cast<float>(y);
+                places.at(x, y, 2) = static_cast<float>(0.01 * y * std::tan(kTilt));
+            }
+        }
+        put_picture(name, places, PixelDepth::kFloat);
+    }
+    void render() const {
+        expect_success(run_replace({"--form", "flat", "--layers", "st", "--layers-output",
+                                    "layers/####.exr", "--light", "none"}));
+    }
+    Outcome measure(const Words& more = {}) const {
+        return run(
+            with_options({"measure", "--result", "out/####.png", "--plate", "frames/####.png",
+                          "--matte", "masks/####.png", "--st", "layers/####.exr", "--position-pass",
+                          "p/####.exr", "--plane", "tile.png"},
+                         more));
+    }
+};
+
+TEST_F(MeasureForm, AFlatTextureOnATiltedPlaneIsStretchedByItsCosine) {
+    render();
+    const Outcome outcome = measure({"--json"});
+    expect_success(outcome);
+    const Json form = Json::parse(outcome.out)["form"];
+    EXPECT_NEAR(form["stretch"]["median"].get<double>(), 1 / std::cos(kTilt), 0.02);
+    EXPECT_NEAR(form["rim_stretch"]["median"].get<double>(), 1 / std::cos(kTilt), 0.02);
+    EXPECT_LT(form["area_percent"]["median"].get<double>(), 3);
+    EXPECT_EQ(form["flipped_share"], 0.0);
+    EXPECT_EQ(form["torn_share"], 0.0);
+    EXPECT_EQ(form["base_frame"], 1);
+    EXPECT_EQ(form["pixels"], 3 * 72 * 52);
+    ASSERT_EQ(form["per_frame"].size(), 3u);
+    EXPECT_EQ(form["per_frame"][2]["frame"], 3);
+    EXPECT_EQ(form["per_frame"][2]["pixels"], 72 * 52);
+    EXPECT_THAT(measure().out, HasSubstr("stretch              median 1.4"));
+    EXPECT_FALSE(Json::parse(measure({"--json", "--st", ""}).out).contains("form"));
+}
+
+TEST_F(MeasureForm, BadInputIsAnErrorThatSaysWhatToDo) {
+    render();
+    expect_failure(measure({"--position-pass", ""}), 2, {"--position-pass"});
+    expect_failure(measure({"--plane", ""}), 2, {"--plane", "--export-plane"});
+    expect_failure(measure({"--st", "p/####.exr"}), 3,
+                   {"p/0001.exr", "no layer st", "--layers st", "R, G, B"});
+    expect_failure(measure({"--st", "none/####.exr"}), 4, {"none/####.exr"});
+    expect_failure(measure({"--position-layer", "nowhere"}), 3,
+                   {"p/0001.exr", "no position pass", "--position-layer"});
+    put_places("small.exr", {80, 60});
+    expect_failure(measure({"--position-pass", "small.exr"}), 3, {"small.exr", "80x60", "160x120"});
+    put_places("unknown.exr", Card::kPlate, 1e12f);
+    expect_failure(measure({"--position-pass", "unknown.exr"}), 3,
+                   {"unknown.exr", "no places inside the matte"});
+    fs::remove(folder_ / "layers/0002.exr");
+    expect_failure(measure(), 4, {"The layer st", "layers/####.exr", "frame 2", "--frames"});
+    expect_success(measure({"--frames", "1,3"}));
+    fs::remove(folder_ / "p/0003.exr");
+    expect_failure(measure({"--frames", "1,3"}), 4,
+                   {"The position pass", "p/####.exr", "frame 3", "--frames"});
 }
 
 TEST_F(Tools, DiffReportsWhereSequencesDiffer) {
