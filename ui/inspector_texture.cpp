@@ -12,13 +12,6 @@ namespace {
 // Above this magnification single texels are visible.
 constexpr double kMostMagnified = 1.5;
 
-bool may_have_form(const Region& region) {
-    const FormParams& form = region.form;
-    return form.source == FormSource::kDepth || form.source == FormSource::kAuto ||
-           form.source == FormSource::kShape ||
-           (form.source == FormSource::kPass && (!form.position.empty() || !form.normal.empty()));
-}
-
 void magnified_warning(Ctx& c, const Region& region) {
     double scale = region.placement.scale;
     const KeyedNumbers& keys = region.placement.scale_keys;
@@ -143,17 +136,18 @@ void texture_inspector(Ctx& c) {
         magnified_warning(c, *region);
         keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
         keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
-        if (may_have_form(*region)) region_parameter(c, *region, "form.amount");
         if (button(c, "Transform",
                    {.icon = icons::kMove,
-                    .tip = "Drag on the picture to move the texture, with Shift to rotate it, with "
-                           "Ctrl to scale it",
+                    .tip = "Drag inside the box to move the texture, its corners to scale it, "
+                           "outside of it to rotate it. Both turn about the pivot. Arrow keys "
+                           "nudge",
                     .command = "tool.place",
                     .width = -1}))
             c.state.tool = Tool::kPlace;
         bricks_controls(c);
         section_gap(c);
     }
+    form_section(c, *region);
     provenance_section(c, *region);
     if (section(c, "Perspective", false)) {
         const PanelName panel(c, "Perspective");
@@ -167,10 +161,17 @@ void texture_inspector(Ctx& c) {
                                    "surface in perspective",
                             .width = -1})) {
             const double w = plate.width, h = plate.height;
-            c.edit(SetRegionParameter{{region->id, {}},
-                                      "placement.corners_px",
-                                      std::vector<double>{0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h,
-                                                          0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h}});
+            std::vector<double> corners{0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h,
+                                        0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h};
+            if (const auto box = corners_around_region(c)) {
+                corners.clear();
+                for (const Vec2 corner : *box) {
+                    corners.push_back(static_cast<double>(corner.x));
+                    corners.push_back(static_cast<double>(corner.y));
+                }
+            }
+            c.edit(
+                SetRegionParameter{{region->id, {}}, "placement.corners_px", std::move(corners)});
             c.state.tool = Tool::kPlace;
         }
         if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
