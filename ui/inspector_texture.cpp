@@ -75,6 +75,19 @@ void bricks_controls(Ctx& c) {
                            static_cast<double>(c.state.measured_count)});
 }
 
+// Around the region, else in the middle of the plate.
+std::vector<double> first_corners(Ctx& c) {
+    const double w = c.view.plate.size.width, h = c.view.plate.size.height;
+    const auto box = corners_around_region(c);
+    if (!box) return {0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h, 0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h};
+    std::vector<double> out;
+    for (const Vec2 corner : *box) {
+        out.push_back(static_cast<double>(corner.x));
+        out.push_back(static_cast<double>(corner.y));
+    }
+    return out;
+}
+
 }  // namespace
 
 void texture_inspector(Ctx& c) {
@@ -153,25 +166,13 @@ void texture_inspector(Ctx& c) {
         const PanelName panel(c, "Perspective");
         region_parameter(c, *region, "placement.corners_px", "Corners");
         const bool set = region->placement.corners_px.has_value();
-        const Size plate = c.view.plate.size;
         if (!set && button(c, "Add corner pin",
                            {.icon = icons::kCrosshairs,
-                            .enabled = !plate.empty(),
+                            .enabled = !c.view.plate.size.empty(),
                             .tip = "Adds four corners to drag onto a flat "
                                    "surface in perspective",
                             .width = -1})) {
-            const double w = plate.width, h = plate.height;
-            std::vector<double> corners{0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h,
-                                        0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h};
-            if (const auto box = corners_around_region(c)) {
-                corners.clear();
-                for (const Vec2 corner : *box) {
-                    corners.push_back(static_cast<double>(corner.x));
-                    corners.push_back(static_cast<double>(corner.y));
-                }
-            }
-            c.edit(
-                SetRegionParameter{{region->id, {}}, "placement.corners_px", std::move(corners)});
+            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", first_corners(c)});
             c.state.tool = Tool::kPlace;
         }
         if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))

@@ -51,7 +51,7 @@ void provenance_section(Ctx& c, const Region& region);
 void no_region(Ctx& c);
 
 /// Corners around the selected region on this frame, for a corner pin; none without a matte.
-[[nodiscard]] std::optional<std::array<Vec2, 4>> corners_around_region(const Ctx& c);
+[[nodiscard]] std::optional<std::array<Vec2, 4>> corners_around_region(Ctx& c);
 /// Moves the texture by the arrow keys while the transform tool is in hand. Returns true if one was
 /// pressed.
 bool nudge_texture(Ctx& c);

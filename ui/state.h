@@ -183,6 +183,8 @@ struct TransformState {
     std::optional<Quad<float>> box;  ///< Around the matte, along the texture's axes.
     std::uint64_t box_version = 0;   ///< RegionMatteView::version that it was made from,
     double box_angle = 0;            ///< with this rotation.
+    /// Where the placement acts, as last known: a picture in progress says nothing.
+    std::shared_ptr<const SurfacePlaces> places;
 };
 
 struct UiState {

@@ -23,8 +23,8 @@ const RegionMatteView* matte_view(const Ctx& c) {
 
 // Where the placement acts for a place of this frame; the place itself while that is not known.
 Vec2 ground(const Ctx& c, Vec2 plate) {
-    const auto found = c.view.stages.places.find(c.view.selected);
-    return found == c.view.stages.places.end() ? plate : found->second->at(plate);
+    const auto& places = c.state.transform.places;
+    return places ? places->at(plate) : plate;
 }
 
 // Handles of a corner pin.
@@ -55,8 +55,9 @@ bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovere
     return taken;
 }
 
-// The box of the matte on this frame, made again when it changes, but not during a drag.
-void follow_matte(Ctx& c, const Region& region) {
+// The surface and the box of the matte on this frame, renewed when they change, but not during a
+// drag.
+void follow_region(Ctx& c, const Region& region) {
     TransformState& s = c.state.transform;
     if (s.region != region.id || s.frame != c.view.frame) {
         s = {};
@@ -64,6 +65,8 @@ void follow_matte(Ctx& c, const Region& region) {
         s.frame = c.view.frame;
     }
     if (s.drag != TransformState::Drag::kNone) return;
+    const auto known = c.view.stages.places.find(region.id);
+    if (known != c.view.stages.places.end()) s.places = known->second;
     const RegionMatteView* matte = matte_view(c);
     if (!matte) {
         s.box.reset();
@@ -223,9 +226,11 @@ void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at) {
     }
 }
 
-std::optional<std::array<Vec2, 4>> corners_around_region(const Ctx& c) {
+std::optional<std::array<Vec2, 4>> corners_around_region(Ctx& c) {
+    const Region* region = c.view.selected_region();
     const RegionMatteView* matte = matte_view(c);
-    if (!matte) return std::nullopt;
+    if (!region || !matte) return std::nullopt;
+    follow_region(c, *region);
     auto box = box_around(matte->pixels, 0);
     if (!box) return std::nullopt;
     for (Vec2& corner : *box)
@@ -246,6 +251,7 @@ bool nudge_texture(Ctx& c) {
     if (pressed == *parse_chord("Up")) by.y = -step;
     if (pressed == *parse_chord("Down")) by.y = step;
     if (by == Vec2{0, 0}) return false;
+    follow_region(c, *region);
     const Vec2 at = pivot_of(c), d = ground(c, at + by) - ground(c, at);
     PlacementNumbers to = placement_on(region->placement, c.view.frame);
     to.x += static_cast<double>(d.x);
@@ -258,7 +264,7 @@ void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const Region* region = c.view.selected_region();
     if (!region) return;
     TransformState& s = c.state.transform;
-    follow_matte(c, *region);
+    follow_region(c, *region);
     const bool pinned = region->placement.corners_px.has_value();
     if (s.drag == TransformState::Drag::kNone && place_corners(c, map, *region, hovered)) return;
     const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);
