@@ -21,6 +21,9 @@ void finding(Ctx& c, const Region& region) {
         wrapped(c, "Flat", c.theme.quiet);
     else if (found != c.view.preview.forms.end())
         wrapped(c, found->second, c.theme.quiet);
+    else if (region.form.source == FormSource::kPass && region.form.position.empty() &&
+             region.form.normal.empty())
+        wrapped(c, "No position or normal pass: flat", c.theme.quiet);
     else if (region.placement.corners_px)
         wrapped(c, "The corner pin gives the perspective", c.theme.quiet);
     else
