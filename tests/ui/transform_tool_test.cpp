@@ -11,6 +11,7 @@ using ::testing::SizeIs;
 class TransformTool : public CanvasTest {
   protected:
     void SetUp() override {
+        size = {1600, 1400};  // the whole inspector
         CanvasTest::SetUp();
         matte_ = Matte(320, 180);
         for (int y = 40; y < 100; ++y)
