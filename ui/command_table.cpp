@@ -161,6 +161,10 @@ void add_view_commands(std::vector<Command>& out) {
     add_overlay("view.trust", "Tracking confidence", icons::kAlert, "Shift+T",
                 Overlay::kConfidence);
     add_overlay("view.pieces", "Source map", icons::kCrosshairs, "Shift+X", Overlay::kSourceMap);
+    add_overlay("view.checker", "Checker on the surface", icons::kForm, "Shift+V",
+                Overlay::kChecker);
+    add_overlay("view.circles", "Circles on the surface", icons::kCircleOutline, "Shift+H",
+                Overlay::kCircles);
     add_display_commands(out);
     out.push_back(command(
         "view.panels", "View", "Hide all panels", "", "Tab",
@@ -264,6 +268,7 @@ void add_tool_commands(std::vector<Command>& out) {
                 c.state.tool = tool;
                 c.state.brush.outline.clear();
                 c.state.shape_drawing = false;
+                c.state.form.from.reset();
                 c.state.handle_held.clear();
             },
             {}, [tool](const Ctx& c) { return c.state.tool == tool; }));
@@ -282,6 +287,7 @@ void add_tool_commands(std::vector<Command>& out) {
     add("tool.crypto", "Cryptomatte picker", icons::kPick, "Shift+C", Tool::kCrypto);
     add("tool.flood", "Select by colour", icons::kFlood, "U", Tool::kFlood);
     add("tool.place", "Transform texture", icons::kMove, "R", Tool::kPlace);
+    add("tool.form", "Draw form", icons::kForm, "Shift+D", Tool::kForm);
     add("tool.measure", "Scale by reference line", icons::kRuler, "Shift+M", Tool::kMeasure);
     const auto add_size = [&](const char* id, const char* name, const char* key, float factor) {
         out.push_back(command(id, "Tool", name, "", key, [factor](Ctx& c) {

@@ -34,13 +34,14 @@ void begin_document(UiState& state, std::uint64_t document) {
     state.drawer = {};
     state.adding = {};
     state.output = {};
-    state.placing = false;
+    state.transform = {};
     state.handle_held.clear();
     state.pins.clear();
     state.lamp = 0;
     state.shape = {};
     state.shape_drawing = false;
     state.scribbles = {};
+    state.form = {};
     state.rectangle_from.reset();
     state.measured.reset();
     state.measured_count = fresh.measured_count;

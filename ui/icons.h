@@ -8,6 +8,7 @@ inline constexpr const char* kEraser = "\xef\x87\xbe";          // eraser
 inline constexpr const char* kLasso = "\xef\x95\xa2";           // vector-selection
 inline constexpr const char* kCurve = "\xef\x95\x99";           // vector-curve
 inline constexpr const char* kShape = "\xef\x95\xa0";           // vector-polygon
+inline constexpr const char* kForm = "\xef\x86\xa7";            // cube-outline
 inline constexpr const char* kFlood = "\xef\x89\xa6";           // format-color-fill
 inline constexpr const char* kPan = "\xef\x86\xb6";             // cursor-move
 inline constexpr const char* kPick = "\xef\x88\x8a";            // eyedropper

@@ -12,13 +12,6 @@ namespace {
 // Above this magnification single texels are visible.
 constexpr double kMostMagnified = 1.5;
 
-bool may_have_form(const Region& region) {
-    const FormParams& form = region.form;
-    return form.source == FormSource::kDepth || form.source == FormSource::kAuto ||
-           form.source == FormSource::kShape ||
-           (form.source == FormSource::kPass && (!form.position.empty() || !form.normal.empty()));
-}
-
 void magnified_warning(Ctx& c, const Region& region) {
     double scale = region.placement.scale;
     const KeyedNumbers& keys = region.placement.scale_keys;
@@ -82,6 +75,19 @@ void bricks_controls(Ctx& c) {
                            static_cast<double>(c.state.measured_count)});
 }
 
+// Around the region, else in the middle of the plate.
+std::vector<double> first_corners(Ctx& c) {
+    const double w = c.view.plate.size.width, h = c.view.plate.size.height;
+    const auto box = corners_around_region(c);
+    if (!box) return {0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h, 0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h};
+    std::vector<double> out;
+    for (const Vec2 corner : *box) {
+        out.push_back(static_cast<double>(corner.x));
+        out.push_back(static_cast<double>(corner.y));
+    }
+    return out;
+}
+
 }  // namespace
 
 void texture_inspector(Ctx& c) {
@@ -143,34 +149,30 @@ void texture_inspector(Ctx& c) {
         magnified_warning(c, *region);
         keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
         keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
-        if (may_have_form(*region)) region_parameter(c, *region, "form.amount");
         if (button(c, "Transform",
                    {.icon = icons::kMove,
-                    .tip = "Drag on the picture to move the texture, with Shift to rotate it, with "
-                           "Ctrl to scale it",
+                    .tip = "Drag inside the box to move the texture, its corners to scale it, "
+                           "outside of it to rotate it. Both turn about the pivot. Arrow keys "
+                           "nudge",
                     .command = "tool.place",
                     .width = -1}))
             c.state.tool = Tool::kPlace;
         bricks_controls(c);
         section_gap(c);
     }
+    form_section(c, *region);
     provenance_section(c, *region);
     if (section(c, "Perspective", false)) {
         const PanelName panel(c, "Perspective");
         region_parameter(c, *region, "placement.corners_px", "Corners");
         const bool set = region->placement.corners_px.has_value();
-        const Size plate = c.view.plate.size;
         if (!set && button(c, "Add corner pin",
                            {.icon = icons::kCrosshairs,
-                            .enabled = !plate.empty(),
+                            .enabled = !c.view.plate.size.empty(),
                             .tip = "Adds four corners to drag onto a flat "
                                    "surface in perspective",
                             .width = -1})) {
-            const double w = plate.width, h = plate.height;
-            c.edit(SetRegionParameter{{region->id, {}},
-                                      "placement.corners_px",
-                                      std::vector<double>{0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h,
-                                                          0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h}});
+            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", first_corners(c)});
             c.state.tool = Tool::kPlace;
         }
         if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))

@@ -1,6 +1,9 @@
 #pragma once
 // The panels. Each draws itself into its place from the session's view and emits actions.
 
+#include <array>
+#include <optional>
+
 #include "ui/ctx.h"
 
 namespace weft::ui {
@@ -39,9 +42,19 @@ void propagation_section(Ctx& c, const Region& region);
 void shape_controls(Ctx& c);
 void corrections_section(Ctx& c, const Region& region);
 void lamps_controls(Ctx& c, const Region& region);
+/// What shows the surface's form, and the tools to draw it.
+void form_section(Ctx& c, const Region& region);
+/// The (first) reference frame of a region; empty while it is not known.
+[[nodiscard]] std::optional<int> reference_of(const Ctx& c, const Region& region);
 void provenance_section(Ctx& c, const Region& region);
 /// Placeholder when no region is selected.
 void no_region(Ctx& c);
+
+/// Corners around the selected region on this frame, for a corner pin; none without a matte.
+[[nodiscard]] std::optional<std::array<Vec2, 4>> corners_around_region(Ctx& c);
+/// Moves the texture by the arrow keys while the transform tool is in hand. Returns true if one was
+/// pressed.
+bool nudge_texture(Ctx& c);
 
 // Floating windows.
 void notices(Ctx& c);

@@ -25,8 +25,15 @@ Row begin_row(Ctx& c, const char* label, const char* tip, float reserve_right) {
     const float label_w = std::floor(avail * 0.38f);
     ImGui::InvisibleButton((std::string("##label") + label).c_str(), {label_w, t.row});
     if (tip && *tip) tooltip(c, tip);
-    text_in(*ImGui::GetWindowDrawList(), t.regular, at, {at.x + label_w, at.y + t.row}, t.quiet,
-            fitted(visible(label), label_w - t.px(6)).c_str(), 0);
+    // A long label is set smaller before it is shortened.
+    const std::string text = visible(label);
+    const bool fits = ImGui::CalcTextSize(text.c_str()).x <= label_w - t.px(6);
+    ImFont* const font = fits ? t.regular : t.small;
+    ImGui::PushFont(font);
+    const std::string shown = fitted(text, label_w - t.px(6));
+    ImGui::PopFont();
+    text_in(*ImGui::GetWindowDrawList(), font, at, {at.x + label_w, at.y + t.row}, t.quiet,
+            shown.c_str(), 0);
     ImGui::SameLine(0, 0);
     return {{at.x + label_w, at.y}, avail - label_w - reserve_right};
 }

@@ -12,6 +12,7 @@
 #include "app/session/action.h"
 #include "app/textures/texture_shelf.h"
 #include "ui/picture_host.h"
+#include "ui/transform_box.h"
 
 namespace weft {
 
@@ -33,6 +34,7 @@ enum class Tool : std::uint8_t {
     kPin,
     kLamp,
     kMeasure,
+    kForm,   ///< Draws a shape or strokes that show the surface's form.
     kKeep,   ///< Locks or regenerates patches of the texture.
     kCrypto  ///< Picks objects of a Cryptomatte.
 };
@@ -159,6 +161,32 @@ struct ExportState {
     bool layers_apart = false;      ///< Write them to separate files.
 };
 
+/// Drawing the form of the selected region, and correcting what was drawn.
+struct FormToolState {
+    FormGuideKind kind = FormGuideKind::kPlane;
+    std::vector<FormGuide> shape, strokes;  ///< Of the region, while a handle is dragged.
+    std::optional<Vec2> from;               ///< Where a drag began that draws one.
+    RegionId region = 0;                    ///< Which `parallel` belongs to.
+    /// The first parallel stroke, which shows a plane only with a second one.
+    std::optional<FormGuide> parallel;
+};
+
+/// The transform box of the selected region.
+struct TransformState {
+    enum class Drag : std::uint8_t { kNone, kMove, kScale, kRotate };
+    Drag drag = Drag::kNone;
+    PlacementNumbers from;           ///< When the drag began,
+    Vec2 mouse{0, 0};                ///< there, on the plate.
+    std::optional<Vec2> pivot;       ///< On the plate; unset: the middle of the box.
+    RegionId region = 0;             ///< Which it belongs to,
+    int frame = 0;                   ///< on which frame.
+    std::optional<Quad<float>> box;  ///< Around the matte, along the texture's axes.
+    std::uint64_t box_version = 0;   ///< RegionMatteView::version that it was made from,
+    double box_angle = 0;            ///< with this rotation.
+    /// Where the placement acts, as last known: a picture in progress says nothing.
+    std::shared_ptr<const SurfacePlaces> places;
+};
+
 struct UiState {
     std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
@@ -186,10 +214,7 @@ struct UiState {
     bool leave_when_saved = false;
     std::string leave_then;  ///< "": quit; otherwise a path to open.
     int tour_step = -1;      ///< −1: no tour.
-    bool placing = false;    ///< The texture is being transformed in the viewer.
-    Placement placing_from;
-    std::string placing_key;
-    ParameterValue placing_value;
+    TransformState transform;
     std::string handle_held;          ///< Id of the handle being dragged.
     Vec2 handle_offset{0, 0};         ///< Offset from the mouse to its centre.
     std::vector<CorrectionPin> pins;  ///< Pins of this frame while one is being dragged.
@@ -197,6 +222,7 @@ struct UiState {
     RotoShape shape;                  ///< Shape being drawn or edited.
     bool shape_drawing = false;
     ScribbleState scribbles;
+    FormToolState form;
     std::optional<Vec2> rectangle_from;
     bool keep_overlay = false;  ///< Tool::kKeep has turned on the source map overlay.
     /// Tool::kKeep: regenerate instead of lock; seams instead of patches.

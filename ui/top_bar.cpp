@@ -281,7 +281,7 @@ void tool_strip(Ctx& c, ImVec2 size) {
     static const std::vector<const char*> kTools[] = {
         {"tool.pan", "tool.brush", "tool.eraser", "tool.lasso", "tool.polygon", "tool.shape",
          "tool.flood", "tool.scribble", "tool.crypto"},
-        {"tool.pan", "tool.place", "tool.measure", "tool.similar"},
+        {"tool.pan", "tool.place", "tool.form", "tool.measure", "tool.similar"},
         {"tool.pan", "tool.pin", "tool.place"},
         {"tool.pan", "tool.lamp", "tool.keep", "tool.place"},
         {"tool.pan"},

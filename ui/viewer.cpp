@@ -153,6 +153,8 @@ void relink(Ctx& c) {
 // Shows the full error message in the viewer.
 void failure(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     if (c.view.preview.state != PreviewView::State::kFailed || !c.view.result_wanted) return;
+    // The question about missing files stands there and names the cause.
+    if (!c.view.missing.empty() && !c.state.missing_dismissed) return;
     const Theme& t = c.theme;
     const float width = std::min(t.px(560), max.x - min.x - t.px(24));
     const std::string text = "No result yet. " + c.view.preview.error;

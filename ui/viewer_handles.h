@@ -1,6 +1,8 @@
 #pragma once
 // Internal to the viewer: handles that can be dragged.
 
+#include <array>
+
 #include "ui/ctx.h"
 #include "ui/view_map.h"
 
@@ -17,6 +19,10 @@ Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool ho
 void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void lamp_tool(Ctx& c, const ViewMap& map, bool hovered);
 void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
+void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
+/// The outline of four corners.
+void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at);
+void form_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void scribble_tool(Ctx& c, const ViewMap& map, bool active);
 void similar_tool(Ctx& c, const ViewMap& map, bool active);
 /// The mouse path of this frame on the plate, so that strokes are smooth at low frame rates.

@@ -107,6 +107,12 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     draw_onion(c, list, map);
 }
 
+// Of a value, as a heat map with a legend.
+static bool has_scale(Overlay kind) {
+    return kind != Overlay::kGrid && kind != Overlay::kSourceMap && kind != Overlay::kChecker &&
+           kind != Overlay::kCircles;
+}
+
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const auto& over = c.view.overlay_picture;
     if (!over) return;
@@ -116,7 +122,7 @@ void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     draw.where = over->where;
     draw.key = 1'000'000;
     draw.version = over->id;
-    draw.heat = over->kind != Overlay::kGrid && over->kind != Overlay::kSourceMap;
+    draw.heat = has_scale(over->kind);
     draw.color = t.text;
     draw.opacity = over->kind == Overlay::kSeams       ? 1.0f
                    : over->kind == Overlay::kSourceMap ? 0.4f
@@ -171,10 +177,11 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
                                              "Seams",
                                              "Motion arrows",
                                              "Tracking confidence",
-                                             "Source map"};
+                                             "Source map",
+                                             "Checker",
+                                             "Circles"};
     const std::string name = kNames[static_cast<int>(c.view.overlay)];
-    const bool scale = over && over->kind != Overlay::kGrid && over->kind != Overlay::kMotion &&
-                       over->kind != Overlay::kSourceMap;
+    const bool scale = over && has_scale(over->kind) && over->kind != Overlay::kMotion;
     const float w = t.px(220), h = scale ? t.px(52) : t.px(26);
     const ImVec2 a(max.x - w - t.px(10), min.y + t.px(10)),
         b(max.x - t.px(10), min.y + t.px(10) + h);

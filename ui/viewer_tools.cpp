@@ -142,89 +142,6 @@ void measure(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     s.handle_offset = {0, 0};
 }
 
-// Handles of a corner pin.
-bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovered) {
-    if (!region.placement.corners_px) return false;
-    static constexpr const char* kNames[] = {"corner 1", "corner 2", "corner 3", "corner 4"};
-    std::vector<double> numbers;
-    std::array<Vec2, 4> at;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const PlatePoint& p = (*region.placement.corners_px)[k];
-        at[k] = {static_cast<float>(p.x), static_cast<float>(p.y)};
-    }
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    for (std::size_t k = 0; k < 4; ++k) {
-        const ImVec2 a = map.to_screen(at[k]), b = map.to_screen(at[(k + 1) % 4]);
-        list.AddLine(a, b, IM_COL32(0, 0, 0, 160), c.theme.px(3));
-        list.AddLine(a, b, c.theme.accent_hover, c.theme.px(1.5f));
-    }
-    bool taken = false, held = false, done = false;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Grip grip = handle(c, map, kNames[k], at[k], hovered, c.theme.accent_hover);
-        taken |= grip != Grip::kNone;
-        held |= grip == Grip::kHeld;
-        done |= grip == Grip::kLetGo;
-        numbers.push_back(static_cast<double>(at[k].x));
-        numbers.push_back(static_cast<double>(at[k].y));
-    }
-    const SetRegionParameter set{{region.id, {}}, "placement.corners_px", numbers};
-    if (done)
-        c.edit(set);
-    else if (held)
-        c.emit(TryEdit{set});
-    return taken;
-}
-
-// Transforms the texture: drag to move, Shift to rotate, Ctrl to scale.
-void place(Ctx& c, const ViewMap& map, bool hovered, bool active) {
-    const Region* region = c.view.selected_region();
-    if (!region) return;
-    if (!c.state.placing && place_corners(c, map, *region, hovered)) return;
-    const RegionRef ref{region->id, {}};
-    const ImGuiIO& io = ImGui::GetIO();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const PlatePoint at = region->placement.offset_px;
-    const ImVec2 origin = map.to_screen({static_cast<float>(at.x), static_cast<float>(at.y)});
-    const float r = c.theme.px(7);
-    list.AddCircle(origin, r, IM_COL32(0, 0, 0, 180), 24, c.theme.px(4));
-    list.AddCircle(origin, r, c.theme.accent_hover, 24, c.theme.px(2));
-    const float angle = static_cast<float>(-region->placement.rotate_deg * 3.14159265 / 180);
-    const float reach = c.theme.px(60);
-    const ImVec2 arm(origin.x + reach * std::cos(angle), origin.y + reach * std::sin(angle));
-    list.AddLine(origin, arm, c.theme.accent_hover, c.theme.px(2));
-    list.AddCircleFilled(arm, c.theme.px(4), c.theme.accent_hover, 16);
-    if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-    if (!active || !ImGui::IsMouseDragging(0, 2)) {
-        if (ImGui::IsMouseReleased(0) && c.state.placing) {
-            c.state.placing = false;
-            c.edit(SetRegionParameter{ref, c.state.placing_key, c.state.placing_value});
-        }
-        return;
-    }
-    if (!c.state.placing) {
-        c.state.placing = true;
-        c.state.placing_from = region->placement;
-        c.state.placing_key = io.KeyShift  ? "placement.rotate_deg"
-                              : io.KeyCtrl ? "placement.scale"
-                                           : "placement.offset_px";
-    }
-    const ImVec2 moved = ImGui::GetMouseDragDelta(0, 0);
-    const Placement& from = c.state.placing_from;
-    if (c.state.placing_key == "placement.rotate_deg") {
-        c.state.placing_value =
-            from.rotate_deg - 0.3 * static_cast<double>(moved.x / c.theme.scale);
-    } else if (c.state.placing_key == "placement.scale") {
-        c.state.placing_value =
-            std::clamp(from.scale * std::pow(1.005, static_cast<double>(moved.x / c.theme.scale)),
-                       0.01, 100.0);
-    } else {
-        c.state.placing_value =
-            std::vector<double>{from.offset_px.x + static_cast<double>(moved.x / map.zoom),
-                                from.offset_px.y + static_cast<double>(moved.y / map.zoom)};
-    }
-    c.emit(TryEdit{SetRegionParameter{ref, c.state.placing_key, c.state.placing_value}});
-}
-
 }  // namespace
 
 bool subtracts() {
@@ -291,9 +208,11 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
                 c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance, subtracts()});
             return;
         case Tool::kPlace:
-            return place(c, map, hovered, active);
+            return transform_tool(c, map, hovered, active);
         case Tool::kMeasure:
             return measure(c, map, hovered, active);
+        case Tool::kForm:
+            return form_tool(c, map, hovered, active);
         case Tool::kShape:
             return shape_tool(c, map, hovered, active);
         case Tool::kScribble:

@@ -13,6 +13,7 @@
 #include "app/base/picture.h"
 #include "app/mattes/matte_shelf.h"
 #include "app/preview/preview_flicker.h"
+#include "app/preview/surface_places.h"
 #include "app/project/project.h"
 #include "app/render/analysis_cache.h"
 #include "app/textures/provenance.h"
@@ -34,7 +35,9 @@ enum class Overlay : std::uint8_t {
     kMotion,
     kConfidence,  ///< Appearance change of the surface since the reference frame.
                   ///< from.
-    kSourceMap    ///< Which part of the sample each pixel shows.
+    kSourceMap,   ///< Which part of the sample each pixel shows.
+    kChecker,     ///< A checker laid like the texture, to see the form.
+    kCircles      ///< A grid of circles, likewise.
 };
 
 /// Request for a card of the strip: a small result of another frame or with another setting.
@@ -87,6 +90,8 @@ struct PreviewFrame {
     int proxy = 1;         ///< Reduction factor of the pictures relative to the plate.
     std::optional<LayerKind> layer_kind;
     PicturePtr layer;  ///< PreviewRequest::layer, converted for display.
+    /// Of the regions whose texture is locked to the surface; not of a provisional picture.
+    std::map<RegionId, std::shared_ptr<const SurfacePlaces>> places;
     /// The final picture at reduced size, kept after refining, so that neighbouring frames are
     /// compared at one size.
     PicturePtr small;
@@ -131,6 +136,8 @@ struct PreviewView {
     std::map<RegionId, int> references;  ///< The reference frame of each region.
     /// What each region's sample was taken for: "Periodic: …".
     std::map<RegionId, std::string> samples;
+    /// What each region's form was found from; flat ones and those not yet found are left out.
+    std::map<RegionId, std::string> forms;
     std::uint64_t changes = 0;  ///< Increases with every change.
     double frame_seconds = 0;   ///< Render time of the last full-size frame, s.
     /// Time from the request to the first picture of its frame, provisional or not, s.

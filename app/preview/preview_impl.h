@@ -112,6 +112,8 @@ struct Preview::Impl {
                                                        const CancelToken& cancel);
     void release_analysis();
     void note_seam(int frame, float seam);
+    void note_forms();
+    [[nodiscard]] std::map<RegionId, std::shared_ptr<const SurfacePlaces>> places_on(int frame);
     bool grow(const OpenedShot& of);
     bool draw_overlay(const PreviewRequest& wanted);
     bool ready(int frame);
@@ -192,7 +194,8 @@ struct Preview::Impl {
     PreviewScenes scenes;
     OverlayMaker overlays;
     std::set<int> ready_frames;
-    std::set<int> compared;  // frames whose flicker was measured
+    std::set<int> compared;   // frames whose flicker was measured
+    std::string noted_forms;  // key of the shot whose forms were noted
     bool refine_pending = false;
     std::string tried_provisional;          // key of the last provisional picture that was tried
     std::vector<bool> shown_provisionally;  // its regions

@@ -6,7 +6,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "app/preview/coords_jacobian.h"
 #include "app/preview/preview_health.h"
+#include "app/preview/surface_pattern.h"
 #include "app/textures/patch_pick.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
@@ -18,28 +20,10 @@
 namespace weft {
 namespace {
 
-std::uint8_t code(float v) {
-    return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
-
 // Coverage of the nearest grid line at a coordinate, one plate pixel wide.
 float line_cover(float uv, float step, float texels_per_px) {
     const float to_line = std::abs(uv / step - std::round(uv / step)) * step;
     return std::clamp(1.5f - to_line / std::max(texels_per_px, 1e-4f), 0.0f, 1.0f);
-}
-
-struct Jacobian {
-    float xx, xy, yx, yy;  // d(u, v) / d(x, y)
-    [[nodiscard]] float along_u() const { return std::hypot(xx, xy); }
-    [[nodiscard]] float along_v() const { return std::hypot(yx, yy); }
-    [[nodiscard]] float area() const { return std::abs(xx * yy - xy * yx); }
-};
-
-Jacobian jacobian(const ImageF2& uv, int x, int y) {
-    const int x1 = std::min(x + 1, uv.width() - 1), y1 = std::min(y + 1, uv.height() - 1);
-    const int x0 = std::max(0, x1 - 1), y0 = std::max(0, y1 - 1);
-    return {uv.pixel(x1, y)[0] - uv.pixel(x0, y)[0], uv.pixel(x, y1)[0] - uv.pixel(x, y0)[0],
-            uv.pixel(x1, y)[1] - uv.pixel(x0, y)[1], uv.pixel(x, y1)[1] - uv.pixel(x, y0)[1]};
 }
 
 // Draws a grid of the sample's size over the surface.
@@ -379,6 +363,12 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
             out.provenance = std::make_shared<const Provenance>(std::move(asked));
             break;
         }
+        case Overlay::kChecker:
+            draw_checker(coords, plan.placement.scale, out);
+            break;
+        case Overlay::kCircles:
+            draw_circles(coords, plan.placement.scale, out);
+            break;
         case Overlay::kLight:
         case Overlay::kNone:
             break;

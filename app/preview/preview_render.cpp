@@ -238,6 +238,7 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     shared->shown.warnings = std::move(warnings);
     shared->shown.references = references_of(**shot);
     shared->shown.samples = samples_of(**shot);
+    noted_forms.clear();
     changed(*shared);
     if (!same_analysis) {
         shared->confidences.clear();
@@ -323,6 +324,8 @@ bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
     }
     made->approximate = !scenes.exact();
     if (scenes.exact()) note_seam(frame, seam);
+    note_forms();
+    made->places = places_on(frame);
     keep(now, frame, std::move(*made), seconds_since(start));
     return true;
 }

@@ -34,6 +34,11 @@ struct TryEdit {
     Edit edit;
     bool operator==(const TryEdit&) const = default;
 };
+/// Several at once, likewise.
+struct TryEdits {
+    std::vector<Edit> edits;
+    bool operator==(const TryEdits&) const = default;
+};
 struct Undo {
     bool operator==(const Undo&) const = default;
 };
@@ -340,15 +345,15 @@ struct MeasureResult {
 };
 
 using Action =
-    std::variant<DoEdit, DoEdits, TryEdit, Undo, Redo, GoToHistory, NewProject, OpenProject,
-                 OpenDemo, OpenAny, Save, SaveAs, SaveVersion, CollectProject, RelinkFiles,
-                 CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion,
-                 GoToFrame, StepFrames, StepKeyframe, Play, SetPlayMode, MarkRange, ShowOnionSkin,
-                 BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer, FillPolygon, FloodSelect,
-                 ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip, ChooseFromStrip, GrowMatte,
-                 FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes,
-                 FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture, ApplyTextures,
-                 UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay, ShowStages,
-                 ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+    std::variant<DoEdit, DoEdits, TryEdit, TryEdits, Undo, Redo, GoToHistory, NewProject,
+                 OpenProject, OpenDemo, OpenAny, Save, SaveAs, SaveVersion, CollectProject,
+                 RelinkFiles, CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion,
+                 LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, SetPlayMode, MarkRange,
+                 ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer,
+                 FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip,
+                 ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe,
+                 PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture,
+                 ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay,
+                 ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

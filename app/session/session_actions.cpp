@@ -18,6 +18,12 @@ struct Session::Actor {
         s.commit(std::move(*changed), a.label);
     }
     void operator()(const TryEdit& a) const { s.edit(a.edit, false); }
+    void operator()(const TryEdits& a) const {
+        auto changed = apply_edits(s.history_.current(), a.edits);
+        if (!changed) return s.notify(NoticeKind::kError, changed.error().text());
+        s.tried_ = std::move(*changed);
+        s.document_changed();
+    }
     void operator()(const Undo&) const {
         moved_in_history([&] { return s.history_.undo(); });
     }

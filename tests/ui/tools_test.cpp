@@ -214,6 +214,7 @@ TEST_F(Tools, AContactSheetShowsEachSettingOnTheSameFrames) {
 }
 
 TEST_F(Tools, ProvenanceIsCopied) {
+    ImGui::GetIO().DisplaySize.y = 1400;  // the whole inspector
     go("Texture", Tool::kPan);
     ASSERT_TRUE(robot->click("Source"));
     robot->frames(2);

@@ -1,0 +1,51 @@
+// What the analysis says of the regions' surfaces: their form, and where a frame lies on them.
+#include <cctype>
+
+#include "app/preview/preview_impl.h"
+#include "app/render/form_report.h"
+
+namespace weft {
+
+void Preview::Impl::note_forms() {
+    if (noted_forms == current->pixels) return;
+    const Shot& shot = *current->shot;
+    std::map<RegionId, std::string> found;
+    const auto reports = form_reports(shot, *current->store);
+    if (!reports) return;  // whatever needs the store next says what is wrong with it
+    for (const FormReport& form : *reports) {
+        for (const std::size_t k : shot.region_index) {
+            const Region& region = *shot.project.regions[k];
+            if (region.name != form.region) continue;
+            std::string& text = found[region.id] = form_text(form);
+            text.front() =
+                static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+        }
+    }
+    noted_forms = current->pixels;
+    const auto shared = guarded.lock();
+    shared->shown.forms = std::move(found);
+    changed(*shared);
+}
+
+std::map<RegionId, std::shared_ptr<const SurfacePlaces>> Preview::Impl::places_on(int frame) {
+    std::map<RegionId, std::shared_ptr<const SurfacePlaces>> out;
+    const Shot& shot = *current->shot;
+    for (std::size_t k = 0; k < scenes.scenes().size(); ++k) {
+        const RegionPlan& plan = shot.plan.regions[k];
+        if (plan.temporal != TemporalMode::kLocked || plan.has_uv) continue;
+        const auto bytes = current->store->get({static_cast<int>(k), frame, AnalysisKind::kCoords});
+        if (!bytes) continue;
+        auto ref_from_cur = decode_lattice(*bytes);
+        PlanePlacement bare = plan.placement;
+        bare.scale = 1;
+        bare.rotate_deg = 0;
+        bare.offset_px = {0, 0};
+        const auto ground = texture_mapping(bare);
+        if (!ref_from_cur || !ground) continue;
+        out[shot.project.regions[shot.region_index[k]]->id] = std::make_shared<const SurfacePlaces>(
+            std::move(*ref_from_cur), ground->with_form(scenes.scenes()[k].mapping.form()));
+    }
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,154 @@
+// The transform box: what its handles, the pivot and the arrow keys emit.
+#include "tests/ui/canvas_fixture.h"
+
+namespace weft::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class TransformTool : public CanvasTest {
+  protected:
+    void SetUp() override {
+        size = {1600, 1400};  // the whole inspector
+        CanvasTest::SetUp();
+        matte_ = Matte(320, 180);
+        for (int y = 40; y < 100; ++y)
+            for (int x = 60; x < 120; ++x)
+                matte_.at(x, y) = 255;
+        RegionMatteView shown;
+        shown.region = 1;
+        shown.frame = view.frame;
+        shown.kind = RegionMatteView::Kind::kPainted;
+        shown.pixels = matte_;
+        shown.version = 1;
+        view.mattes = {shown};
+    }
+    void change(std::function<void(Region&)> what) {
+        view.project.regions[0] = view.project.regions[0].with(what);
+        robot->frames(2);
+    }
+    // The placement after all edits that were done, by one step.
+    Placement placed() {
+        std::vector<Edit> all;
+        int steps = 0;
+        for (const DoEdit& one : emitted<DoEdit>()) {
+            all.push_back(one.edit);
+            ++steps;
+        }
+        for (const DoEdits& some : emitted<DoEdits>()) {
+            all.insert(all.end(), some.edits.begin(), some.edits.end());
+            ++steps;
+        }
+        EXPECT_EQ(steps, 1);
+        const auto changed = apply_edits(view.project, all);
+        EXPECT_TRUE(changed);
+        return changed ? changed->regions[0]->placement : Placement{};
+    }
+    Matte matte_;
+};
+
+TEST_F(TransformTool, ADragInsideMoves) {
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(100, 80), on(110, 82), on(130, 90)});
+    EXPECT_THAT(emitted<TryEdits>(), ::testing::Not(IsEmpty()));
+    const Placement now = placed();
+    EXPECT_NEAR(now.offset_px.x, 30, 0.6);
+    EXPECT_NEAR(now.offset_px.y, 10, 0.6);
+    EXPECT_EQ(now.scale, 1);
+}
+
+TEST_F(TransformTool, ACornerScalesAboutTheMiddleOfTheBox) {
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(120, 100), on(130, 110), on(150, 130)});
+    const Placement now = placed();
+    EXPECT_NEAR(now.scale, 2, 0.03);
+    EXPECT_NEAR(now.offset_px.x, -90, 3);
+    EXPECT_NEAR(now.offset_px.y, -70, 3);
+    EXPECT_EQ(now.rotate_deg, 0);
+}
+
+TEST_F(TransformTool, ADragOutsideRotatesAboutThePivot) {
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(180, 70), on(150, 130), on(90, 160)});  // clockwise
+    const Placement now = placed();
+    EXPECT_NEAR(now.rotate_deg, -90, 1);
+    EXPECT_NEAR(now.offset_px.x, 160, 2);
+    EXPECT_NEAR(now.offset_px.y, -20, 2);
+}
+
+TEST_F(TransformTool, ThePivotIsMovedAndStaysWhereItIs) {
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(90, 70), on(80, 60), on(60, 50)});
+    EXPECT_THAT(emitted<DoEdits>(), IsEmpty());
+    EXPECT_THAT(emitted<DoEdit>(), IsEmpty());
+    clear();
+    robot->stroke({on(120, 100), on(150, 120), on(180, 150)});
+    const Placement now = placed();
+    EXPECT_NEAR(now.scale, 2, 0.05);
+    EXPECT_NEAR(now.offset_px.x, -60, 3);
+    EXPECT_NEAR(now.offset_px.y, -50, 3);
+}
+
+TEST_F(TransformTool, KeysOfThisFrameAreWrittenWhereThereAreSome) {
+    change([](Region& r) { r.placement.offset_keys = *parse_keyed_numbers("1001:5,5", 2); });
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(100, 80), on(110, 82), on(130, 90)});
+    const Placement now = placed();
+    ASSERT_THAT(now.offset_keys.keys, SizeIs(2));
+    EXPECT_EQ(now.offset_keys.keys[1].first, 1003);
+    EXPECT_NEAR(now.offset_keys.keys[1].second[0], 35, 0.6);
+    EXPECT_EQ(now.offset_px.x, 0);
+}
+
+TEST_F(TransformTool, TheMouseIsFollowedOnTheSurface) {
+    // Seen from the surface, the frame has half the size.
+    view.stages.places[1] = std::make_shared<const SurfacePlaces>(
+        LatticeField(view.plate.size, 16), TextureMapping(Mat3{0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 1}));
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(100, 80), on(110, 82), on(130, 90)});
+    EXPECT_NEAR(placed().offset_px.x, 15, 0.6);
+}
+
+TEST_F(TransformTool, ArrowKeysNudgeInsteadOfSteppingFrames) {
+    go("Texture", Tool::kPlace);
+    robot->key("Left");
+    EXPECT_EQ(placed().offset_px.x, -1);
+    clear();
+    robot->key("Shift+Down");
+    EXPECT_EQ(placed().offset_px.y, 10);
+    EXPECT_THAT(emitted<StepFrames>(), IsEmpty());
+    clear();
+    shell->state().tool = Tool::kPan;
+    robot->key("Left");
+    EXPECT_THAT(emitted<StepFrames>(), SizeIs(1));
+    EXPECT_THAT(emitted<DoEdit>(), IsEmpty());
+}
+
+TEST_F(TransformTool, CornersBeginAroundTheRegion) {
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("Perspective"));
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Add corner pin"));
+    const auto set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_THAT(std::get<std::vector<double>>(set[0].value),
+                ElementsAre(60, 40, 120, 40, 120, 100, 60, 100));
+}
+
+TEST(TransformBox, FollowsTheTexturesAxes) {
+    Matte matte(100, 100);
+    for (int y = 30; y < 70; ++y)
+        for (int x = 30; x < 70; ++x)
+            matte.at(x, y) = 255;
+    const auto box = ui::box_around(matte, 45);
+    ASSERT_TRUE(box);
+    // The corners of the square turned by 45° lie √2 · 28.3 px from its middle.
+    EXPECT_NEAR(std::hypot((*box)[0].x - 50, (*box)[0].y - 50), 40, 0.1);
+    EXPECT_NEAR((*box)[0].x, 10, 0.1);  // the first one on the left
+    EXPECT_FALSE(ui::box_around(Matte(10, 10), 0));
+}
+
+}  // namespace
+}  // namespace weft::test
