@@ -253,6 +253,19 @@ TEST(FormTruth, TheCosineIsThatOfThePixelsOwnRay) {
     EXPECT_NEAR(static_cast<double>(truth.summary(1).pixels), wanted, 0.005 * wanted);
 }
 
+TEST(FormTruth, FoldsAreThoseOfTheNormalPassIfThereIsOne) {
+    const ImageF3 places = positions([](int x, int y) { return far_place(0, x, y); });
+    const ImageF2 flat = coordinates([](int x, int y) { return Texel{3.0 * x, 3.0 * y}; });
+    ImageF3 normals(kPicture);
+    for (int y = 0; y < normals.height(); ++y) {
+        for (int x = 0; x < normals.width(); ++x)
+            normals.at(x, y, x < 80 ? 0 : 2) = 1;
+    }
+    FormTruth truth(kPlane);
+    truth.add(1, places, flat, whole(), normals);
+    EXPECT_EQ(truth.summary(1).pixels, 156 * 118);
+}
+
 TEST(FormTruth, SaysWhatIsMissing) {
     const ImageF3 nowhere(kPicture.width, kPicture.height, std::numeric_limits<float>::quiet_NaN());
     const ImageF2 flat = coordinates([](int x, int y) { return Texel{3.0 * x, 3.0 * y}; });
