@@ -100,6 +100,9 @@ Expected<FormMeasures> measure_form(const Shot& shot, const Region& region, cons
     WEFT_TRY(passes, Files::open(region.form.position, "The position pass", frames));
     WEFT_TRY(layers, Files::open(st, "The layer st", frames));
     const Size size = shot.plate->size();
+    const std::string& normal = region.form.normal;
+    WEFT_TRY(turns, Files::open(normal.empty() ? region.form.position : normal, "The normal pass",
+                                frames));
     WEFT_CHECK_OK(check_picture_exists(passes.on(frames.front())));
     WEFT_TRY(focal, focal_px(region, passes.on(frames.front()), size));
     FormTruth truth(texels, focal);
@@ -109,7 +112,12 @@ Expected<FormMeasures> measure_form(const Shot& shot, const Region& region, cons
         WEFT_TRY(positions, read_positions(passes.on(frame), region.form.position_layer, size));
         WEFT_TRY(coordinates, read_st_layer(layers.on(frame), size));
         WEFT_TRY(matte, visible_matte(shot, frame));
-        const FormTruth::Seen seen = truth.add(frame, positions, coordinates, matte);
+        ImageF3 normals;
+        if (!normal.empty()) {
+            WEFT_TRY(read, read_normals(turns.on(frame), region.form.normal_layer, size));
+            normals = std::move(read);
+        }
+        const FormTruth::Seen seen = truth.add(frame, positions, coordinates, matte, normals);
         all.inside += seen.inside, all.placed += seen.placed, all.laid += seen.laid;
     }
     WEFT_CHECK_OK(check_seen(all, region.form.position, st));

@@ -59,7 +59,8 @@ Image<int, 1> squared_depth(ViewU8x1 matte, int reach) {
 // The pass, the coordinates and what they say at a pixel. Directions: (1, 0) and (0, 1).
 class Pixels {
   public:
-    Pixels(ViewF3 positions, ViewF2 st, Size plane) : positions_(positions), st_(st) {
+    Pixels(ViewF3 positions, ViewF2 st, ViewF3 normals, Size plane)
+        : positions_(positions), st_(st), normals_(normals) {
         texels_ = {static_cast<double>(plane.width), static_cast<double>(plane.height)};
     }
 
@@ -83,6 +84,10 @@ class Pixels {
 
     // Not finite where a neighbour has no place; one-sided at the picture's border.
     [[nodiscard]] Place normal(int x, int y) const {
+        if (!normals_.empty()) {
+            const float* n = normals_.pixel(x, y);
+            return {n[0], n[1], n[2]};
+        }
         const int left = std::max(x - 1, 0), right = std::min(x + 1, positions_.width() - 1);
         const int top = std::max(y - 1, 0), bottom = std::min(y + 1, positions_.height() - 1);
         Place n = cross(metres(left, y, right, y), metres(x, top, x, bottom));
@@ -110,6 +115,7 @@ class Pixels {
   private:
     ViewF3 positions_;
     ViewF2 st_;
+    ViewF3 normals_;
     Step texels_{};
 };
 
@@ -198,9 +204,10 @@ double covered(ViewU8x1 matte) {
 FormTruth::FormTruth(Size plane, std::optional<double> focal_px)
     : plane_(plane), focal_px_(focal_px) {}
 
-FormTruth::Seen FormTruth::add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 matte) {
+FormTruth::Seen FormTruth::add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 matte,
+                               ViewF3 normals) {
     const Image<int, 1> depth = squared_depth(matte, kRingPx);
-    const Pixels pixels(positions, st, plane_);
+    const Pixels pixels(positions, st, normals, plane_);
     Seen seen;
     std::vector<double> stretches, areas;
     std::int64_t flipped = 0;

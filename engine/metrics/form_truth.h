@@ -55,8 +55,9 @@ class FormTruth {
     };
     /// Adds a frame; all of one size. `positions`: H×W×3, one unit of length, not finite where
     /// unknown. `st`: H×W×2, the layer `st`: 0–1, origin at the bottom left, up to whole numbers.
-    /// `matte`: the visible surface.
-    Seen add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 matte);
+    /// `matte`: the visible surface. `normals`: H×W×3 of unit length, for folds; empty: those of
+    /// the places.
+    Seen add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 matte, ViewF3 normals = {});
 
     /// Of all frames added. The base frame is `reference`, or if too little counts there the first
     /// that shows 60 % of the largest area; without one nothing is measured.

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -112,15 +114,21 @@ TEST(FormTruth, FlatCoordinatesOnATiltedPlaneAreStretchedByItsCosine) {
 }
 
 TEST(FormTruth, FlatCoordinatesInPerspectiveAreStretchedAsTheMapSays) {
-    // At the picture's middle: by 1 / cos; the area goes with the cube of the distance.
+    // In the picture's middle columns: by 1 / cos on the axis; a pixel's area goes as z³.
     const Tilted floor{0.8};
-    const FormMeasures form = measured(positions([&](int x, int y) { return floor.place(x, y); }),
-                                       coordinates([](int x, int y) {
-                                           return Texel{3.0 * x, 3.0 * y};
-                                       }));
+    Matte strip(kPicture.width, kPicture.height, 0);
+    for (int y = 0; y < strip.height(); ++y)
+        std::fill_n(strip.row(y) + 70, 20, std::uint8_t{255});
+    FormTruth truth(kPlane);
+    truth.add(1, positions([&](int x, int y) { return floor.place(x, y); }),
+              coordinates([](int x, int y) {
+                  return Texel{3.0 * x, 3.0 * y};
+              }),
+              strip);
+    const FormMeasures form = truth.summary(1);
     ASSERT_TRUE(form.stretch && form.area_percent);
-    EXPECT_NEAR(form.stretch->median, 1 / std::cos(0.8), 0.05);
-    // A pixel's area is as z³: |3 ln z| for rows spread evenly, less its median.
+    EXPECT_NEAR(form.stretch->median, 1 / std::cos(0.8), 0.02);
+    // |3 ln z| for rows spread evenly, less its median.
     EXPECT_NEAR(form.area_percent->median,
                 100 * 3 * std::tan(0.8) * 0.25 * kPicture.height / kFocalPx, 2);
 }
@@ -251,6 +259,19 @@ TEST(FormTruth, TheCosineIsThatOfThePixelsOwnRay) {
               }),
               whole());
     EXPECT_NEAR(static_cast<double>(truth.summary(1).pixels), wanted, 0.005 * wanted);
+}
+
+TEST(FormTruth, FoldsAreThoseOfTheNormalPassIfThereIsOne) {
+    const ImageF3 places = positions([](int x, int y) { return far_place(0, x, y); });
+    const ImageF2 flat = coordinates([](int x, int y) { return Texel{3.0 * x, 3.0 * y}; });
+    ImageF3 normals(kPicture);
+    for (int y = 0; y < normals.height(); ++y) {
+        for (int x = 0; x < normals.width(); ++x)
+            normals.at(x, y, x < 80 ? 0 : 2) = 1;
+    }
+    FormTruth truth(kPlane);
+    truth.add(1, places, flat, whole(), normals);
+    EXPECT_EQ(truth.summary(1).pixels, 156 * 118);
 }
 
 TEST(FormTruth, SaysWhatIsMissing) {
