@@ -31,8 +31,8 @@ void add_mode(CLI::App& command, PlaneOptions& plane) {
     plane.whole_periods = true;
     command
         .add_option("--mode", plane.mode,
-                     "How the sample covers the plane: auto, synthesize, tile, stretch or mirror; "
-                     "auto lays a periodic sample on one lattice [auto]")
+                    "How the sample covers the plane: auto, synthesize, tile, stretch or mirror; "
+                    "auto lays a periodic sample on one lattice [auto]")
         ->transform(choice<PlaneMode>({{"auto", PlaneMode::kAuto},
                                        {"synthesize", PlaneMode::kSynthesize},
                                        {"tile", PlaneMode::kTile},

@@ -9,6 +9,24 @@
 namespace weft {
 namespace {
 
+// What a result can be compared with.
+void add_references(CLI::App& command, MeasureCommandOptions& options) {
+    command
+        .add_option("--truth", options.truth,
+                    "The same scene rendered with the new material ('true/####.png')")
+        ->type_name("PATH");
+    command
+        .add_option("--truth-blur", options.truth_blur_px,
+                    "Blur both by a Gaussian of this many px before comparing [0]")
+        ->check(number(0.0, 100.0))
+        ->type_name("PX");
+    command
+        .add_option("--st", options.st,
+                    "EXRs of the render with the layer st: how the texture lies on the surface of "
+                    "--position-pass")
+        ->type_name("PATH");
+}
+
 void add_measure(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand(
         "measure", "Measure flicker, sharpness, drift, light and form of a result");
@@ -25,20 +43,7 @@ void add_measure(CLI::App& app, CommandResult& result) {
                      "Motion estimator without --motion: deepflow or farneback [deepflow]")
         ->check(one_of({"deepflow", "farneback"}))
         ->type_name("");
-    command
-        ->add_option("--truth", options->truth,
-                     "The same scene rendered with the new material ('true/####.png')")
-        ->type_name("PATH");
-    command
-        ->add_option("--truth-blur", options->truth_blur_px,
-                     "Blur both by a Gaussian of this many px before comparing [0]")
-        ->check(number(0.0, 100.0))
-        ->type_name("PX");
-    command
-        ->add_option("--st", options->st,
-                     "EXRs of the render with the layer st: how the texture lies on the surface of "
-                     "--position-pass")
-        ->type_name("PATH");
+    add_references(*command, *options);
     command
         ->add_option("--light-pictures", options->pictures,
                      "Folder for images of light and reflectance, before and after")

@@ -50,7 +50,7 @@ Expected<Size> plane_texels(const Region& region) {
         return fail(ErrorCode::kUsage,
                     "The coordinates of the layer st count in planes, and the plane's proportions "
                     "are not known. Give the render's plane" +
-                        by({{setting::kPlane}}) + "; 'weft render --export-plane' writes it.");
+                        by({{setting::kPlane}}) + "; a render exports it on request.");
     }
     WEFT_TRY(picture, read_image(region.texture.plane));
     return picture.rgb.size();

@@ -144,6 +144,7 @@ const char* kind_name(SampleKind kind) {
 std::string reason_of(const SampleDescription& sample) {
     const SampleLattice& l = sample.lattice;
     const auto percent = [](double share) { return std::lround(100 * share); };
+    const auto px = [](double v) { return std::round(10 * v) / 10 + 0.0; };  // never "-0.0"
     switch (sample.kind) {
         case SampleKind::kPeriodic:
             if (l.count == 1)
@@ -151,7 +152,8 @@ std::string reason_of(const SampleDescription& sample) {
                                    std::hypot(l.steps[0].x, l.steps[0].y), percent(l.confidence));
             return fmt::format(
                 "it repeats at steps of ({:.1f}, {:.1f}) and ({:.1f}, {:.1f}) px, confidence {} %",
-                l.steps[0].x, l.steps[0].y, l.steps[1].x, l.steps[1].y, percent(l.confidence));
+                px(l.steps[0].x), px(l.steps[0].y), px(l.steps[1].x), px(l.steps[1].y),
+                percent(l.confidence));
         case SampleKind::kPicture:
             if (sample.border < kPlainBorder)
                 return fmt::format("a plain border, with {} % of the variance inside it",
