@@ -253,7 +253,7 @@ TEST_F(MeasureForm, BadInputIsAnErrorThatSaysWhatToDo) {
     expect_failure(measure({"--plane", ""}), 2, {"--plane", "--export-plane"});
     expect_failure(measure({"--st", "p/####.exr"}), 3,
                    {"p/0001.exr", "no layer st", "--layers st", "R, G, B"});
-    expect_failure(measure({"--st", "none/####.exr"}), 4, {"none/####.exr"});
+    expect_failure(measure({"--st", "layers/none.####.exr"}), 4, {"none.####.exr"});
     expect_failure(measure({"--position-layer", "nowhere"}), 3,
                    {"p/0001.exr", "no position pass", "--position-layer"});
     put_places("small.exr", {80, 60});
