@@ -106,6 +106,7 @@ std::vector<Vec2i> peaks_of(const SelfCorrelation& c) {
     });
     found.resize(std::min(found.size(), kMostPeaks));
     std::vector<Vec2i> out;
+    out.reserve(found.size());
     for (const Peak& p : found)
         out.push_back(p.at);
     return out;
@@ -140,7 +141,8 @@ Contrast contrast(const SelfCorrelation& c, const std::array<glm::dvec2, 2>& s, 
             if (d.y < 0 || (d.y == 0 && d.x <= 0) || !c.covers(d)) continue;
             const int turns = (std::max(std::abs(i), std::abs(j)) + 1) / 2;
             const auto best = best_near(c, d, 1 + static_cast<int>(drift_px * turns));
-            const auto kind = static_cast<std::size_t>(std::abs(i % 2) + 2 * std::abs(j % 2));
+            const int kind_of = std::abs(i % 2) + 2 * std::abs(j % 2);
+            const auto kind = static_cast<std::size_t>(kind_of);
             sums[kind] += c.at(*best), ++counts[kind];
         }
     }

@@ -112,9 +112,11 @@ Image<std::uint8_t, 1> PlaneLattice::held(Vec2i first, Size size) const {
             a0 = std::min(a0, a), a1 = std::max(a1, a), b0 = std::min(b0, b), b1 = std::max(b1, b);
         }
     }
-    for (double i = std::floor(a0); i <= a1 + 1; ++i) {
-        for (double j = std::floor(b0); j <= b1 + 1; ++j) {
-            const glm::dvec2 p = i * steps_[0] + j * steps_[1];
+    const auto below = [](double v) { return static_cast<int>(std::floor(v)); };
+    for (int i = below(a0); i <= below(a1) + 1; ++i) {
+        for (int j = below(b0); j <= below(b1) + 1; ++j) {
+            const glm::dvec2 p =
+                static_cast<double>(i) * steps_[0] + static_cast<double>(j) * steps_[1];
             const int cx = static_cast<int>(std::lround(p.x)) - first.x;
             const int cy = static_cast<int>(std::lround(p.y)) - first.y;
             for (int y = std::max(0, cy - reach); y <= std::min(size.height - 1, cy + reach); ++y)

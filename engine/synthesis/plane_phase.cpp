@@ -39,6 +39,7 @@ using Complex = std::complex<double>;
 // exp(−2πi·wave·t) for t = 0 … n − 1. Long double: see docs/decisions/0002-determinism.md.
 std::vector<Complex> carrier(double wave, int n) {
     std::vector<Complex> out;
+    out.reserve(static_cast<std::size_t>(n));
     const long double turns = 2 * std::acos(-1.0L) * static_cast<long double>(wave);
     for (int t = 0; t < n; ++t) {
         out.emplace_back(static_cast<double>(std::cos(turns * t)),

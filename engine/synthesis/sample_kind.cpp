@@ -52,12 +52,16 @@ double distance2(const std::array<double, 3>& a, const std::array<double, 3>& b)
 
 using Areas = std::array<Sums, kGrid * kGrid>;
 
+std::size_t index_of(int i, int j) {
+    return static_cast<std::size_t>(j) * kGrid + static_cast<std::size_t>(i);
+}
+
 Areas areas_of(ViewU8x3 sample) {
     Areas out;
     for (int y = 0; y < sample.height(); ++y) {
         for (int x = 0; x < sample.width(); ++x) {
             const int i = x * kGrid / sample.width(), j = y * kGrid / sample.height();
-            out[static_cast<std::size_t>(j * kGrid + i)].add(sample.pixel(x, y));
+            out[index_of(i, j)].add(sample.pixel(x, y));
         }
     }
     return out;
@@ -68,7 +72,7 @@ Sums of(const Areas& areas, const Holds& holds) {
     Sums out;
     for (int j = 0; j < kGrid; ++j) {
         for (int i = 0; i < kGrid; ++i)
-            if (holds(i, j)) out.add(areas[static_cast<std::size_t>(j * kGrid + i)]);
+            if (holds(i, j)) out.add(areas[index_of(i, j)]);
     }
     return out;
 }
@@ -80,7 +84,7 @@ void measure_fall(const Areas& areas, double deviation, SampleDescription& out) 
     double middle = 0;
     for (int j = 0; j < kGrid; ++j) {
         for (int i = 0; i < kGrid; ++i) {
-            const auto mean = areas[static_cast<std::size_t>(j * kGrid + i)].mean();
+            const auto mean = areas[index_of(i, j)].mean();
             const double value = (mean[0] + mean[1] + mean[2]) / 3;
             const double x = i - (kGrid - 1) / 2.0, y = j - (kGrid - 1) / 2.0;
             const double d = x * x + y * y;
@@ -89,8 +93,7 @@ void measure_fall(const Areas& areas, double deviation, SampleDescription& out) 
             const bool left = i < kCorner, right = i >= kGrid - kCorner;
             const bool top = j < kCorner, bottom = j >= kGrid - kCorner;
             if ((left || right) && (top || bottom))
-                corners[static_cast<std::size_t>((right ? 1 : 0) + (bottom ? 2 : 0))] +=
-                    value / (kCorner * kCorner);
+                corners[(right ? 1U : 0U) + (bottom ? 2U : 0U)] += value / (kCorner * kCorner);
             if (std::abs(x) < kCorner / 2.0 && std::abs(y) < kCorner / 2.0)
                 middle += value / (kCorner * kCorner);
         }

@@ -250,7 +250,7 @@ TEST_F(MeasureForm, AFlatTextureOnATiltedPlaneIsStretchedByItsCosine) {
 TEST_F(MeasureForm, BadInputIsAnErrorThatSaysWhatToDo) {
     render();
     expect_failure(measure({"--position-pass", ""}), 2, {"--position-pass"});
-    expect_failure(measure({"--plane", ""}), 2, {"--plane", "--export-plane"});
+    expect_failure(measure({"--plane", ""}), 2, {"--plane", "a render exports it"});
     expect_failure(measure({"--st", "p/####.exr"}), 3,
                    {"p/0001.exr", "no layer st", "--layers st", "R, G, B"});
     expect_failure(measure({"--st", "layers/none.####.exr"}), 4, {"none.####.exr"});
@@ -266,7 +266,7 @@ TEST_F(MeasureForm, BadInputIsAnErrorThatSaysWhatToDo) {
     expect_success(measure({"--frames", "1,3"}));
     fs::remove(folder_ / "p/0003.exr");
     expect_failure(measure({"--frames", "1,3"}), 4,
-                   {"The position pass", "p/####.exr", "frame 3", "--frames"});
+                   {"The position pass", "p/####.exr", "frame 3", "--position-pass"});
 }
 
 TEST_F(Tools, DiffReportsWhereSequencesDiffer) {

@@ -6,7 +6,6 @@ namespace weft::test {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -16,7 +15,7 @@ FormGuide guide(FormGuideKind kind, std::vector<double> numbers) {
 
 class FormTool : public CanvasTest {
   protected:
-    void change(std::function<void(Region&)> what) {
+    void change(const std::function<void(Region&)>& what) {
         view.project.regions[0] = view.project.regions[0].with(what);
         robot->frames(2);
     }
