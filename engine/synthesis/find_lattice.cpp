@@ -105,10 +105,8 @@ std::vector<Vec2i> peaks_of(const SelfCorrelation& c) {
         return glm::length(glm::dvec2(a.at)) < glm::length(glm::dvec2(b.at));
     });
     found.resize(std::min(found.size(), kMostPeaks));
-    std::vector<Vec2i> out;
-    out.reserve(found.size());
-    for (const Peak& p : found)
-        out.push_back(p.at);
+    std::vector<Vec2i> out(found.size());
+    std::ranges::transform(found, out.begin(), &Peak::at);
     return out;
 }
 
