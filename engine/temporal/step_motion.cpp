@@ -60,20 +60,24 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
                FlowQuality quality, int spacing_px, StepEvidence& out) {
     // Where the surface is found again almost everywhere, nothing is left to be explained.
     constexpr double kAlmostEverywhere = 0.95;
-    // A twenty-fifth of the surface weighs as much as a standard error.
-    constexpr double kShareWeight = 25;
+    // A fiftieth of the surface weighs as much as a standard error, of which more than two say no
+    // more: over a wide surface they come from the least difference.
+    constexpr double kShareWeight = 50, kMostErrors = 2;
     // Motion that is so much less consistent is not worth its fit.
-    constexpr double kHopeless = -2;
+    constexpr double kHopeless = -4;
     const OutlineView before = prev.view(), now = cur.view();
     const RegistrationPicture &there = prev.picture(), &here = cur.picture();
     if (registration_agreement(there, here, out.by_picture) >= kAlmostEverywhere) return;
     const FlowField flow =
         estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
-    out.freed_lead =
+    const double steadier =
         kShareWeight * (known_share(flow, now.visible) - known_share(prev_from_cur, now.visible));
-    if (out.freed_lead < kHopeless) return;
+    out.freed_lead = steadier;
+    if (steadier < kHopeless) return;
     out.by_freed = by_picture(now, flow, spacing_px);
-    out.freed_lead += registration_lead(there, here, *out.by_freed, out.by_picture);
+    out.freed_lead =
+        steadier + std::clamp(registration_lead(there, here, *out.by_freed, out.by_picture),
+                              -kMostErrors, kMostErrors);
 }
 
 }  // namespace
@@ -93,7 +97,7 @@ void MotionChoice::note(double lead) {
 }
 
 void MotionChoice::note_freed(double lead) {
-    constexpr double kFreed = 1, kPlate = 0;
+    constexpr double kFreed = 1.25, kPlate = 0.75;
     freed_.note(lead, kFreed, kPlate);
 }
 
@@ -124,7 +128,10 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
     // again by its own motion all the same, and by the outline's only where that is right.
     out.by_outline = by_outline(prev, cur, spacing_px);
-    const bool freed = out.by_freed && out.freed_lead > 0;
+    // Freed of light, grain is as strong as any structure, and the plate's motion is the steadier.
+    constexpr double kGrain = 1;
+    if (out.freed_lead) *out.freed_lead -= kGrain;
+    const bool freed = out.by_freed && *out.freed_lead > 0;
     out.lead = registration_lead(prev.picture(), cur.picture(),
                                  freed ? *out.by_freed : out.by_picture, *out.by_outline);
     return out;
@@ -133,7 +140,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
 StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
     // Structure that stands out speaks for the picture where it does not for a moment, too.
     choice.note(evidence.by_outline ? evidence.lead : kMostLead);
-    choice.note_freed(evidence.freed_lead);
+    if (evidence.freed_lead) choice.note_freed(*evidence.freed_lead);
     if (evidence.by_outline && choice.by_outline()) return {*evidence.by_outline, true};
     return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture, false};
 }

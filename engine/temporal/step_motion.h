@@ -36,7 +36,7 @@ struct StepEvidence {
     LatticeField by_picture;  ///< prev_from_cur of the picture inside, from the plate's raw motion.
     /// The same from pictures that are freed of light, where that may explain more.
     std::optional<LatticeField> by_freed;
-    double freed_lead = 0;                   ///< Of by_freed before by_picture, standard errors.
+    std::optional<double> freed_lead;  ///< Before by_picture, standard errors; where searched.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
     double lead = 0;  ///< then registration_lead() of the picture's motion before the outline's.
 };
