@@ -26,8 +26,9 @@ void project_corrections(const std::map<int, std::vector<CorrectionPin>>& correc
 [[nodiscard]] Status project_placement(const Placement& placement, TemporalMode mode,
                                        RegionPlan& plan);
 
-/// After project_placement(). Errors: Usage for a position pass in a mode that synthesizes the
-/// texture in place, or beside a UV pass.
+/// After project_placement(). Errors: Usage for a pass or shape in a mode that synthesizes the
+/// texture in place, or beside a UV pass; for a source whose pass or drawing is missing, and for a
+/// shape beside parallel strokes.
 [[nodiscard]] Status project_form(const Region& region, RegionPlan& plan);
 
 void project_synthesis(const SynthesisParams& synthesis, RegionPlan& plan);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
 
 namespace weft {
@@ -18,9 +19,6 @@ constexpr double kKnown = 1e-3;  // deviation of a tangent that is given
 constexpr double kLeastNearness = 0.02;
 constexpr double kStep = 1e-6;  // of the numeric derivatives
 constexpr int kSteps = 40;
-constexpr std::array kTangents{0.5, 0.9, 1.5};
-constexpr std::array kSlopes{0.25, 0.7};
-constexpr int kDirections = 8;
 
 using Vector4 = Eigen::Vector4d;
 using Matrix4 = Eigen::Matrix4d;
@@ -60,25 +58,12 @@ class Lines {
     }
 
     [[nodiscard]] std::vector<Guess> starts() const {
-        std::vector<double> tangents(kTangents.begin(), kTangents.end());
+        std::vector<double> tangents(kStartTangents.begin(), kStartTangents.end());
         if (prior_.tangent_deviation == kKnown) tangents = {prior_.tangent};
-        // Eighths of a turn, without trigonometry.
-        constexpr double kDiagonal = std::numbers::sqrt2 / 2;
-        constexpr std::array<glm::dvec2, kDirections> kAround{{{1, 0},
-                                                               {kDiagonal, kDiagonal},
-                                                               {0, 1},
-                                                               {-kDiagonal, kDiagonal},
-                                                               {-1, 0},
-                                                               {-kDiagonal, -kDiagonal},
-                                                               {0, -1},
-                                                               {kDiagonal, -kDiagonal}}};
         std::vector<Guess> out;
-        for (const double tangent : tangents) {
-            out.push_back(start(tangent, {0, 0}));
-            for (const double slope : kSlopes)
-                for (const glm::dvec2& d : kAround)
-                    out.push_back(start(tangent, slope * d));
-        }
+        for (const double tangent : tangents)
+            for (const glm::dvec2& slope : start_slopes())
+                out.push_back(start(tangent, slope));
         return out;
     }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/form/homography_fit.h"
+#include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
 
 namespace weft {
@@ -17,9 +18,7 @@ namespace {
 constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
 constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the long side
 constexpr double kNotRigid = 0.3;          // of the motion beyond a similarity that may be left
-constexpr std::array kTangents{0.5, 0.9, 1.5};
-constexpr std::array kSlopes{0.25, 0.7};
-constexpr int kDirections = 8, kFirstSteps = 4, kMoreSteps = 30;
+constexpr int kFirstSteps = 4, kMoreSteps = 30;
 constexpr std::size_t kKept = 6;
 constexpr double kKnown = 1e-3;    // deviation of a tangent that is given
 constexpr double kBulge = 0.15;    // of nearness, from which a curved surface is looked for
@@ -178,33 +177,21 @@ std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size 
 // Solutions with a plane, best first, no two alike.
 std::vector<RigidBundle> planes(const Problem& problem, double sigma) {
     std::vector<RigidBundle> all;
-    const auto look = [&](double tangent, double slope, int direction) {
+    const auto look = [&](double tangent, const glm::dvec2& slope) {
         RigidSurface start = problem.flat;
         start.tangent = tangent;
-        constexpr double kDiagonal = 0.70710678118654752;
-        constexpr std::array<std::pair<double, double>, kDirections> kWays{
-            {{1, 0},
-             {kDiagonal, kDiagonal},
-             {0, 1},
-             {-kDiagonal, kDiagonal},
-             {-1, 0},
-             {-kDiagonal, -kDiagonal},
-             {0, -1},
-             {kDiagonal, -kDiagonal}}};
-        start.slope_x = slope * kWays[static_cast<std::size_t>(direction)].first;
-        start.slope_y = slope * kWays[static_cast<std::size_t>(direction)].second;
+        start.slope_x = slope.x;
+        start.slope_y = slope.y;
         if (auto bundle = problem.bundle_on(start, sigma)) {
             bundle->descend(kFirstSteps);
             all.push_back(std::move(*bundle));
         }
     };
-    std::vector<double> tangents(kTangents.begin(), kTangents.end());
+    std::vector<double> tangents(kStartTangents.begin(), kStartTangents.end());
     if (problem.tangent_known) tangents = {problem.prior.tangent};
     for (const double tangent : tangents) {
-        look(tangent, 0, 0);
-        for (const double slope : kSlopes)
-            for (int direction = 0; direction < kDirections; ++direction)
-                look(tangent, slope, direction);
+        for (const glm::dvec2& slope : start_slopes())
+            look(tangent, slope);
     }
     const auto cheaper = [](const RigidBundle& a, const RigidBundle& b) {
         return a.cost() < b.cost();
