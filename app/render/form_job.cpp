@@ -5,23 +5,15 @@
 #include "app/render/stage_cache.h"
 #include "engine/core/setting.h"
 #include "engine/pipeline/analyse.h"
+#include "engine/pipeline/partial_plan.h"
 
 namespace weft {
 namespace {
 
 // Nothing of a region's analysis but what its form needs.
 void keep_form_only(RegionPlan& region) {
-    region.light_source = LightSource::kNone;
-    region.light_evidence.clear();
-    region.grain = 0;
-    region.grain_frames.clear();
-    region.shutter_deg = 0;
-    region.shutter_evidence.clear();
-    region.zones.clear();
-    if (region.has_form()) return;
-    region.temporal = TemporalMode::kNone;
-    region.matte_keys.clear();
-    region.painted_holdouts.clear();
+    leave_look_out(region);
+    if (!region.has_form()) leave_region_out(region);
 }
 
 // The plan of a shot that is to be followed as far as its forms need.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/pipeline/analyse.h"
+#include "engine/pipeline/partial_plan.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
@@ -28,13 +29,7 @@ std::vector<int> nearest_keys(const std::vector<int>& keys, const MatteReach& re
 
 // Nothing to propagate but the region's own mattes, no light, no form, and no finish.
 void keep_motion_only(RegionPlan& region) {
-    region.zones.clear();
-    region.light_source = LightSource::kNone;
-    region.light_evidence.clear();
-    region.grain = 0;
-    region.grain_frames.clear();
-    region.shutter_deg = 0.0f;
-    region.shutter_evidence.clear();
+    leave_look_out(region);
     region.form_from = RegionPlan::FormFrom::kNothing;
     region.form_evidence.clear();
 }
@@ -46,12 +41,6 @@ void shorten(RegionPlan& region, int frame) {
     region.matte_keys = nearest_keys(region.matte_keys, region.matte_reach, span);
     for (PaintedMatte& holdout : region.painted_holdouts)
         holdout.keys = nearest_keys(holdout.keys, holdout.reach, span);
-}
-
-void leave_out(RegionPlan& region) {
-    region.temporal = TemporalMode::kNone;
-    region.matte_keys.clear();
-    region.painted_holdouts.clear();
 }
 
 }  // namespace
@@ -76,7 +65,7 @@ Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(const ShotSource& source
         if (wanted[k])
             shorten(region, frame);
         else
-            leave_out(region);
+            leave_region_out(region);
     }
     WEFT_CHECK_OK(analyse_shot(source, out->plan, out->store, cancel, {}));
     return out;

@@ -1,0 +1,21 @@
+#include "engine/pipeline/partial_plan.h"
+
+namespace weft {
+
+void leave_look_out(RegionPlan& region) {
+    region.zones.clear();
+    region.light_source = LightSource::kNone;
+    region.light_evidence.clear();
+    region.grain = 0;
+    region.grain_frames.clear();
+    region.shutter_deg = 0;
+    region.shutter_evidence.clear();
+}
+
+void leave_region_out(RegionPlan& region) {
+    region.temporal = TemporalMode::kNone;
+    region.matte_keys.clear();
+    region.painted_holdouts.clear();
+}
+
+}  // namespace weft

@@ -1,0 +1,13 @@
+#pragma once
+// Plans of which only a part is analysed.
+
+#include "engine/pipeline/region_plan.h"
+
+namespace weft {
+
+/// Leaves zones, light, grain and shutter out: what does not move the texture.
+void leave_look_out(RegionPlan& region);
+/// Leaves nothing of the region to be followed or propagated.
+void leave_region_out(RegionPlan& region);
+
+}  // namespace weft
