@@ -110,6 +110,25 @@ std::string missing_text(const std::vector<std::string>& missing) {
     return text;
 }
 
+void collecting(Ctx& c, NoticeStack& stack, const CollectView& now) {
+    const Theme& t = c.theme;
+    stack.add(
+        "##collect", NoticeKind::kInfo, "Collecting files in " + now.folder, t.px(36),
+        [&](ImVec2 at, float h) {
+            const float bar = stack.width() - t.px(40 + 16 + 90);
+            ImGui::SetCursorScreenPos({at.x + t.px(40), at.y + h - t.px(34)});
+            progress_bar(
+                c,
+                now.total > 0 ? static_cast<float>(now.done) / static_cast<float>(now.total) : 0.0f,
+                now.total > 0
+                    ? std::to_string(now.done) + " of " + std::to_string(now.total) + " files"
+                    : std::string("Counting files"),
+                bar);
+            ImGui::SetCursorScreenPos({at.x + stack.width() - t.px(16 + 80), at.y + h - t.px(38)});
+            if (button(c, "Cancel", {.width = t.px(80)})) c.emit(CancelCollect{});
+        });
+}
+
 }  // namespace
 
 void notices(Ctx& c) {
@@ -134,6 +153,7 @@ void notices(Ctx& c) {
                       c.state.missing_dismissed = true;
                       if (yes) c.commands.run("file.relink", c);
                   });
+    if (c.view.collecting) collecting(c, stack, *c.view.collecting);
     for (auto notice = c.view.notices.rbegin(); notice != c.view.notices.rend(); ++notice)
         add_notice(c, stack, *notice);
 }

@@ -1,5 +1,6 @@
 #include "app/exchange/collect.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -49,11 +50,29 @@ Status copy_whole(const fs::path& from, const fs::path& to, const WriteRule& rul
 
 class Collector {
   public:
-    Collector(fs::path folder, WriteRule rule, CancelToken cancel, const ProgressFn& progress)
+    /// `total`: how many files progress counts up to. `fresh`: the folder was not there before.
+    Collector(fs::path folder, WriteRule rule, CancelToken cancel, const ProgressFn& progress,
+              std::int64_t total, bool fresh)
         : folder_(std::move(folder)),
+          fresh_(fresh),
           rule_(std::move(rule)),
           cancel_(std::move(cancel)),
-          progress_(progress) {}
+          progress_(progress),
+          total_(total) {}
+    Collector(const Collector&) = delete;
+    Collector& operator=(const Collector&) = delete;
+    // A project that is not whole is of no use, and its files would be in the way of the next try.
+    ~Collector() {
+        if (whole_) return;
+        std::error_code none;
+        for (const fs::path& file : copied_)
+            fs::remove(file, none);
+        for (const auto& [parent, name] : folders_)
+            fs::remove(folder_ / "files" / name, none);  // only where they are empty
+        fs::remove(folder_ / "files", none);
+        if (fresh_) fs::remove(folder_, none);
+    }
+    void keep() { whole_ = true; }
 
     // Inputs of one folder stay together, so equal names from different folders do not collide.
     Expected<std::string> take(const std::string& path) {
@@ -76,13 +95,17 @@ class Collector {
         for (const fs::path& file : files) {
             if (cancel_.cancelled()) return cancelled(cancel_);
             const fs::path to = folder_ / relative / file.filename();
-            if (!copied_.insert(to).second) continue;
+            if (copied_.contains(to)) continue;
             WEFT_CHECK_OK(copy_whole(file, to, rule_, collected));
+            copied_.insert(to);
+            ++done_;
             const fs::path credit = file.string() + ".credit.json";
-            if (fs::exists(credit, error))
-                WEFT_CHECK_OK(
-                    copy_whole(credit, folder_ / relative / credit.filename(), rule_, collected));
-            if (progress_) progress_({"collect", collected.files, collected.files, 0, 0});
+            if (const fs::path beside = folder_ / relative / credit.filename();
+                fs::exists(credit, error)) {
+                WEFT_CHECK_OK(copy_whole(credit, beside, rule_, collected));
+                copied_.insert(beside);
+            }
+            if (progress_) progress_({"collect", done_, std::max(done_, total_), 0, 0});
         }
         const std::string out =
             is_folder ? relative.string() : (relative / fs::path(path).filename()).string();
@@ -94,14 +117,28 @@ class Collector {
 
   private:
     fs::path folder_;
+    bool fresh_;
     WriteRule rule_;
     CancelToken cancel_;
     const ProgressFn& progress_;
+    std::int64_t done_ = 0, total_;
+    bool whole_ = false;
     std::map<std::string, std::string> taken_;
     std::map<fs::path, std::string> folders_;
     std::set<std::string> names_;
     std::set<fs::path> copied_;
 };
+
+// How many files there are to copy, each counted once; what is missing is found when it is copied.
+std::int64_t count_files(const Project& inputs) {
+    std::set<fs::path> files;
+    (void)map_paths(inputs, [&](const std::string& path) {
+        if (!names_library_texture(path))
+            if (const auto found = files_of(path)) files.insert(found->begin(), found->end());
+        return path;
+    });
+    return static_cast<std::int64_t>(files.size());
+}
 
 }  // namespace
 
@@ -118,12 +155,13 @@ Expected<Collected> collect_project(const Project& project, const std::string& n
     WriteRule rule;
     WEFT_TRY(fence, make_fence(project, limits));
     rule.fence = fence;
+    const bool fresh = !fs::exists(root, error);
     WEFT_CHECK_OK(make_folder(folder, rule));
     Project inputs = project;
     inputs.output.path.clear();
     inputs.output.movie.clear();
     inputs.output.layers_path.clear();
-    Collector collector(root, rule, cancel, progress);
+    Collector collector(root, rule, cancel, progress, progress ? count_files(inputs) : 0, fresh);
     Status status;
     inputs = map_paths(inputs, [&](const std::string& path) {
         if (!status || names_library_texture(path)) return path;
@@ -144,6 +182,7 @@ Expected<Collected> collect_project(const Project& project, const std::string& n
             : (fs::path("out/layers") / fs::path(project.output.layers_path).filename()).string();
     WEFT_TRY(kept, keep_library_textures(inputs, file.string(), library, rule));
     WEFT_CHECK_OK(save_project(file.string(), kept, rule));
+    collector.keep();
     collector.collected.project = file.string();
     return collector.collected;
 }

@@ -18,7 +18,8 @@ struct Collected {
 /// library with pixels and credits) go below files/. Writes a project file `name` with relative
 /// paths and outputs below out/. `project` has resolved paths. Errors: Usage when a file already
 /// exists (nothing is overwritten); MissingFrames when an input is missing; those of reading and
-/// writing.
+/// writing. After an error or when cancelled, what was copied is removed again. Progress: stage
+/// "collect", in files.
 [[nodiscard]] Expected<Collected> collect_project(const Project& project, const std::string& name,
                                                   const std::string& folder,
                                                   const std::string& library,

@@ -80,6 +80,10 @@ struct CollectProject {
     std::string folder;
     bool operator==(const CollectProject&) const = default;
 };
+/// Stops CollectProject and removes what it has copied.
+struct CancelCollect {
+    bool operator==(const CancelCollect&) const = default;
+};
 /// Looks for the document's missing files in a folder and its subfolders.
 struct RelinkFiles {
     std::string folder;
@@ -347,9 +351,9 @@ struct MeasureResult {
 using Action =
     std::variant<DoEdit, DoEdits, TryEdit, TryEdits, Undo, Redo, GoToHistory, NewProject,
                  OpenProject, OpenDemo, OpenAny, Save, SaveAs, SaveVersion, CollectProject,
-                 RelinkFiles, CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion,
-                 LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, SetPlayMode, MarkRange,
-                 ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer,
+                 CancelCollect, RelinkFiles, CloseProject, Recover, TrustFolder, SelectRegion,
+                 SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, SetPlayMode,
+                 MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer,
                  FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip,
                  ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe,
                  PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/session/action.h"
-#include "app/session/child_jobs.h"
+#include "app/jobs/child_jobs.h"
 
 namespace weft {
 

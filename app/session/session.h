@@ -20,6 +20,7 @@
 #include "app/preview/playback.h"
 #include "app/project/history.h"
 #include "app/session/action.h"
+#include "app/session/collect_run.h"
 #include "app/session/editor_settings.h"
 #include "app/session/job_desk.h"
 #include "app/session/recovery.h"
@@ -69,7 +70,8 @@ class Session {
     /// Write rule of files that the user names (exported mattes, a script's images): they may
     /// replace files, but no input of the document. Checks the files of the document.
     [[nodiscard]] WriteRule export_rule() const;
-    /// Closes normally: the document is not offered for recovery.
+    /// Closes normally: the document is not offered for recovery. What is still being collected is
+    /// given up.
     void close_cleanly();
     /// The options of the constructor.
     [[nodiscard]] const SessionOptions& options() const { return options_; }
@@ -108,6 +110,7 @@ class Session {
     void saved_as(const Project& written, const std::string& path, const MovedFiles& moved);
     [[nodiscard]] bool is_plate_folder(const std::string& folder) const;
     void collect(const std::string& folder);
+    void cancel_collect();
     void look_for_missing_files();
     void relink(const std::string& folder);
     void find_render_folder();
@@ -246,6 +249,7 @@ class Session {
     /// Destructions that may block, each in a thread of its own.
     std::vector<std::future<void>> shutdowns_;
     BackgroundTasks file_tasks_;
+    std::optional<CollectRun> collecting_;
 
     Playback playback_;
     double now_s_ = 0, first_update_s_ = -1;

@@ -44,6 +44,7 @@ struct Session::Actor {
     void operator()(const SaveAs& a) const { s.save(a.path); }
     void operator()(const SaveVersion&) const { s.save_version(); }
     void operator()(const CollectProject& a) const { s.collect(a.folder); }
+    void operator()(const CancelCollect& /*a*/) const { s.cancel_collect(); }
     void operator()(const RelinkFiles& a) const { s.relink(a.folder); }
     void operator()(const CloseProject&) const {
         s.end_stroke();

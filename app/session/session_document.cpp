@@ -221,6 +221,7 @@ void Session::recover(bool accept) {
 
 void Session::close_cleanly() {
     end_stroke();
+    cancel_collect();
     shelf_.flush();
     file_tasks_.finish(true);
     recovery_.clear();

@@ -126,25 +126,39 @@ void Session::save_version() {
     save(next.string());
 }
 
+// One at a time. It goes on when another shot is opened: its files were named when it began.
 void Session::collect(const std::string& folder) {
     if (!open_) return;
+    if (collecting_)
+        return notify(
+            NoticeKind::kWarning,
+            "Files are still being collected. Wait until they are, or cancel that first.");
     end_stroke();
     const std::string name = view_.title;
-    const std::string target = (fs::path(folder) / name).string();
-    notify(NoticeKind::kInfo, "Collecting the project and its files in " + target + ".");
-    start_for_document([this, name, target, project = resolved(), path = path_]() -> Finish {
+    const CollectRun run((fs::path(folder) / name).string());
+    collecting_ = run;
+    file_tasks_.start([this, name, run, project = resolved(), path = path_]() -> Finish {
         shelf_.flush();
         WriteLimits limits;
         if (!path.empty()) limits.reads.push_back(path);
-        const auto collected = collect_project(project, name + ".weft", target,
-                                               options_.texture_library, limits, CancelToken(), {});
-        return [this, collected, target] {
+        const auto collected =
+            collect_project(project, name + ".weft", run.folder, options_.texture_library, limits,
+                            run.cancel, [&](const ProgressEvent& event) { run.note(event); });
+        return [this, collected, run] {
+            collecting_.reset();
+            if (run.cancel.cancelled() && !collected)
+                return notify(NoticeKind::kInfo,
+                              "Nothing was collected; the copied files were removed again.");
             if (!collected) return notify(NoticeKind::kError, collected.error().text());
             notify(NoticeKind::kGood, "Collected the project and " +
                                           files_text(static_cast<std::size_t>(collected->files)) +
-                                          " in " + target + ".");
+                                          " in " + run.folder + ".");
         };
     });
+}
+
+void Session::cancel_collect() {
+    if (collecting_) collecting_->cancel.cancel();
 }
 
 void Session::look_for_missing_files() {

@@ -37,6 +37,10 @@ void Session::show_document() {
     view_.mark_in = playback_.mark_in();
     view_.mark_out = playback_.mark_out();
     view_.recent = settings_->recent;
+    view_.collecting.reset();
+    if (collecting_)
+        view_.collecting =
+            CollectView{collecting_->folder, collecting_->done(), collecting_->total()};
     view_.recovery.reset();
     if (!recoverable_.empty())
         view_.recovery = {recoverable_[0].project_path, recoverable_[0].when};

@@ -16,7 +16,7 @@
 #include "app/project/project.h"
 #include "app/project/validate.h"
 #include "app/session/action.h"
-#include "app/session/child_jobs.h"
+#include "app/jobs/child_jobs.h"
 #include "app/session/where_to_correct.h"
 
 namespace weft {
@@ -84,6 +84,12 @@ struct RecoveryOffer {
 struct TrustOffer {
     std::string folder;  ///< The project's folder.
     std::string output;  ///< The first output outside it.
+};
+
+/// Files being copied by CollectProject.
+struct CollectView {
+    std::string folder;
+    std::int64_t done = 0, total = 0;  ///< Files; a total of 0 is not known yet.
 };
 
 /// Quality over time, from measuring a finished render.
@@ -178,6 +184,7 @@ struct SessionView {
     std::vector<Notice> notices;
     std::optional<RecoveryOffer> recovery;
     std::optional<TrustOffer> trust;
+    std::optional<CollectView> collecting;
     QualityReport report;
     std::vector<std::string> recent;  ///< Project files, the newest first.
     std::string backend = "CPU";

@@ -7,6 +7,7 @@
 
 #include "app/shot/frame_plan.h"
 #include "engine/core/parallel.h"
+#include "engine/mask/matte_box.h"
 #include "engine/mask/surface_visibility.h"
 #include "engine/media/image_files.h"
 #include "engine/media/plates.h"
@@ -181,6 +182,18 @@ Expected<ReferenceChoice> choose_reference(const Region& region, const FrameRead
         if (all_seen) break;
     }
     return ReferenceChoice{frames.front(), frames.front(), false};
+}
+
+Recti surface_box(const Region& region, const FrameReader& plate, int frame,
+                  const MatteLooks& looks) {
+    static const PaintedMattes kNone;
+    if (const auto path = file_on(*region.matte, frame)) {
+        const auto matte = read_matte(*path, region.matte->select, plate.size(),
+                                      looks.painted ? *looks.painted : kNone);
+        if (matte)
+            if (const Recti box = matte_box(*matte); !box.empty()) return box;
+    }
+    return rect_of(plate.size());
 }
 
 bool shows_nothing(const Region& region, const FrameReader& plate, int frame,

@@ -8,6 +8,7 @@
 
 #include "app/project/project.h"
 #include "app/shot/painted_mattes.h"
+#include "engine/core/geometry.h"
 #include "engine/core/hash.h"
 #include "engine/media/frame_reader.h"
 
@@ -54,6 +55,11 @@ struct ReferenceRange {
                                                          const FrameReader& plate,
                                                          const MatteLooks& looks,
                                                          ReferenceRange range = {});
+
+/// The box of the matte on a frame, without its holdouts: where the surface could be seen. The
+/// whole picture where the matte is not a file or cannot be read.
+[[nodiscard]] Recti surface_box(const Region& region, const FrameReader& plate, int frame,
+                                const MatteLooks& looks);
 
 /// Returns true if the matte minus its holdouts is empty on this frame. Returns false for painted
 /// mattes and for files that cannot be read.

@@ -342,7 +342,8 @@ class ShotOpener {
         }
         plan.mode = given ? PlaneMode::kTile : region.texture.mode;
         if (is_plane && !given)
-            show_sample(shot_.plate->size(), *display_from_texture, *texture, plan);
+            show_sample(surface_box(region, *shot_.plate, plan.reference_frames.front(), looks()),
+                        *display_from_texture, *texture, plan);
         for (const std::string& further : region.texture.also) {
             if (is_plane) break;
             WEFT_TRY(sample, open_texture(region, further, false, plan.overlap_px));

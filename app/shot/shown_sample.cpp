@@ -19,8 +19,8 @@ void keep_whole_periods(const ColorTransform& display_from_texture, ImageF3& sam
 
 }  // namespace
 
-void show_sample(Size plate, const ColorTransform& display_from_texture, TexturePicture& texture,
-                 RegionPlan& plan) {
+void show_sample(const Recti& box, const ColorTransform& display_from_texture,
+                 TexturePicture& texture, RegionPlan& plan) {
     switch (plan.mode) {
         case PlaneMode::kMirror:
             texture.wrap = WrapMode::kMirror;
@@ -28,9 +28,9 @@ void show_sample(Size plate, const ColorTransform& display_from_texture, Texture
         case PlaneMode::kStretch: {
             texture.wrap = WrapMode::kClamp;
             plan.placement.picture_texels = texture.pixels.size();
-            const Vec2 far(plate.width, plate.height);
             if (!plan.placement.corners)
-                plan.placement.corners = {Vec2(0, 0), Vec2(far.x, 0), far, Vec2(0, far.y)};
+                plan.placement.corners = {Vec2(box.x0, box.y0), Vec2(box.x1, box.y0),
+                                          Vec2(box.x1, box.y1), Vec2(box.x0, box.y1)};
             break;
         }
         default:

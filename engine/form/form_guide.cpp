@@ -126,10 +126,11 @@ std::string form_guides_text(const std::vector<FormGuide>& guides) {
     for (const FormGuide& guide : guides) {
         if (!out.empty()) out += "; ";
         out += info_of(guide.kind).name;
-        const char* before = ":";
+        char before = ':';
         for (const double number : guide.numbers) {
-            out += before + shortest_text(number);
-            before = ",";
+            out += before;
+            out += shortest_text(number);
+            before = ',';
         }
     }
     return out;

@@ -8,27 +8,12 @@
 #include "engine/form/drawn_surface.h"
 #include "engine/form/flatten.h"
 #include "engine/form/form_level.h"
+#include "engine/mask/matte_box.h"
 
 namespace weft {
 namespace {
 
 constexpr int kAlong = 17;  // places of a stroke that are looked at
-
-Recti box_of(const Matte& matte) {
-    Recti out{};
-    for (int y = 0; y < matte.height(); ++y) {
-        const auto* row = matte.row(y);
-        const auto* const end = row + matte.width();
-        const auto inside = [](std::uint8_t v) { return v >= 128; };
-        const auto* const first = std::find_if(row, end, inside);
-        if (first == end) continue;
-        const auto* last = end;
-        while (!inside(last[-1]))
-            --last;
-        out = out.united({static_cast<int>(first - row), y, static_cast<int>(last - row), y + 1});
-    }
-    return out;
-}
 
 bool shows(const Matte& matte, glm::dvec2 place) {
     return place.x >= 0 && place.y >= 0 && place.x < matte.width() && place.y < matte.height() &&
@@ -95,7 +80,7 @@ Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
         error.message += by({{setting::kFormShape}, {setting::kFormStrokes}}) + ".";
         return tl::unexpected(std::move(error));
     }
-    const Recti box = box_of(evidence.visible);
+    const Recti box = matte_box(evidence.visible);
     if (box.empty()) {
         return fail(ErrorCode::kUsage,
                     "The region's matte is empty on its reference frame, so a shape has nothing "
@@ -132,7 +117,7 @@ Status level_form(const FormEvidence& evidence, const RegionPlan& region, FormMa
         any = true;
     }
     if (!any) return {};
-    const Recti box = box_of(evidence.visible);
+    const Recti box = matte_box(evidence.visible);
     turn_level(
         form, region.form_guides,
         0.5f * Vec2(static_cast<float>(box.x0 + box.x1), static_cast<float>(box.y0 + box.y1)));

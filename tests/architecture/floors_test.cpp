@@ -86,13 +86,14 @@ const std::vector<Floor> kFloors{
       "texture_db/search", "texture_db/library", "texture_db/sources"}},
     {"bench/synthesis_bench.cpp", {"engine"}},
     // 6: the editor's rooms; the command line sees none of them
+    {"app/jobs", {"engine", "app/project", "app/base"}},
     {"app/mattes", {"engine", "app/project", "app/base"}},
     {"app/textures", {"engine", "texture_db", "app/project", "app/base"}},
     {"app/preview",
      {"engine", "app/project", "app/base", "app/shot", "app/render", "app/mattes", "app/textures"}},
     {"app/session",
      {"engine", "texture_db", "app/project", "app/base", "app/exchange", "app/shot", "app/render",
-      "app/mattes", "app/textures", "app/preview"}},
+      "app/jobs", "app/mattes", "app/textures", "app/preview"}},
     // 7
     {"ui",
      {"engine/core", "app/project", "app/base", "app/render", "app/mattes", "app/textures",

@@ -36,8 +36,8 @@ const std::vector<Untested> kThroughOthers{
     {"app/render/st_map_files.h", "tests/cli: the exported ST-maps"},
     {"app/shot/form_files.h", "internal: tests/shot and tests/render, through shot.h"},
     {"app/session/action.h", "tests/ui, through session.h"},
-    {"app/base/detached_process.h", "tests/ui, through app/session/child_jobs.cpp"},
-    {"app/session/child_jobs.h", "tests/ui, through session_view.h"},
+    {"app/base/detached_process.h", "tests/ui, through app/jobs/child_jobs.cpp"},
+    {"app/jobs/child_jobs.h", "tests/ui, through session_view.h"},
     {"app/session/session_measuring.h", "internal to the session"},
 };
 

@@ -119,6 +119,27 @@ TEST_F(Exchange, ACollectedProjectNeedsNothingFromOutside) {
     Project gone = shot("wall");
     fs::remove(in("tile.png"));
     EXPECT_FALSE(collect_project(gone, "shot", in("again"), "", {}, {}, {}));
+    EXPECT_FALSE(fs::exists(in("again"))) << "what was copied before the error is removed";
+}
+
+TEST_F(Exchange, ACancelledCollectLeavesNothingAndDoesNotStandInTheWay) {
+    for (const char* name : {"plate.png", "matte.png", "tile.png"})
+        std::ofstream(in(name)) << name;
+    fs::create_directory(in("archive"));
+    std::ofstream(in("archive/mine.txt")) << "mine";
+    const CancelToken cancel;
+    std::vector<std::int64_t> totals;
+    const auto stopped = collect_project(shot("wall"), "shot", in("archive"), "", {}, cancel,
+                                         [&](const ProgressEvent& event) {
+                                             totals.push_back(event.total);
+                                             if (event.done == 2) cancel.cancel();
+                                         });
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::kTerminated);
+    EXPECT_THAT(totals, testing::ElementsAre(3, 3));
+    EXPECT_TRUE(fs::exists(in("archive/mine.txt")));
+    EXPECT_FALSE(fs::exists(in("archive/files")));
+    EXPECT_TRUE(collect_project(shot("wall"), "shot", in("archive"), "", {}, {}, {}));
 }
 
 TEST_F(Exchange, InputsAreProtectedUnderAnyName) {

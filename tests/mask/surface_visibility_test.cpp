@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/mask/matte_box.h"
+
 namespace weft {
 namespace {
 
@@ -16,6 +18,15 @@ Matte box(int x, int y, int width, int height) {
 
 double score(const Matte& matte, const Matte& holdout = {}) {
     return surface_visibility(matte, holdout).score();
+}
+
+TEST(MatteBox, HoldsWhatIsAtLeastHalfOrAsGiven) {
+    Matte matte = box(10, 10, 20, 10);
+    matte.row(50)[90] = 100;
+    EXPECT_EQ(matte_box(matte), (Recti{10, 10, 30, 20}));
+    EXPECT_EQ(matte_box(matte, 1), (Recti{10, 10, 91, 51}));
+    EXPECT_TRUE(matte_box(Matte(Size{5, 5})).empty());
+    EXPECT_TRUE(matte_box(Matte()).empty());
 }
 
 TEST(SurfaceVisibility, CountsCoverage) {

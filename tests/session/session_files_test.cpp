@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "app/project/codec/project_file.h"
+#include "app/session/collect_run.h"
 #include "tests/session/session_fixture.h"
 
 namespace weft::test {
@@ -118,6 +119,31 @@ TEST_F(SessionFiles, CollectCopiesPlateMattesAndTextures) {
     ASSERT_TRUE(collected);
     EXPECT_THAT(collected->plate.path, EndsWith("frames/####.png"));
     EXPECT_TRUE(fs::exists(in("archive/shot/" + collected->regions[0]->texture.sample)));
+}
+
+TEST_F(SessionFiles, CollectingIsShownAndGivenUpOnClosing) {
+    open();
+    save_as("shot.weft");
+    act(CollectProject{in("archive")});
+    session_->update(1);
+    ASSERT_TRUE(view().collecting);
+    EXPECT_EQ(view().collecting->folder, in("archive/shot"));
+    act(CancelCollect{});
+    session_->flush();
+    update();
+    EXPECT_FALSE(view().collecting);
+    // It may have ended before it was cancelled; what is there is whole then.
+    EXPECT_EQ(fs::exists(in("archive/shot/files")), fs::exists(in("archive/shot/shot.weft")));
+}
+
+TEST(CollectRun, CopiesShareTheirCounts) {
+    const CollectRun run("/archive/shot");
+    const CollectRun copy = run;
+    copy.note({"collect", 3, 7, 0, 0});
+    copy.cancel.cancel();
+    EXPECT_EQ(run.done(), 3);
+    EXPECT_EQ(run.total(), 7);
+    EXPECT_TRUE(run.cancel.cancelled());
 }
 
 // Scribbles drawn faster than mattes are found.

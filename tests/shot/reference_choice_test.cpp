@@ -84,6 +84,15 @@ class ReferenceChoiceTest : public ::testing::Test {
     fs::path folder_;
 };
 
+TEST_F(ReferenceChoiceTest, TheBoxOfASurfaceIsItsMattesOrTheWholePicture) {
+    put(1, box(7, 30));
+    put(2, Matte(kSize));
+    const Numbers plate(3);
+    EXPECT_EQ(surface_box(region(), plate, 1, {}), (Recti{7, 10, 37, 30}));
+    EXPECT_EQ(surface_box(region(), plate, 2, {}), rect_of(kSize)) << "an empty matte";
+    EXPECT_EQ(surface_box(region(), plate, 3, {}), rect_of(kSize)) << "no file";
+}
+
 TEST_F(ReferenceChoiceTest, EmptyFramesAreLeftOut) {
     for (int frame = 1; frame <= 6; ++frame)
         put(frame, frame <= 3 ? Matte(kSize) : box(20, 20));

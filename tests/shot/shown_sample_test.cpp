@@ -28,7 +28,7 @@ struct Shown {
     explicit Shown(PlaneMode mode) {
         plan.mode = mode;
         const auto display = make_color_transform({"srgb"}, {"srgb"});
-        show_sample({640, 360}, **display, texture, plan);
+        show_sample({40, 20, 640, 360}, **display, texture, plan);
     }
 };
 
@@ -45,10 +45,11 @@ TEST(ShownSample, AMirrorKeepsAllOfIt) {
     EXPECT_EQ(mirror.texture.pixels.size(), (Size{100, 100}));
 }
 
-TEST(ShownSample, AStretchedOneCoversThePlateOrTheCornersThatAreSet) {
+TEST(ShownSample, AStretchedOneCoversTheSurfacesBoxOrTheCornersThatAreSet) {
     const Shown stretch(PlaneMode::kStretch);
     EXPECT_EQ(stretch.texture.wrap, WrapMode::kClamp);
     ASSERT_TRUE(stretch.plan.placement.corners);
+    EXPECT_EQ((*stretch.plan.placement.corners)[0], Vec2(40, 20));
     EXPECT_EQ((*stretch.plan.placement.corners)[2], Vec2(640, 360));
     EXPECT_EQ(stretch.plan.placement.picture_texels, (Size{100, 100}));
 
@@ -56,7 +57,7 @@ TEST(ShownSample, AStretchedOneCoversThePlateOrTheCornersThatAreSet) {
     RegionPlan plan;
     plan.mode = PlaneMode::kStretch;
     plan.placement.corners = {Vec2(1, 2), Vec2(50, 2), Vec2(50, 40), Vec2(1, 40)};
-    show_sample({640, 360}, **make_color_transform({"srgb"}, {"srgb"}), texture, plan);
+    show_sample({0, 0, 640, 360}, **make_color_transform({"srgb"}, {"srgb"}), texture, plan);
     EXPECT_EQ((*plan.placement.corners)[0], Vec2(1, 2));
 }
 

@@ -1,4 +1,4 @@
-#include "app/session/child_jobs.h"
+#include "app/jobs/child_jobs.h"
 
 #include <signal.h>
 #include <sys/wait.h>
