@@ -13,19 +13,32 @@
 namespace weft::ui {
 namespace {
 
-constexpr int kQualityWidth = 88, kCompareWidth = 84, kBarWidth = 658 + kQualityWidth + 6;  // px
+// Widths in px. The bar's is without the choice of the screen, which is as wide as its text.
+constexpr int kQualityWidth = 88, kCompareWidth = 84, kBarWidth = 524 + kQualityWidth + 6;
 // What the state of the picture needs beside the bar before a comparison is offered there, too.
 constexpr int kStateWidth = 220;  // px
 
+float screen_width(const Ctx& c) {
+    const Theme& t = c.theme;
+    ImGui::PushFont(t.small);
+    const float text = ImGui::CalcTextSize(c.view.screen_name.view.c_str()).x;
+    ImGui::PopFont();
+    return std::clamp(std::ceil(text) + t.px(14), t.px(44), t.px(104));
+}
+
+float bar_width(const Ctx& c) {
+    return c.theme.px(kBarWidth) + screen_width(c);
+}
+
 bool has_compare(const Ctx& c, float width) {
-    return width >= c.theme.px(kBarWidth + kCompareWidth + kStateWidth);
+    return width >= bar_width(c) + c.theme.px(kCompareWidth + kStateWidth);
 }
 
 // The view transform: a built-in curve, or a view of the OpenColorIO config.
 void screen_choice(Ctx& c) {
     const Theme& t = c.theme;
     const ScreenName& now = c.view.screen_name;
-    const float width = t.px(104);
+    const float width = screen_width(c);
     ImGui::InvisibleButton("##Screen", {width, t.px(26)});
     c.note("Screen");
     ImGui::PushFont(t.small);
@@ -142,8 +155,9 @@ void quality_choice(Ctx& c) {
 
 float view_controls_width(const Ctx& c, float width) {
     const Theme& t = c.theme;
-    if (width < t.px(kBarWidth + 20)) return t.px(kQualityWidth);
-    return t.px(kBarWidth + (has_compare(c, width) ? kCompareWidth : 0));
+    const float bar = bar_width(c);
+    if (width < bar + t.px(20)) return t.px(kQualityWidth);
+    return bar + (has_compare(c, width) ? t.px(kCompareWidth) : 0);
 }
 
 void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
