@@ -6,6 +6,7 @@ option(WEFT_FUZZ "Build the libFuzzer targets in fuzz/ (clang)" OFF)
 option(WEFT_MOVIES "Read and write movies, with FFmpeg (docs/LICENCES.md)" ON)
 set(WEFT_LICENCE "" CACHE STRING "The licence under which Weft itself is given, as an SPDX expression; empty: not chosen yet")
 set(WEFT_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address or thread")
+set(WEFT_CPU "" CACHE STRING "Least processor for the engine: empty for any x86-64, or x86-64-v3 (AVX2) for a build that stays on its machine")
 set(WEFT_CUDA AUTO CACHE STRING "CUDA backend: AUTO (when nvcc is found), ON or OFF")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -21,6 +22,10 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 if(WEFT_SANITIZE)
     # Compiles in 60 % of the time, which a build that is made for one run of the tests pays for most.
     set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
+endif()
+
+if(NOT WEFT_CPU MATCHES "^(x86-64-v3)?$")
+    message(FATAL_ERROR "WEFT_CPU is '${WEFT_CPU}': use x86-64-v3, or leave it empty")
 endif()
 
 find_program(WEFT_CCACHE ccache)

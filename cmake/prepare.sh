@@ -62,14 +62,23 @@ use_compiler_cache() {
     export CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 }
 
-# build ROOT PRESET TARGET: configures where needed and builds; says nothing when all is up to date.
+# best_cpu: the value of WEFT_CPU for a build that stays on this machine, as the C library judges it.
+best_cpu() {
+    local loader=/lib64/ld-linux-x86-64.so.2
+    if [[ -x $loader ]] && "$loader" --help 2>/dev/null | grep -q 'x86-64-v3 (supported'; then
+        echo x86-64-v3
+    fi
+}
+
+# build ROOT PRESET TARGET [CPU]: configures where needed and builds; says nothing when all is up to date.
 build() {
-    local root=$1 preset=$2 target=$3 tree=$1/build/$2
+    local root=$1 preset=$2 target=$3 cpu=${4-} tree=$1/build/$2
     use_compiler_cache "$root"
-    if [[ ! -f $tree/build.ninja || $root/CMakePresets.json -nt $tree/build.ninja ]]; then
+    if [[ ! -f $tree/build.ninja || $root/CMakePresets.json -nt $tree/build.ninja ]] ||
+        ! grep -qx "WEFT_CPU:STRING=$cpu" "$tree/CMakeCache.txt" 2>/dev/null; then
         say "Configuring $tree"
         # A preset is found from the current folder.
-        (cd "$root" && cmake --preset "$preset") >&2 || die "CMake failed; see its message above"
+        (cd "$root" && cmake --preset "$preset" -DWEFT_CPU="$cpu") >&2 || die "CMake failed; see its message above"
     fi
     if LC_ALL=C ninja -C "$tree" -n "$target" 2>/dev/null | grep -q 'no work to do'; then return; fi
     local jobs
