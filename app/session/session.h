@@ -175,7 +175,8 @@ class Session {
     void show_shape();
 
     // ---- writing mattes (session_matte_files.cpp), scale by line (session_placing.cpp) ----
-    void write_mattes(const std::string& pattern,
+    enum class MatteEdges : std::uint8_t { kAsShown, kNone };
+    void write_mattes(const std::string& pattern, MatteEdges edges,
                       std::function<void(const std::vector<int>&)> then);
     void export_mattes(const std::string& pattern);
     void freeze_mattes(bool frozen);
@@ -257,9 +258,13 @@ class Session {
     MattePainting painting_;
     bool mattes_unwritten_ = false;  // as of the last update
     struct Shown {
-        MattePtr matte;
+        MattePtr matte;       // as `keep` and
+        MattePtr edged;       // `edged` of the view
+        std::string pending;  // name of the edged matte that is being made
         std::uint64_t version = 0;
     };
+    [[nodiscard]] MattePtr edged_matte(const MatteEdge& edge, const std::string& name,
+                                       Shown& shown);
     std::map<std::tuple<RegionId, int, int>, Shown> shown_mattes_;  // by region, layer and place
     std::map<std::string, std::uint64_t> missed_mattes_;  // name → matte_version() when it failed
     struct Changing {
