@@ -39,6 +39,15 @@ class Crossings {
 
     [[nodiscard]] bool inside(int x, int y) const { return alpha_.row(y)[x] >= level_; }
     [[nodiscard]] bool crosses_down(int x, int y) const { return inside(x, y) != inside(x, y + 1); }
+    // True if any of `count` columns from x on crosses between the rows y and y + 1.
+    [[nodiscard]] bool any_down(int x, int count, int y) const {
+        const float* a = alpha_.row(y) + x;
+        const float* b = alpha_.row(y + 1) + x;
+        int any = 0;
+        for (int i = 0; i < count; ++i)
+            any |= (a[i] >= level_ ? 1 : 0) ^ (b[i] >= level_ ? 1 : 0);
+        return any != 0;
+    }
     // Between (x, y) and (x, y + 1), 0–1.
     [[nodiscard]] float down(int x, int y) const {
         const auto at = [&](int v) { return alpha_.row(std::clamp(v, 0, alpha_.height() - 1))[x]; };
@@ -95,33 +104,54 @@ double Crossings::square_in_cell(int x, int y, double px, double py) const {
                  : std::min(square_to_segment(at[0], at[3], p), square_to_segment(at[1], at[2], p));
 }
 
+// Sweeps the columns from x0 on, up to kBlock of them, and remembers the last crossing of each.
+class ColumnSweep {
+  public:
+    ColumnSweep(const Crossings& lines, int x0, int count) : lines_(lines), x0_(x0), count_(count) {
+        last_.fill(kNone);
+    }
+    // Passes between the rows y and y + 1.
+    void pass(int y) {
+        if (!lines_.any_down(x0_, count_, y)) return;
+        for (int i = 0; i < count_; ++i) {
+            if (!lines_.crosses_down(x0_ + i, y)) continue;
+            last_[static_cast<std::size_t>(i)] = static_cast<float>(y) + lines_.down(x0_ + i, y);
+            met_ = true;
+        }
+    }
+    [[nodiscard]] bool met() const { return met_; }
+    [[nodiscard]] const float* last() const { return last_.data(); }
+
+  private:
+    const Crossings& lines_;
+    int x0_, count_;
+    bool met_ = false;
+    std::array<float, kBlock> last_{};
+};
+
 // The nearest crossing in the pixel's own column: its y, or kNone.
 ImageF1 nearest_in_columns(const Crossings& lines, Size size) {
     ImageF1 near(size, kNone);
     const auto blocks = static_cast<std::size_t>((size.width + kBlock - 1) / kBlock);
     parallel_for(blocks, [&](std::size_t block) {
-        const int x0 = static_cast<int>(block) * kBlock, x1 = std::min(x0 + kBlock, size.width);
-        std::array<float, kBlock> last{};
-        last.fill(kNone);
-        const auto take = [&](int x, int y) {
-            if (lines.crosses_down(x, y))
-                last[static_cast<std::size_t>(x - x0)] = static_cast<float>(y) + lines.down(x, y);
-        };
-        for (int y = 0; y < size.height; ++y) {
-            for (int x = x0; x < x1; ++x) {
-                if (y > 0) take(x, y - 1);
-                near.row(y)[x] = last[static_cast<std::size_t>(x - x0)];
-            }
+        const int x0 = static_cast<int>(block) * kBlock;
+        const int count = std::min(kBlock, size.width - x0);
+        ColumnSweep down(lines, x0, count);
+        for (int y = 1; y < size.height; ++y) {
+            down.pass(y - 1);
+            if (down.met()) std::copy_n(down.last(), count, near.row(y) + x0);
         }
-        last.fill(kNone);
+        ColumnSweep up(lines, x0, count);
         for (int y = size.height - 2; y >= 0; --y) {
+            up.pass(y);
+            if (!up.met()) continue;
             const auto here = static_cast<float>(y);
-            for (int x = x0; x < x1; ++x) {
-                take(x, y);
-                const float below = last[static_cast<std::size_t>(x - x0)];
-                float& above = near.row(y)[x];
-                if (below != kNone && (above == kNone || below - here < here - above))
-                    above = below;
+            const float* below = up.last();
+            float* above = near.row(y) + x0;
+            // A crossing that is not there is far away.
+            for (int i = 0; i < count; ++i) {
+                const float to_below = below[i] == kNone ? -kNone : below[i] - here;
+                above[i] = to_below < here - above[i] ? below[i] : above[i];
             }
         }
     });

@@ -303,7 +303,7 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     TextureCoords exact;
     if (region_of(plan_, index).has_uv) {
         WEFT_TRY(uv, source_.uv(index, frame_));
-        exact = coords_from_uv(uv, box, inside.shown, scene.plane.size(),
+        exact = coords_from_uv(uv, box, inside.old(), inside.shown, scene.plane.size(),
                                region_of(plan_, index).placement_at(frame_).scale);
         surface.use_coords(exact);
     }
