@@ -14,6 +14,7 @@
 #include "app/base/background_tasks.h"
 #include "app/base/frame_clock.h"
 #include "app/exchange/move_project.h"
+#include "app/mattes/edged_matte.h"
 #include "app/mattes/matte_painting.h"
 #include "app/preview/plate_opener.h"
 #include "app/preview/plate_player.h"
@@ -258,13 +259,10 @@ class Session {
     MattePainting painting_;
     bool mattes_unwritten_ = false;  // as of the last update
     struct Shown {
-        MattePtr matte;       // as `keep` and
-        MattePtr edged;       // `edged` of the view
-        std::string pending;  // name of the edged matte that is being made
+        EdgedMatte edged;
+        MattePtr matte;  // as the view shows it
         std::uint64_t version = 0;
     };
-    [[nodiscard]] MattePtr edged_matte(const MatteEdge& edge, const std::string& name,
-                                       Shown& shown);
     std::map<std::tuple<RegionId, int, int>, Shown> shown_mattes_;  // by region, layer and place
     std::map<std::string, std::uint64_t> missed_mattes_;  // name → matte_version() when it failed
     struct Changing {

@@ -35,18 +35,6 @@ std::string keys_text(const MatteSource& matte) {
     return hasher.finish().hex();
 }
 
-std::string edge_text(const MatteEdge& edge) {
-    return Hasher()
-        .value(edge.min_island_px)
-        .value(edge.min_hole_px)
-        .value(edge.smooth_px)
-        .value(edge.choke_px)
-        .value(edge.feather_px)
-        .value(edge.blur_px)
-        .finish()
-        .hex();
-}
-
 }  // namespace
 
 RegionMatteView Session::matte_of(const Region& region, int layer, int frame, int place) {
@@ -111,34 +99,17 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
         return out;
     }
     Shown& shown = shown_mattes_[{region.id, layer, place}];
-    if (shown.matte != out.keep) shown = {out.keep, nullptr, {}, next_picture_id()};
-    const MattePtr edged = edged_matte(project_edge(source.edge).at(frame), name, shown);
-    if (edged != shown.edged) {
-        shown.edged = edged;
+    const MattePtr edged =
+        shown.edged.of(out.keep, project_edge(source.edge).at(frame), name, shelf_);
+    const MattePtr visible = edged ? edged : out.keep;
+    if (shown.matte != visible) {
+        shown.matte = visible;
         shown.version = next_picture_id();
     }
     out.version = shown.version;
     out.edged = edged;
-    out.pixels = (edged ? edged : out.keep)->view();
+    out.pixels = visible->view();
     return out;
-}
-
-// Made in the background, one after the other: while a slider moves, those between are left out
-// and the last one stays shown.
-MattePtr Session::edged_matte(const MatteEdge& edge, const std::string& name, Shown& shown) {
-    if (edge.none()) {
-        shown.pending.clear();
-        return nullptr;
-    }
-    const std::string edged_name = name + " with edge " + edge_text(edge);
-    const bool busy = !shown.pending.empty() && shown.pending != edged_name &&
-                      !shelf_.get(shown.pending, {}) && shelf_.error(shown.pending).empty();
-    if (busy) return shown.edged;
-    shown.pending = edged_name;
-    const MattePtr made = shelf_.get(edged_name, [matte = shown.matte, edge]() -> Expected<Matte> {
-        return with_edge(*matte, edge);
-    });
-    return made ? made : shown.edged;
 }
 
 bool Session::may_paint() {
