@@ -160,6 +160,50 @@ void overlay_section(Ctx& c, const Region& region) {
     section_gap(c);
 }
 
+// The edge tools of the matte that is edited, over all frames.
+void edge_section(Ctx& c, const Region& region, const MatteSource& matte) {
+    if (matte.empty() || !section(c, "Edge")) return;
+    const PanelName panel(c, "Edge");
+    matte_parameter(c, region, "matte.choke_px", "matte.choke_keys");
+    matte_parameter(c, region, "matte.feather_px", "matte.feather_keys");
+    matte_parameter(c, region, "matte.blur_px", "matte.blur_keys");
+    matte_parameter(c, region, "matte.smooth_px");
+    matte_parameter(c, region, "matte.min_island_px");
+    matte_parameter(c, region, "matte.min_hole_px");
+    section_gap(c);
+}
+
+// The same once, on the painted keyframe, which is propagated then.
+void painted_edge_section(Ctx& c, const MatteSource& matte) {
+    if (!matte.files.empty() || !matte.select.crypto.empty() ||
+        !section(c, "Painted edge, this frame", false))
+        return;
+    const PanelName panel(c, "Painted edge");
+    const bool enabled = !c.view.matte_busy && !matte.empty();
+    const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * c.theme.gap) / 3);
+    const float px = ImGui::GetIO().KeyShift ? 5.0f : 1.0f;
+    if (button(c, "Grow",
+               {.enabled = enabled,
+                .tip = "Paints the matte of this frame 1 px larger and propagates it; with Shift "
+                       "5 px",
+                .width = third}))
+        c.emit(GrowMatte{px});
+    ImGui::SameLine();
+    if (button(c, "Shrink",
+               {.enabled = enabled,
+                .tip = "Paints the matte of this frame 1 px smaller and propagates it; with Shift "
+                       "5 px",
+                .width = third}))
+        c.emit(GrowMatte{-px});
+    ImGui::SameLine();
+    if (button(c, "Feather",
+               {.enabled = enabled,
+                .tip = "Paints the edge of this frame 2 px softer and propagates it",
+                .width = third}))
+        c.emit(FeatherMatte{2});
+    section_gap(c);
+}
+
 }  // namespace
 
 void mask_inspector(Ctx& c) {
@@ -241,32 +285,11 @@ void mask_inspector(Ctx& c) {
         section_gap(c);
     }
     const MatteSource painted = c.view.painted_source();
-    if (painted.files.empty() && section(c, "Edge")) {
-        const PanelName panel(c, "Edge");
-        const bool enabled = !c.view.matte_busy && !painted.empty();
-        const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * t.gap) / 3);
-        if (button(c, "Grow",
-                   {.enabled = enabled,
-                    .tip = "By 1 px on this frame; with Shift by 5 px",
-                    .width = third}))
-            c.emit(GrowMatte{ImGui::GetIO().KeyShift ? 5.0f : 1.0f});
-        ImGui::SameLine();
-        if (button(c, "Shrink",
-                   {.enabled = enabled,
-                    .tip = "By 1 px on this frame; with Shift by 5 px",
-                    .width = third}))
-            c.emit(GrowMatte{ImGui::GetIO().KeyShift ? -5.0f : -1.0f});
-        ImGui::SameLine();
-        if (button(c, "Feather",
-                   {.enabled = enabled,
-                    .tip = "Softens the edge by 2 px on this frame",
-                    .width = third}))
-            c.emit(FeatherMatte{2});
-        section_gap(c);
-    }
+    edge_section(c, *region, painted);
     holdouts_section(c, *region);
     zones_section(c, *region);
     propagation_section(c, *region);
+    painted_edge_section(c, painted);
     if (!painted.keyframes.empty()) hints_section(c, true);
     files_section(c, *region);
     overlay_section(c, *region);

@@ -78,6 +78,10 @@ void region_parameter(Ctx& c, const Region& region, std::string_view key,
 /// The control of an animatable parameter; `keys` is the key of its keyframes.
 void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::string_view keys,
                      const char* label = nullptr);
+/// A parameter of the matte that is edited, the region's own, a holdout or a zone; with its keys
+/// unless `keys` is empty.
+void matte_parameter(Ctx& c, const Region& region, std::string_view key,
+                     std::string_view keys = {});
 /// A colour space control: built-in spaces or those of the OpenColorIO config. `usual`: the meaning
 /// of an empty value.
 void space_parameter(Ctx& c, std::string_view key, const char* label, const char* usual);

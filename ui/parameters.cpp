@@ -5,6 +5,7 @@
 
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/parameter_control.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -48,6 +49,12 @@ constexpr Shape kShapes[] = {
     {"finish.focus", "Focus", 0, 2, 2, false, ""},
     {"finish.shutter_deg", "Shutter", 0, 360, 0, false, "°"},
     {"matte.steadiness", "Stabilize edge", 0, 1, 2, false, ""},
+    {"matte.choke_px", "Choke", -20, 20, 1, false, "px"},
+    {"matte.feather_px", "Feather", -50, 50, 1, false, "px"},
+    {"matte.blur_px", "Blur", 0, 20, 1, false, "px"},
+    {"matte.smooth_px", "Smooth", 0, 10, 1, false, "px"},
+    {"matte.min_island_px", "Remove islands", 0, 2000, 0, false, "px²"},
+    {"matte.min_hole_px", "Fill holes", 0, 2000, 0, false, "px²"},
     {"output.jpeg_quality", "JPEG quality", 1, 100, 0, false, ""},
     {"plate.fps", "Frame rate", 0, 120, 3, false, "fps"},
 };
@@ -109,16 +116,6 @@ const Shape* shape_of(std::string_view key) {
     return nullptr;
 }
 
-std::string label_of(const ParameterInfo& info, const char* given) {
-    if (given) return given;
-    if (const Shape* shape = shape_of(info.full_key())) return shape->label;
-    std::string label(info.key);
-    std::replace(label.begin(), label.end(), '_', ' ');
-    if (!label.empty())
-        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-    return label;
-}
-
 std::vector<double> numbers_of(const ParameterValue& value, std::size_t count) {
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     return numbers && numbers->size() == count ? *numbers : std::vector<double>(count);
@@ -147,11 +144,32 @@ void tuple_sliders(Ctx& c, const std::string& label, std::initializer_list<const
     }
 }
 
-// Draws the control; calls `emit(value, final)` with the new value.
-template <class Emit>
-void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const char* given,
-             Emit&& emit) {
-    const std::string label = label_of(info, given), key = info.full_key(), help(info.help);
+}  // namespace
+
+std::string_view parameter_label(std::string_view key) {
+    const Shape* shape = shape_of(key);
+    return shape ? shape->label : std::string_view();
+}
+
+std::string parameter_name(const ParameterInfo& info, const char* given) {
+    if (given) return given;
+    if (const Shape* shape = shape_of(info.full_key())) return shape->label;
+    std::string label(info.key);
+    std::replace(label.begin(), label.end(), '_', ' ');
+    if (!label.empty())
+        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+    return label;
+}
+
+std::string choice_label(std::string_view key, std::string_view name) {
+    for (const Word& word : kWords)
+        if (word.key == key && word.name == name) return word.shown;
+    return std::string(name);
+}
+
+void parameter_control(Ctx& c, const ParameterInfo& info, const ParameterValue& now,
+                       const char* given, const EmitValue& emit) {
+    const std::string label = parameter_name(info, given), key = info.full_key(), help(info.help);
     const Shape* shape = shape_of(key);
     switch (info.kind) {
         case ParameterKind::kInteger:
@@ -252,105 +270,17 @@ void control(Ctx& c, const ParameterInfo& info, const ParameterValue& now, const
     }
 }
 
-// A keyframe button: hollow without animation, filled on a keyframe.
-bool key_button(Ctx& c, const char* name, bool here, bool anywhere) {
-    const Theme& t = c.theme;
-    const float side = t.px(20);
-    ImGui::PushID(name);
-    const bool pressed = ImGui::InvisibleButton("##key", {side, side});
-    ImGui::PopID();
-    c.note(name);
-    const ImVec2 min = ImGui::GetItemRectMin();
-    const ImVec2 mid(min.x + side / 2, min.y + side / 2);
-    const float r = t.px(5);
-    const ImU32 color = ImGui::IsItemHovered() ? t.text : anywhere ? t.accent_hover : t.off;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (here)
-        list.AddQuadFilled({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r},
-                           {mid.x - r, mid.y}, color);
-    else
-        list.AddQuad({mid.x, mid.y - r}, {mid.x + r, mid.y}, {mid.x, mid.y + r}, {mid.x - r, mid.y},
-                     color, t.px(1.3f));
-    tooltip(c, here ? "Remove the keyframe on this frame" : "Add a keyframe on this frame");
-    return pressed;
-}
-
-}  // namespace
-
-std::string_view parameter_label(std::string_view key) {
-    const Shape* shape = shape_of(key);
-    return shape ? shape->label : std::string_view();
-}
-
-std::string choice_label(std::string_view key, std::string_view name) {
-    for (const Word& word : kWords)
-        if (word.key == key && word.name == name) return word.shown;
-    return std::string(name);
-}
-
 void region_parameter(Ctx& c, const Region& region, std::string_view key, const char* label) {
     const auto found = find_parameter(region_parameters(), key);
     if (!found) return;
-    control(c, **found, (*found)->read(region), label, [&](const ParameterValue& value, bool done) {
-        const SetRegionParameter set{{region.id, {}}, std::string(key), value};
-        if (done)
-            c.emit(DoEdit{set});
-        else
-            c.emit(TryEdit{set});
-    });
-}
-
-void keyed_parameter(Ctx& c, const Region& region, std::string_view key, std::string_view keys_key,
-                     const char* label) {
-    const auto value_entry = find_parameter(region_parameters(), key);
-    const auto keys_entry = find_parameter(region_parameters(), keys_key);
-    if (!value_entry || !keys_entry) return;
-    const Theme& t = c.theme;
-    const ParameterInfo& info = **value_entry;
-    auto keys = std::get<KeyedNumbers>((*keys_entry)->read(region));
-    ParameterValue now = (*value_entry)->read(region);
-    if (!keys.empty()) {
-        const std::vector<double> here = keys.at(c.view.frame);
-        now = here.size() == 1 ? ParameterValue(here[0]) : ParameterValue(here);
-    }
-    const RegionRef ref{region.id, {}};
-    const auto set = [&](const KeyedNumbers& changed, bool done) {
-        const SetRegionParameter edit{ref, std::string(keys_key), changed};
-        if (done)
-            c.emit(DoEdit{edit});
-        else
-            c.emit(TryEdit{edit});
-    };
-    const auto numbers = [](const ParameterValue& value) {
-        if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
-        const auto* one = std::get_if<double>(&value);
-        return std::vector<double>{one ? *one : 0.0};
-    };
-    // Drawn before the row, because the first item drawn receives the mouse.
-    const bool here = keys.has(c.view.frame);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float label_w = std::floor(ImGui::GetContentRegionAvail().x * 0.38f);
-    ImGui::SetCursorScreenPos({at.x + label_w - t.px(24), at.y + t.px(3)});
-    const std::string name = label_of(info, label);
-    if (key_button(c, ((here ? "Unkey " : "Key ") + name).c_str(), here, !keys.empty())) {
-        if (here)
-            keys.erase(c.view.frame);
-        else
-            keys.set(c.view.frame, numbers(now));
-        set(keys, true);
-    }
-    ImGui::SetCursorScreenPos(at);
-    control(c, info, now, label, [&](const ParameterValue& value, bool done) {
-        if (!keys.empty()) {
-            keys.set(c.view.frame, numbers(value));
-            return set(keys, done);
-        }
-        const SetRegionParameter edit{ref, std::string(key), value};
-        if (done)
-            c.emit(DoEdit{edit});
-        else
-            c.emit(TryEdit{edit});
-    });
+    parameter_control(c, **found, (*found)->read(region), label,
+                      [&](const ParameterValue& value, bool done) {
+                          const SetRegionParameter set{{region.id, {}}, std::string(key), value};
+                          if (done)
+                              c.emit(DoEdit{set});
+                          else
+                              c.emit(TryEdit{set});
+                      });
 }
 
 void space_parameter(Ctx& c, std::string_view key, const char* label, const char* usual) {
@@ -374,14 +304,14 @@ void space_parameter(Ctx& c, std::string_view key, const char* label, const char
 void project_parameter(Ctx& c, std::string_view key, const char* label) {
     const auto found = find_parameter(project_parameters(), key);
     if (!found) return;
-    control(c, **found, (*found)->read(c.view.project), label,
-            [&](const ParameterValue& value, bool done) {
-                const SetProjectParameter set{std::string(key), value};
-                if (done)
-                    c.emit(DoEdit{set});
-                else
-                    c.emit(TryEdit{set});
-            });
+    parameter_control(c, **found, (*found)->read(c.view.project), label,
+                      [&](const ParameterValue& value, bool done) {
+                          const SetProjectParameter set{std::string(key), value};
+                          if (done)
+                              c.emit(DoEdit{set});
+                          else
+                              c.emit(TryEdit{set});
+                      });
 }
 
 }  // namespace weft::ui

@@ -56,9 +56,12 @@ bool is_output_flag(std::string_view flag) {
 }
 
 bool is_matte_flag(std::string_view flag) {
-    return begins_with_any(flag, {"--matte-value", "--matte-channel", "--matte-invert",
-                                  "--matte-stabilize", "--matte-frozen", "--matte-frozen-files",
-                                  "--matte-propagate", "--matte-from", "--matte-to"});
+    return begins_with_any(
+        flag, {"--matte-value", "--matte-channel", "--matte-invert", "--matte-stabilize",
+               "--matte-frozen", "--matte-frozen-files", "--matte-propagate", "--matte-from",
+               "--matte-to", "--matte-min-island", "--matte-min-hole", "--matte-smooth",
+               "--matte-choke", "--matte-choke-keys", "--matte-feather", "--matte-feather-keys",
+               "--matte-blur", "--matte-blur-keys"});
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "app/preview/preview.h"
 #include "app/project/codec/project_json.h"
 
@@ -27,6 +29,19 @@ Project only_pixels(const Project& project) {
     return p;
 }
 
+// The analysis follows mattes without their edge tools.
+void forget_edges(Region& region) {
+    const auto forget = [](MatteSource& matte) { matte.edge = {}; };
+    region.matte = region.matte.with(forget);
+    region.holdouts = region.holdouts.with([&](std::vector<MatteSource>& holdouts) {
+        std::for_each(holdouts.begin(), holdouts.end(), forget);
+    });
+    region.zones = region.zones.with([&](std::vector<Zone>& zones) {
+        for (Zone& zone : zones)
+            forget(zone.matte);
+    });
+}
+
 }  // namespace
 
 std::string pixel_key(const Project& project) {
@@ -36,6 +51,7 @@ std::string pixel_key(const Project& project) {
 std::string analysis_key(const Project& project) {
     Project p = only_pixels(project);
     for (Leaf<Region>& region : p.regions) {
+        region = region.with(forget_edges);
         if (region->temporal.mode == TemporalMode::kPaper) continue;
         region = region.with([](Region& r) {
             r.texture = TextureSource{};

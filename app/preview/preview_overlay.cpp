@@ -321,9 +321,8 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     out.kind = kind;
     out.frame = frame;
     out.id = next_picture_id();
-    WEFT_TRY(extent, extent_matte(*shot.source, shot.plan, store, region, frame));
-    WEFT_TRY(holdout, holdout_matte(*shot.source, shot.plan, store, region, frame));
-    out.where = without_holdout(extent, holdout);
+    WEFT_TRY(shown, shown_matte(*shot.source, shot.plan, store, region, frame));
+    out.where = std::move(shown);
     out.value = Matte(size);
     if (kind == Overlay::kLight) {
         WEFT_CHECK_OK(draw_light(store, region, frame, scene.reference_shading, out));

@@ -194,7 +194,7 @@ Expected<std::vector<RegionScene>> PreviewScenes::quick(const Shot& shot, const 
         const int index = static_cast<int>(k);
         std::optional<RegionPlane> plane = kept_plane(wanted[k].plane);
         if (!plane && has_plane(plan.regions[k])) {
-            WEFT_TRY(matte, extent_matte(*shot.source, plan, store, index, frame));
+            WEFT_TRY(matte, shown_matte(*shot.source, plan, store, index, frame));
             const Size part =
                 part_to_grow(plan.regions[k].placement, matte_bounds(matte).size(), texels);
             WEFT_TRY(grown, quick_plane(with_seams, k, wanted[k].plane, part, cancel));

@@ -67,6 +67,13 @@ RegionPlan divided(const RegionPlan& full, int factor) {
     RegionPlan plan = full;
     // The source below has a matte for every frame.
     plan.matte_keys.clear();
+    plan.matte_edge = divided(plan.matte_edge, factor);
+    for (MatteEdgePlan& edge : plan.given_holdout_edges)
+        edge = divided(edge, factor);
+    for (PaintedMatte& holdout : plan.painted_holdouts)
+        holdout.edge = divided(holdout.edge, factor);
+    for (ZonePlan& zone : plan.zones)
+        zone.edge = divided(zone.edge, factor);
     plan.placement.scale /= by;
     plan.placement.offset_px /= by;
     if (plan.placement.corners)
@@ -110,6 +117,10 @@ class ProxySource final : public ShotSource {
         WEFT_TRY(full, shot_.source->holdout(region, frame));
         if (!full) return full;
         return std::optional<Matte>(shrunk(*full, factor_));
+    }
+    [[nodiscard]] Expected<Matte> given_holdout(int region, int given, int frame) const override {
+        WEFT_TRY(full, shot_.source->given_holdout(region, given, frame));
+        return shrunk(full, factor_);
     }
     [[nodiscard]] Expected<Matte> zone(int region, int zone, int frame) const override {
         WEFT_TRY(full, shot_.source->zone(region, zone, frame));

@@ -177,7 +177,9 @@ std::size_t own_bytes(const std::vector<PlaneAmendment>& amendments) {
 }
 
 std::size_t own_bytes(const MatteSource& matte) {
-    std::size_t bytes = sizeof matte +
+    std::size_t bytes = sizeof matte + heap_bytes_of(matte.edge.choke_keys) +
+                        heap_bytes_of(matte.edge.feather_keys) +
+                        heap_bytes_of(matte.edge.blur_keys) +
                         heap_bytes_of(matte.files, matte.frozen_files, matte.select.channel,
                                       matte.select.crypto, matte.extra) +
                         matte.frozen.capacity() * sizeof(int);

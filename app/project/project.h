@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/project/leaf.h"
+#include "app/project/matte_edge_params.h"
 #include "engine/composite/blend_mode.h"
 #include "engine/compute/wrap_mode.h"
 #include "engine/core/error.h"
@@ -132,6 +133,7 @@ struct MatteSource {
     /// Direction and range in which painted mattes are propagated; unset ends: the shot's.
     PropagationDirection propagate_direction = PropagationDirection::kBoth;
     std::optional<int> propagate_from, propagate_to;
+    MatteEdgeParams edge;
     Extras extra;
     [[nodiscard]] bool empty() const {
         return files.empty() && keyframes.empty() && select.crypto.empty();

@@ -1,91 +1,12 @@
-#include <limits>
-
 #include "app/project/form_parameters.h"
 #include "app/project/look_parameters.h"
+#include "app/project/matte_parameters.h"
 #include "app/project/parameter_entry.h"
 
 namespace weft {
 namespace {
 
 using namespace parameter_entry;
-
-/// Path: member pointers to the MatteSource inside Owner; empty if Owner is one.
-template <class Owner, auto... Path>
-std::vector<Parameter<Owner>> matte_entries() {
-    return {
-        entry<Owner, Path..., &MatteSource::files>(
-            {.group = "matte",
-             .key = "files",
-             .help = "Pattern of a matte for every frame, instead of keyframes",
-             .is_path = true}),
-        entry<Owner, Path..., &MatteSource::select, &MatteSelect::value>(
-            {.group = "matte",
-             .key = "value",
-             .flag = "--matte-value",
-             .help = "Id matte: the pixels with this value",
-             .min = 0,
-             .max = std::numeric_limits<std::int32_t>::max(),
-             .optional = true}),
-        entry<Owner, Path..., &MatteSource::select, &MatteSelect::channel>(
-            {.group = "matte",
-             .key = "channel",
-             .flag = "--matte-channel",
-             .help = "R, G, B, A, Y (luma) or a name; default A unless it is opaque, then Y"}),
-        entry<Owner, Path..., &MatteSource::select, &MatteSelect::invert>(
-            {.group = "matte",
-             .key = "invert",
-             .flag = "--matte-invert",
-             .help = "The surface is black in the matte"}),
-        entry<Owner, Path..., &MatteSource::select, &MatteSelect::crypto>(
-            {.group = "matte",
-             .key = "crypto",
-             .help = "Objects of a Cryptomatte, separated by commas"}),
-        entry<Owner, Path..., &MatteSource::steadiness>(
-            {.group = "matte",
-             .key = "steadiness",
-             .flag = "--matte-stabilize",
-             .old_flag = "--matte-steadiness",
-             .help = "Reduction of edge boil in propagated mattes",
-             .min = 0,
-             .max = 1}),
-        entry<Owner, Path..., &MatteSource::frozen>(
-            {.group = "matte",
-             .key = "frozen",
-             .flag = "--matte-frozen",
-             .help = "Frozen frames: read from the frozen files, not changed, used as keyframes",
-             .min = -kMaxFrame,
-             .max = kMaxFrame,
-             .repeatable = true}),
-        entry<Owner, Path..., &MatteSource::frozen_files>(
-            {.group = "matte",
-             .key = "frozen_files",
-             .flag = "--matte-frozen-files",
-             .help = "Pattern of the frozen frames' mattes, as 'weft matte' wrote them",
-             .is_path = true}),
-        entry<Owner, Path..., &MatteSource::propagate_direction>(
-            {.group = "matte",
-             .key = "carry",
-             .flag = "--matte-propagate",
-             .old_flag = "--matte-carry",
-             .help = "Direction in which painted mattes are propagated"}),
-        entry<Owner, Path..., &MatteSource::propagate_from>(
-            {.group = "matte",
-             .key = "carry_from",
-             .flag = "--matte-from",
-             .help = "First frame of propagation; there is no matte before it",
-             .min = -kMaxFrame,
-             .max = kMaxFrame,
-             .optional = true}),
-        entry<Owner, Path..., &MatteSource::propagate_to>(
-            {.group = "matte",
-             .key = "carry_to",
-             .flag = "--matte-to",
-             .help = "Last frame of propagation; there is no matte after it",
-             .min = -kMaxFrame,
-             .max = kMaxFrame,
-             .optional = true}),
-    };
-}
 
 std::vector<Parameter<Region>> make_region_table() {
     using R = Region;
@@ -96,7 +17,7 @@ std::vector<Parameter<Region>> make_region_table() {
         entry<R, &R::color>(
             {.key = "color", .help = "Index of its colour in the editor", .min = 0, .max = 255}),
     };
-    for (Parameter<Region>& p : matte_entries<Region, &Region::matte>())
+    for (Parameter<Region>& p : region_matte_parameters())
         table.push_back(std::move(p));
     const Parameter<Region> rest[] = {
         entry<R, &R::texture, &TextureSource::sample>(
@@ -323,10 +244,6 @@ std::vector<Parameter<Region>> make_region_table() {
 
 std::span<const Parameter<Region>> region_parameters() {
     static const std::vector<Parameter<Region>> table = make_region_table();
-    return table;
-}
-std::span<const Parameter<MatteSource>> matte_parameters() {
-    static const std::vector<Parameter<MatteSource>> table = matte_entries<MatteSource>();
     return table;
 }
 

@@ -87,7 +87,8 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
         const std::vector<int>& keys = plan.regions[0].matte_keys;
         results.push_back({frame, pattern.path_for(frame), matte.confidence,
                            std::binary_search(keys.begin(), keys.end(), frame)});
-        WEFT_CHECK_OK(write_matte(results.back().path, matte.matte, rule));
+        const Matte edged = with_edge(std::move(matte.matte), plan.regions[0].matte_edge.at(frame));
+        WEFT_CHECK_OK(write_matte(results.back().path, edged, rule));
     }
     WEFT_CHECK_OK(check_unchanged(shot->inputs->changed()));
     const std::vector<std::string> remarks = store->remarks();

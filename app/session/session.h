@@ -14,6 +14,7 @@
 #include "app/base/background_tasks.h"
 #include "app/base/frame_clock.h"
 #include "app/exchange/move_project.h"
+#include "app/mattes/edged_matte.h"
 #include "app/mattes/matte_painting.h"
 #include "app/preview/plate_opener.h"
 #include "app/preview/plate_player.h"
@@ -178,7 +179,8 @@ class Session {
     void show_shape();
 
     // ---- writing mattes (session_matte_files.cpp), scale by line (session_placing.cpp) ----
-    void write_mattes(const std::string& pattern,
+    enum class MatteEdges : std::uint8_t { kAsShown, kNone };
+    void write_mattes(const std::string& pattern, MatteEdges edges,
                       std::function<void(const std::vector<int>&)> then);
     void export_mattes(const std::string& pattern);
     void freeze_mattes(bool frozen);
@@ -261,7 +263,8 @@ class Session {
     MattePainting painting_;
     bool mattes_unwritten_ = false;  // as of the last update
     struct Shown {
-        MattePtr matte;
+        EdgedMatte edged;
+        MattePtr matte;  // as the view shows it
         std::uint64_t version = 0;
     };
     std::map<std::tuple<RegionId, int, int>, Shown> shown_mattes_;  // by region, layer and place

@@ -6,6 +6,7 @@
 #include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "app/shot/region_projection.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
@@ -30,8 +31,9 @@ WriteRule Session::export_rule() const {
     return export_rule_of(resolved(), path_);
 }
 
-// Writes the region's matte of every frame of the range, then calls `then` with the frames.
-void Session::write_mattes(const std::string& pattern_text,
+// Writes the matte of every frame of the range, with or without its edge tools, then calls `then`
+// with the frames.
+void Session::write_mattes(const std::string& pattern_text, MatteEdges edges,
                            std::function<void(const std::vector<int>&)> then) {
     const Region* region = region_by_id(document(), selected_);
     if (!region || !reader_) {
@@ -44,7 +46,9 @@ void Session::write_mattes(const std::string& pattern_text,
                                   reader_->frames().begin() + last + 1);
     const Project absolute = resolve_paths(document(), project_dir(path_));
     const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
-    start_for_document([this, pattern_text, frames, source, size = reader_->size(), absolute,
+    const MatteEdgePlan edge =
+        edges == MatteEdges::kAsShown ? project_edge(source.edge) : MatteEdgePlan();
+    start_for_document([this, pattern_text, frames, source, edge, size = reader_->size(), absolute,
                         file = path_, id = region->id, layer = layer_,
                         then = std::move(then)]() -> Finish {
         shelf_.flush();
@@ -64,7 +68,8 @@ void Session::write_mattes(const std::string& pattern_text,
                     matte = preview_.propagated_matte(id, layer, frame);
                 }
                 if (!matte) return tl::unexpected<Error>(matte.error());
-                WEFT_CHECK_OK(write_matte(pattern.path_for(frame), *matte, rule));
+                const Matte edged = with_edge(std::move(*matte), edge.at(frame));
+                WEFT_CHECK_OK(write_matte(pattern.path_for(frame), edged, rule));
             }
             return {};
         };
@@ -79,7 +84,7 @@ void Session::write_mattes(const std::string& pattern_text,
 }
 
 void Session::export_mattes(const std::string& pattern) {
-    write_mattes(pattern, [this, pattern](const std::vector<int>& frames) {
+    write_mattes(pattern, MatteEdges::kAsShown, [this, pattern](const std::vector<int>& frames) {
         notify(NoticeKind::kGood,
                "Wrote " + std::to_string(frames.size()) + " mattes to " + pattern + ".");
     });
@@ -110,7 +115,8 @@ void Session::freeze_mattes(bool frozen) {
     const fs::path any = new_matte_path(region->id, 0);
     const std::string pattern =
         (any.parent_path() / (any.stem().string() + "_frozen.####.png")).string();
-    write_mattes(pattern, [this, ref, pattern](const std::vector<int>& frames) {
+    // The edge tools go over them as over the others.
+    write_mattes(pattern, MatteEdges::kNone, [this, ref, pattern](const std::vector<int>& frames) {
         const Region* now = region_by_id(document(), ref.id);
         if (!now) return;
         MatteSource matte = *now->matte;

@@ -8,6 +8,7 @@
 #include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "app/shot/region_projection.h"
 #include "engine/core/hash.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
@@ -98,9 +99,16 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
         return out;
     }
     Shown& shown = shown_mattes_[{region.id, layer, place}];
-    if (shown.matte != out.keep) shown = {out.keep, next_picture_id()};
+    const MattePtr edged =
+        shown.edged.of(out.keep, project_edge(source.edge).at(frame), name, shelf_);
+    const MattePtr visible = edged ? edged : out.keep;
+    if (shown.matte != visible) {
+        shown.matte = visible;
+        shown.version = next_picture_id();
+    }
     out.version = shown.version;
-    out.pixels = out.keep->view();
+    out.edged = edged;
+    out.pixels = visible->view();
     return out;
 }
 

@@ -69,7 +69,8 @@ struct RegionMatteView {
     enum class Kind : std::uint8_t { kNone, kLoading, kPainted, kPropagated, kFile, kFailed };
     Kind kind = Kind::kNone;
     ViewU8x1 pixels;            ///< Pixels; valid until the next update().
-    MattePtr keep;              ///< Owns `pixels`, except while the matte is being painted.
+    MattePtr keep;              ///< The matte itself, which painting changes; null while painted.
+    MattePtr edged;             ///< With its edge tools, if it has any; `pixels` shows that then.
     std::uint64_t version = 0;  ///< Changes with the pixels.
     Recti changed;              ///< Changed part since the previous version; only while painting.
     std::string error;

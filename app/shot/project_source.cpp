@@ -60,6 +60,12 @@ class ProjectSource final : public ShotSource {
         return all;
     }
 
+    [[nodiscard]] Expected<Matte> given_holdout(int region, int given, int frame) const override {
+        for (const MatteSource& holdout : *at(region).holdouts)
+            if (!holdout.files.empty() && given-- == 0) return read(holdout, frame);
+        return ShotSource::given_holdout(region, given, frame);
+    }
+
     [[nodiscard]] Expected<Matte> zone(int region, int zone, int frame) const override {
         return read(at(region).zones->at(static_cast<std::size_t>(zone)).matte, frame);
     }

@@ -27,6 +27,7 @@ PaintedMatte painted_matte(const MatteSource& matte) {
         painted.keys.push_back(frame);
     painted.steadiness = static_cast<float>(matte.steadiness);
     painted.reach = reach_of(matte);
+    painted.edge = project_edge(matte.edge);
     return painted;
 }
 
@@ -48,6 +49,20 @@ PlanePlacement plane_placement(const Placement& p) {
 
 }  // namespace
 
+MatteEdgePlan project_edge(const MatteEdgeParams& edge) {
+    MatteEdgePlan plan;
+    plan.edge = {.min_island_px = edge.min_island_px,
+                 .min_hole_px = edge.min_hole_px,
+                 .smooth_px = static_cast<float>(edge.smooth_px),
+                 .choke_px = static_cast<float>(edge.choke_px),
+                 .feather_px = static_cast<float>(edge.feather_px),
+                 .blur_px = static_cast<float>(edge.blur_px)};
+    plan.choke_keys = edge.choke_keys;
+    plan.feather_keys = edge.feather_keys;
+    plan.blur_keys = edge.blur_keys;
+    return plan;
+}
+
 Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& holdouts,
                       RegionPlan& plan) {
     if (matte.empty()) {
@@ -58,10 +73,12 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
         plan.matte_keys.push_back(frame);
     plan.matte_steadiness = static_cast<float>(matte.steadiness);
     plan.matte_reach = reach_of(matte);
+    plan.matte_edge = project_edge(matte.edge);
     // Painted holdouts are numbered in order; the number is their key in the analysis.
     for (const MatteSource& holdout : holdouts) {
         if (!holdout.files.empty()) {
             plan.has_holdout = true;
+            plan.given_holdout_edges.push_back(project_edge(holdout.edge));
             continue;
         }
         if (holdout.keyframes.empty()) {
@@ -85,6 +102,7 @@ Status project_zones(const std::vector<Zone>& zones, RegionPlan& plan) {
         if (zone.matte.files.empty()) planned.painted = painted_matte(zone.matte);
         planned.value = static_cast<float>(zone.value);
         planned.value_keys = zone.value_keys;
+        planned.edge = project_edge(zone.matte.edge);
         plan.zones.push_back(std::move(planned));
     }
     return {};

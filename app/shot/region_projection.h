@@ -7,6 +7,7 @@
 
 namespace weft {
 
+[[nodiscard]] MatteEdgePlan project_edge(const MatteEdgeParams& edge);
 /// Errors: Usage when the region or a holdout has no matte.
 [[nodiscard]] Status project_mattes(const MatteSource& matte,
                                     const std::vector<MatteSource>& holdouts, RegionPlan& plan);

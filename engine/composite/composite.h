@@ -14,6 +14,12 @@ namespace weft {
 /// within 96 px of the soft ones.
 [[nodiscard]] ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte);
 
+/// The B with which a new surface goes through `shown` where the old one is covered by `matte`:
+/// edge tools have moved the edge. Where no more is shown than is covered, the above. Where more
+/// is, O has nothing of the old surface and the background behind it, freed of it. `shown` equal to
+/// `matte`: the same bytes as above.
+[[nodiscard]] ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte, ViewU8x1 shown);
+
 /// Writes O into `out` where matte > 0 and leaves the other pixels. Where matte is 255, O is
 /// exactly T. All H×W, linear light. Where `plate` is NaN or infinite, O = T, channel by channel.
 /// Values above 1 are kept; negative ones become 0 unless the plate itself is negative there.

@@ -115,4 +115,28 @@ ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte) {
     return surface;
 }
 
+// With coverage a, what is shown e > a and the background G = (F − a B) / (1 − a):
+// O = e T + (1 − e) G = F + e (T − B′), where e B′ = F − (1 − e) G.
+ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte, ViewU8x1 shown) {
+    ImageF3 surface = unmix_surface(plate, matte);
+    parallel_rows(plate.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < plate.width(); ++x) {
+                const int covered = matte.row(y)[x], wanted = shown.row(y)[x];
+                if (wanted <= covered) continue;
+                const float a = static_cast<float>(covered) / 255.0f;
+                const float e = static_cast<float>(wanted) / 255.0f;
+                const float* f = plate.pixel(x, y);
+                float* b = surface.pixel(x, y);
+                for (int c = 0; c < 3; ++c) {
+                    if (!std::isfinite(f[c])) continue;
+                    const float background = covered == 0 ? f[c] : (f[c] - a * b[c]) / (1 - a);
+                    b[c] = (f[c] - (1 - e) * background) / e;
+                }
+            }
+        }
+    });
+    return surface;
+}
+
 }  // namespace weft

@@ -82,7 +82,8 @@ Status match_focus(const FrameLight& light, ViewU8x1 inside, ImageF3& texture) {
     const FrameLightInputs& in = light.inputs();
     const RegionPlan& region = in.plan.regions[static_cast<std::size_t>(in.index)];
     if (!(region.focus > 0)) return {};
-    const PictureEdges of_plate = paint_edges(light, in.working.view().crop(in.box), inside);
+    const PictureEdges of_plate =
+        paint_edges(light, in.working.view().crop(in.box), light.on_surface(inside));
     const float plate_px = strong_blur_px(of_plate);
     WEFT_TRY(local, local_blur(in, of_plate.edges));
     // A lens that was fitted to the whole plate needs no evidence from the region.

@@ -41,6 +41,16 @@ Expected<FrameLight> FrameLight::find(const FrameLightInputs& inputs) {
     return out;
 }
 
+Matte FrameLight::on_surface(ViewU8x1 inside) const {
+    Matte out(inside.size());
+    for (int y = 0; y < inside.height(); ++y) {
+        const std::uint8_t* old = in_.matte.pixel(in_.box.x0, in_.box.y0 + y);
+        std::transform(inside.row(y), inside.row(y) + inside.width(), old, out.row(y),
+                       [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+    }
+    return out;
+}
+
 Status FrameLight::change() {
     const RegionPlan& plan = region();
     if (plan.light_source == LightSource::kPlate) {
@@ -118,9 +128,10 @@ ImageF3 FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const {
 
 Expected<ImageF3> FrameLight::apply(ViewU8x1 inside, ImageF3& texture) const {
     WEFT_CHECK_OK(put_light(inside, texture));
-    ImageF3 gloss = put_gloss(inside, texture);
+    const Matte seen = on_surface(inside);
+    ImageF3 gloss = put_gloss(seen, texture);
     const auto keep_detail = [&](ImageF3& picture) {
-        keep_plate_detail(picture, {in_.box.x0, in_.box.y0}, in_.working, inside,
+        keep_plate_detail(picture, {in_.box.x0, in_.box.y0}, in_.working, seen,
                           shading_ ? &*shading_ : nullptr, region().keep_detail);
     };
     keep_detail(texture);

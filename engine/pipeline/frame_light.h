@@ -19,8 +19,8 @@ struct FrameLightInputs {
     int frame;
     const ImageF3& working;  ///< The plate in the working space.
     const RegionScene& scene;
-    const Matte& matte;  ///< The region's, of the plate's size.
-    Recti box;           ///< That bounds it.
+    const Matte& matte;  ///< Of the old surface, of the plate's size; without edge tools.
+    Recti box;           ///< That bounds it, and where the new surface goes.
 };
 
 class FrameLight {
@@ -31,6 +31,9 @@ class FrameLight {
     [[nodiscard]] const FrameLightInputs& inputs() const { return in_; }
     /// With light detail, zones and strengths above 1 in it; empty: none.
     [[nodiscard]] const std::optional<Shading>& shading() const { return shading_; }
+    /// Where the plate shows the old surface within `inside`, of the box's size: what is beyond it
+    /// takes nothing of the plate over.
+    [[nodiscard]] Matte on_surface(ViewU8x1 inside) const;
     /// λ that is left to be applied, 0–1.
     [[nodiscard]] float strength() const { return strength_; }
     /// Lights the texture over the box; `inside` is the matte there. Returns the gloss that is on

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/pipeline/plate_views.h"
+
 namespace weft {
 namespace {
 
@@ -31,6 +33,13 @@ Expected<Matte> ShotSource::holdout_key(int /*region*/, int /*painted*/, int fra
                 "No holdout is painted on frame " + std::to_string(frame) + ".");
 }
 
+Expected<Matte> ShotSource::given_holdout(int region, int /*given*/, int frame) const {
+    WEFT_TRY(all, holdout(region, frame));
+    if (all) return std::move(*all);
+    return fail(ErrorCode::kMissingFrames,
+                "There is no holdout on frame " + std::to_string(frame) + ".");
+}
+
 Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
                               const AnalysisStore& store, int region, int frame) {
     const RegionPlan& r = region_of(plan, region);
@@ -45,6 +54,50 @@ Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
         all = all.empty() ? std::move(stored.matte) : either(std::move(all), stored.matte);
     }
     return all;
+}
+
+Expected<Matte> edged_holdout(const ShotSource& source, const ShotPlan& plan,
+                              const AnalysisStore& store, int region, int frame) {
+    const RegionPlan& r = region_of(plan, region);
+    Matte all;
+    const auto add = [&](Matte matte, const MatteEdgePlan& edge) {
+        matte = with_edge(std::move(matte), edge.at(frame));
+        all = all.empty() ? std::move(matte) : either(std::move(all), matte);
+    };
+    const auto none = [](const MatteEdgePlan& edge) { return edge.none(); };
+    const auto& given = r.given_holdout_edges;
+    if (r.has_holdout && std::all_of(given.begin(), given.end(), none)) {
+        WEFT_TRY(matte, source.holdout(region, frame));
+        if (matte) all = std::move(*matte);
+    } else if (r.has_holdout) {
+        for (int k = 0; k < static_cast<int>(given.size()); ++k) {
+            WEFT_TRY(matte, source.given_holdout(region, k, frame));
+            add(std::move(matte), given[static_cast<std::size_t>(k)]);
+        }
+    }
+    for (int layer = 1; layer <= static_cast<int>(r.painted_holdouts.size()); ++layer) {
+        WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kMatte, layer}));
+        WEFT_TRY(stored, decode_matte(bytes));
+        add(std::move(stored.matte), r.painted_holdouts[static_cast<std::size_t>(layer - 1)].edge);
+    }
+    return all;
+}
+
+Expected<Matte> shown_matte(const ShotSource& source, const ShotPlan& plan,
+                            const AnalysisStore& store, int region, int frame) {
+    WEFT_TRY(extent, extent_matte(source, plan, store, region, frame));
+    WEFT_TRY(holdout, edged_holdout(source, plan, store, region, frame));
+    return without_holdout(
+        with_edge(std::move(extent), region_of(plan, region).matte_edge.at(frame)), holdout);
+}
+
+bool shows_as_followed(const RegionPlan& region, int frame) {
+    const auto none = [&](const MatteEdgePlan& edge) { return edge.at(frame).none(); };
+    return none(region.matte_edge) &&
+           std::all_of(region.given_holdout_edges.begin(), region.given_holdout_edges.end(),
+                       none) &&
+           std::all_of(region.painted_holdouts.begin(), region.painted_holdouts.end(),
+                       [&](const PaintedMatte& holdout) { return none(holdout.edge); });
 }
 
 FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {

@@ -13,6 +13,17 @@ namespace weft {
 [[nodiscard]] Expected<Matte> holdout_matte(const ShotSource& source, const ShotPlan& plan,
                                             const AnalysisStore& store, int region, int frame);
 
+// Those two are what the analysis follows. The picture is made with their edge tools applied:
+
+/// holdout_matte() with the edge tools of each holdout.
+[[nodiscard]] Expected<Matte> edged_holdout(const ShotSource& source, const ShotPlan& plan,
+                                            const AnalysisStore& store, int region, int frame);
+/// Where a region shows on a frame: its matte without its holdouts, all with their edge tools.
+[[nodiscard]] Expected<Matte> shown_matte(const ShotSource& source, const ShotPlan& plan,
+                                          const AnalysisStore& store, int region, int frame);
+/// False if edge tools change where the region shows on this frame.
+[[nodiscard]] bool shows_as_followed(const RegionPlan& region, int frame);
+
 /// The frames that a region's analysis spans: its frames to render, references, matte keyframes
 /// and the evidence of light, form and grain.
 struct FrameSpan {

@@ -20,6 +20,7 @@
 #include "engine/lighting/plate_detail.h"
 #include "engine/lighting/plate_exposure.h"
 #include "engine/lighting/shading.h"
+#include "engine/mask/matte_edge.h"
 #include "engine/mask/matte_reach.h"
 #include "engine/motion/corner_track.h"
 #include "engine/motion/optical_flow.h"
@@ -50,6 +51,7 @@ struct PaintedMatte {
     std::vector<int> keys;  ///< Ascending.
     float steadiness = 0.5f;
     MatteReach reach;
+    MatteEdgePlan edge = {};  ///< For the composite; what is propagated is the matte without it.
 };
 
 /// A part of a region in which a setting has another value.
@@ -58,6 +60,7 @@ struct ZonePlan {
     PaintedMatte painted;  ///< Without keys the zone's matte comes from files.
     float value = 1;
     KeyedNumbers value_keys;  ///< Over time, instead of `value`.
+    MatteEdgePlan edge;
     [[nodiscard]] bool propagated() const { return !painted.keys.empty(); }
     [[nodiscard]] float value_at(int frame) const {
         return value_keys.empty() ? value : value_keys.float_at(frame)[0];
@@ -72,6 +75,10 @@ struct RegionPlan {
     float matte_steadiness = 0.5f;  ///< Of propagated mattes, 0–1.
     MatteReach matte_reach;
     bool has_holdout = false;  ///< Holdouts from files.
+    /// Edge tools of the matte and of each holdout from files, for the composite. The analysis
+    /// follows the mattes without them.
+    MatteEdgePlan matte_edge;
+    std::vector<MatteEdgePlan> given_holdout_edges;
     std::vector<PaintedMatte> painted_holdouts;
     std::vector<ZonePlan> zones;
     // Motion and placement.

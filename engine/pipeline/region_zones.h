@@ -9,7 +9,8 @@
 
 namespace weft {
 
-/// A zone's matte on a frame: from its files, or as it was propagated (which must be done).
+/// A zone's matte on a frame, with its edge tools: from its files, or as it was propagated (which
+/// must be done).
 [[nodiscard]] Expected<Matte> zone_matte(const ShotSource& source, const ShotPlan& plan,
                                          const AnalysisStore& store, int region, int zone,
                                          int frame);

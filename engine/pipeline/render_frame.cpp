@@ -25,6 +25,26 @@ constexpr float kKnee = 0.9f;  // of the roll-off
 
 enum class Place { kDevice, kCpu };
 
+Matte cropped(const Matte& matte, const Recti& box) {
+    Matte out(box.size());
+    for (int y = 0; y < box.height(); ++y) {
+        const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
+        std::copy(row, row + box.width(), out.row(y));
+    }
+    return out;
+}
+
+// A region's mattes, without its holdouts.
+struct Mattes {
+    Matte shown;   // where the new surface goes
+    Matte covers;  // where the plate shows the old one, if that differs; else empty
+
+    [[nodiscard]] const Matte& old() const { return covers.empty() ? shown : covers; }
+    [[nodiscard]] Mattes crop(const Recti& box) const {
+        return {cropped(shown, box), covers.empty() ? Matte() : cropped(covers, box)};
+    }
+};
+
 // Renders one frame and holds what its regions share. On a device the frame stays there from the
 // first region to the last.
 class FrameRenderer {
@@ -57,20 +77,20 @@ class FrameRenderer {
   private:
     // Fills working_ and canvas_ over the box, where that has not been done.
     void make_ready(const Recti& box);
-    [[nodiscard]] Expected<Matte> composite_matte(int index);
+    [[nodiscard]] Expected<Mattes> composite_mattes(int index);
     void put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
                    ImageF3& texture) const;
     // The texture in the working space, finished and composited over the canvas. `matte` covers the
     // frame, `inside` the box.
     Status add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
-                      const RegionScene& scene, const Matte& matte, const Matte& inside,
+                      const RegionScene& scene, const Matte& matte, const Mattes& inside,
                       const FrameLight& light);
     // The region's contribution to the frame's layers, except for the patch. `share` has its
     // pictures.
     Status note_share(int index, const RegionSurface& surface, const RegionScene& scene,
                       LayerShare share);
     Status add_on_device(int index, const RegionSurface& surface, const Recti& box,
-                         const RegionScene& scene, const Matte& inside, const FrameLight& light);
+                         const RegionScene& scene, const Mattes& inside, const FrameLight& light);
     // Remembers that an error came from the device.
     template <class T>
     Expected<T> of_device(Expected<T> result) {
@@ -151,14 +171,20 @@ void FrameRenderer::make_ready(const Recti& box) {
     });
 }
 
-Expected<Matte> FrameRenderer::composite_matte(int index) {
+Expected<Mattes> FrameRenderer::composite_mattes(int index) {
+    const RegionPlan& region = region_of(plan_, index);
     WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame_));
     WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame_));
     if (is_hard(extent)) {
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
         extent = soften_hard_edge(views_->display, extent);
     }
-    return without_holdout(extent, holdout);
+    Matte covers = without_holdout(extent, holdout);
+    if (shows_as_followed(region, frame_)) return Mattes{std::move(covers), {}};
+    WEFT_TRY(edged, edged_holdout(source_, plan_, store_, index, frame_));
+    Matte shown =
+        without_holdout(with_edge(std::move(extent), region.matte_edge.at(frame_)), edged);
+    return Mattes{std::move(shown), std::move(covers)};
 }
 
 void FrameRenderer::put_grain(int index, const RegionScene& scene, const Recti& box, ViewU8x1 matte,
@@ -190,8 +216,9 @@ Status FrameRenderer::lay_ink(int index, const Recti& box, const Matte& matte, I
 }
 
 Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const Recti& box,
-                                 const RegionScene& scene, const Matte& matte, const Matte& inside,
+                                 const RegionScene& scene, const Matte& matte, const Mattes& mattes,
                                  const FrameLight& light) {
+    const Matte& inside = mattes.shown;
     WEFT_TRY(texture, surface.texture(box, inside));
     apply_grade(texture, inside, grade_on(region_of(plan_, index), scene));
     // Before the light, which has the plate's blur already.
@@ -203,7 +230,7 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     }
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
-    ImageF3 old_surface = unmix_surface(area, inside);
+    ImageF3 old_surface = unmix_surface(area, mattes.old(), inside);
     blend_layer(texture, old_surface, inside, region_of(plan_, index).blend_mode,
                 region_of(plan_, index).opacity);
     // The ink already has the plate's grain.
@@ -230,15 +257,16 @@ Status FrameRenderer::note_share(int index, const RegionSurface& surface, const 
 }
 
 Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, const Recti& box,
-                                    const RegionScene& scene, const Matte& inside,
+                                    const RegionScene& scene, const Mattes& mattes,
                                     const FrameLight& light) {
+    const Matte& inside = mattes.shown;
     WEFT_TRY(lookup, surface.lookup(box));
     const ImageView<float, 3> area = canvas_.view().crop(box);
     // Over another region, the old surface is what that region shows.
     if (!device_box_.intersected(box).empty()) {
         WEFT_CHECK_OK(of_device(device_->read(box, area)));
     }
-    const ImageF3 old_surface = unmix_surface(area, inside);
+    const ImageF3 old_surface = unmix_surface(area, mattes.old(), inside);
     LayerRequest layer;
     layer.texture.plane = lookup.shown();
     layer.texture.coords = lookup.coords.uv;
@@ -260,24 +288,22 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
 }
 
 Status FrameRenderer::add(int index, const RegionScene& scene) {
-    WEFT_TRY(matte, composite_matte(index));
-    const Recti box = matte_bounds(matte);
-    if (box.empty()) return {};
-    Matte inside(box.size());
-    for (int y = 0; y < box.height(); ++y) {
-        const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
-        std::copy(row, row + box.width(), inside.row(y));
-    }
+    WEFT_TRY(mattes, composite_mattes(index));
+    const Matte& matte = mattes.shown;
+    if (matte_bounds(matte).empty()) return {};
+    // The old surface is read off its own matte, wherever the new one goes.
+    const Recti box = matte_bounds(matte).united(matte_bounds(mattes.old()));
+    const Mattes inside = mattes.crop(box);
     make_ready(needs_whole_plate(region_of(plan_, index)) ? rect_of(plate_->size()) : box);
     rendered_ = rendered_.united(box);
     lit_ = lit_ || region_of(plan_, index).lights() || region_of(plan_, index).grades();
-    WEFT_TRY(light, FrameLight::find(
-                        {source_, plan_, store_, index, frame_, working_, scene, matte, box}));
+    WEFT_TRY(light, FrameLight::find({source_, plan_, store_, index, frame_, working_, scene,
+                                      mattes.old(), box}));
     RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
     TextureCoords exact;
     if (region_of(plan_, index).has_uv) {
         WEFT_TRY(uv, source_.uv(index, frame_));
-        exact = coords_from_uv(uv, box, inside, scene.plane.size(),
+        exact = coords_from_uv(uv, box, inside.old(), inside.shown, scene.plane.size(),
                                region_of(plan_, index).placement_at(frame_).scale);
         surface.use_coords(exact);
     }
@@ -288,7 +314,7 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     }
     for (int y = 0; y < box.height(); ++y) {
         std::uint8_t* touched = touched_.pixel(box.x0, box.y0 + y);
-        std::transform(inside.row(y), inside.row(y) + box.width(), touched, touched,
+        std::transform(inside.shown.row(y), inside.shown.row(y) + box.width(), touched, touched,
                        [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
     }
     return {};

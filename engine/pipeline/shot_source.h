@@ -36,6 +36,9 @@ class ShotSource {
     [[nodiscard]] virtual Expected<Matte> holdout_key(int region, int painted, int frame) const;
     /// The maximum of the region's holdouts that come from files; empty if it has none.
     [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
+    /// One of them (RegionPlan::given_holdout_edges). A source whose holdouts have no edge tools
+    /// need not override it.
+    [[nodiscard]] virtual Expected<Matte> given_holdout(int region, int given, int frame) const;
     /// The matte of a region's zone (RegionPlan::zones) from its files, and a painted key of it. A
     /// source that has none need not override them.
     [[nodiscard]] virtual Expected<Matte> zone(int region, int zone, int frame) const;

@@ -102,11 +102,9 @@ Expected<StMaps> st_maps(const ShotSource& source, const ShotPlan& plan, const A
     const Size size = source.size();
     StMaps out{{ImageF2(size), ImageF1(size)}, {ImageF2(size), ImageF1(size)}};
     for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {
-        WEFT_TRY(extent, extent_matte(source, plan, store, k, frame));
-        WEFT_TRY(holdout, holdout_matte(source, plan, store, k, frame));
+        WEFT_TRY(visible, shown_matte(source, plan, store, k, frame));
         WEFT_TRY(bytes, store.get({k, frame, AnalysisKind::kCoords}));
         WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-        const Matte visible = without_holdout(extent, holdout);
         add_warp(out.warp, ref_from_cur, visible);
         add_stabilize(out.stabilize, ref_from_cur, visible);
     }

@@ -6,8 +6,9 @@
 namespace weft {
 namespace {
 
-// Grows by one pixel: continues the two pixels behind it in a straight line, in eight directions.
-void continue_outwards(ImageF2& coords, Matte& known) {
+// Grows by one pixel: continues the pixel behind it and the one that lies `base` pixels behind that
+// in a straight line, in eight directions.
+void continue_outwards(ImageF2& coords, Matte& known, int base) {
     static constexpr std::array<std::array<int, 2>, 8> kWays{
         {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
     const ImageF2 before = coords;
@@ -21,11 +22,13 @@ void continue_outwards(ImageF2& coords, Matte& known) {
             float sum[2] = {0, 0};
             int count = 0;
             for (const auto& [dx, dy] : kWays) {
-                if (!has(x + dx, y + dy) || !has(x + 2 * dx, y + 2 * dy)) continue;
+                const int u = x + (1 + base) * dx, v = y + (1 + base) * dy;
+                if (!has(x + dx, y + dy) || !has(u, v)) continue;
                 const float* near = before.pixel(x + dx, y + dy);
-                const float* far = before.pixel(x + 2 * dx, y + 2 * dy);
+                const float* far = before.pixel(u, v);
                 for (int c = 0; c < 2; ++c)
-                    sum[c] += 2 * near[c] - far[c];
+                    sum[c] += base == 1 ? 2 * near[c] - far[c]
+                                        : near[c] + (near[c] - far[c]) / static_cast<float>(base);
                 ++count;
             }
             if (count == 0) continue;
@@ -36,11 +39,20 @@ void continue_outwards(ImageF2& coords, Matte& known) {
     }
 }
 
+// True if a pixel that shows more than `matte` has no coordinates yet.
+bool lacks_any(const Matte& known, ViewU8x1 matte, ViewU8x1 shown) {
+    for (int y = 0; y < known.height(); ++y)
+        for (int x = 0; x < known.width(); ++x)
+            if (known.at(x, y) == 0 && shown.row(y)[x] > matte.row(y)[x]) return true;
+    return false;
+}
+
 }  // namespace
 
-TextureCoords coords_from_uv(const ImageF2& uv, const Recti& box, ViewU8x1 matte, Size plane,
-                             float scale) {
-    constexpr int kReach = 3;
+TextureCoords coords_from_uv(const ImageF2& uv, const Recti& box, ViewU8x1 matte, ViewU8x1 shown,
+                             Size plane, float scale) {
+    // Far out a longer base keeps the pass' rounding from growing.
+    constexpr int kReach = 3, kFarReach = 256, kLongBase = 6;
     TextureCoords out;
     out.uv = ImageF2(box.size());
     out.origin = {box.x0, box.y0};
@@ -57,7 +69,9 @@ TextureCoords coords_from_uv(const ImageF2& uv, const Recti& box, ViewU8x1 matte
         }
     }
     for (int k = 0; k < kReach; ++k)
-        continue_outwards(out.uv, known);
+        continue_outwards(out.uv, known, 1);
+    for (int k = kReach; k < kFarReach && lacks_any(known, matte, shown); ++k)
+        continue_outwards(out.uv, known, kLongBase);
     return out;
 }
 

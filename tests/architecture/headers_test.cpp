@@ -28,6 +28,8 @@ const std::vector<Untested> kThroughOthers{
     {"app/project/codec/json_limits.h", "internal: tests/project, through project_json.h"},
     {"app/project/leaf.h", "tests/project, through project.h"},
     {"app/project/form_parameters.h", "internal: tests/project, through parameters.h"},
+    {"app/project/matte_edge_params.h", "tests/project, through project.h"},
+    {"app/project/matte_parameters.h", "internal: tests/project, through parameters.h"},
     {"app/project/look_parameters.h", "internal: tests/project, through parameters.h"},
     {"app/project/parameter_entry.h", "internal: tests/project, through parameters.h"},
     {"app/project/parameter_lists.h", "internal: tests/project, through parameters.h"},

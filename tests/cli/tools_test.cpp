@@ -337,6 +337,30 @@ TEST_F(Tools, MattePrintsAConfidenceForEachFrame) {
                    2, {"mattes/0001.png", "--overwrite"});
 }
 
+TEST_F(Tools, MattesAreWrittenWithTheirEdges) {
+    make_shot(2);
+    const auto area = [&](const std::vector<std::string>& edge) {
+        std::vector<std::string> words{
+            "matte", "--plate",         "frames/####.png", "--matte",    "masks/####.png",
+            "-o",    "mattes/####.png", "--overwrite",     "--progress", "none"};
+        words.insert(words.end(), edge.begin(), edge.end());
+        expect_success(run(words));
+        const auto matte = read_matte(in("mattes/0002.png"), {}, {});
+        EXPECT_TRUE(matte);
+        double sum = 0;
+        for (std::size_t i = 0; matte && i < matte->size_bytes(); ++i)
+            sum += matte->data()[i] / 255.0;
+        return sum;
+    };
+    const double plain = area({}), grown = area({"--matte-choke", "2"});
+    EXPECT_GT(grown, plain + 50);
+    EXPECT_NEAR(area({"--matte-choke-keys", "1:0 3:4"}), grown, 1e-6) << "2 px on frame 2";
+    EXPECT_LT(area({"--matte-choke=-1.5"}), plain - 40);
+    expect_failure(run({"matte", "--plate", "frames/####.png", "--matte", "masks/####.png", "-o",
+                        "mattes/####.png", "--overwrite", "--matte-choke", "900"}),
+                   2, {"--matte-choke", "900", "200"});
+}
+
 TEST_F(Tools, MoviesAreWrittenAndRead) {
     WEFT_NEEDS_MOVIES();
     make_shot(3, 12);

@@ -239,5 +239,29 @@ TEST(RollOff, MakesInfinityWhiteAndNanBlack) {
     EXPECT_LT(rgb.at(1, 0, 1), 1.0f);
 }
 
+// What is shown of a new surface may differ from what the old one covers.
+TEST(UnmixSurface, AnEdgeThatIsMovedTakesTheOldSurfaceAlong) {
+    const Scene s = make_scene(
+        {160, 60}, 8, [](int, int, int) { return 0.1f; }, [](int, int, int) { return 0.8f; });
+    EXPECT_EQ(unmix_surface(s.plate, s.matte, s.matte), unmix_surface(s.plate, s.matte));
+    Matte shown(s.matte.size());
+    constexpr int kShift = 5;
+    for (int y = 0; y < shown.height(); ++y)
+        for (int x = 0; x < shown.width(); ++x)
+            shown.at(x, y) = s.matte.at(std::max(0, x - kShift), y);
+    ImageF3 out = s.plate;
+    composite_over(out, s.plate, unmix_surface(s.plate, s.matte, shown), shown, s.texture);
+    for (int y = 0; y < shown.height(); ++y) {
+        for (int x = 0; x < shown.width(); ++x) {
+            const float e = static_cast<float>(shown.at(x, y)) / 255.0f;
+            for (int c = 0; c < 3; ++c) {
+                const float wanted = e * s.texture.at(x, y, c) + (1 - e) * 0.8f;
+                if (shown.at(x, y) > s.matte.at(x, y))
+                    ASSERT_NEAR(out.at(x, y, c), wanted, 0.03f) << x << ' ' << y;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weft

@@ -19,12 +19,22 @@ Region full_region() {
     matte.propagate_direction = PropagationDirection::kBackward;
     matte.propagate_from = -5;
     matte.propagate_to = 100;
+    matte.edge = {.min_island_px = 40,
+                  .min_hole_px = 30,
+                  .smooth_px = 1.5,
+                  .choke_px = -0.3,
+                  .feather_px = 4,
+                  .blur_px = 0.7,
+                  .choke_keys = {{{1, {0}}, {24, {3}}}},
+                  .feather_keys = {{{1, {-2}}}},
+                  .blur_keys = {{{1, {0.5}}}}};
     r.matte = matte;
     MatteSource holdout;
     holdout.files = "hold/####.png";
     MatteSource painted;
     painted.keyframes = {{12, {"mattes/hand.png", {}}}};
     painted.propagate_direction = PropagationDirection::kForward;
+    painted.edge.choke_px = 2;
     r.holdouts = std::vector<MatteSource>{holdout, painted};
     Zone zone;
     zone.value = 0.25;

@@ -36,6 +36,27 @@ TEST(RegionProjection, PaintedHoldoutsKeepTheirOrderAmongThePainted) {
     EXPECT_THAT(plan.painted_holdouts[1].keys, ElementsAre(1, 9));
 }
 
+TEST(RegionProjection, EveryMatteHasItsOwnEdgeTools) {
+    MatteSource matte = painted_on({3}), painted = painted_on({5}), files;
+    files.files = "holdout.####.png";
+    matte.edge.choke_px = 2.5;
+    matte.edge.blur_keys = {{{1, {0}}, {5, {4}}}};
+    painted.edge.feather_px = -3;
+    files.edge.min_hole_px = 20;
+    RegionPlan plan;
+    ASSERT_TRUE(project_mattes(matte, {painted, files}, plan));
+    EXPECT_EQ(plan.matte_edge.at(3).choke_px, 2.5f);
+    EXPECT_EQ(plan.matte_edge.at(3).blur_px, 2);
+    ASSERT_EQ(plan.given_holdout_edges.size(), 1u);
+    EXPECT_EQ(plan.given_holdout_edges[0].edge.min_hole_px, 20);
+    EXPECT_EQ(plan.painted_holdouts[0].edge.edge.feather_px, -3);
+    Zone zone;
+    zone.matte = matte;
+    ASSERT_TRUE(project_zones({zone}, plan));
+    EXPECT_EQ(plan.zones[0].edge.edge.choke_px, 2.5f);
+    EXPECT_TRUE(project_edge({}).none());
+}
+
 TEST(RegionProjection, AMatteAndAHoldoutMustBeThere) {
     RegionPlan plan;
     const Status none = project_mattes({}, {}, plan);

@@ -193,5 +193,27 @@ TEST(MatteLayer, TheLastKeyOfAHoldoutTakesItWithIt) {
     EXPECT_EQ(std::get<SetHoldouts>(set_layer(region, 3, painted)).holdouts.size(), 3u);
 }
 
+TEST_F(PaintedLayers, EdgeToolsChangeTheMatteThatIsEdited) {
+    open();
+    ASSERT_TRUE(robot->drag("Edge/Choke", {20, 0}));
+    robot->frames(3);
+    EXPECT_GT(region().matte->edge.choke_px, 0.5);
+    ASSERT_TRUE(robot->click("Key Choke"));
+    robot->frames(3);
+    EXPECT_TRUE(region().matte->edge.choke_keys.has(session->view().frame));
+    const double kept = region().matte->edge.choke_px;
+    paint_holdout();
+    robot->wheel(60);
+    robot->frames(3);
+    ASSERT_TRUE(robot->drag("Edge/Blur", {20, 0}));
+    robot->frames(3);
+    EXPECT_GT(region().holdouts->at(0).edge.blur_px, 0);
+    EXPECT_EQ(region().matte->edge.blur_px, 0);
+    EXPECT_EQ(region().matte->edge.choke_px, kept);
+    robot->key("Ctrl+Z");
+    robot->frames(3);
+    EXPECT_EQ(region().holdouts->at(0).edge.blur_px, 0);
+}
+
 }  // namespace
 }  // namespace weft::test
