@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/pipeline/focus_frames.h"
+
 namespace weft {
 namespace {
 
@@ -63,6 +65,10 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
     std::for_each(region.grain_frames.begin(), region.grain_frames.end(), add);
     std::for_each(region.form_evidence.begin(), region.form_evidence.end(), add);
     std::for_each(region.shutter_evidence.begin(), region.shutter_evidence.end(), add);
+    if (focus_needs_propagation(region)) {
+        const std::vector<int> focus = needed_focus_frames(plan, region);
+        std::for_each(focus.begin(), focus.end(), add);
+    }
     return span;
 }
 

@@ -14,7 +14,7 @@ namespace weft {
                                             const AnalysisStore& store, int region, int frame);
 
 /// The frames that a region's analysis spans: its frames to render, references, matte keyframes
-/// and the evidence of light, form and grain.
+/// and the evidence of light, form, grain and, with painted mattes, focus.
 struct FrameSpan {
     int first = 0, last = 0;
 };

@@ -108,15 +108,6 @@ const RegionPlan& region_of(const ShotPlan& plan, int index) {
     return plan.regions[static_cast<std::size_t>(index)];
 }
 
-// The region's grade, on the plate's exposure.
-Grade grade_on(const RegionPlan& region, const RegionScene& scene) {
-    Grade grade = region.grade;
-    const float matched = std::pow(scene.exposure, region.match);
-    for (float& channel : grade.multiply)
-        channel *= matched;
-    return grade;
-}
-
 // True if a device supports all that a region needs: texture, a gain of light, composite.
 bool fits_device(const RegionPlan& region, const RegionScene& scene) {
     const bool tints = region.cast ? *region.cast > 0 : scene.light_has_colour();
@@ -127,9 +118,9 @@ bool fits_device(const RegionPlan& region, const RegionScene& scene) {
            !region.exact_light && !(region.focus > 0) && !region.has_lines && !region.extract_lines;
 }
 
-// True if a region's light or focus follows from the plate beyond the region.
+// True if a region's light follows from the plate beyond the region.
 bool needs_whole_plate(const RegionPlan& region) {
-    return region.light_pass == RegionPlan::Pass::kAlbedo || (region.focus > 0 && region.has_depth);
+    return region.light_pass == RegionPlan::Pass::kAlbedo;
 }
 
 void FrameRenderer::make_ready(const Recti& box) {
