@@ -145,9 +145,15 @@ void FrameRenderer::make_ready(const Recti& box) {
 Expected<Matte> FrameRenderer::composite_matte(int index) {
     WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame_));
     WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame_));
-    if (is_hard(extent)) {
+    if (const float hardness = edge_hardness(extent); hardness > 0) {
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
-        extent = soften_hard_edge(views_->display, extent);
+        const Matte softened = soften_hard_edge(views_->display, extent);
+        std::transform(extent.data(), extent.data() + extent.size_bytes(), softened.data(),
+                       extent.data(), [&](std::uint8_t as_given, std::uint8_t soft) {
+                           const float away = static_cast<float>(soft) - as_given;
+                           return static_cast<std::uint8_t>(
+                               std::lround(as_given + hardness * away));
+                       });
     }
     return without_holdout(extent, holdout);
 }
