@@ -84,14 +84,20 @@ std::vector<Heat> heats_of(const Ctx& c) {
          {}},
         {"Seams", "How much steeper the picture is at seams than beside them", {}},
         {"Drift", "How different the surface looks from its reference frame", {}},
-        {"Matte", "How far the matte's edge departs from the picture's motion", {}}};
+        {"Matte", "How far the matte's edge departs from the picture's motion", {}},
+        {"Pops",
+         "Sudden steps of sharpness, light, grain or place that the plate does not have",
+         {}}};
     // Edge motion of this many px is the worst on the scale.
     constexpr float kWorstChatter_px = 4;
+    // A step that counts as a pop is in the middle of the scale.
+    constexpr float kWorstPop = 2;
     for (const FrameMarks& mark : c.view.marks) {
         out[0].values.push_back(flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_floor));
         out[1].values.push_back(mark.seam);
         out[2].values.push_back(mark.drift);
         out[3].values.push_back(mark.chatter / kWorstChatter_px);
+        out[4].values.push_back(mark.pop / kWorstPop);
     }
     return out;
 }
@@ -168,9 +174,12 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
             case 2:
                 if (mark.drift < 0) return std::nullopt;
                 return Worst{0, mark.drift, "drift " + number(100 * mark.drift, 0) + "%"};
-            default:
+            case 3:
                 if (mark.chatter < 0) return std::nullopt;
                 return Worst{0, mark.chatter, "edge off by " + number(mark.chatter, 2) + " px"};
+            default:
+                if (mark.pop < 0) return std::nullopt;
+                return Worst{0, mark.pop, mark.pop_text + (mark.pop >= 1 ? ", a pop" : "")};
         }
     };
     std::vector<Worst> out;
@@ -235,14 +244,15 @@ void worst_pictures(Ctx& c, const std::vector<Worst>& worst) {
 void worst_frames(Ctx& c) {
     if (!section(c, "Worst frames")) return;
     const PanelName panel(c, "Worst");
-    segments(c, "By", {"Flicker", "Seams", "Drift", "Matte"}, c.state.worst_by);
+    segments(c, "By", {"Flicker", "Seams", "Drift", "Matte", "Pops"}, c.state.worst_by);
     const std::vector<Worst> worst = worst_of(c, c.state.worst_by);
     if (worst.empty()) {
         static constexpr const char* kMissing[] = {
             "Flicker is estimated as the preview fills its frames, and measured on a render.",
             "Seams are measured as the preview fills its frames.",
             "Drift is measured once the shot is analysed.",
-            "The matte's edge is measured as the preview fills its frames."};
+            "The matte's edge is measured as the preview fills its frames.",
+            "Pops are measured as the preview fills its frames."};
         wrapped(c, kMissing[c.state.worst_by], c.theme.quiet);
     }
     if (c.view.report.state == QualityReport::State::kDone) {

@@ -228,7 +228,7 @@ struct UiState {
     /// Tool::kKeep: regenerate instead of lock; seams instead of patches.
     bool keep_again = false, keep_seams = false;
     std::optional<float> pen_pressure;  ///< Pen pressure, 0–1; unset: no pen is down.
-    int worst_by = 0;  ///< Measure of the worst frames: flicker, seams, drift, matte.
+    int worst_by = 0;  ///< Measure of the worst frames: flicker, seams, drift, matte, pops.
     std::optional<std::pair<Vec2, Vec2>> measured;  ///< Reference line, plate px.
     int measured_count = 4;                         ///< Repeats along the reference line.
     StripKind strip = StripKind::kKeyframes;

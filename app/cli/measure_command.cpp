@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/measure/measure_job.h"
 #include "app/measure/measure_report.h"
+#include "engine/core/frame_range.h"
 
 namespace weft {
 namespace {
@@ -12,6 +13,27 @@ std::string line(const char* name, const Spread& s) {
     char text[160];
     std::snprintf(text, sizeof text, "%s  mean %.3f, %.3f to %.3f\n", name, s.mean, s.least,
                   s.largest);
+    return text;
+}
+
+std::string to_text(const Pops& pops) {
+    const std::vector<int> frames = pops.frames();
+    std::string text = "pops                 " + std::to_string(frames.size());
+    if (!frames.empty()) text += ", on " + format_frame_list(frames);
+    text += "\n";
+    for (std::size_t k = 0; k < kPopKinds; ++k) {
+        const auto kind = static_cast<PopKind>(k);
+        const PopsOfKind& p = pops.of(kind);
+        if (!(p.deviation > 0)) continue;
+        const bool place = kind == PopKind::kPlace;
+        char line[160];
+        std::snprintf(line, sizeof line,
+                      place ? "  %-10s largest    %.2f px on frame %d (deviation %.2f px), pops %zu\n"
+                            : "  %-10s largest    %.1f %% on frame %d (deviation %.1f %%), pops %zu\n",
+                      name_of(kind), place ? p.largest : 100 * p.largest, p.frame,
+                      place ? p.deviation : 100 * p.deviation, p.frames.size());
+        text += line;
+    }
     return text;
 }
 
@@ -46,6 +68,7 @@ std::string to_text(const MeasuredResult& o) {
                       plate.deviation[1], plate.deviation[2]);
         text += more;
     }
+    text += to_text(a.pops);
     if (o.focus_px.frames > 0 && o.source_focus_px.frames > 0) {
         std::snprintf(more, sizeof more, "edge blur            %.2f px (source %.2f px)\n",
                       o.focus_px.mean, o.source_focus_px.mean);

@@ -100,6 +100,7 @@ class Measurer {
         MeasureOptions out;
         out.estimator = options_.estimator;
         out.measure_grain = true;
+        out.measure_pops = true;
         out.quantise_ideal = readers_.front().files().depth() == PixelDepth::kU8;
         const Region& settings = *options_.project.regions.front();
         const bool textured = !settings.texture.sample.empty() || !settings.texture.plane.empty();

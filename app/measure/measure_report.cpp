@@ -16,6 +16,30 @@ Json spread(const Spread& s) {
     return {{"mean", s.mean}, {"least", s.least}, {"largest", s.largest}};
 }
 
+Json steps_json(const std::optional<PopSteps>& steps) {
+    if (!steps) return Json();
+    Json out = Json::object();
+    for (std::size_t k = 0; k < kPopKinds; ++k) {
+        const auto kind = static_cast<PopKind>(k);
+        out[name_of(kind)] = number(steps->of(kind));
+    }
+    return out;
+}
+
+Json pops_json(const Pops& pops) {
+    Json out = Json::object();
+    out["frames"] = pops.frames();
+    for (std::size_t k = 0; k < kPopKinds; ++k) {
+        const auto kind = static_cast<PopKind>(k);
+        const PopsOfKind& p = pops.of(kind);
+        out[name_of(kind)] = {{"largest", p.largest},
+                              {"frame", p.deviation > 0 ? Json(p.frame) : Json()},
+                              {"deviation", p.deviation},
+                              {"frames", p.frames}};
+    }
+    return out;
+}
+
 Json frame_json(const FrameMeasures& f) {
     return {{"frame", f.frame},
             {"tde", number(f.tde)},
@@ -27,6 +51,7 @@ Json frame_json(const FrameMeasures& f) {
             {"matte_chatter_px", number(f.matte_chatter_px)},
             {"mean_v", number(f.mean_v)},
             {"source_mean_v", number(f.source_mean_v)},
+            {"steps", steps_json(f.steps)},
             {"region_px", f.region_pixels},
             {"outside_differing_px", f.outside_differing},
             {"outside_max", f.outside_max}};
@@ -132,6 +157,7 @@ Json measure_json(const MeasuredResult& o) {
             {"source_tiv", a.source_tiv},
             {"tiv_relative", a.tiv_relative},
             {"grain", grain_json(a.grain, a.source_grain)},
+            {"pops", pops_json(a.pops)},
             {"focus_px", spread(o.focus_px)},
             {"source_focus_px", spread(o.source_focus_px)},
             {"outside_differing_px", a.outside_differing},

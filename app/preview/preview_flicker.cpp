@@ -71,6 +71,7 @@ Steadiness measure_steadiness(const FramePair& pair) {
     options.measure_drift = false;
     // Pixels at the edge of small pictures mix two surfaces.
     options.erode_px = 1;
+    options.measure_pops = true;
     SequenceMeasure measure(options);
     Steadiness out;
     for (const FramePair::Frame* frame : {&pair.before, &pair.now}) {
@@ -84,6 +85,7 @@ Steadiness measure_steadiness(const FramePair& pair) {
         out.flicker = plain(found->tde);
         out.flicker_plate = plain(found->source_tde);
         out.chatter = plain(found->matte_chatter_px) * pair.plate_scale;
+        out.steps = found->steps;
     }
     if (!pair.before_from_now.empty()) {
         const Matte visible =
@@ -200,6 +202,8 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
         health.flicker_floor = found.flicker_floor;
         health.chatter = found.chatter;
         health.seam_motion = found.seam_motion;
+        health.steps = found.steps;
+        if (health.steps) health.steps->frame = frame;
         changed(*shared);
     }
     return true;

@@ -46,6 +46,7 @@ struct Steadiness {
     /// Seam motion, plate px (seam_motion_px()), relative to the texture's track if known,
     /// otherwise to the estimated motion.
     float seam_motion = -1;
+    std::optional<PopSteps> steps = {};
 };
 
 /// Uses motion estimated from the plates by another method than the renderer's

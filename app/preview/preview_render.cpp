@@ -24,9 +24,11 @@ std::map<RegionId, int> references_of(const Shot& shot) {
 // What was measured on pictures that are rendered again.
 void forget_pictures(std::map<RegionId, std::map<int, FrameHealth>>& healths) {
     for (auto& [region, of_frames] : healths)
-        for (auto& [frame, health] : of_frames)
+        for (auto& [frame, health] : of_frames) {
             health.flicker = health.flicker_plate = health.flicker_floor = health.chatter =
                 health.seam_motion = health.seam = -1;
+            health.steps.reset();
+        }
 }
 
 std::map<RegionId, std::string> samples_of(const Shot& shot) {

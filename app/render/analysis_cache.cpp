@@ -72,6 +72,8 @@ const char* kind_name(AnalysisKind kind) {
             return "grain";
         case AnalysisKind::kShutter:
             return "shutter";
+        case AnalysisKind::kFocus:
+            return "focus";
         case AnalysisKind::kPaperTexture:
             return "paper";
     }

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 22;
-constexpr int kFormVersion = 3;  // of the form alone
+constexpr int kFormVersion = 3;   // of the form alone
+constexpr int kFocusVersion = 1;  // of the focus alone
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -192,6 +193,36 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
     return hasher.finish().hex();
 }
 
+// Apart from the rest too. What is read on a frame does not depend on the frames to be rendered.
+Expected<std::string> focus_key(const Shot& shot, std::size_t index,
+                                const PaintedMattes& painted) {
+    const RegionPlan& plan = shot.plan.regions[index];
+    const Region& region = *shot.project.regions[shot.region_index[index]];
+    Hasher hasher;
+    add_plate(hasher, shot);
+    hasher.text("focus").value(kFocusVersion).text(shot.spaces.working.name);
+    WEFT_CHECK_OK(add_mattes(hasher, region, painted));
+    WEFT_CHECK_OK(add_pattern(hasher, region.finish.depth));
+    // The light, whose edges do not count.
+    const bool passes = plan.light_pass != RegionPlan::Pass::kNone && plan.lights();
+    hasher.value(plan.estimates_light()).value(passes).value(plan.detail);
+    if (passes) {
+        WEFT_CHECK_OK(add_pattern(hasher, region.light.albedo));
+        WEFT_CHECK_OK(add_pattern(hasher, region.light.lighting));
+    }
+    for (const Zone& zone : *region.zones) {
+        if (zone.kind != ZoneKind::kDetail) continue;
+        WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
+        hasher.value(zone.value);
+        for (const auto& [frame, values] : zone.value_keys.keys) {
+            hasher.value(frame);
+            for (const double value : values)
+                hasher.value(value);
+        }
+    }
+    return hasher.finish().hex();
+}
+
 }  // namespace
 
 const std::string& RegionKeys::Layer::at(int frame) const {
@@ -201,13 +232,14 @@ const std::string& RegionKeys::Layer::at(int frame) const {
 
 const std::string& RegionKeys::of(const AnalysisKey& key) const {
     if (key.kind == AnalysisKind::kForm) return form;
+    if (key.kind == AnalysisKind::kFocus) return focus;
     const bool matte = key.kind == AnalysisKind::kMatte || key.kind == AnalysisKind::kMatteForward;
     const auto layer = matte ? mattes.find(key.layer) : mattes.end();
     return layer == mattes.end() ? surface : layer->second.at(key.frame);
 }
 
 std::vector<std::string> RegionKeys::all() const {
-    std::vector<std::string> out{surface, form};
+    std::vector<std::string> out{surface, form, focus};
     for (const auto& [layer, keys] : mattes)
         out.insert(out.end(), keys.stretches.begin(), keys.stretches.end());
     return out;
@@ -221,6 +253,7 @@ void RegionKeys::adopt(
     };
     take(surface, now.surface);
     take(form, now.form);
+    take(focus, now.focus);
     for (auto& [layer, keys] : mattes) {
         const auto other = now.mattes.find(layer);
         if (other == now.mattes.end() || other->second.keyframes != keys.keyframes) continue;
@@ -234,7 +267,8 @@ Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
     WEFT_TRY(surface, surface_key(shot, index, painted));
     const Region& region = *shot.project.regions[shot.region_index[index]];
     WEFT_TRY(form, form_key(shot, index, surface));
-    return RegionKeys{std::move(surface), std::move(form), all_matte_keys(shot, region, painted)};
+    WEFT_TRY(focus, focus_key(shot, index, painted));
+    return RegionKeys{std::move(surface), std::move(form), std::move(focus), all_matte_keys(shot, region, painted)};
 }
 
 }  // namespace weft

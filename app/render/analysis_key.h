@@ -21,8 +21,9 @@ struct RegionKeys {
         bool operator==(const Layer&) const = default;
     };
 
-    std::string surface;          ///< Of all but mattes and the form.
+    std::string surface;          ///< Of all but mattes, the form and the focus.
     std::string form;             ///< As `surface` without a form.
+    std::string focus;            ///< Of the plate's focus.
     std::map<int, Layer> mattes;  ///< By the layers of AnalysisKey; painted ones only.
     bool operator==(const RegionKeys&) const = default;
 

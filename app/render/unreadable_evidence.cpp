@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "engine/pipeline/focus_frames.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
@@ -15,14 +16,19 @@ std::vector<int> unreadable_evidence(const Shot& shot) {
         needed.grain_frames.clear();
         needed.shutter_evidence.clear();
         needed.form_evidence.clear();
+        needed.focus_frames.clear();
         const FrameSpan without = analysed_span(shot.plan, needed);
         const FrameSpan with = analysed_span(shot.plan, region);
-        for (int frame = with.first; frame <= with.last; ++frame) {
-            if (frame >= without.first && frame <= without.last) continue;
+        const auto look = [&](int frame) {
+            if (frame >= without.first && frame <= without.last) return;
             const bool has_matte =
                 region.propagated() || shot.source->matte(static_cast<int>(k), frame).has_value();
             if (!has_matte || !shot.source->plate(frame)) out.insert(frame);
-        }
+        };
+        for (int frame = with.first; frame <= with.last; ++frame)
+            look(frame);
+        for (const int frame : needed_focus_frames(shot.plan, region))
+            look(frame);
     }
     return {out.begin(), out.end()};
 }

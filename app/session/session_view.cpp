@@ -1,5 +1,7 @@
 // Updates the view that the panels show.
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "app/mattes/matte_layer.h"
@@ -23,6 +25,32 @@ const char* depth_name(PixelDepth depth) {
             return "32-bit float";
     }
     return "";
+}
+
+std::string pop_text(const PopHeight& pop) {
+    char text[64];
+    const double size = std::abs(pop.departure);
+    if (pop.kind == PopKind::kPlace)
+        std::snprintf(text, sizeof text, "%s %.1f px", name_of(pop.kind), size);
+    else
+        std::snprintf(text, sizeof text, "%s %.0f%%", name_of(pop.kind), 100 * size);
+    return text;
+}
+
+// Judges each step by those of its neighbours that are known.
+void mark_pops(const std::vector<int>& frames, const std::map<int, FrameHealth>& health,
+               std::vector<FrameMarks>& marks) {
+    std::vector<PopSteps> steps;
+    for (const auto& [frame, measured] : health)
+        if (measured.steps) steps.push_back(*measured.steps);
+    const std::vector<std::optional<PopHeight>> pops = pop_heights(steps);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const auto at = std::lower_bound(frames.begin(), frames.end(), steps[i].frame);
+        if (!pops[i] || at == frames.end() || *at != steps[i].frame) continue;
+        FrameMarks& mark = marks[static_cast<std::size_t>(at - frames.begin())];
+        mark.pop = static_cast<float>(pops[i]->height);
+        mark.pop_text = pop_text(*pops[i]);
+    }
 }
 
 }  // namespace
@@ -223,6 +251,7 @@ void Session::show_marks() {
             mark.chatter = found->second.chatter;
         }
     }
+    mark_pops(frames, health, view_.marks);
     if (view_.report.state == QualityReport::State::kDone) {
         // The first row has no previous frame.
         for (std::size_t r = 1; r < view_.report.rows.size(); ++r) {

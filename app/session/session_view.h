@@ -59,6 +59,10 @@ struct FrameMarks {
     /// Flicker of a texture that moves unchanged: mostly the error of the measuring motion.
     float flicker_floor = -1;
     float chatter = -1;  ///< Edge motion of the matte relative to the picture, px.
+    /// The sudden step since the previous frame that stands out most, as a share of what counts as
+    /// a pop; 1 or more is one. Below 0: not known.
+    float pop = -1;
+    std::string pop_text;  ///< What steps, and by how much: "sharpness 12%".
 };
 
 /// A region's matte on the current frame.

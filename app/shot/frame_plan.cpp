@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "app/shot/form_files.h"
 #include "app/shot/frame_gaps.h"
 #include "app/shot/reference_choice.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/setting.h"
+#include "engine/pipeline/focus_frames.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
@@ -175,7 +177,41 @@ Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, i
     return run;
 }
 
+// The files that a frame's focus is read from, besides the plate.
+std::vector<std::string> focus_files(const Region& region) {
+    std::vector<std::string> out{region.matte->files, region.finish.depth, region.light.albedo,
+                                 region.light.lighting};
+    for (const MatteSource& holdout : *region.holdouts)
+        out.push_back(holdout.files);
+    for (const Zone& zone : *region.zones)
+        if (zone.kind == ZoneKind::kDetail) out.push_back(zone.matte.files);
+    return out;
+}
+
 }  // namespace
+
+Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& plan,
+                                        const FrameReader& plate,
+                                        const std::vector<int>& leave_out) {
+    if (!(plan.focus > 0)) return std::vector<int>{};
+    std::vector<int> frames = plate.frames();
+    for (const std::string& pattern : focus_files(region)) {
+        WEFT_TRY(left, with_files(pattern, std::move(frames)));
+        frames = std::move(left);
+    }
+    FrameSpan run{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+    if (focus_needs_propagation(plan)) {
+        const int all = plate.frames().back() - plate.frames().front() + 1;
+        WEFT_TRY(around,
+                 run_around(region, plate, plan.reference_frames.front(), all, leave_out));
+        run = around;
+    }
+    std::erase_if(frames, [&](int frame) {
+        return frame < run.first || frame > run.last ||
+               std::find(leave_out.begin(), leave_out.end(), frame) != leave_out.end();
+    });
+    return frames;
+}
 
 Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& plan,
                                         const FrameReader& plate,

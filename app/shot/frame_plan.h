@@ -49,6 +49,11 @@ namespace weft {
                                                        const FrameReader& plate,
                                                        const std::vector<int>& leave_out);
 
+/// The frames on which focus can be read: those of the plate with all files, for a region with
+/// painted mattes up to the first gap. They do not depend on the frames to render.
+[[nodiscard]] Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& plan,
+                                                      const FrameReader& plate,
+                                                      const std::vector<int>& leave_out);
 /// The frames on which grain is measured: the first reference frame and up to three after it. Empty
 /// if grain is off, or there is no later frame.
 [[nodiscard]] Expected<std::vector<int>> grain_frames(const Region& region, const RegionPlan& plan,

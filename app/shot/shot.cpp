@@ -219,7 +219,7 @@ class ShotOpener {
         return {};
     }
 
-    // The frames on which grain, motion blur, light and form are measured.
+    // The frames on which grain, motion blur, light, form and focus are measured.
     Status add_evidence(const Region& region, RegionPlan& plan) const {
         const std::vector<int>& without = options_.leave_out;
         WEFT_TRY(grain, grain_frames(region, plan, *shot_.plate, without));
@@ -230,6 +230,8 @@ class ShotOpener {
         plan.light_evidence = std::move(light);
         WEFT_TRY(form, form_evidence(region, plan, *shot_.plate, without));
         plan.form_evidence = std::move(form);
+        WEFT_TRY(focus, focus_frames(region, plan, *shot_.plate, without));
+        plan.focus_frames = std::move(focus);
         return {};
     }
 

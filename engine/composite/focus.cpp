@@ -20,6 +20,7 @@ constexpr float kStrongShare = 0.7f;     // quantile of gradients from which edg
 constexpr float kSharpestEdges = 0.1f, kSharpEdges = 0.15f, kSharpEdgesOfPlace = 0.25f;
 // The median blur over that of the sharpest tenth: of edges under one lens, and of penumbras.
 constexpr float kAsOneLens = 1.8f, kUnalike = 2.6f;
+constexpr float kAlongEdge = 8;
 constexpr float kEdgeEnds = 0.15f;  // of its slope, where an edge ends
 constexpr int kFarthest = 12;       // steps
 constexpr int kMostRows = 270;
@@ -251,6 +252,18 @@ PictureEdges picture_edges(ViewF3 linear, ViewU8x1 matte, float least_gradient) 
 float strong_blur_px(const PictureEdges& picture) {
     const std::vector<EdgeBlur> strong = strong_edges(picture);
     return strong.size() < kFewestEdges ? 0.0f : blur_at(kSharpEdges, strong);
+}
+
+float strong_blur_error_px(const PictureEdges& picture) {
+    const std::vector<EdgeBlur> strong = strong_edges(picture);
+    if (strong.size() < kFewestEdges) return 0;
+    // The ranks one deviation to either side of the quantile. Neighbours along an edge say the same
+    // thing: kAlongEdge of them count as one.
+    const auto n = static_cast<float>(strong.size()) / kAlongEdge;
+    const float ranks = std::sqrt(kSharpEdges * (1 - kSharpEdges) / n);
+    const float low = blur_at(std::max(0.0f, kSharpEdges - ranks), strong);
+    const float high = blur_at(std::min(1.0f, kSharpEdges + ranks), strong);
+    return 0.5f * (high - low);
 }
 
 float blur_confidence(const PictureEdges& picture) {

@@ -44,7 +44,10 @@ struct PictureEdges {
 /// where their blurs differ as those of penumbras and soft paint do; all of it from 180 edges of
 /// which half stay below 1.8 times the blur of the sharpest tenth.
 [[nodiscard]] float blur_confidence(const PictureEdges& picture);
-/// That of a picture inside the matte.
+/// Deviation of strong_blur_px(), from the blurs of the edges around that quantile; 0 where there
+/// are too few edges to tell.
+[[nodiscard]] float strong_blur_error_px(const PictureEdges& picture);
+/// strong_blur_px() of a picture inside the matte.
 [[nodiscard]] float edge_blur_px(ViewF3 linear, ViewU8x1 matte);
 
 /// The blur that takes edges of `from_px` to `to_px`; 0 if they are sharper by at most a tenth, all

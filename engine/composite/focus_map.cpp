@@ -20,8 +20,9 @@ constexpr float kStep = 0.05f;
 // Of the fit over the picture.
 constexpr int kTile_px = 64;
 constexpr std::size_t kFewestTiles = 6, kFewestInTile = 24;
-constexpr float kLeastSlope_px = 0.5f;   // from one end of the region to the other
-constexpr float kSlopeOfResidue = 3.0f;  // times the residual of the plane
+constexpr double kLeastSlope_px = 0.5;   // from one end of the region to the other
+constexpr double kSlopeOfResidue = 3.0;  // times the residual of the plane
+constexpr double kGradual = 0.25;        // of each, to either side: half and all of the agreement
 
 struct Sample {
     double u, v, variance, weight;
@@ -137,7 +138,11 @@ std::optional<FocusModel> fit_focus(const std::vector<EdgeBlur>& edges, const Im
     return model;
 }
 
-std::optional<ImageF1> sloping_blur(const std::vector<EdgeBlur>& edges, Size size) {
+float BlurSlope::variance(float x, float y) const {
+    return std::clamp(constant + by_x * x + by_y * y, least_px * least_px, most_px * most_px);
+}
+
+BlurSlope blur_slope(const std::vector<EdgeBlur>& edges, Size size) {
     const int columns = (size.width + kTile_px - 1) / kTile_px;
     const int rows = (size.height + kTile_px - 1) / kTile_px;
     std::vector<std::vector<EdgeBlur>> tiles(static_cast<std::size_t>(columns) *
@@ -157,7 +162,7 @@ std::optional<ImageF1> sloping_blur(const std::vector<EdgeBlur>& edges, Size siz
         samples.push_back(
             {x / n / size.width - 0.5, y / n / size.height - 0.5, blur * blur, weight_of(blur)});
     }
-    if (samples.size() < kFewestTiles) return std::nullopt;
+    if (samples.size() < kFewestTiles) return {};
     const auto c = least_squares<3>(samples, [](const Sample& s) {
         return std::array{1.0, s.u, s.v};
     });
@@ -172,17 +177,18 @@ std::optional<ImageF1> sloping_blur(const std::vector<EdgeBlur>& edges, Size siz
         least = std::min(least, blur), most = std::max(most, blur);
         residue += std::abs(blur - std::sqrt(s.variance)) / static_cast<double>(samples.size());
     }
-    if (most - least < static_cast<double>(kLeastSlope_px) ||
-        most - least < static_cast<double>(kSlopeOfResidue) * residue)
-        return std::nullopt;
-    ImageF1 out(size);
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            const double blur =
-                blur_at((x + 0.5) / size.width - 0.5, (y + 0.5) / size.height - 0.5);
-            out.row(y)[x] = static_cast<float>(std::clamp(blur, least, most));
-        }
-    }
+    const auto rises = [](double v, double middle) {
+        return std::clamp((v / middle - (1 - kGradual)) / (2 * kGradual), 0.0, 1.0);
+    };
+    BlurSlope out;
+    out.by_x = static_cast<float>(c[1] / size.width);
+    out.by_y = static_cast<float>(c[2] / size.height);
+    out.constant = static_cast<float>(c[0] - 0.5 * (c[1] + c[2]));
+    out.least_px = static_cast<float>(least);
+    out.most_px = static_cast<float>(most);
+    out.agreement =
+        static_cast<float>(rises(most - least, kLeastSlope_px) *
+                           rises((most - least) / std::max(residue, 1e-6), kSlopeOfResidue));
     return out;
 }
 

@@ -25,10 +25,17 @@ struct FocusModel {
                                                   const ImageF1& nearness);
 
 /// Blur that varies over the picture, without a depth pass: a plane through the variances of 64 px
-/// tiles. Returns a deviation in pixels for each pixel of `size`, the size of the picture with the
-/// edges. Empty if too few tiles have edges or they do not agree on a slope; one blur for all is
-/// right then.
-[[nodiscard]] std::optional<ImageF1> sloping_blur(const std::vector<EdgeBlur>& edges, Size size);
+/// tiles.
+struct BlurSlope {
+    float constant = 0, by_x = 0, by_y = 0;  ///< Variance at (0, 0), and its change by pixel.
+    float least_px = 0, most_px = 0;         ///< The blur at its ends.
+    /// How far the tiles agree on a slope, 0–1; 0: one blur for all is right.
+    float agreement = 0;
+    [[nodiscard]] float variance(float x, float y) const;
+};
+
+/// That of a picture of `size` with these edges. Places are relative to its origin.
+[[nodiscard]] BlurSlope blur_slope(const std::vector<EdgeBlur>& edges, Size size);
 
 /// blur_inside() with a deviation for each pixel. `sigma_px` has the picture's size.
 void blur_by_map(ImageView<float, 3> picture, ViewU8x1 matte, const ImageF1& sigma_px);

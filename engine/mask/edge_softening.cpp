@@ -95,7 +95,7 @@ float softened(ViewU8x3 plate, ViewU8x1 matte, ViewF1 phi, int x, int y, float w
 
 }  // namespace
 
-bool is_hard(ViewU8x1 matte) {
+float edge_hardness(ViewU8x1 matte) {
     // A soft outline has about one partial pixel per step of boundary. A hard one may have a few,
     // from compression or a stray stroke.
     std::int64_t partial = 0, steps = 0;
@@ -109,7 +109,9 @@ bool is_hard(ViewU8x1 matte) {
             steps += std::abs(below[x] - row[x]) > 238 ? 1 : 0;
         }
     }
-    return partial * 10 <= steps;
+    if (partial * 10 <= steps) return 1;
+    if (partial * 10 >= 3 * steps) return 0;
+    return static_cast<float>(3 * steps - 10 * partial) / static_cast<float>(2 * steps);
 }
 
 Matte soften_hard_edge(ViewU8x3 plate, ViewU8x1 matte, float width_px) {

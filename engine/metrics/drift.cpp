@@ -12,7 +12,6 @@
 namespace weft {
 namespace {
 
-constexpr int kStepPx = 8;
 constexpr int kRadius = 15;
 constexpr float kSigmaPx = 6.0f;
 constexpr int kLevels = 3;
@@ -199,7 +198,8 @@ Patch follow(const std::vector<Level>& pyramid, int x, int y) {
 
 }  // namespace
 
-ResidualMotion residual_motion(ViewF1 expected_luma, ViewF1 seen_luma, ViewU8x1 region) {
+ResidualMotion residual_motion(ViewF1 expected_luma, ViewF1 seen_luma, ViewU8x1 region,
+                               int step_px) {
     std::vector<Level> pyramid(1);
     pyramid[0].inside = inside_and_finite(inside_and_finite(region, expected_luma), seen_luma);
     pyramid[0].expected = divided_by_local_mean(expected_luma, pyramid[0].inside);
@@ -207,13 +207,13 @@ ResidualMotion residual_motion(ViewF1 expected_luma, ViewF1 seen_luma, ViewU8x1 
     while (pyramid.size() < kLevels)
         pyramid.push_back(halved(pyramid.back()));
 
-    const int nx = region.width() / kStepPx;
-    const int ny = region.height() / kStepPx;
+    const int nx = region.width() / step_px;
+    const int ny = region.height() / step_px;
     std::vector<Patch> patches(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
     parallel_for(static_cast<std::size_t>(ny), [&](std::size_t j) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(nx); ++i) {
-            const int x = static_cast<int>(i) * kStepPx + kStepPx / 2;
-            const int y = static_cast<int>(j) * kStepPx + kStepPx / 2;
+            const int x = static_cast<int>(i) * step_px + step_px / 2;
+            const int y = static_cast<int>(j) * step_px + step_px / 2;
             if (pyramid[0].inside.at(x, y) != 0)
                 patches[j * static_cast<std::size_t>(nx) + i] = follow(pyramid, x, y);
         }

@@ -17,12 +17,12 @@ struct ResidualMotion {
     std::int64_t lost = 0;
 };
 
-/// Pyramidal Lucas–Kanade (Lucas & Kanade 1981; Bouguet 2001) on patches every 8 px, each a
+/// Pyramidal Lucas–Kanade (Lucas & Kanade 1981; Bouguet 2001) on patches every `step_px`, each a
 /// Gaussian window (σ 6 px, 31 × 31) over pixels inside `region` (255) of the local-mean-normalised
 /// luma, so that changes of light do not count as motion. Skips patches without texture in two
 /// directions or with less than half of their window inside. Finds slides of up to about 10 px.
 /// Independent of the estimators that render. All H×W. Deterministic.
 [[nodiscard]] ResidualMotion residual_motion(ViewF1 expected_luma, ViewF1 seen_luma,
-                                             ViewU8x1 region);
+                                             ViewU8x1 region, int step_px = 8);
 
 }  // namespace weft

@@ -80,6 +80,7 @@ struct SequenceMeasure::State {
     SequenceMeasures total;
     IlluminationVariance light;
     GrainSpectrumMeter grain, source_grain;
+    std::vector<PopSteps> steps;
     std::int64_t outside_pixels = 0;
     double outside_sum = 0;
 
@@ -175,6 +176,11 @@ void SequenceMeasure::State::measure_step(const FlowField& motion, MotionDirecti
         grain.add(from.result_rgb, to.result_rgb, motion, visible, forward);
         source_grain.add(from.source_rgb, to.source_rgb, motion, visible, forward);
     }
+    if (options.measure_pops) {
+        out.steps = pop_steps({out.frame, from.result, to.result, from.source, to.source, &motion,
+                               visible, forward});
+        steps.push_back(*out.steps);
+    }
     if (texture == nullptr) return;
     const Matte known = both_inside(
         visible, visible_in_both(motion, from.ideal_region, to.ideal_region, options.erode_px));
@@ -258,6 +264,7 @@ SequenceMeasures SequenceMeasure::summary() const {
     out.tiv_relative = state_->light.tiv_relative();
     out.grain = state_->grain.spectrum();
     out.source_grain = state_->source_grain.spectrum();
+    out.pops = find_pops(state_->steps);
     if (out.tde_floor.frames > 0 && out.tde_floor.mean > 0)
         out.tde_over_floor = out.tde_at_floor.mean / out.tde_floor.mean;
     if (state_->options.measure_drift && out.frames >= 2) {

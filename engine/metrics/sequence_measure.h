@@ -16,6 +16,7 @@
 #include "engine/metrics/illumination.h"
 #include "engine/metrics/measuring_motion.h"
 #include "engine/metrics/motion_chain.h"
+#include "engine/metrics/pops.h"
 
 namespace weft {
 
@@ -34,6 +35,7 @@ struct MeasureOptions {
     bool quantise_ideal = true;
     bool measure_drift = true;
     bool measure_grain = false;
+    bool measure_pops = false;
 };
 
 class SequenceMeasure;
@@ -73,6 +75,7 @@ struct FrameMeasures {
     /// How far the matte's edge departs from where it was, moved with the plate: pixels; nothing in
     /// the first frame (matte_chatter.h).
     std::optional<double> matte_chatter_px;
+    std::optional<PopSteps> steps;  ///< MeasureOptions::measure_pops; nothing in the first frame.
     double outside_mean = 0,
            outside_max = 0;  ///< |result − source| where the matte is 0, 8-bit units.
     std::int64_t outside_pixels = 0, outside_differing = 0;
@@ -97,12 +100,13 @@ struct SequenceMeasures {
     double tiv = 0, source_tiv = 0, tiv_relative = 0;
     /// What changes from frame to frame beyond the motion. No blocks: not measured.
     GrainSpectrum grain, source_grain;
+    Pops pops;
     double outside_mean = 0, outside_max = 0;
     std::int64_t outside_differing = 0;
 };
 
 /// Measures a sequence. Keeps the lumas of the frame before and of the first, their mattes and the
-/// motion chain, whatever the length. One thread at a time; uses several inside, with the same
+/// motion chain, and some numbers of every frame, whatever the length. One thread at a time; uses several inside, with the same
 /// numbers for any count.
 class SequenceMeasure {
   public:

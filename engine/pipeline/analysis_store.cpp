@@ -161,6 +161,17 @@ Bytes encode(const SurfaceSample& s) {
         .take();
 }
 
+Bytes encode(const FocusReading& focus) {
+    return ByteWriter()
+        .value(focus.blur_px)
+        .value(focus.error_px)
+        .value(focus.confidence)
+        .value(focus.slope)
+        .value(static_cast<std::uint8_t>(focus.has_lens ? 1 : 0))
+        .value(focus.lens)
+        .take();
+}
+
 Bytes encode(const GrainModel& grain) {
     return ByteWriter().value(grain.deviation).value(grain.kernel).value(grain.mix).take();
 }
@@ -273,6 +284,21 @@ Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
     std::transform(weight.begin(), weight.end(), s.weight.data(),
                    [](std::uint8_t w) { return static_cast<float>(w) / 255.0f; });
     return s;
+}
+
+Expected<FocusReading> decode_focus(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    FocusReading focus;
+    std::uint8_t has_lens = 0;
+    reader.value(focus.blur_px)
+        .value(focus.error_px)
+        .value(focus.confidence)
+        .value(focus.slope)
+        .value(has_lens)
+        .value(focus.lens);
+    if (!reader.complete()) return damaged("focus");
+    focus.has_lens = has_lens != 0;
+    return focus;
 }
 
 Expected<GrainModel> decode_grain(const Bytes& bytes) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/composite/focus_course.h"
 #include "engine/composite/grain.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
@@ -31,6 +32,7 @@ enum class AnalysisKind : std::uint8_t {
     kForm,         ///< At the reference frame, from the clip.
     kGrain,        ///< At the reference frame.
     kShutter,      ///< The plate's shutter, at the reference frame.
+    kFocus,        ///< What the frame alone tells of the plate's focus.
     kPaperTexture  ///< The paper mode's synthesised picture.
 };
 
@@ -80,6 +82,7 @@ struct StoredMatte {
 /// Luma in 16 bit as above, weights in 8 bit; chromaticities are left out.
 [[nodiscard]] Bytes encode(const SurfaceSample& sample);
 [[nodiscard]] Bytes encode(const GrainModel& grain);
+[[nodiscard]] Bytes encode(const FocusReading& focus);
 [[nodiscard]] Bytes encode(const ImageU8x3& picture);
 [[nodiscard]] Bytes encode(float number);
 /// Errors: RenderFailed if the bytes are not what the encoder wrote.
@@ -89,6 +92,7 @@ struct StoredMatte {
 [[nodiscard]] Expected<Shading> decode_shading(const Bytes& bytes);
 [[nodiscard]] Expected<SurfaceSample> decode_light_sample(const Bytes& bytes);
 [[nodiscard]] Expected<GrainModel> decode_grain(const Bytes& bytes);
+[[nodiscard]] Expected<FocusReading> decode_focus(const Bytes& bytes);
 [[nodiscard]] Expected<ImageU8x3> decode_picture(const Bytes& bytes);
 [[nodiscard]] Expected<float> decode_number(const Bytes& bytes);
 

@@ -8,6 +8,8 @@ void leave_look_out(RegionPlan& region) {
     region.light_evidence.clear();
     region.grain = 0;
     region.grain_frames.clear();
+    region.focus = 0;
+    region.focus_frames.clear();
     region.shutter_deg = 0;
     region.shutter_evidence.clear();
 }

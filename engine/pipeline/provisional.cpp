@@ -5,6 +5,7 @@
 
 #include "engine/composite/grain.h"
 #include "engine/lighting/shading.h"
+#include "engine/pipeline/focus_pass.h"
 #include "engine/pipeline/form_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
@@ -94,6 +95,7 @@ class FrameFiller {
         WEFT_CHECK_OK(fill_light(index, reference));
         WEFT_CHECK_OK(fill_form(index, reference));
         fill_camera(index, reference);
+        WEFT_CHECK_OK(fill_focus(index));
         return true;
     }
 
@@ -273,6 +275,18 @@ class FrameFiller {
         if (measured && (store_.has(beside) || fill_track_from_earlier(beside))) return;
         region.shutter_deg = 0.0f;
         region.shutter_evidence.clear();
+    }
+
+    // The focus that this frame alone shows, where the others have not been read.
+    Status fill_focus(int index) {
+        RegionPlan& region = region_at(index);
+        if (!(region.focus > 0) || focus_on(plan_, store_, index, frame_)) return {};
+        region.focus_frames = {frame_};
+        const AnalysisKey key{index, frame_, AnalysisKind::kFocus};
+        if (store_.has(key)) return {};
+        WEFT_TRY(reading, focus_reading(source_, plan_, store_, index, frame_));
+        store_.put_beneath(key, encode(reading));
+        return {};
     }
 
     const ShotSource& source_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/pipeline/focus_frames.h"
 #include "engine/pipeline/plate_views.h"
 
 namespace weft {
@@ -116,6 +117,10 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
     std::for_each(region.grain_frames.begin(), region.grain_frames.end(), add);
     std::for_each(region.form_evidence.begin(), region.form_evidence.end(), add);
     std::for_each(region.shutter_evidence.begin(), region.shutter_evidence.end(), add);
+    if (focus_needs_propagation(region)) {
+        const std::vector<int> focus = needed_focus_frames(plan, region);
+        std::for_each(focus.begin(), focus.end(), add);
+    }
     return span;
 }
 

@@ -25,7 +25,7 @@ namespace weft {
 [[nodiscard]] bool shows_as_followed(const RegionPlan& region, int frame);
 
 /// The frames that a region's analysis spans: its frames to render, references, matte keyframes
-/// and the evidence of light, form and grain.
+/// and the evidence of light, form, grain and, with painted mattes, focus.
 struct FrameSpan {
     int first = 0, last = 0;
 };

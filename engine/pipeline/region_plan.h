@@ -181,6 +181,8 @@ struct RegionPlan {
     float grain = 0, focus = 0;     ///< Strengths; 0: none.
     bool has_depth = false;         ///< Defocus follows a depth pass.
     std::vector<int> grain_frames;  ///< Grain is measured on these, from the reference on.
+    /// The frames of the plate on which its focus can be read, ascending, wherever they lie.
+    std::vector<int> focus_frames;
     /// Shutter angle in degrees of 360 per frame; the texture is blurred along its motion. Empty:
     /// the plate's own, measured on the frames `shutter_evidence`.
     std::optional<float> shutter_deg = 0.0f;

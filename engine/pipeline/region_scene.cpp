@@ -7,6 +7,7 @@
 #include "engine/lighting/daylight.h"
 #include "engine/lighting/plate_exposure.h"
 #include "engine/lighting/plate_tint.h"
+#include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
@@ -76,6 +77,14 @@ Status take_exposure(const ShotSource& source, const ShotPlan& plan, const Analy
 }
 
 }  // namespace
+
+Grade grade_on(const RegionPlan& region, const RegionScene& scene) {
+    Grade grade = region.grade;
+    const float matched = std::pow(scene.exposure, region.match);
+    for (float& channel : grade.multiply)
+        channel *= matched;
+    return grade;
+}
 
 bool has_plane(const RegionPlan& region) {
     return region.temporal == TemporalMode::kLocked || region.texture->is_plane;
@@ -185,6 +194,10 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
     }
     WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
     WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, reference, scene));
+    if (is_focus_followed(region)) {
+        WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
+        take_texture_focus(plan, region, extent, scene);
+    }
     if (region.light_source == LightSource::kImage) {
         WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
         scene.picture_light =

@@ -9,6 +9,7 @@
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
+#include "engine/composite/texture_focus.h"
 #include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/pipeline/analysis_store.h"
@@ -33,6 +34,8 @@ struct RegionScene {
         return reference_colour.known || tint != std::array<float, 3>{};
     }
     GrainModel grain;
+    TextureFocus focus;           ///< Of the texture; measured where the plate's focus is matched.
+    float focus_texels_per_px = 1;  ///< On the reference frame, where that was measured.
     float shutter_deg = 0;
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
@@ -45,6 +48,9 @@ struct RegionScene {
 /// as texture_mapping().
 [[nodiscard]] Expected<TextureMapping> mapping_on(const RegionPlan& region,
                                                   const RegionScene& scene, int frame);
+
+/// The region's grade, on the plate's exposure.
+[[nodiscard]] Grade grade_on(const RegionPlan& region, const RegionScene& scene);
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
 /// placement's scale, between 512 and 4096 texels a side. It joins at its borders and repeats. It

@@ -128,15 +128,6 @@ const RegionPlan& region_of(const ShotPlan& plan, int index) {
     return plan.regions[static_cast<std::size_t>(index)];
 }
 
-// The region's grade, on the plate's exposure.
-Grade grade_on(const RegionPlan& region, const RegionScene& scene) {
-    Grade grade = region.grade;
-    const float matched = std::pow(scene.exposure, region.match);
-    for (float& channel : grade.multiply)
-        channel *= matched;
-    return grade;
-}
-
 // True if a device supports all that a region needs: texture, a gain of light, composite.
 bool fits_device(const RegionPlan& region, const RegionScene& scene) {
     const bool tints = region.cast ? *region.cast > 0 : scene.light_has_colour();
@@ -147,9 +138,9 @@ bool fits_device(const RegionPlan& region, const RegionScene& scene) {
            !region.exact_light && !(region.focus > 0) && !region.has_lines && !region.extract_lines;
 }
 
-// True if a region's light or focus follows from the plate beyond the region.
+// True if a region's light follows from the plate beyond the region.
 bool needs_whole_plate(const RegionPlan& region) {
-    return region.light_pass == RegionPlan::Pass::kAlbedo || (region.focus > 0 && region.has_depth);
+    return region.light_pass == RegionPlan::Pass::kAlbedo;
 }
 
 void FrameRenderer::make_ready(const Recti& box) {
@@ -175,9 +166,15 @@ Expected<Mattes> FrameRenderer::composite_mattes(int index) {
     const RegionPlan& region = region_of(plan_, index);
     WEFT_TRY(extent, extent_matte(source_, plan_, store_, index, frame_));
     WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame_));
-    if (is_hard(extent)) {
+    if (const float hardness = edge_hardness(extent); hardness > 0) {
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
-        extent = soften_hard_edge(views_->display, extent);
+        const Matte softened = soften_hard_edge(views_->display, extent);
+        std::transform(extent.data(), extent.data() + extent.size_bytes(), softened.data(),
+                       extent.data(), [&](std::uint8_t as_given, std::uint8_t soft) {
+                           const float away = static_cast<float>(soft) - as_given;
+                           return static_cast<std::uint8_t>(
+                               std::lround(as_given + hardness * away));
+                       });
     }
     Matte covers = without_holdout(extent, holdout);
     if (shows_as_followed(region, frame_)) return Mattes{std::move(covers), {}};

@@ -38,7 +38,7 @@ struct SlantedEdge {
     }
 };
 
-TEST(IsHard, TellsIdMattesFromPaintedOnes) {
+TEST(EdgeHardness, TellsIdMattesFromPaintedOnesAndGoesOverGradually) {
     const DiscScene scene;
     const Matte soft = scene.matte(0);
     Matte hard = soft;
@@ -46,9 +46,19 @@ TEST(IsHard, TellsIdMattesFromPaintedOnes) {
         for (int x = 0; x < hard.width(); ++x)
             hard.at(x, y) = hard.at(x, y) >= 128 ? 255 : 0;
     }
-    EXPECT_FALSE(is_hard(soft));
-    EXPECT_TRUE(is_hard(hard));
-    EXPECT_TRUE(is_hard(Matte(20, 20, 255)));
+    EXPECT_EQ(edge_hardness(soft), 0);
+    EXPECT_EQ(edge_hardness(hard), 1);
+    EXPECT_EQ(edge_hardness(Matte(20, 20, 255)), 1);
+    // As more and more stray pixels are partial, it never falls by much.
+    float before = 1;
+    for (int k = 0; k < 60; ++k) {
+        hard.at(2 + 3 * (k % 20), 2 + 3 * (k / 20)) = 128;
+        const float now = edge_hardness(hard);
+        EXPECT_LE(now, before);
+        EXPECT_GT(now, before - 0.06f);
+        before = now;
+    }
+    EXPECT_LT(before, 1);
 }
 
 TEST(SoftenHardEdge, FindsTheTrueCoverageInside) {

@@ -42,7 +42,9 @@ RegionPlan checked_region() {
     texture->pixels = ImageF3(16, 16);
     for (int k = 0; k < 256; ++k)
         std::fill_n(texture->pixels.data() + 3 * k, 3, (k / 4 + k / 64) % 2 == 0 ? 0.4f : 0.7f);
-    return make_region(std::move(texture));
+    RegionPlan region = make_region(std::move(texture));
+    region.focus_frames = {kFrame};
+    return region;
 }
 
 // Energy of the texture's gradients down the stripes, where the plate has none.
