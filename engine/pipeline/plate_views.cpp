@@ -6,6 +6,7 @@
 
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
+#include "engine/mask/matte_box.h"
 #include "engine/motion/follow_size.h"
 
 namespace weft {
@@ -85,17 +86,7 @@ void drop_nonfinite(Matte& mask, const Matte& finite) {
 }
 
 Recti matte_bounds(ViewU8x1 matte) {
-    Recti box;
-    for (int y = 0; y < matte.height(); ++y) {
-        const std::uint8_t* row = matte.row(y);
-        const std::uint8_t* end = row + matte.width();
-        const auto* first = std::find_if(row, end, [](std::uint8_t m) { return m > 0; });
-        if (first == end) continue;
-        while (end[-1] == 0)
-            --end;
-        box = box.united({static_cast<int>(first - row), y, static_cast<int>(end - row), y + 1});
-    }
-    return box;
+    return matte_box(matte, 1);
 }
 
 }  // namespace weft
