@@ -126,8 +126,8 @@ Expected<Json> keys_from_1(const std::string& text, std::size_t count) {
 /// Version 1 accepted any strength and clamped it when rendering.
 Expected<Json> strength_keys_from_1(const std::string& text) {
     WEFT_TRY(keyed, parse_keyed_numbers(text));
-    for (auto& [frame, numbers] : keyed.keys)
-        numbers[0] = std::clamp(numbers[0], 0.0, 1.0);
+    for (NumberKey& key : keyed.keys)
+        key.numbers[0] = std::clamp(key.numbers[0], 0.0, 1.0);
     return Json(write_keys(keyed));
 }
 
@@ -205,13 +205,14 @@ Status upgrade_from_3(Json& document) {
 
 /// 4 → 5. Version 5 adds settings whose absence means what version 4 did: nothing to change, but a
 /// Weft that does not know them must not open the file, for it would render other pixels.
-Status upgrade_from_4(Json& /*document*/) { return {}; }
+Status upgrade_from_4(Json& /*document*/) {
+    return {};
+}
 
 using Upgrade = Status (*)(Json&);
 /// kUpgrades[n] upgrades version n to n + 1.
-constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1,
-                                                               upgrade_from_2, upgrade_from_3,
-                                                               upgrade_from_4};
+constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{
+    upgrade_from_0, upgrade_from_1, upgrade_from_2, upgrade_from_3, upgrade_from_4};
 
 /// The n of "weft.project/n".
 std::optional<int> version_of(std::string_view schema) {
