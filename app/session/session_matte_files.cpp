@@ -45,7 +45,7 @@ void Session::write_mattes(const std::string& pattern_text,
     const Project absolute = resolve_paths(document(), project_dir(path_));
     const MatteSource source = layer_source(*region_by_id(absolute, selected_), layer_);
     start_for_document([this, pattern_text, frames, source, size = reader_->size(), absolute,
-                        file = path_, id = region->id, layer = layer_,
+                        file = path_, id = region->id, layer = layer_, drawn = drawn_,
                         then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
@@ -54,7 +54,9 @@ void Session::write_mattes(const std::string& pattern_text,
             WEFT_CHECK_OK(make_folder_of(pattern.path_for(frames.front()), rule));
             for (const int frame : frames) {
                 Expected<Matte> matte = Matte();
-                if (!source.files.empty()) {
+                if (!source.shape.empty()) {
+                    matte = drawn->matte(source.shape, source.select.invert, frame);
+                } else if (!source.files.empty()) {
                     WEFT_TRY(files, SequencePattern::parse(source.files));
                     matte = read_matte(files.path_for(frame), source.select, size);
                 } else if (const auto key = source.keyframes.find(frame);
