@@ -206,6 +206,8 @@ void add_time_commands(std::vector<Command>& out) {
         [](Ctx& c) { c.emit(StepKeyframe{-1}); });
     add("time.next_key", "Next keyframe", icons::kChevronRight, "Shift+Right",
         [](Ctx& c) { c.emit(StepKeyframe{1}); });
+    add("time.keys", "Show keys and curves", icons::kKeyframe, "Ctrl+Shift+K",
+        [](Ctx& c) { c.state.keys.open = !c.state.keys.open; });
     add("time.first", "First frame", icons::kSkipPrevious, "Home",
         [](Ctx& c) { c.emit(GoToFrame{c.view.plate.frames.front()}); });
     add("time.last", "Last frame", icons::kSkipNext, "End",

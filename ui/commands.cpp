@@ -37,9 +37,13 @@ void begin_document(UiState& state, std::uint64_t document) {
     state.transform = {};
     state.handle_held.clear();
     state.pins.clear();
+    const bool keys_open = state.keys.open;
+    state.keys = {};
+    state.keys.open = keys_open;
     state.lamp = 0;
     state.shape = {};
     state.shape_drawing = false;
+    state.shape_box = {};
     state.scribbles = {};
     state.form = {};
     state.rectangle_from.reset();

@@ -35,6 +35,8 @@ const char* title_of(Purpose purpose) {
             return "Find the plate's frames";
         case Purpose::kTrack:
             return "Choose a planar track";
+        case Purpose::kShapeTrack:
+            return "Choose a track for the shape";
         case Purpose::kExportMattes:
             return "Choose where the mattes go";
         case Purpose::kSimilar:
@@ -151,6 +153,9 @@ void accept(Ctx& c, const std::string& path) {
             break;
         case Purpose::kTrack:
             c.edit(SetRegionParameter{ref, "motion.track", path});
+            break;
+        case Purpose::kShapeTrack:
+            c.emit(FollowShape{c.view.painted_source().shape.follow, path, false});
             break;
         case Purpose::kExportMattes:
             if (const Region* region = c.view.selected_region())

@@ -9,6 +9,13 @@
 namespace weft::ui {
 namespace {
 
+double most_amount(const Region& region) {
+    double most = region.form.amount_keys.empty() ? region.form.amount : 0;
+    for (const NumberKey& key : region.form.amount_keys.keys)
+        most = std::max(most, key.numbers[0]);
+    return most;
+}
+
 constexpr FormGuideKind kShapes[] = {FormGuideKind::kPlane, FormGuideKind::kCylinder,
                                      FormGuideKind::kCone, FormGuideKind::kBall};
 constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kParallel};
@@ -16,7 +23,7 @@ constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kPar
 // What was found, once the analysis is there.
 void finding(Ctx& c, const Region& region) {
     const auto found = c.view.preview.forms.find(region.id);
-    const bool off = region.form.source == FormSource::kFlat || region.form.amount <= 0;
+    const bool off = region.form.source == FormSource::kFlat || most_amount(region) <= 0;
     if (off)
         wrapped(c, "Flat", c.theme.quiet);
     else if (found != c.view.preview.forms.end())
@@ -110,7 +117,7 @@ void form_section(Ctx& c, const Region& region) {
     if (!section(c, "Form")) return;
     const PanelName panel(c, "Form");
     region_parameter(c, region, "form.source", "Source");
-    region_parameter(c, region, "form.amount");
+    keyed_parameter(c, region, "form.amount", "form.amount_keys");
     finding(c, region);
     kind_buttons(c, "Shapes", {"Plane", "Cylinder", "Cone", "Ball"}, kShapes);
     kind_buttons(c, "Strokes", {"Level", "Parallel"}, kStrokes);

@@ -20,6 +20,7 @@ std::string name_of_layer(const MatteSource& holdout, int layer) {
     const std::string title = title_of_layer(layer);
     if (holdout.empty()) return title + ", not painted yet";
     if (!holdout.select.crypto.empty()) return title + ": " + holdout.select.crypto;
+    if (!holdout.shape.empty()) return title + ": roto shape";
     if (!holdout.files.empty()) {
         const std::size_t slash = holdout.files.find_last_of('/');
         return title + ": " + holdout.files.substr(slash == std::string::npos ? 0 : slash + 1);
@@ -269,7 +270,8 @@ void propagation_section(Ctx& c, const Region& region) {
     const MatteSource source = v.painted_source();
     if (source.keyframes.empty()) {
         wrapped(c,
-                source.files.empty()
+                !source.shape.empty() ? "The shape is drawn on every frame."
+                : source.files.empty()
                     ? "Painted mattes are propagated to the other frames automatically."
                     : "The files provide a matte for every frame.",
                 c.theme.quiet);

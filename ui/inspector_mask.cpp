@@ -28,6 +28,16 @@ void matte_source_card(Ctx& c, const Region& region) {
     const Theme& t = c.theme;
     const MatteSource matte = c.view.painted_source();
     layer_banner(c);
+    if (!matte.shape.empty()) {
+        info_row(c, "Roto shape",
+                 std::to_string(matte.shape.keys.size()) +
+                     (matte.shape.keys.size() == 1 ? " key" : " keys"),
+                 "Drawn on every frame; edit it with the roto shape tool (N)");
+        if (c.state.tool != Tool::kShape &&
+            button(c, "Edit shape", {.icon = icons::kCurve, .command = "tool.shape", .width = -1}))
+            c.commands.run("tool.shape", c);
+        return;
+    }
     if (!matte.files.empty() || !matte.select.crypto.empty()) {
         if (!matte.select.crypto.empty())
             info_row(c, "Cryptomatte", matte.select.crypto, matte.select.crypto.c_str());
@@ -101,7 +111,7 @@ void files_section(Ctx& c, const Region& region) {
     const PanelName panel(c, "Matte files");
     const bool marked = c.view.mark_in || c.view.mark_out;
     quiet(c, marked ? "Freeze marked range" : "Freeze whole shot");
-    if (region.matte->files.empty()) {
+    if (!region.matte->by_frame()) {
         if (region.matte->frozen.empty()) {
             if (button(c, "Freeze",
                        {.icon = icons::kLock,

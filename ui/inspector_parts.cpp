@@ -1,5 +1,6 @@
 // Parts of the inspector: shapes, corrections, lamps and credits.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -8,6 +9,48 @@
 #include "ui/widgets.h"
 
 namespace weft::ui {
+
+namespace {
+
+// What the choice offers: mattes propagated along the surface, or drawn from the shape.
+constexpr std::array<ShapeFollow, 4> kFollows{ShapeFollow::kNone, ShapeFollow::kPosition,
+                                              ShapeFollow::kSimilarity, ShapeFollow::kPlanar};
+
+void follow_controls(Ctx& c) {
+    const KeyedShape shape = c.view.painted_source().shape;
+    int now = 0;
+    for (std::size_t k = 0; k < kFollows.size(); ++k)
+        if (!shape.empty() && shape.follow == kFollows[k]) now = static_cast<int>(k) + 1;
+    if (choice(c, "Follow",
+               {"Surface (propagated)", "None (interpolated)", "Position",
+                "Position, rotation, scale", "Planar"},
+               now,
+               "What moves the shape between its keys: the matte is propagated along the surface, "
+               "or the shape is drawn on every frame and moves with a track. Keys are then offsets "
+               "to the track")) {
+        if (now == 0)
+            c.emit(DetachShape{});
+        else
+            c.emit(FollowShape{kFollows[static_cast<std::size_t>(now - 1)]});
+    }
+    if (shape.empty() || shape.follow == ShapeFollow::kNone) return;
+    info_row(c, "Track", std::filesystem::path(shape.track).filename().string(),
+             shape.track.c_str());
+    if (button(c, "Track again",
+               {.icon = icons::kMotion,
+                .tip = "Takes the motion of the region's surface inside the shape again",
+                .width = -1}))
+        c.emit(FollowShape{shape.follow, "", true});
+    if (button(c, "Track from a file…",
+               {.icon = icons::kFolderImage,
+                .tip = "A planar track or the track of a point: Nuke, After Effects, text or JSON",
+                .width = -1})) {
+        c.state.browser.purpose = BrowserState::Purpose::kShapeTrack;
+        c.state.browser.just_opened = true;
+    }
+}
+
+}  // namespace
 
 void shape_controls(Ctx& c) {
     const Theme& t = c.theme;
@@ -34,13 +77,7 @@ void shape_controls(Ctx& c) {
                 .tip = "Gives every corner smooth handles",
                 .width = -1}))
         c.emit(SetShape{smoothed(*c.view.shape)});
-    if (button(c, "Interpolate shapes",
-               {.icon = icons::kKeyframe,
-                .enabled = c.view.shape_frames.size() > 1,
-                .tip = "Gives every frame between two shape keyframes the interpolated shape. "
-                       "Otherwise the matte is propagated",
-                .width = -1}))
-        c.emit(FillBetweenShapes{});
+    follow_controls(c);
 }
 
 void corrections_section(Ctx& c, const Region& region) {

@@ -13,6 +13,10 @@ void status_bar(Ctx& c, ImVec2 size);
 void tool_strip(Ctx& c, ImVec2 size);
 void viewer(Ctx& c, ImVec2 size);
 void timeline(Ctx& c, ImVec2 size);
+/// Rows of keys, or curves, of the selected region.
+void keys_panel(Ctx& c, ImVec2 size);
+/// The keys of the keyboard that belong to it while it has the focus. Returns true if one was used.
+bool keys_area_shortcut(Ctx& c);
 void inspector(Ctx& c, ImVec2 size);
 void texture_drawer(Ctx& c, ImVec2 size);
 void review_panel(Ctx& c, ImVec2 size);

@@ -137,7 +137,8 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     bool over = false;
     if (!s.shape.points.empty()) {
         outline(c, map, outline_of(s.shape), true, c.theme.accent_hover);
-        if (edit_points(c, map, hovered, over)) {
+        // Points first: they are smaller, and may lie near the box.
+        if (edit_points(c, map, hovered, over) || shape_box(c, map, hovered && !over, over)) {
             c.emit(SetShape{s.shape});
             return;
         }

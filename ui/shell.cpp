@@ -46,6 +46,7 @@ Shell::Shell(EditorSettings& settings, PictureHost& pictures)
     size("drawer", state_.drawer_h);
     size("report", state_.review_h);
     size("strip", state_.strip_h);
+    size("keys", state_.keys_h);
     size("sheet", state_.sheet_h);
 }
 
@@ -93,7 +94,8 @@ std::vector<Action> Shell::draw(const SessionView& view) {
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");
     const bool escaped = close_popups(state_);
-    if (!sheet && !escaped && !ui::nudge_texture(c)) commands_.dispatch(c);
+    if (!sheet && !escaped && !ui::keys_area_shortcut(c) && !ui::nudge_texture(c))
+        commands_.dispatch(c);
     layout(c);
     part("windows");
     // The strip is hidden elsewhere.
@@ -201,7 +203,14 @@ void Shell::layout(Ctx& c) {
     const float timeline_least = low ? 84.0f : 96.0f;
     float timeline_unscaled = std::clamp(state_.timeline_h, timeline_least, 260.0f);
     if (low && state_.timeline_h <= UiState{}.timeline_h) timeline_unscaled = timeline_least;
-    const float timeline_h = panels ? std::floor(t.px(timeline_unscaled)) : 0;
+    const float ruler_h = panels ? std::floor(t.px(timeline_unscaled)) : 0;
+    // The keys lie below the ruler, which they share.
+    constexpr float kKeysLeast = 96;
+    const float keys_most = std::max(kKeysLeast, body_h / t.scale * 0.5f);
+    const float keys_h = panels && state_.keys.open
+                             ? std::floor(t.px(std::clamp(state_.keys_h, kKeysLeast, keys_most)))
+                             : 0;
+    const float timeline_h = ruler_h + keys_h;
     const bool drawer = panels && state_.workspace == Workspace::kTexture;
     const bool report = panels && state_.workspace == Workspace::kReview;
     const bool four = state_.viewer.compare == Compare::kFourUp;
@@ -252,7 +261,11 @@ void Shell::layout(Ctx& c) {
     if (panels) {
         part("timeline");
         at(0, top + view_h + extra_h);
-        ui::timeline(c, {left_w, timeline_h});
+        ui::timeline(c, {left_w, ruler_h});
+        if (keys_h > 0) {
+            at(0, top + view_h + extra_h + ruler_h);
+            ui::keys_panel(c, {left_w, keys_h});
+        }
         part("inspector");
         at(screen.x - inspector_w, top);
         ui::inspector(c, {inspector_w, body_h});
@@ -261,6 +274,9 @@ void Shell::layout(Ctx& c) {
                  state_.inspector_w, -1, 240, most_w, 320);
         splitter(c, "##timeline", {0, top + view_h + extra_h - hit / 2}, {left_w, hit}, false,
                  state_.timeline_h, -1, timeline_least, 260, fresh.timeline_h);
+        if (keys_h > 0)
+            splitter(c, "##keys", {0, top + view_h + extra_h + ruler_h - hit / 2}, {left_w, hit},
+                     false, state_.keys_h, -1, kKeysLeast, keys_most, fresh.keys_h);
         if (drawer)
             splitter(c, "##drawer", {0, top + view_h - hit / 2}, {left_w, hit}, false,
                      state_.drawer_h, -1, 150, 900, fresh.drawer_h);

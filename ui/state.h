@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/project/key_rows.h"
 #include "app/session/action.h"
 #include "app/textures/texture_shelf.h"
 #include "ui/picture_host.h"
@@ -137,6 +138,7 @@ struct BrowserState {
         kOutput,
         kTextureFolder,
         kTrack,
+        kShapeTrack,
         kPlate,
         kExportMattes,
         kSimilar,
@@ -187,6 +189,41 @@ struct TransformState {
     std::shared_ptr<const SurfacePlaces> places;
 };
 
+/// The box around a roto shape.
+struct ShapeBoxState {
+    RegionId region = 0;            ///< Which it belongs to,
+    int frame = 0;                  ///< on which frame.
+    std::optional<Vec2> pivot;      ///< On the plate; unset: the middle of the box.
+    std::optional<RotoShape> from;  ///< The shape when the drag began,
+    Vec2 start{0, 0};               ///< the handle then,
+    float scale = 1, radians = 0;   ///< and how far it has gone.
+};
+
+/// The keys area below the timeline.
+struct KeysState {
+    enum class Drag : std::uint8_t { kNone, kKeys, kBox, kPan };
+    bool open = false;
+    int view = 0;  ///< 0: rows of keys, 1: curves.
+    float scroll_y = 0;
+    RegionId region = 0;  ///< Which the selection belongs to.
+    KeySet selected;
+    std::optional<KeyRef> active;   ///< Of the selected keys the one pressed last,
+    std::size_t active_number = 0;  ///< which of its numbers.
+    std::vector<CopiedKey> copied;
+    bool menu_asked = false;    ///< The menu of the right button is to be opened.
+    bool focused = false;       ///< The last press of the mouse was here.
+    std::set<KeyRowId> curves;  ///< Shown as curves; empty: all.
+    Drag drag = Drag::kNone;
+    ImVec2 from{0, 0};                                ///< Where the drag began,
+    std::optional<Region> before;                     ///< what the region was,
+    bool adds = false;                                ///< whether it adds to the selection,
+    bool was_selected = false;                        ///< whether its key was selected;
+    int by = 0;                                       ///< how far it is now, in frames
+    double by_value = 0;                              ///< and in value.
+    std::optional<std::pair<double, double>> frames;  ///< Visible; unset: the whole shot.
+    std::optional<std::pair<double, double>> values;  ///< Visible; unset: to be fitted.
+};
+
 struct UiState {
     std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
@@ -200,6 +237,8 @@ struct UiState {
     ExportState output;
     float inspector_w = 320, timeline_h = 112, drawer_h = 320, review_h = 240;  ///< Unscaled.
     float strip_h = 176;
+    float keys_h = 168;
+    KeysState keys;
     float sheet_h = 430;  ///< Height of the contact sheet.
     bool panels_hidden = false;
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
@@ -221,6 +260,7 @@ struct UiState {
     int lamp = 0;                     ///< Index of the lamp shown in the inspector.
     RotoShape shape;                  ///< Shape being drawn or edited.
     bool shape_drawing = false;
+    ShapeBoxState shape_box;
     ScribbleState scribbles;
     FormToolState form;
     std::optional<Vec2> rectangle_from;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/frame_scale.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -39,6 +40,8 @@ void transport(Ctx& c, ImVec2 size) {
     tool("time.next_key", icons::kChevronRight, "Next keyframe");
     tool("time.last", icons::kSkipNext, "Last frame");
     tool("time.mode", mode_icon(v.play_mode), mode_name(v.play_mode));
+    tool("time.keys", icons::kKeyframe, c.state.keys.open ? "Hide keys" : "Show keys",
+         c.state.keys.open);
     ImGui::PopStyleVar();
     float x = ImGui::GetItemRectMax().x + t.px(14);
     const auto say = [&](const std::string& text, ImU32 color) {
@@ -94,28 +97,21 @@ int nice_step(float frames_per_label) {
     return step;
 }
 
-struct Scale {
-    float x0, x1;
-    int first, last;
-    [[nodiscard]] float x_of(double frame) const {
-        const double span = std::max(1, last - first);
-        return x0 + static_cast<float>((frame - first) / span) * (x1 - x0);
-    }
-    [[nodiscard]] int frame_at(float x) const {
-        const float u = std::clamp((x - x0) / std::max(1.0f, x1 - x0), 0.0f, 1.0f);
-        return first + static_cast<int>(std::lround(u * static_cast<float>(last - first)));
-    }
-    [[nodiscard]] float frame_width() const {
-        return (x1 - x0) / static_cast<float>(std::max(1, last - first));
-    }
-};
+// The frame of the plate's range that is under the mouse.
+int frame_under(const Ctx& c, const FrameScale& scale) {
+    const std::vector<int>& frames = c.view.plate.frames;
+    const double at = scale.at(ImGui::GetIO().MousePos.x);
+    return static_cast<int>(std::lround(
+        std::clamp(at, static_cast<double>(frames.front()), static_cast<double>(frames.back()))));
+}
 
-void ruler(Ctx& c, ImDrawList& list, const Scale& scale, float top, float bottom) {
+void ruler(Ctx& c, ImDrawList& list, const FrameScale& scale, float top, float bottom) {
     const Theme& t = c.theme;
     const int step = nice_step(t.px(56) / scale.frame_width());
     const int minor = std::max(1, step / 5);
-    for (int f = (scale.first / minor) * minor; f <= scale.last; f += minor) {
-        if (f < scale.first) continue;
+    const int last = static_cast<int>(std::ceil(scale.last));
+    for (int f = static_cast<int>(std::floor(scale.first / minor)) * minor; f <= last; f += minor) {
+        if (f < scale.first || f > scale.last) continue;
         const float x = std::floor(scale.x_of(f)) + 0.5f;
         const bool labelled = f % step == 0;
         list.AddLine({x, bottom - t.px(labelled ? 7 : 4)}, {x, bottom}, labelled ? t.quiet : t.off);
@@ -127,7 +123,7 @@ void ruler(Ctx& c, ImDrawList& list, const Scale& scale, float top, float bottom
     }
 }
 
-void tracks(Ctx& c, ImDrawList& list, const Scale& scale, float top, float bottom) {
+void tracks(Ctx& c, ImDrawList& list, const FrameScale& scale, float top, float bottom) {
     const Theme& t = c.theme;
     const SessionView& v = c.view;
     const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
@@ -208,22 +204,20 @@ void timeline(Ctx& c, ImVec2 size) {
     transport(c, {size.x, t.px(32)});
     const SessionView& v = c.view;
     const float top = origin.y + t.px(34), bottom = origin.y + size.y - t.px(6);
-    const ImVec2 field_min(origin.x + t.px(8), top), field_max(origin.x + size.x - t.px(8), bottom);
+    const ImVec2 field_min(origin.x + t.px(8) + key_names_width(c), top);
+    const ImVec2 field_max(origin.x + size.x - t.px(8), bottom);
     list.AddRectFilled(field_min, field_max, t.field, t.radius);
     if (v.plate.frames.empty()) {
         text_in(list, t.regular, field_min, field_max, t.off, "The plate's frames appear here");
         end_panel(c);
         return;
     }
-    // Half a bar extends beyond the first and the last frame.
-    const int first = v.plate.frames.front(), last = v.plate.frames.back();
-    const float inset = std::max(
-        t.px(16), (field_max.x - field_min.x) * 0.5f / static_cast<float>(last - first + 1));
-    const Scale scale{field_min.x + inset, field_max.x - inset, first, last};
+    const FrameScale scale = frame_scale(c, field_min.x, field_max.x);
+    list.PushClipRect(field_min, field_max, true);
     const float half = std::max(t.px(1), scale.frame_width() * 0.5f);
     if (v.mark_in || v.mark_out) {
-        const float a = scale.x_of(v.mark_in.value_or(scale.first)) - half;
-        const float b = scale.x_of(v.mark_out.value_or(scale.last)) + half;
+        const float a = scale.x_of(v.mark_in.value_or(v.plate.frames.front())) - half;
+        const float b = scale.x_of(v.mark_out.value_or(v.plate.frames.back())) + half;
         list.AddRectFilled({a, top}, {b, bottom}, faded(t.accent, 0.13f));
         for (const float x : {a, b})
             list.AddRectFilled({x - t.px(1), top}, {x + t.px(1), bottom}, t.accent);
@@ -236,17 +230,18 @@ void timeline(Ctx& c, ImVec2 size) {
     ImGui::InvisibleButton("##scrub", {field_max.x - field_min.x, field_max.y - field_min.y});
     c.note("Scrub");
     if (ImGui::IsItemActive()) {
-        const int frame = scale.frame_at(ImGui::GetIO().MousePos.x);
+        const int frame = frame_under(c, scale);
         if (frame != v.frame) c.emit(GoToFrame{frame});
     }
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
-        const float x = scale.x_of(scale.frame_at(ImGui::GetIO().MousePos.x));
+        const float x = scale.x_of(frame_under(c, scale));
         list.AddLine({x, top}, {x, bottom}, faded(t.text, 0.25f));
     }
     // The playhead.
     const float x = std::floor(scale.x_of(v.frame)) + 0.5f;
     list.AddLine({x, top}, {x, bottom}, t.text, t.px(1.5f));
     list.AddTriangleFilled({x - t.px(6), top}, {x + t.px(6), top}, {x, top + t.px(8)}, t.text);
+    list.PopClipRect();
     end_panel(c);
 }
 

@@ -19,6 +19,8 @@ Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool ho
 void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void lamp_tool(Ctx& c, const ViewMap& map, bool hovered);
 void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
+/// The box that rotates and scales the shape. Returns true if a drag has ended that changed it.
+bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over);
 void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// The outline of four corners.
 void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at);

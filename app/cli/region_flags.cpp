@@ -193,6 +193,7 @@ Status ProjectFlags::apply(Region& region) const {
         MatteSource matte = *region.matte;  // keeps channel, value and inversion
         matte.files.clear();
         matte.keyframes.clear();
+        matte.shape = {};
         matte.select.crypto.clear();
         for (const std::string& text : mattes_)
             WEFT_CHECK_OK(add_matte_text(matte, text));

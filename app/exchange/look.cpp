@@ -38,6 +38,7 @@ Region with_look_of(Region to, const Region& from) {
     to.placement.uv = shot.uv;
     to.placement.uv_layer = shot.uv_layer;
     to.form.amount = from.form.amount;
+    to.form.amount_keys = from.form.amount_keys;
     to.synthesis = from.synthesis;
     to.temporal = from.temporal;
     const LightParams passes = to.light;

@@ -28,7 +28,10 @@ Json keys(Json value) {
             {"items",
              {{"type", "object"},
               {"required", {"frame", "value"}},
-              {"properties", {{"frame", any_of_type("integer")}, {"value", std::move(value)}}}}}};
+              {"properties",
+               {{"frame", any_of_type("integer")},
+                {"value", std::move(value)},
+                {"interpolation", {{"enum", {"linear", "smooth", "hold"}}}}}}}}};
 }
 
 Json guides(const ParameterInfo& info) {
@@ -119,6 +122,22 @@ Json point() {
     return {{"type", "array"}, {"items", any_of_type("number")}, {"minItems", 2}, {"maxItems", 2}};
 }
 
+Json keyed_shape() {
+    const Json row{
+        {"type", "array"}, {"items", any_of_type("number")}, {"minItems", 7}, {"maxItems", 7}};
+    const Json key{
+        {"type", "object"},
+        {"properties",
+         {{"frame", any_of_type("integer")}, {"points", {{"type", "array"}, {"items", row}}}}},
+        {"required", {"frame", "points"}}};
+    return {{"type", "object"},
+            {"properties",
+             {{"follow", {{"enum", {"none", "position", "position_rotation_scale", "planar"}}}},
+              {"track", any_of_type("string")},
+              {"keys", {{"type", "array"}, {"items", key}, {"minItems", 1}}}}},
+            {"required", {"keys"}}};
+}
+
 Json region_schema() {
     Json region{{"type", "object"}, {"properties", Json::object()}};
     region["properties"]["id"] = {{"type", "integer"}, {"minimum", 1}};
@@ -130,6 +149,7 @@ Json region_schema() {
          {{"type", "object"},
           {"properties", {{"frame", any_of_type("integer")}, {"path", any_of_type("string")}}},
           {"required", {"frame", "path"}}}}};
+    matte["properties"]["shape"] = keyed_shape();
     region["properties"]["matte"] = matte;
     region["properties"]["holdouts"] = {{"type", "array"}, {"items", matte}};
     Json zone{{"type", "object"}, {"properties", Json::object()}};
@@ -245,6 +265,7 @@ Json report_schema() {
                       {"source", {{"enum", {"pass", "motion", "shape", "flat"}}}},
                       {"text", text},
                       {"amount", number},
+                      {"amount_keyed", any_of_type("boolean")},
                       {"reason", text},
                       {"plane", any_of_type("boolean")},
                       {"drawn", text},

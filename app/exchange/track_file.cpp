@@ -5,6 +5,7 @@
 
 #include "engine/core/frame_range.h"
 #include "engine/core/input_file.h"
+#include "engine/media/atomic_file.h"
 
 namespace weft {
 namespace {
@@ -55,6 +56,20 @@ Expected<CornerTrack> read_corner_track(const std::string& path,
     auto track = is_json ? parse_json(text) : parse_corner_track(text, context);
     if (!track) return fail_in(std::move(track).error(), "The track " + path);
     return track;
+}
+
+Status write_corner_track(const std::string& path, const CornerTrack& track,
+                          const WriteRule& rule) {
+    nlohmann::ordered_json file{{"schema", kSchema}, {"frames", nlohmann::ordered_json::array()}};
+    for (const auto& [frame, quad] : track) {
+        nlohmann::ordered_json corners = nlohmann::ordered_json::array();
+        for (const glm::dvec2 corner : quad) {
+            corners.push_back(corner.x);
+            corners.push_back(corner.y);
+        }
+        file["frames"].push_back({{"frame", frame}, {"corners_px", std::move(corners)}});
+    }
+    return write_file_atomically(path, file.dump(1), rule);
 }
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "engine/media/write_rule.h"
 #include "engine/motion/corner_track.h"
 
 namespace weft {
@@ -9,5 +10,9 @@ namespace weft {
 /// parse_corner_track(). Errors: Unreadable with the path and the reason.
 [[nodiscard]] Expected<CornerTrack> read_corner_track(const std::string& path,
                                                       const CornerTrackContext& context);
+
+/// Writes a track as "weft.track/1". Errors: those of write_file_atomically().
+[[nodiscard]] Status write_corner_track(const std::string& path, const CornerTrack& track,
+                                        const WriteRule& rule);
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "engine/core/smooth_step.h"
+#include "engine/mask/shape_matte.h"
 
 namespace weft {
 namespace {
@@ -130,17 +131,7 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
 
 Matte fill_polygon(const Matte& before, const std::vector<Vec2>& points, bool subtract) {
     if (points.size() < 3) return before;
-    constexpr int kShift = 4;
-    std::vector<cv::Point> corners;
-    corners.reserve(points.size());
-    for (const Vec2 p : points) {
-        corners.emplace_back(static_cast<int>(std::lround((p.x - 0.5f) * (1 << kShift))),
-                             static_cast<int>(std::lround((p.y - 0.5f) * (1 << kShift))));
-    }
-    cv::Mat area = cv::Mat::zeros(before.height(), before.width(), CV_8UC1);
-    cv::fillPoly(area, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255), cv::LINE_AA,
-                 kShift);
-    return merged(before, area, subtract);
+    return merged(before, mat_of(polygon_matte(points, before.size())), subtract);
 }
 
 Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolerance,

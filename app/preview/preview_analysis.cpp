@@ -34,16 +34,16 @@ std::optional<int> stored_layer(const Region& region, int layer) {
     if (layer == 0) return 0;
     if (is_zone_layer(layer)) {
         const auto zone = static_cast<std::size_t>(zone_of_layer(layer));
-        if (zone >= region.zones->size() || !(*region.zones)[zone].matte.files.empty())
+        if (zone >= region.zones->size() || (*region.zones)[zone].matte.by_frame())
             return std::nullopt;
         return layer;
     }
     const std::vector<MatteSource>& holdouts = *region.holdouts;
     const auto at = static_cast<std::size_t>(layer) - 1;
-    if (at >= holdouts.size() || !holdouts[at].files.empty()) return std::nullopt;
+    if (at >= holdouts.size() || holdouts[at].by_frame()) return std::nullopt;
     int painted = 1;
     for (std::size_t k = 0; k < at; ++k)
-        painted += holdouts[k].files.empty() ? 1 : 0;
+        painted += holdouts[k].by_frame() ? 0 : 1;
     return painted;
 }
 

@@ -62,7 +62,8 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
         // The analysis determines the light to which the scene is relative.
         hasher.text(analysis).value(static_cast<int>(plan.light_source)).text(region.light.image);
         hasher.value(plan.light.strength > 0);
-        add_form_settings(hasher.value(plan.form_amount), region);
+        add_form_settings(hasher.value(plan.form_amount).value(plan.form_amount_keys.empty()),
+                          region);
         key.texture = hasher.finish().hex();
         // Seams between tracks depend on the texture's position.
         Hasher placed;
@@ -108,7 +109,7 @@ bool PreviewScenes::adopt(const Shot& shot, const std::string& analysis) {
             continue;
         }
         if (auto mapping = texture_mapping(shot.plan.regions[k].placement))
-            scenes_[k].mapping = mapping->with_form(scenes_[k].mapping.form());
+            scenes_[k].mapping = mapping->on_surface_of(scenes_[k].mapping);
     }
     return usable;
 }

@@ -43,7 +43,8 @@ std::map<RegionId, std::shared_ptr<const SurfacePlaces>> Preview::Impl::places_o
         const auto ground = texture_mapping(bare);
         if (!ref_from_cur || !ground) continue;
         out[shot.project.regions[shot.region_index[k]]->id] = std::make_shared<const SurfacePlaces>(
-            std::move(*ref_from_cur), ground->with_form(scenes.scenes()[k].mapping.form()));
+            std::move(*ref_from_cur),
+            ground->with_form(form_on(plan, scenes.scenes()[k].mapping.form(), frame)));
     }
     return out;
 }

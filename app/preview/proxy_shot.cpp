@@ -40,7 +40,7 @@ void mean_of_blocks(const Image<T, C>& from, int factor, Image<T, C>& to) {
 }
 
 KeyedNumbers divided(KeyedNumbers keys, double factor) {
-    for (auto& [frame, values] : keys.keys)
+    for (auto& [frame, values, after] : keys.keys)
         for (double& v : values)
             v /= factor;
     return keys;
@@ -49,7 +49,7 @@ KeyedNumbers divided(KeyedNumbers keys, double factor) {
 // Places of a lamp are in pixels; its brightness and angle are not.
 Lamp divided(Lamp lamp, double factor) {
     const std::size_t places = info_of(lamp.kind).places;
-    for (auto& [frame, values] : lamp.numbers.keys)
+    for (auto& [frame, values, after] : lamp.numbers.keys)
         for (std::size_t k = 0; k < std::min(places, values.size()); ++k)
             values[k] /= factor;
     return lamp;

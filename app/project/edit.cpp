@@ -148,6 +148,11 @@ Expected<Project> apply_one(const Project& project, const SetMatteKeyframe& edit
                                                        "files '{}'; set matte.files to nothing "
                                                        "before giving it keyframes",
                                                        shown(edit.region), region.matte->files));
+        if (!region.matte->shape.empty())
+            return fail(ErrorCode::kUsage,
+                        fmt::format("The matte of region '{}' is drawn from a shape; remove "
+                                    "matte.shape before giving it keyframes",
+                                    shown(edit.region)));
         if (edit.path.empty())
             return fail(ErrorCode::kUsage,
                         fmt::format("The matte keyframe of frame {} needs a path", edit.frame));

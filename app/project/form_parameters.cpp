@@ -83,6 +83,13 @@ std::vector<Parameter<Region>> form_parameters() {
              .help = "How far the texture follows the form: 0 flat, 1 as found",
              .min = 0,
              .max = 1}),
+        entry<R, &R::form, &FormParams::amount_keys>(
+            {.group = "form",
+             .key = "amount_keys",
+             .flag = "--form-amount-keys",
+             .help = "Animated amount: FRAME:A, separated by spaces",
+             .min = 0,
+             .max = 1}),
     };
 }
 

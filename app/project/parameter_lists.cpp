@@ -26,7 +26,7 @@ bool is_empty_list(const ParameterValue& value) {
 Status check_keys(const KeyedNumbers& keyed, std::size_t count) {
     if (keyed.keys.size() > kMostKeys)
         return fail(ErrorCode::kUsage, fmt::format("it has more than {} keys", kMostKeys));
-    for (const auto& [frame, numbers] : keyed.keys) {
+    for (const auto& [frame, numbers, after] : keyed.keys) {
         if (std::abs(static_cast<double>(frame)) > parameter_entry::kMaxFrame)
             return fail(ErrorCode::kUsage, fmt::format("frame {} is out of range", frame));
         if (numbers.size() != count)
@@ -82,7 +82,7 @@ Expected<ParameterValue> keys(const ParameterInfo& info, ParameterValue value) {
         return fail(ErrorCode::kUsage, "it must be a list of keys");
     }
     WEFT_CHECK_OK(check_keys(keyed, info.components));
-    for (const auto& [frame, numbers] : keyed.keys)
+    for (const auto& [frame, numbers, after] : keyed.keys)
         for (const double number : numbers)
             if (number < info.min || number > info.max)
                 return fail(ErrorCode::kUsage, fmt::format("{} on frame {} is not from {} to {}",

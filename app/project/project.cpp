@@ -22,8 +22,8 @@ std::size_t heap_bytes(const Extras& extra) {
 
 std::size_t heap_bytes(const KeyedNumbers& keyed) {
     std::size_t bytes = keyed.keys.capacity() * sizeof(keyed.keys[0]);
-    for (const auto& [frame, numbers] : keyed.keys)
-        bytes += numbers.capacity() * sizeof(double);
+    for (const NumberKey& key : keyed.keys)
+        bytes += key.numbers.capacity() * sizeof(double);
     return bytes;
 }
 
@@ -53,6 +53,7 @@ Leaf<MatteSource> map_matte(const Leaf<MatteSource>& matte, const auto& map) {
         map(m.frozen_files);
         for (auto& [frame, key] : m.keyframes)
             map(key.path);
+        map(m.shape.track);
     });
 }
 
@@ -186,6 +187,10 @@ std::size_t own_bytes(const MatteSource& matte) {
     for (const auto& [frame, key] : matte.keyframes)
         bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra) +
                  (key.shape ? key.shape->points.capacity() * sizeof(RotoPoint) : 0);
+    bytes += heap_bytes(matte.shape.track);
+    for (const auto& [frame, shape] : matte.shape.keys)
+        bytes += kMapNodeBytes + sizeof frame + sizeof shape +
+                 shape.points.capacity() * sizeof(RotoPoint);
     return bytes;
 }
 
@@ -205,8 +210,9 @@ std::size_t own_bytes(const Region& r) {
     for (const std::string& path : r.texture.also)
         samples += heap_bytes_of(path);
     std::size_t keys = 0;
-    for (const KeyedNumbers* keyed : {&r.placement.scale_keys, &r.placement.rotate_keys,
-                                      &r.placement.offset_keys, &r.light.strength_keys})
+    for (const KeyedNumbers* keyed :
+         {&r.placement.scale_keys, &r.placement.rotate_keys, &r.placement.offset_keys,
+          &r.light.strength_keys, &r.form.amount_keys})
         keys += heap_bytes_of(*keyed);
     for (const Lamp& lamp : r.light.lamps)
         keys += sizeof lamp + heap_bytes_of(lamp.numbers);

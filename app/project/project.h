@@ -126,6 +126,8 @@ struct MatteKeyframe {
 struct MatteSource {
     std::string files;                       ///< Pattern; empty: keyframes.
     std::map<int, MatteKeyframe> keyframes;  ///< By frame number.
+    /// A roto shape over time, from which every frame's matte is drawn: no files, no keyframes.
+    KeyedShape shape;
     MatteSelect select;
     double steadiness = 0.5;   ///< 0–1: reduction of boil in propagated mattes.
     std::vector<int> frozen;   ///< Frames whose mattes are read, not propagated,
@@ -136,8 +138,10 @@ struct MatteSource {
     MatteEdgeParams edge;
     Extras extra;
     [[nodiscard]] bool empty() const {
-        return files.empty() && keyframes.empty() && select.crypto.empty();
+        return files.empty() && keyframes.empty() && select.crypto.empty() && shape.empty();
     }
+    /// There is a matte for every frame, and none is painted or propagated.
+    [[nodiscard]] bool by_frame() const { return !files.empty() || !shape.empty(); }
     bool operator==(const MatteSource&) const = default;
 };
 
@@ -216,6 +220,7 @@ struct FormParams {
     std::vector<FormGuide> shape;    ///< At most one, over the surface on the reference frame.
     std::vector<FormGuide> strokes;  ///< Along it.
     double amount = 1;               ///< 0 flat, 1 as found.
+    KeyedNumbers amount_keys;        ///< The amount over time; empty: `amount` throughout.
     Extras extra;
     bool operator==(const FormParams&) const = default;
 };

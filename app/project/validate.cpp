@@ -44,6 +44,23 @@ class Finder {
     std::string part_;
 };
 
+void check_keyed_shape(Finder& find, std::string_view key, const MatteSource& matte) {
+    const KeyedShape& shape = matte.shape;
+    if (!matte.files.empty() || !matte.keyframes.empty() || !matte.select.crypto.empty())
+        find.error(key, "It is drawn from a shape, and has files or painted keyframes",
+                   "Keep one of them");
+    if (shape.follow != ShapeFollow::kNone && shape.track.empty())
+        find.error(key, "Its shape follows a track, but none is set",
+                   "Choose a track, or let the shape follow nothing");
+    for (const auto& [frame, drawn] : shape.keys)
+        if (drawn.points.size() != shape.keys.begin()->second.points.size())
+            find.error(key,
+                       fmt::format("Its shape has {} points on frame {} and {} on frame {}",
+                                   shape.keys.begin()->second.points.size(),
+                                   shape.keys.begin()->first, drawn.points.size(), frame),
+                       "Give it the same points on every key");
+}
+
 void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
     if (matte.empty())
         find.error(key, "No matte is set",
@@ -55,6 +72,7 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
         if (painted.path.empty())
             find.error(key, fmt::format("The keyframe of frame {} has no path", frame),
                        "Set it or remove the keyframe");
+    if (!matte.shape.empty()) check_keyed_shape(find, key, matte);
     if (matte.propagate_from && matte.propagate_to && *matte.propagate_from > *matte.propagate_to)
         find.error(key,
                    fmt::format("It is propagated from frame {} to frame {}", *matte.propagate_from,
@@ -130,8 +148,8 @@ void check_light(Finder& find, const LightParams& light) {
 
 void check_zone(Finder& find, const std::string& key, const Zone& zone) {
     double most = zone.value;
-    for (const auto& [frame, values] : zone.value_keys.keys)
-        most = std::max(most, values.front());
+    for (const NumberKey& keyed : zone.value_keys.keys)
+        most = std::max(most, keyed.numbers.front());
     if (zone.kind == ZoneKind::kDetail && most > 1)
         find.warning(
             key, fmt::format("Its light detail is {:g}, and 1 is all that the plate shows", most),

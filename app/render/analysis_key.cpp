@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/render/stage_cache.h"
+#include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/core/hash.h"
 #include "engine/media/sequence_pattern.h"
@@ -67,6 +68,10 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& 
     WEFT_CHECK_OK(add_pattern(hasher, matte.files));
     for (const auto& [frame, key] : matte.keyframes)
         add_keyframe(hasher, frame, key, painted);
+    if (!matte.shape.empty()) {
+        add_shape(hasher.text("shape"), matte.shape);
+        if (matte.shape.follow != ShapeFollow::kNone) add_file(hasher, matte.shape.track);
+    }
     add_settings(hasher, matte);
     return {};
 }
@@ -121,7 +126,7 @@ std::map<int, RegionKeys::Layer> all_matte_keys(const Shot& shot, const Region& 
     add(0, *region.matte);
     int holdout = 0;
     for (const MatteSource& matte : *region.holdouts)
-        if (matte.files.empty()) add(++holdout, matte);
+        if (!matte.by_frame()) add(++holdout, matte);
     for (int zone = 0; zone < static_cast<int>(region.zones->size()); ++zone)
         add(zone_layer(zone), (*region.zones)[static_cast<std::size_t>(zone)].matte);
     return out;

@@ -19,7 +19,7 @@ constexpr float kWhole = 0.995f;  // what prints as 100 %
 constexpr int kLeastFrames = 2;   // from which motion tells a form, besides the reference frame
 
 NotSought why_not_sought(const Region& region, const RegionPlan& plan) {
-    if (plan.form_from != RegionPlan::FormFrom::kNothing || !(region.form.amount > 0))
+    if (plan.form_from != RegionPlan::FormFrom::kNothing || !(plan.form_amount > 0))
         return NotSought::kSought;
     if (region.form.source == FormSource::kFlat) return NotSought::kChosen;
     if (form_files(region).from == RegionPlan::FormFrom::kNothing) return NotSought::kNoPass;
@@ -126,7 +126,8 @@ Expected<std::vector<FormReport>> form_reports(const Shot& shot, const AnalysisS
         FormReport form;
         form.region = region.name;
         form.frame = plan.reference_frames.front();
-        form.amount = static_cast<float>(region.form.amount);
+        form.amount = plan.form_amount;
+        form.keyed = !plan.form_amount_keys.empty();
         form.not_sought = why_not_sought(region, plan);
         if (plan.has_form()) {
             const AnalysisKey key{static_cast<int>(k), form.frame, AnalysisKind::kForm};
@@ -155,7 +156,10 @@ std::string form_text(const FormReport& form) {
     }
     if (f.fov_deg > 0) out += fmt::format(", field of view {:.0f}°", f.fov_deg);
     if (f.belief < kWhole) out += fmt::format(", believed to {:.0f} %", 100 * f.belief);
-    if (form.amount < kWhole) out += fmt::format(", amount {:.2g}", form.amount);
+    if (form.keyed)
+        out += fmt::format(", amount over time, at most {:.2g}", form.amount);
+    else if (form.amount < kWhole)
+        out += fmt::format(", amount {:.2g}", form.amount);
     return out;
 }
 
@@ -166,6 +170,7 @@ Json form_json(const FormReport& form) {
              {"source", form.is_flat() ? "flat" : source_name(f.source)},
              {"text", form_text(form)},
              {"amount", rounded(form.amount)}};
+    if (form.keyed) out["amount_keyed"] = true;
     if (form.is_flat()) {
         out["reason"] = reason_of(form).name;
         return out;

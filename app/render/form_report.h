@@ -23,11 +23,12 @@ struct FormReport {
         kUnlocked  ///< The temporal mode is not the locked one.
     };
 
-    std::string region;   ///< Its name.
-    int frame = 0;        ///< Its reference frame.
-    std::string pass;     ///< "the position pass"; empty: another source.
-    std::string drawn;    ///< What was drawn: "plane", "cylinder", "parallel strokes".
-    float amount = 1;     ///< As set: how far the texture follows the form, 0–1.
+    std::string region;  ///< Its name.
+    int frame = 0;       ///< Its reference frame.
+    std::string pass;    ///< "the position pass"; empty: another source.
+    std::string drawn;   ///< What was drawn: "plane", "cylinder", "parallel strokes".
+    float amount = 1;  ///< As set: how far the texture follows the form, 0–1; with keys the most.
+    bool keyed = false;   ///< The amount has keys.
     FormFinding finding;  ///< kNone: flat.
     NotSought not_sought = NotSought::kSought;
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "app/mattes/paint.h"
-#include "app/mattes/roto_shape.h"
 #include "app/preview/playback.h"
 #include "app/preview/preview.h"
 #include "app/project/edit.h"
 #include "engine/color/screen_view.h"
+#include "engine/mask/shape_matte.h"
 
 namespace weft {
 
@@ -127,7 +127,7 @@ struct StepFrames {
     int count = 1;
     bool operator==(const StepFrames&) const = default;
 };
-/// To the previous (−1) or next (1) painted keyframe or reference frame.
+/// To the previous (−1) or next (1) key of anything of the selected region (key_rows()).
 struct StepKeyframe {
     int direction = 1;
     bool operator==(const StepKeyframe&) const = default;
@@ -202,9 +202,18 @@ struct SetShape {
     RotoShape shape;
     bool operator==(const SetShape&) const = default;
 };
-/// Gives all frames between two shapes a matte from the shape in between.
-struct FillBetweenShapes {
-    bool operator==(const FillBetweenShapes&) const = default;
+/// From now on the layer's mattes are drawn from its shape on every frame: between the frames on
+/// which it was drawn it moves along a track, and the rest is interpolated. Without a track (and
+/// unless it follows nothing) the motion of the region's surface is taken, as it was analysed.
+struct FollowShape {
+    ShapeFollow follow = ShapeFollow::kNone;
+    std::string track = {};  ///< A file; empty: the one it has, else the surface's motion.
+    bool again = false;      ///< Takes the surface's motion anew.
+    bool operator==(const FollowShape&) const = default;
+};
+/// The other way: the shapes become painted keyframes, which are propagated.
+struct DetachShape {
+    bool operator==(const DetachShape&) const = default;
 };
 /// Makes the matte shown on this frame a painted keyframe (a correction of a propagated one).
 struct KeyMatteHere {
@@ -348,16 +357,15 @@ struct MeasureResult {
     bool operator==(const MeasureResult&) const = default;
 };
 
-using Action =
-    std::variant<DoEdit, DoEdits, TryEdit, TryEdits, Undo, Redo, GoToHistory, NewProject,
-                 OpenProject, OpenDemo, OpenAny, Save, SaveAs, SaveVersion, CollectProject,
-                 CancelCollect, RelinkFiles, CloseProject, Recover, TrustFolder, SelectRegion,
-                 SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play, SetPlayMode,
-                 MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer,
-                 FillPolygon, FloodSelect, ScribbleSelect, SetShape, FillBetweenShapes, ShowStrip,
-                 ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe,
-                 PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture,
-                 ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay,
-                 ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+using Action = std::variant<
+    DoEdit, DoEdits, TryEdit, TryEdits, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
+    OpenAny, Save, SaveAs, SaveVersion, CollectProject, CancelCollect, RelinkFiles, CloseProject, Recover,
+    TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play,
+    SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer,
+    FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape, DetachShape, ShowStrip,
+    ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe, PaintInstead,
+    ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture, ApplyTextures,
+    UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay, ShowStages, ChooseScreen,
+    SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

@@ -8,6 +8,7 @@
 #include "app/exchange/kept_textures.h"
 #include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
+#include "app/project/key_rows.h"
 #include "app/session/session_measuring.h"
 #include "texture_db/library/library.h"
 
@@ -61,9 +62,10 @@ void Session::go_to(int frame) {
 void Session::step_keyframe(int direction) {
     const Region* region = region_by_id(document(), selected_);
     if (!region) return;
-    std::set<int> stops(region->reference_frames.begin(), region->reference_frames.end());
-    for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)
-        stops.insert(frame);
+    std::set<int> stops;
+    for (const KeyRow& row : key_rows(*region))
+        for (const KeyMark& key : row.keys)
+            stops.insert(key.frame);
     if (direction > 0) {
         const auto next = stops.upper_bound(playback_.frame());
         if (next != stops.end()) go_to(*next);

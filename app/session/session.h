@@ -27,6 +27,7 @@
 #include "app/session/recovery.h"
 #include "app/session/session_view.h"
 #include "app/session/strip.h"
+#include "app/shot/drawn_mattes.h"
 #include "engine/media/write_rule.h"
 
 namespace weft {
@@ -175,7 +176,11 @@ class Session {
     // ---- segmented and drawn mattes (session_shapes.cpp) ----
     void scribble(const ScribbleSelect& action);
     void set_shape(const RotoShape& shape);
-    void fill_between_shapes();
+    void follow_shape(const FollowShape& action);
+    void track_shape(const FollowShape& action, const RotoShape& shape, int frame);
+    void detach_shape();
+    void commit_layer(const Region& region, int layer, const MatteSource& matte,
+                      const std::string& label);
     void show_shape();
 
     // ---- writing mattes (session_matte_files.cpp), scale by line (session_placing.cpp) ----
@@ -245,6 +250,7 @@ class Session {
 
     PlateOpener opener_;
     std::shared_ptr<const FrameReader> reader_;
+    std::shared_ptr<const DrawnMattes> drawn_;  // there is one while there is a reader
     std::shared_ptr<PlatePlayer> player_;
     PlatePlayer::Reading plate_reading_;
     PreviewReading preview_reading_;

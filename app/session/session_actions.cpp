@@ -124,7 +124,8 @@ struct Session::Actor {
     }
     void operator()(const ScribbleSelect& a) const { s.scribble(a); }
     void operator()(const SetShape& a) const { s.set_shape(a.shape); }
-    void operator()(const FillBetweenShapes&) const { s.fill_between_shapes(); }
+    void operator()(const FollowShape& a) const { s.follow_shape(a); }
+    void operator()(const DetachShape&) const { s.detach_shape(); }
     void operator()(const GrowMatte& a) const {
         s.change_matte([a](const Matte& m) { return grow_matte(m, a.px); },
                        a.px > 0 ? "Grow matte" : "Shrink matte");

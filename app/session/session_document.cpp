@@ -234,6 +234,7 @@ void Session::open_plate_in_background() {
     if (!opener_.open(plate)) return;
     end_player();
     reader_.reset();
+    drawn_.reset();
     playback_.close();
     view_.plate = {};
 }
@@ -259,6 +260,7 @@ void Session::take_plate() {
         return;
     }
     reader_ = opened->reader;
+    drawn_ = std::make_shared<const DrawnMattes>(reader_->size(), reader_->frames().front());
     player_ = std::make_shared<PlatePlayer>(reader_, opened->srgb, opened->linear,
                                             options_.plate_budget_bytes);
     view_.plate.space = opened->space;

@@ -189,7 +189,8 @@ void Session::measure(const std::string& pattern) {
              .regions[find_region(document(), std::to_string(selected_)).value_or(0)]
              ->matte;
     const Size size = reader_->size();
-    in.matte = [this, source, size, id = region->id](int frame) -> Expected<Matte> {
+    in.matte = [this, source, size, drawn = drawn_, id = region->id](int frame) -> Expected<Matte> {
+        if (!source.shape.empty()) return drawn->matte(source.shape, source.select.invert, frame);
         if (source.files.empty()) return preview_.propagated_matte(id, 0, frame);
         WEFT_TRY(files, SequencePattern::parse(source.files));
         return read_matte(files.path_for(frame), source.select, size);

@@ -49,7 +49,7 @@ void Session::write_mattes(const std::string& pattern_text, MatteEdges edges,
     const MatteEdgePlan edge =
         edges == MatteEdges::kAsShown ? project_edge(source.edge) : MatteEdgePlan();
     start_for_document([this, pattern_text, frames, source, edge, size = reader_->size(), absolute,
-                        file = path_, id = region->id, layer = layer_,
+                        file = path_, id = region->id, layer = layer_, drawn = drawn_,
                         then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
@@ -58,7 +58,9 @@ void Session::write_mattes(const std::string& pattern_text, MatteEdges edges,
             WEFT_CHECK_OK(make_folder_of(pattern.path_for(frames.front()), rule));
             for (const int frame : frames) {
                 Expected<Matte> matte = Matte();
-                if (!source.files.empty()) {
+                if (!source.shape.empty()) {
+                    matte = drawn->matte(source.shape, source.select.invert, frame);
+                } else if (!source.files.empty()) {
                     WEFT_TRY(files, SequencePattern::parse(source.files));
                     matte = read_matte(files.path_for(frame), source.select, size);
                 } else if (const auto key = source.keyframes.find(frame);

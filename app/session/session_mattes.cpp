@@ -59,7 +59,18 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
     const std::string files = !source.files.empty()           ? source.files
                               : !source.select.crypto.empty() ? document().plate.path
                                                               : std::string();
-    if (!files.empty()) {
+    if (!source.shape.empty()) {
+        out.kind = RegionMatteView::Kind::kFile;
+        KeyedShape shape = source.shape;
+        if (!shape.track.empty()) shape.track = resolve_path(dir, shape.track);
+        Hasher hasher;
+        add_shape(hasher, shape);
+        name = "shape " + hasher.finish().hex() + " " + std::to_string(frame) +
+               (source.select.invert ? " inverted" : "");
+        read = [drawn = drawn_, shape = std::move(shape), invert = source.select.invert, frame] {
+            return drawn->matte(shape, invert, frame);
+        };
+    } else if (!files.empty()) {
         out.kind = RegionMatteView::Kind::kFile;
         const auto pattern = SequencePattern::parse(resolve_path(dir, files));
         if (!pattern) {
@@ -123,6 +134,10 @@ bool Session::may_paint() {
         notify(NoticeKind::kWarning, "The matte of '" + layer_name(*region, layer_) +
                                          "' comes from files. Choose 'Paint instead' to make it "
                                          "your own.");
+    } else if (!layer_source(*region, layer_).shape.empty()) {
+        notify(NoticeKind::kWarning, "The matte of '" + layer_name(*region, layer_) +
+                                         "' is drawn from a shape. Change the shape, or choose "
+                                         "'Surface' under Follow to paint keyframes.");
     } else if (!reader_) {
         notify(NoticeKind::kWarning, "The plate is not open yet.");
     } else if (changing_) {
@@ -151,7 +166,7 @@ void Session::prepare_stroke() {
     const bool still = playback_.direction() == 0 && read_frame_ == playback_.frame();
     if (!region || !reader_ || !still || changing_ || locked_.contains(selected_)) return;
     const MatteSource& source = layer_source(*region, layer_);
-    if (!source.files.empty() || !source.select.crypto.empty()) return;
+    if (source.by_frame() || !source.select.crypto.empty()) return;
     const auto& views = layer_ == 0 ? view_.mattes : layer_ > 0 ? view_.holdouts : view_.zones;
     const auto shown = std::find_if(views.begin(), views.end(), [&](const RegionMatteView& view) {
         return view.region == selected_ && view.layer == layer_;

@@ -232,7 +232,9 @@ void Session::show_marks() {
             mark.failed = plate_reading_.states[k] == PlatePlayer::State::kFailed;
         }
         if (!region) continue;
-        mark.matte_key = layer_source(*region, layer_).keyframes.contains(frames[k]);
+        const MatteSource& layer = layer_source(*region, layer_);
+        mark.matte_key =
+            layer.keyframes.contains(frames[k]) || layer.shape.keys.contains(frames[k]);
         mark.reference =
             region->reference_frames.empty()
                 ? chosen != view_.preview.references.end() && chosen->second == frames[k]

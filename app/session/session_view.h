@@ -11,7 +11,6 @@
 #include "app/base/picture.h"
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/matte_shelf.h"
-#include "app/mattes/roto_shape.h"
 #include "app/preview/preview.h"
 #include "app/project/project.h"
 #include "app/project/validate.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "app/shot/frame_gaps.h"
 #include "app/shot/reference_choice.h"
@@ -332,9 +333,11 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     const FrameSpan span = analysed_span(shot, plan);
     const Followed followed{region, plan, shot, plate, span};
     WEFT_CHECK_OK(followed.check_plate());
+    WEFT_CHECK_OK(check_shapes(region, plate));
     // Only now, when the number of frames is limited by the plate.
     const std::vector<int> all = frames_between(span.first, span.last);
-    if (!plan.propagated()) WEFT_CHECK_OK(followed.check(region.matte->files, "The matte"));
+    if (!region.matte->files.empty())
+        WEFT_CHECK_OK(followed.check(region.matte->files, "The matte"));
     for (const MatteSource& holdout : *region.holdouts) {
         if (!holdout.files.empty()) WEFT_CHECK_OK(followed.check(holdout.files, "The holdout"));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/color/color_space.h"
 #include "engine/media/image_files.h"
@@ -20,7 +21,8 @@ class ProjectSource final : public ShotSource {
           regions_(std::move(regions)),
           cuts_(std::move(cuts)),
           inputs_(std::move(inputs)),
-          painted_(std::move(painted)) {}
+          painted_(std::move(painted)),
+          drawn_(plate_->size(), plate_->frames().empty() ? 0 : plate_->frames().front()) {}
 
     [[nodiscard]] Size size() const override { return plate_->size(); }
 
@@ -41,14 +43,14 @@ class ProjectSource final : public ShotSource {
 
     [[nodiscard]] Expected<Matte> holdout_key(int region, int painted, int frame) const override {
         for (const MatteSource& holdout : *at(region).holdouts)
-            if (holdout.files.empty() && painted-- == 0) return read_keyframe(holdout, frame);
+            if (!holdout.by_frame() && painted-- == 0) return read_keyframe(holdout, frame);
         return ShotSource::holdout_key(region, painted, frame);
     }
 
     [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override {
         std::optional<Matte> all;
         for (const MatteSource& holdout : *at(region).holdouts) {
-            if (holdout.files.empty()) continue;
+            if (!holdout.by_frame()) continue;
             WEFT_TRY(one, read(holdout, frame));
             if (!all) {
                 all = std::move(one);
@@ -151,6 +153,10 @@ class ProjectSource final : public ShotSource {
         return picture;
     }
     [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
+        if (!source.shape.empty()) {
+            if (source.shape.follow != ShapeFollow::kNone) (void)watched(source.shape.track);
+            return drawn_.matte(source.shape, source.select.invert, frame);
+        }
         WEFT_TRY(pattern, SequencePattern::parse(source.files));
         return read_matte(watched(path_on(pattern, frame)), source.select, size());
     }
@@ -178,6 +184,7 @@ class ProjectSource final : public ShotSource {
     std::shared_ptr<CutWatch> cuts_;
     std::shared_ptr<InputWatch> inputs_;
     PaintedMattes painted_;
+    DrawnMattes drawn_;
 };
 
 }  // namespace

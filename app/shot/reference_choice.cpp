@@ -105,6 +105,13 @@ Expected<std::vector<int>> candidates(const Region& region, const FrameReader& p
         return frames;
     }
     frames = plate.frames();
+    if (!region.matte->shape.empty()) {
+        // A shape is drawn where its surface is seen.
+        std::vector<int> drawn;
+        for (const int frame : frames)
+            if (region.matte->shape.keys.contains(frame)) drawn.push_back(frame);
+        return drawn.empty() ? frames : drawn;
+    }
     WEFT_TRY(pattern, SequencePattern::parse(region.matte->files));
     if (pattern.is_single()) return frames;
     WEFT_TRY(mattes, pattern.list_frames());
@@ -154,7 +161,7 @@ Expected<ReferenceChoice> choose_reference(const Region& region, const FrameRead
     const int first = frames.front();
     std::erase_if(frames, [&](int f) { return f < range.first || f > range.last; });
     if (frames.empty()) return ReferenceChoice{first, first, false};
-    if (frames.size() == 1 || same_everywhere(region))
+    if (frames.size() == 1 || !region.matte->shape.empty() || same_everywhere(region))
         return ReferenceChoice{frames.front(), frames.front(), true};
     std::map<std::size_t, double> seen;  // score by index, in frame order
     for (const std::size_t count_looked : kLooks) {

@@ -76,7 +76,7 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
     plan.matte_edge = project_edge(matte.edge);
     // Painted holdouts are numbered in order; the number is their key in the analysis.
     for (const MatteSource& holdout : holdouts) {
-        if (!holdout.files.empty()) {
+        if (holdout.by_frame()) {
             plan.has_holdout = true;
             plan.given_holdout_edges.push_back(project_edge(holdout.edge));
             continue;
@@ -99,7 +99,7 @@ Status project_zones(const std::vector<Zone>& zones, RegionPlan& plan) {
         }
         ZonePlan planned;
         planned.kind = zone.kind;
-        if (zone.matte.files.empty()) planned.painted = painted_matte(zone.matte);
+        if (!zone.matte.by_frame()) planned.painted = painted_matte(zone.matte);
         planned.value = static_cast<float>(zone.value);
         planned.value_keys = zone.value_keys;
         planned.edge = project_edge(zone.matte.edge);
@@ -142,8 +142,8 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
         const auto& keys = plan.scale_keys.keys;
         const auto smallest =
             std::min_element(keys.begin(), keys.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; });
-        plan.placement.scale = static_cast<float>(smallest->second[0]);
+                             [](const auto& a, const auto& b) { return a.numbers < b.numbers; });
+        plan.placement.scale = static_cast<float>(smallest->numbers[0]);
     }
     WEFT_CHECK_OK(texture_mapping(plan.placement));
     plan.has_uv = !placement.uv.empty();
@@ -189,7 +189,13 @@ Status project_drawn_form(const Region& region, bool laid, RegionPlan& plan) {
 Status project_form(const Region& region, RegionPlan& plan) {
     const FormFiles pass = form_files(region);
     plan.form_amount = static_cast<float>(region.form.amount);
-    if (!(region.form.amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
+    plan.form_amount_keys = region.form.amount_keys;
+    if (!plan.form_amount_keys.empty()) {
+        plan.form_amount = 0;
+        for (const NumberKey& key : plan.form_amount_keys.keys)
+            plan.form_amount = std::max(plan.form_amount, static_cast<float>(key.numbers[0]));
+    }
+    if (!(plan.form_amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
     for (const FormGuide& stroke : region.form.strokes)
         if (stroke.kind == FormGuideKind::kLevel) plan.form_guides.push_back(stroke);
     const bool locked = region.temporal.mode == TemporalMode::kLocked;

@@ -155,7 +155,7 @@ class ShotOpener {
     // Frozen frames become keyframes with files, except where one is painted.
     static Status add_frozen_mattes(Region& region) {
         if (region.matte->frozen.empty()) return {};
-        if (region.matte->frozen_files.empty() || !region.matte->files.empty()) {
+        if (region.matte->frozen_files.empty() || region.matte->by_frame()) {
             return fail(ErrorCode::kUsage,
                         "Frozen mattes need their files and painted keyframes. Set both" +
                             by({{setting::kMatteFrozenFiles}, {setting::kMatte}}) + ".");

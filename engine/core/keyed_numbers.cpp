@@ -10,8 +10,6 @@
 namespace weft {
 namespace {
 
-using Key = std::pair<int, std::vector<double>>;
-
 tl::unexpected<Error> not_a_number(std::string_view text) {
     return fail(ErrorCode::kUsage,
                 quoted(text) + " is not a number. Write each key like 12:0.5, frame and value.");
@@ -36,30 +34,85 @@ Expected<std::vector<double>> numbers_of(std::string_view text) {
 
 auto position(auto& keys, int frame) {
     return std::lower_bound(keys.begin(), keys.end(), frame,
-                            [](const Key& key, int f) { return key.first < f; });
+                            [](const NumberKey& key, int f) { return key.frame < f; });
+}
+
+// The slopes at a smooth key: those of Fritsch and Butland (1984), a weighted harmonic mean of the
+// slopes to both neighbours, with which a cubic Hermite is monotone between its keys (Fritsch &
+// Carlson 1980). Level at a turning point, at the first and the last key, and after a hold, which
+// arrives with a step.
+template <class T>
+T slope_at(const std::vector<NumberKey>& keys, std::size_t at, std::size_t which) {
+    if (at == 0 || at + 1 == keys.size() || keys[at - 1].after == KeyInterpolation::kHold) return 0;
+    const NumberKey &before = keys[at - 1], &here = keys[at], &after = keys[at + 1];
+    const T h0 = static_cast<T>(here.frame) - static_cast<T>(before.frame);
+    const T h1 = static_cast<T>(after.frame) - static_cast<T>(here.frame);
+    const T v = static_cast<T>(here.numbers[which]);
+    const T d0 = (v - static_cast<T>(before.numbers[which])) / h0;
+    const T d1 = (static_cast<T>(after.numbers[which]) - v) / h1;
+    // Compared by sign: a product of small slopes would be rounded to zero.
+    if (d0 == 0 || d1 == 0 || (d0 > 0) != (d1 > 0)) return 0;
+    const T share = (h0 + 2 * h1) / (3 * (h0 + h1));
+    return 1 / (share / d0 + (1 - share) / d1);
+}
+
+template <class T>
+T smooth_between(const std::vector<NumberKey>& keys, std::size_t from, std::size_t which, T share) {
+    const T a = static_cast<T>(keys[from].numbers[which]);
+    const T b = static_cast<T>(keys[from + 1].numbers[which]);
+    const T length = static_cast<T>(keys[from + 1].frame) - static_cast<T>(keys[from].frame);
+    const T rest = 1 - share;
+    const T value =
+        a + (b - a) * share * share * (3 - 2 * share) +
+        length * share * rest *
+            (slope_at<T>(keys, from, which) * rest - slope_at<T>(keys, from + 1, which) * share);
+    return std::clamp(value, std::min(a, b), std::max(a, b));
 }
 
 // The arithmetic of T, on numbers that were rounded to T before.
 template <class T>
-std::vector<T> interpolated(const std::vector<Key>& keys, int frame) {
+std::vector<T> interpolated(const std::vector<NumberKey>& keys, int frame) {
     if (keys.empty()) return {};
     const auto after = std::upper_bound(keys.begin(), keys.end(), frame,
-                                        [](int f, const Key& key) { return f < key.first; });
-    const Key& first = after == keys.begin() ? *after : *(after - 1);
-    std::vector<T> out(first.second.begin(), first.second.end());
-    if (after == keys.begin() || after == keys.end()) return out;
+                                        [](int f, const NumberKey& key) { return f < key.frame; });
+    const NumberKey& first = after == keys.begin() ? *after : *(after - 1);
+    std::vector<T> out(first.numbers.begin(), first.numbers.end());
+    if (after == keys.begin() || after == keys.end() || first.after == KeyInterpolation::kHold)
+        return out;
     const T share =
-        static_cast<T>(frame - first.first) / static_cast<T>(after->first - first.first);
-    for (std::size_t k = 0; k < out.size(); ++k)
-        out[k] += share * (static_cast<T>(after->second[k]) - out[k]);
+        static_cast<T>(frame - first.frame) / static_cast<T>(after->frame - first.frame);
+    const auto from = static_cast<std::size_t>(after - keys.begin()) - 1;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        if (first.after == KeyInterpolation::kSmooth)
+            out[k] = smooth_between<T>(keys, from, k, share);
+        else
+            out[k] += share * (static_cast<T>(after->numbers[k]) - out[k]);
+    }
     return out;
 }
 
 }  // namespace
 
+std::string_view name_of(KeyInterpolation interpolation) {
+    for (const auto& [known, name] : kKeyInterpolations)
+        if (known == interpolation) return name;
+    return {};
+}
+
+Expected<KeyInterpolation> parse_interpolation(std::string_view name) {
+    for (const auto& [known, called] : kKeyInterpolations)
+        if (called == name) return known;
+    return fail(ErrorCode::kUsage,
+                quoted(name.substr(0, 60)) + " is no interpolation; use linear, smooth or hold");
+}
+
 bool KeyedNumbers::has(int frame) const {
+    return key(frame) != nullptr;
+}
+
+const NumberKey* KeyedNumbers::key(int frame) const {
     const auto found = position(keys, frame);
-    return found != keys.end() && found->first == frame;
+    return found != keys.end() && found->frame == frame ? &*found : nullptr;
 }
 
 std::vector<double> KeyedNumbers::at(int frame) const {
@@ -72,30 +125,37 @@ std::vector<float> KeyedNumbers::float_at(int frame) const {
 
 void KeyedNumbers::set(int frame, std::vector<double> numbers) {
     const auto found = position(keys, frame);
-    if (found != keys.end() && found->first == frame)
-        found->second = std::move(numbers);
-    else
-        keys.insert(found, {frame, std::move(numbers)});
+    if (found != keys.end() && found->frame == frame) {
+        found->numbers = std::move(numbers);
+        return;
+    }
+    const auto after = found == keys.begin() ? KeyInterpolation::kLinear : std::prev(found)->after;
+    keys.insert(found, {frame, std::move(numbers), after});
 }
 
 void KeyedNumbers::erase(int frame) {
-    std::erase_if(keys, [frame](const Key& key) { return key.first == frame; });
+    std::erase_if(keys, [frame](const NumberKey& key) { return key.frame == frame; });
 }
 
-Expected<Key> parse_key(std::string_view text, bool only, std::size_t count) {
+Expected<NumberKey> parse_key(std::string_view text, bool only, std::size_t count) {
+    NumberKey key;
     const std::size_t colon = text.find(':');
-    int frame = 0;
     if (colon == std::string_view::npos && !only)
         return fail(ErrorCode::kUsage,
                     "With several keys, each needs its frame, as in FRAME: numbers");
     if (colon != std::string_view::npos) {
         const std::string_view number = trimmed(text.substr(0, colon));
         const auto [stop, error] =
-            std::from_chars(number.data(), number.data() + number.size(), frame);
+            std::from_chars(number.data(), number.data() + number.size(), key.frame);
         if (error != std::errc() || stop != number.data() + number.size() ||
-            !is_frame_number(frame))
+            !is_frame_number(key.frame))
             return not_a_number(number);
         text = text.substr(colon + 1);
+    }
+    if (const std::size_t second = text.find(':'); second != std::string_view::npos) {
+        WEFT_TRY(after, parse_interpolation(trimmed(text.substr(second + 1))));
+        key.after = after;
+        text = text.substr(0, second);
     }
     WEFT_TRY(numbers, numbers_of(text));
     if (numbers.size() != count) {
@@ -103,23 +163,25 @@ Expected<Key> parse_key(std::string_view text, bool only, std::size_t count) {
                                            std::to_string(numbers.size()) + " numbers instead of " +
                                            std::to_string(count));
     }
-    return Key{frame, std::move(numbers)};
+    key.numbers = std::move(numbers);
+    return key;
 }
 
-Expected<KeyedNumbers> sorted_keys(std::vector<Key> keys) {
+Expected<KeyedNumbers> sorted_keys(std::vector<NumberKey> keys) {
     std::stable_sort(keys.begin(), keys.end(),
-                     [](const Key& a, const Key& b) { return a.first < b.first; });
+                     [](const NumberKey& a, const NumberKey& b) { return a.frame < b.frame; });
     const auto twice = std::adjacent_find(
-        keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.first == b.first; });
+        keys.begin(), keys.end(),
+        [](const NumberKey& a, const NumberKey& b) { return a.frame == b.frame; });
     if (twice == keys.end()) return KeyedNumbers{std::move(keys)};
-    return fail(ErrorCode::kUsage, "Frame " + std::to_string(twice->first) + " has two keys");
+    return fail(ErrorCode::kUsage, "Frame " + std::to_string(twice->frame) + " has two keys");
 }
 
 Expected<KeyedNumbers> parse_keyed_numbers(std::string_view text, std::size_t count) {
     std::vector<std::string_view> parts;
     for (const std::string_view part : split(trimmed(text), ' '))
         if (!part.empty()) parts.push_back(part);
-    std::vector<Key> keys;
+    std::vector<NumberKey> keys;
     for (const std::string_view part : parts) {
         WEFT_TRY(key, parse_key(part, parts.size() == 1, count));
         keys.push_back(std::move(key));
@@ -129,13 +191,14 @@ Expected<KeyedNumbers> parse_keyed_numbers(std::string_view text, std::size_t co
 
 std::string keyed_text(const KeyedNumbers& keyed) {
     std::string out;
-    for (const auto& [frame, numbers] : keyed.keys) {
+    for (const NumberKey& key : keyed.keys) {
         if (!out.empty()) out += " ";
-        out += std::to_string(frame) + ":";
-        for (std::size_t k = 0; k < numbers.size(); ++k) {
+        out += std::to_string(key.frame) + ":";
+        for (std::size_t k = 0; k < key.numbers.size(); ++k) {
             if (k > 0) out += ',';
-            out += shortest_text(numbers[k]);
+            out += shortest_text(key.numbers[k]);
         }
+        if (key.after != KeyInterpolation::kLinear) out += ":" + std::string(name_of(key.after));
     }
     return out;
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "engine/core/geometry.h"
 
 namespace weft {
@@ -11,6 +13,8 @@ class SurfaceForm {
     /// The flat place of a pixel of the reference frame, in pixels; smooth, inside of the frame and
     /// beyond it.
     [[nodiscard]] virtual Vec2 flat(Vec2 pixel) const = 0;
+    /// The same form less pronounced: `share` from 0, flat, to 1, as it is.
+    [[nodiscard]] virtual std::shared_ptr<const SurfaceForm> at_share(float share) const = 0;
 };
 
 }  // namespace weft

@@ -36,6 +36,12 @@ class TextureMapping {
         return out;
     }
     [[nodiscard]] const std::shared_ptr<const SurfaceForm>& form() const { return form_; }
+    /// This placement on the surface of another mapping, whose frame is of the same size.
+    [[nodiscard]] TextureMapping on_surface_of(const TextureMapping& other) const {
+        TextureMapping out = with_form(other.form_);
+        out.smaller_ = other.smaller_;
+        return out;
+    }
 
     /// The mapping about one place, to first order.
     struct Linear {

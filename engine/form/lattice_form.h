@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <utility>
 
 #include "engine/core/surface_form.h"
@@ -11,11 +12,16 @@ class LatticeForm final : public SurfaceForm {
   public:
     /// `amount`: 0 leaves the surface flat, 1 lays it as found.
     LatticeForm(FormMap flat_from_reference, float amount)
+        : LatticeForm(std::make_shared<const FormMap>(std::move(flat_from_reference)), amount) {}
+    LatticeForm(std::shared_ptr<const FormMap> flat_from_reference, float amount)
         : map_(std::move(flat_from_reference)), amount_(amount) {}
-    [[nodiscard]] Vec2 flat(Vec2 pixel) const override { return pixel + amount_ * map_.at(pixel); }
+    [[nodiscard]] Vec2 flat(Vec2 pixel) const override { return pixel + amount_ * map_->at(pixel); }
+    [[nodiscard]] std::shared_ptr<const SurfaceForm> at_share(float share) const override {
+        return std::make_shared<LatticeForm>(map_, amount_ * share);
+    }
 
   private:
-    FormMap map_;
+    std::shared_ptr<const FormMap> map_;
     float amount_;
 };
 

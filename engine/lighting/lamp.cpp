@@ -16,7 +16,7 @@ Expected<Lamp> parse_lamp(std::string_view text) {
         return fail(ErrorCode::kUsage,
                     "Unknown lamp " + quoted(name) + ". Use point, directional or gradient");
     }
-    std::vector<std::pair<int, std::vector<double>>> keys;
+    std::vector<NumberKey> keys;
     const auto parts = split(text.substr(space), '|');
     for (const std::string_view part : parts) {
         WEFT_TRY(key, parse_key(part, parts.size() == 1, info->numbers));
@@ -29,15 +29,17 @@ Expected<Lamp> parse_lamp(std::string_view text) {
 std::string lamp_text(const Lamp& lamp) {
     std::string out(info_of(lamp.kind).name);
     const auto& keys = lamp.numbers.keys;
-    const bool names_frames = keys.size() > 1 || (keys.size() == 1 && keys[0].first != 0);
+    const bool names_frames = keys.size() > 1 || (keys.size() == 1 && keys[0].frame != 0);
     const char* before = " ";
-    for (const auto& [frame, numbers] : keys) {
+    for (const auto& [frame, numbers, after] : keys) {
         out += before;
         if (names_frames) out += std::to_string(frame) + ": ";
         for (std::size_t k = 0; k < numbers.size(); ++k) {
             if (k > 0) out += ' ';
             out += shortest_text(numbers[k]);
         }
+        if (names_frames && after != KeyInterpolation::kLinear)
+            out += ": " + std::string(name_of(after));
         before = " | ";
     }
     return out;
@@ -47,7 +49,7 @@ std::string lamp_text(const Lamp& lamp) {
 
 void set_numbers(Lamp& lamp, int frame, std::vector<double> numbers) {
     if (lamp.numbers.keys.size() == 1)
-        lamp.numbers.keys[0].second = std::move(numbers);
+        lamp.numbers.keys[0].numbers = std::move(numbers);
     else
         lamp.numbers.set(frame, std::move(numbers));
 }

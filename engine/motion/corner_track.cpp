@@ -75,7 +75,14 @@ Expected<CornerTrack> joined(const std::array<Path, 4>& paths) {
 
 // ---- lines of numbers -------------------------------------------------------------------------
 
-Expected<CornerTrack> parse_lines(std::string_view text) {
+// A plane that moves with a point and neither turns nor grows.
+Quad<double> square_at(Point p) {
+    constexpr double kHalfPx = 50;
+    return {p + Point(-kHalfPx, -kHalfPx), p + Point(kHalfPx, -kHalfPx),
+            p + Point(kHalfPx, kHalfPx), p + Point(-kHalfPx, kHalfPx)};
+}
+
+Expected<CornerTrack> parse_lines(std::string_view text, bool points) {
     CornerTrack track;
     int number = 0;
     for (const std::string_view line : lines_of(text)) {
@@ -84,8 +91,13 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
         if (numbers.empty()) continue;
         int frame = 0;
         Quad<double> quad;
-        bool good = numbers.size() == 9 && read_frame(numbers[0], frame);
-        for (std::size_t k = 0; good && k < 4; ++k) {
+        const bool is_point = points && numbers.size() == 3;
+        bool good = (numbers.size() == 9 || is_point) && read_frame(numbers[0], frame);
+        if (Point at(0); good && is_point) {
+            good = read_number(numbers[1], at.x) && read_number(numbers[2], at.y);
+            quad = square_at(at);
+        }
+        for (std::size_t k = 0; good && !is_point && k < 4; ++k) {
             good = read_number(numbers[1 + 2 * k], quad[k].x) &&
                    read_number(numbers[2 + 2 * k], quad[k].y);
         }
@@ -93,7 +105,8 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
             return unreadable(
                 "Line " + std::to_string(number) +
                 " is not a frame and the x and y of four corners. Write nine numbers on each "
-                "line: the frame, then x and y of the four corners");
+                "line: the frame, then x and y of the four corners" +
+                (points ? "; or three for a point" : ""));
         }
         if (!track.emplace(frame, quad).second)
             return unreadable("Frame " + std::to_string(frame) +
@@ -104,7 +117,15 @@ Expected<CornerTrack> parse_lines(std::string_view text) {
 
 // ---- After Effects ----------------------------------------------------------------------------
 
-// Which corner (of Quad) a section is about; −1: another property.
+constexpr int kNoCorner = -1;
+
+// Is a section about a place that is tracked?
+bool is_point_section(std::string_view line) {
+    return line.find("Position") != std::string_view::npos ||
+           line.find("Feature Center") != std::string_view::npos;
+}
+
+// Which corner (of Quad) a section is about.
 int effects_corner(std::string_view line) {
     constexpr struct {
         std::string_view name;
@@ -115,23 +136,28 @@ int effects_corner(std::string_view line) {
                   {"Upper Right", 1},       {"Lower Left", 3},        {"Lower Right", 2},
                   {"Top Left", 0},          {"Top Right", 1},         {"Bottom Left", 3},
                   {"Bottom Right", 2}};
-    if (line.find("Pin") == std::string_view::npos) return -1;
+    if (line.find("Pin") == std::string_view::npos) return kNoCorner;
     for (const auto& known : kNames) {
         if (line.find(known.name) != std::string_view::npos) return known.corner;
     }
-    return -1;
+    return kNoCorner;
 }
 
 Expected<CornerTrack> parse_after_effects(std::string_view text,
                                           const CornerTrackContext& context) {
     std::array<Path, 4> paths;
+    CornerTrack point;
     Point size(context.plate.width, context.plate.height), source = size;
-    int corner = -1;
+    int corner = kNoCorner;
+    bool in_point = false;
     for (const std::string_view line : lines_of(text)) {
         const auto numbers = words(line, " \t");
         if (numbers.empty()) continue;
         const bool starts_section = line.front() != '\t' && line.front() != ' ';
-        if (starts_section) corner = effects_corner(line);
+        if (starts_section) {
+            corner = effects_corner(line);
+            in_point = context.points && corner == kNoCorner && is_point_section(line);
+        }
         double value = 0;
         if (line.find("Source Width") != std::string_view::npos &&
             read_number(numbers.back(), value))
@@ -141,11 +167,17 @@ Expected<CornerTrack> parse_after_effects(std::string_view text,
             source.y = value;
         int frame = 0;
         Point at(0);
-        if (corner < 0 || numbers.size() < 3 || !read_frame(numbers[0], frame) ||
-            !read_number(numbers[1], at.x) || !read_number(numbers[2], at.y))
+        if ((corner == kNoCorner && !in_point) || numbers.size() < 3 ||
+            !read_frame(numbers[0], frame) || !read_number(numbers[1], at.x) ||
+            !read_number(numbers[2], at.y))
             continue;
-        paths[static_cast<std::size_t>(corner)][context.first_frame + frame] = at * size / source;
+        frame += context.first_frame;
+        if (in_point)
+            point.try_emplace(frame, square_at(at * size / source));
+        else
+            paths[static_cast<std::size_t>(corner)][frame] = at * size / source;
     }
+    if (!point.empty() && paths[0].empty()) return completed(std::move(point));
     constexpr const char* kCorners[] = {"upper left", "upper right", "lower right", "lower left"};
     for (std::size_t k = 0; k < 4; ++k) {
         if (paths[k].empty())
@@ -271,7 +303,7 @@ Expected<CornerTrack> parse_corner_track(std::string_view text, const CornerTrac
     if (text.find("CornerPin2D") != std::string_view::npos) return parse_nuke(text, context);
     if (text.find("Keyframe Data") != std::string_view::npos)
         return parse_after_effects(text, context);
-    return parse_lines(text);
+    return parse_lines(text, context.points);
 }
 
 LatticeField plane_motion(const Quad<double>& source, const Quad<double>& target, Size full,

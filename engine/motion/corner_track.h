@@ -17,6 +17,7 @@ using CornerTrack = std::map<int, Quad<double>>;
 struct CornerTrackContext {
     Size plate;           ///< Nuke counts y from the bottom.
     int first_frame = 0;  ///< The plate's first frame, which is frame 0 in After Effects.
+    bool points = false;  ///< The track of one point is accepted as well: an upright square.
 };
 
 /// Reads a track from text, in one of these formats, which it detects:
@@ -26,6 +27,7 @@ struct CornerTrackContext {
 ///   right, bottom left, bottom right), scaled from the source's size to the plate's;
 /// - lines of "frame x y x y x y x y" (top left, top right, bottom right, bottom left) with blanks,
 ///   commas or semicolons between the numbers; # begins a comment.
+/// With `points` also lines of "frame x y", and After Effects' Position or Feature Center.
 /// Missing frames between the first and the last are interpolated linearly. Errors: Unreadable with
 /// the line or the corner that is wrong, or if the corners are not convex.
 [[nodiscard]] Expected<CornerTrack> parse_corner_track(std::string_view text,

@@ -6,6 +6,7 @@
 #include "engine/compute/plane_sampler.h"
 #include "engine/core/parallel.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/temporal/stretch_limit.h"
 
@@ -198,7 +199,7 @@ class SeamMaker {
         HistoryEvidence out{ImageF1(cells), ImageF1(cells)};
         if (frame.visible.empty()) return out;
         WEFT_TRY(placed, texture_mapping(region_.placement_at(number)));
-        const TextureMapping mapping = placed.with_form(form_);
+        const TextureMapping mapping = placed.with_form(form_on(region_, form_, number));
         const ImageF3 a = shown(frame.before, frame, mapping);
         const ImageF3 b = shown(frame.after, frame, mapping);
         for (int j = 0; j < a.height(); ++j) {

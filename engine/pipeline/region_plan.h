@@ -143,7 +143,11 @@ struct RegionPlan {
     /// the motion of the surface, or what the artist drew.
     enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals, kMotion, kShape };
     FormFrom form_from = FormFrom::kNothing;
-    float form_amount = 1;  ///< 0 flat, 1 as found.
+    float form_amount = 1;          ///< 0 flat, 1 as found; with keys the largest of them.
+    KeyedNumbers form_amount_keys;  ///< Over time.
+    [[nodiscard]] float form_amount_at(int frame) const {
+        return form_amount_keys.empty() ? form_amount : form_amount_keys.float_at(frame)[0];
+    }
     /// Horizontal field of view for kMotion and kShape; empty: found as well.
     std::optional<double> form_fov_deg;
     /// Shapes and strokes on the reference frame, in plate pixels; level strokes turn every form.

@@ -113,9 +113,13 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
 }
 
 Expected<TextureMapping> mapping_on(const RegionPlan& region, const RegionScene& scene, int frame) {
-    if (!region.placement_moves()) return scene.mapping;
-    WEFT_TRY(mapping, texture_mapping(region.placement_at(frame)));
-    return mapping.with_form(scene.mapping.form());
+    TextureMapping out = scene.mapping;
+    if (region.placement_moves()) {
+        WEFT_TRY(mapping, texture_mapping(region.placement_at(frame)));
+        out = mapping.on_surface_of(scene.mapping);
+    }
+    if (region.form_amount_keys.empty()) return out;
+    return out.with_form(form_on(region, out.form(), frame));
 }
 
 Size plane_size(const PlanePlacement& placement, Size plate) {

@@ -13,7 +13,7 @@ NUMBERS = {"--scale": "1.5", "--rotate": "30", "--overlap": "24", "--feather": "
 WORDS = {"--quality": "draft", "--depth": "16", "--seam": "dp", "--seam-cost": "paper", "--temporal": "none", "--light": "none",
          "--blend-mode": "detail", "--plane-wrap": "mirror", "--motion-direction": "backward", "--backend": "cpu", "--progress": "json",
          "--missing": "hold", "--layer-blend": "soft-light", "--layers": "all", "--motion-convention": "files", "--matte-propagate": "both", "--stage": "motion"}
-LISTS = {"--offset": "3,4", "--multiply": "1,0.9,0.8", "--color-offset": "0,0.01,0", "--scale-keys": "1:1 3:1.5", "--rotate-keys": "1:0 3:20", "--offset-keys": "1:0,0 3:4,4", "--light-keys": "1:1 3:0.3",
+LISTS = {"--offset": "3,4", "--multiply": "1,0.9,0.8", "--color-offset": "0,0.01,0", "--scale-keys": "1:1 3:1.5", "--rotate-keys": "1:0 3:20", "--offset-keys": "1:0,0 3:4,4", "--light-keys": "1:1:smooth 3:0.3", "--form-amount-keys": "1:0:hold 3:1",
          "--lamps": "point 30,20 10 1.5", "--map": "/a=/b", "--exclude-licences": "GPL", "--frames": "1-2"}
 
 

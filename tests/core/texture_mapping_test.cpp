@@ -38,7 +38,16 @@ TEST(TextureMapping, ItsLinearPartIsItsDerivative) {
 // A surface that turns away to the right.
 class Bent final : public SurfaceForm {
   public:
-    [[nodiscard]] Vec2 flat(Vec2 p) const override { return {p.x + 0.001f * p.x * p.x, p.y}; }
+    explicit Bent(float share = 1) : share_(share) {}
+    [[nodiscard]] Vec2 flat(Vec2 p) const override {
+        return {p.x + 0.001f * share_ * p.x * p.x, p.y};
+    }
+    [[nodiscard]] std::shared_ptr<const SurfaceForm> at_share(float share) const override {
+        return std::make_shared<Bent>(share_ * share);
+    }
+
+  private:
+    float share_;
 };
 
 TEST(TextureMapping, AFormActsBeforeThePlacement) {
@@ -54,6 +63,10 @@ TEST(TextureMapping, AFormActsBeforeThePlacement) {
     const auto [low, high] = bent.bounds_of({0, 0, 100, 10});
     EXPECT_GE(high.x, bent.texel({100, 0}).x);
     EXPECT_LE(low.x, bent.texel({0, 10}).x);
+    EXPECT_EQ(kFloor.on_surface_of(bent).form(), bent.form());
+    EXPECT_LT(distance(kFloor.on_surface_of(bent.on_smaller_frame(2)).texel({30, 40}),
+                       kFloor.texel({31.8f, 40})),
+              1e-4f);
     EXPECT_EQ(bent.with_form(nullptr), kFloor);
 }
 

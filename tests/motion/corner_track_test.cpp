@@ -125,5 +125,28 @@ TEST(CornerTrack, MovesThePlaneExactlyBetweenCorners) {
     }
 }
 
+TEST(PointTrack, IsASquareThatMovesWithThePoint) {
+    const CornerTrackContext context{{200, 100}, 10, true};
+    const auto lines = parse_corner_track("# frame x y\n1 50 40\n3, 60, 44\n", context);
+    ASSERT_TRUE(lines) << lines.error().text();
+    EXPECT_EQ(lines->at(2)[0] - lines->at(1)[0], glm::dvec2(5, 2));
+    EXPECT_EQ(lines->at(1)[2] - lines->at(1)[0], lines->at(3)[2] - lines->at(3)[0]);
+    const auto effects = parse_corner_track(
+        "Adobe After Effects 8.0 Keyframe Data\n\n\tSource Width\t400\n\tSource Height\t200\n\n"
+        "Transform\tPosition\n\tFrame\tX pixels\tY pixels\n\t0\t100\t80\t0\n\t1\t110\t84\t0\n"
+        "Transform\tScale\n\t0\t7\t7\n",
+        context);
+    ASSERT_TRUE(effects) << effects.error().text();
+    EXPECT_EQ(effects->at(11)[3] - effects->at(10)[3], glm::dvec2(5, 2));
+    EXPECT_EQ(effects->size(), 2u);
+}
+
+TEST(PointTrack, IsNoTrackOfAPlane) {
+    EXPECT_FALSE(parse_corner_track("1 50 40\n", {{200, 100}, 10}));
+    const auto wrong = parse_corner_track("1 50\n", {{200, 100}, 10, true});
+    ASSERT_FALSE(wrong);
+    EXPECT_NE(wrong.error().message.find("three for a point"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace weft

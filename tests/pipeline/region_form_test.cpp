@@ -81,6 +81,35 @@ TEST(RegionForm, FramesKeepIt) {
     EXPECT_EQ(mapping_on(region, *scene, 4)->form(), scene->mapping.form());
 }
 
+// Between flat and form, on every frame as its amount is there: without a jump.
+TEST(RegionForm, ItsAmountMayHaveKeys) {
+    MemoryAnalysisStore store;
+    RegionPlan region = formed();
+    const Column shot;
+    ASSERT_TRUE(analyse_shot(shot, make_plan(region), store, {}, {}));
+    const auto whole = make_scene(shot, make_plan(region), store, 0, {}, {});
+    ASSERT_TRUE(whole);
+    region.form_amount_keys = {{{1, {0}}, {9, {1}}}};
+    const auto scene = make_scene(shot, make_plan(region), store, 0, {}, {});
+    ASSERT_TRUE(scene);
+    const Vec2 place(30, 56);
+    const Vec2 flat = scene->mapping.with_form(nullptr).texel(place);
+    const Vec2 formed_there = whole->mapping.texel(place);
+    ASSERT_GT(distance(flat, formed_there), 1.0f);
+    for (int frame = 0; frame <= 10; ++frame) {
+        const float share = std::clamp(static_cast<float>(frame - 1) / 8, 0.0f, 1.0f);
+        const Vec2 there = mapping_on(region, *scene, frame)->texel(place);
+        EXPECT_LT(distance(there, flat + share * (formed_there - flat)), 1e-3f) << frame;
+    }
+    region.form_amount_keys = {{{1, {1}}}};
+    EXPECT_EQ(mapping_on(region, *scene, 5)->texel(place), formed_there);
+    region.form_amount_keys = {};
+    region.form_amount = 0.5f;
+    const auto half = make_scene(shot, make_plan(region), store, 0, {}, {});
+    region.form_amount_keys = {{{1, {0.5}}}};
+    EXPECT_EQ(mapping_on(region, *scene, 5)->texel(place), half->mapping.texel(place));
+}
+
 // The matte begins at 20: 12 is seen on the last frames only, where the picture has panned.
 TEST(RegionForm, WhatComesIntoViewIsFoundOnLaterFrames) {
     constexpr float kAt = 12, kTrue = 1 / 0.527f;

@@ -110,6 +110,7 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--scale-keys",
                              "--rotate-keys",
                              "--offset-keys",
+                             "--form-amount-keys",
                              "--seam",
                              "--overlap",
                              "--temporal",

@@ -198,6 +198,60 @@ TEST(ProjectJson, UpgradesTheTextsOfVersion1) {
     EXPECT_EQ(read(write(project)), project);
 }
 
+TEST(ProjectJson, KeysHaveTheirInterpolation) {
+    const auto keys = [](const char* key) {
+        return project_from_json(
+            std::string(
+                R"({"schema": "weft.project/5", "regions": [{"id": 1, "form": {"amount_keys": [)") +
+            key + R"(]}}]})");
+    };
+    const Project project = keys(R"({"frame": 1, "value": 0, "interpolation": "smooth"},
+                                    {"frame": 9, "value": 1})")
+                                .value();
+    EXPECT_EQ(keyed_text(project.regions[0]->form.amount_keys), "1:0:smooth 9:1");
+    EXPECT_EQ(read(write(project)), project);
+    EXPECT_THAT(write(project), testing::Not(HasSubstr("linear"))) << "as it was written before";
+    for (const char* wrong : {R"({"frame": 1, "value": 0, "interpolation": "bezier"})",
+                              R"({"frame": 1, "value": 0, "interpolation": 2})",
+                              R"({"frame": 1, "value": 0, "interpolation": null})"}) {
+        const auto refused = keys(wrong);
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_THAT(refused.error().text(),
+                    testing::AllOf(HasSubstr("regions[0].form.amount_keys[0].interpolation"),
+                                   HasSubstr("smooth")));
+    }
+    EXPECT_FALSE(keys(R"({"frame": 1, "value": 1.5})")) << "an amount is at most 1";
+}
+
+TEST(ProjectJson, AShapeOverTimeIsReadBack) {
+    const char* text = R"({"schema": "weft.project/5", "regions": [{"id": 1, "matte": {"shape":
+        {"follow": "planar", "track": "t.json", "keys": [
+            {"frame": 3, "points": [[1, 2, 0, 0, 0, 0, 4], [9, 2, 0, 0, 1, 0, 4], [5, 8, 0, 0, 0, 0, 0]]}]}}}]})";
+    const Project project = read(text);
+    const KeyedShape& shape = project.regions[0]->matte->shape;
+    EXPECT_EQ(shape.follow, ShapeFollow::kPlanar);
+    EXPECT_EQ(shape.track, "t.json");
+    EXPECT_EQ(shape.keys.at(3).points[1], (RotoPoint{{9, 2}, {0, 0}, {1, 0}, 4}));
+    EXPECT_TRUE(project.regions[0]->matte->by_frame());
+    EXPECT_EQ(read(write(project)), project);
+    const Project moved = map_paths(project, [](const std::string& p) { return "x/" + p; });
+    EXPECT_EQ(moved.regions[0]->matte->shape.track, "x/t.json");
+    const auto refused = [&](const std::string& from, const std::string& to, const char* where) {
+        std::string changed = text;
+        changed.replace(changed.find(from), from.size(), to);
+        const auto wrong = project_from_json(changed);
+        ASSERT_FALSE(wrong) << to;
+        EXPECT_THAT(wrong.error().text(), HasSubstr(where)) << to;
+    };
+    refused("\"planar\"", "\"3d\"", "shape.follow");
+    refused("\"planar\"", "7", "shape.follow");
+    refused("\"t.json\"", "[]", "shape.track");
+    refused("\"keys\"", "\"key\"", "shape.key");
+    refused("[9, 2, 0, 0, 1, 0, 4]", "[9, 2]", "keys[0].points[1]");
+    refused("[9, 2, 0, 0, 1, 0, 4]", "[1e60, 2, 0, 0, 1, 0, 4]", "keys[0].points[1]");
+    refused("\"frame\": 3", "\"frame\": 3e18", "keys[0].frame");
+}
+
 TEST(ProjectJson, WhatVersion1CouldNotRenderIsAnErrorWithItsPlace) {
     const auto refused = project_from_json(
         R"({"schema": "weft.project/1", "regions": [{"light": {"lamps": "torch 1 2"}}]})");

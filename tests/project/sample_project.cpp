@@ -55,9 +55,9 @@ Region full_region() {
     r.placement.offset_px = {3, -4.25};
     r.placement.corners_px = {{{0, 0}, {100, 1}, {99, 50}, {-1, 51}}};
     r.placement.fit = false;
-    r.placement.scale_keys = {{{1, {1}}, {24, {1.5}}}};
+    r.placement.scale_keys = {{{1, {1}, KeyInterpolation::kSmooth}, {24, {1.5}}}};
     r.placement.rotate_keys = {{{1, {0}}, {24, {90}}}};
-    r.placement.offset_keys = {{{1, {0, 0}}, {24, {10, 5}}}};
+    r.placement.offset_keys = {{{1, {0, 0}, KeyInterpolation::kHold}, {24, {10, 5}}}};
     r.reference_frames = {12, 40};
     r.corrections[20] = {{{10, 20.5}, {12, 20}}, {{100, 90}, {100, 90}}};
     r.amendments = std::vector<PlaneAmendment>{
@@ -72,6 +72,7 @@ Region full_region() {
     r.form.depth_kind = DepthKind::kRay;
     r.form.fov_deg = 47.5;
     r.form.amount = 0.75;
+    r.form.amount_keys = {{{1, {0}, KeyInterpolation::kSmooth}, {24, {1}}}};
     r.form.shape = {{FormGuideKind::kCylinder, {100, 40, 104, 300, 50, 52.5, -10}}};
     r.form.strokes = {{FormGuideKind::kLevel, {80, 100, 130, 104}}};
     r.placement.uv = "uv/####.exr";

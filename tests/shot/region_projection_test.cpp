@@ -109,6 +109,35 @@ TEST(RegionProjection, APlaneIsMadeForTheSmallestKeyedScale) {
     EXPECT_FALSE(project_placement(uv, TemporalMode::kNone, mapped));
 }
 
+TEST(RegionProjection, AKeyedFormCountsWhereAnyKeyShowsIt) {
+    Region region;
+    region.form.source = FormSource::kShape;
+    region.form.shape = {{FormGuideKind::kBall, {50, 50, 20}}};
+    region.form.amount = 1;
+    region.form.amount_keys.keys = {{1, {0.0}}, {11, {0.5}}};
+    RegionPlan plan;
+    ASSERT_TRUE(project_form(region, plan));
+    EXPECT_FLOAT_EQ(plan.form_amount, 0.5f);
+    EXPECT_FLOAT_EQ(plan.form_amount_at(6), 0.25f);
+    EXPECT_EQ(plan.form_from, RegionPlan::FormFrom::kShape);
+    region.form.amount_keys.keys = {{1, {0.0}}, {11, {0.0}}};
+    RegionPlan flat;
+    ASSERT_TRUE(project_form(region, flat));
+    EXPECT_EQ(flat.form_from, RegionPlan::FormFrom::kNothing);
+}
+
+TEST(RegionProjection, AShapeIsAMatteOfEveryFrame) {
+    MatteSource drawn;
+    drawn.shape.keys[3].points.resize(3);
+    RegionPlan plan;
+    ASSERT_TRUE(project_mattes(drawn, {drawn}, plan));
+    EXPECT_FALSE(plan.propagated());
+    EXPECT_TRUE(plan.has_holdout);
+    EXPECT_TRUE(plan.painted_holdouts.empty());
+    ASSERT_TRUE(project_zones({{.kind = ZoneKind::kLight, .matte = drawn}}, plan));
+    EXPECT_FALSE(plan.zones[0].propagated());
+}
+
 TEST(RegionProjection, GainsAreLimitedOnADisplayReferredPlateOnly) {
     RegionPlan display, scene;
     ASSERT_TRUE(project_light({}, true, display));

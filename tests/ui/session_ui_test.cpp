@@ -313,19 +313,46 @@ TEST_F(EditorSession, ShapesAreKeyedAndFilledInBetween) {
     EXPECT_EQ(session->view().shape_frames, (std::vector<int>{1, 3}));
     ASSERT_TRUE(session->view().shape);
     EXPECT_EQ(session->view().shape->points[0].at.x, 50);
-    session->act(FillBetweenShapes{});
-    ASSERT_TRUE(wait([&] { return matte().keyframes.contains(2); }));
-    const auto between = read_matte(matte().keyframes.at(2).path, {}, {96, 64});
-    ASSERT_TRUE(between) << between.error().text();
-    EXPECT_EQ(between->at(40, 30), 255);  // 30 to 50
-    EXPECT_EQ(between->at(15, 30), 0);
-    EXPECT_EQ(between->at(65, 30), 0);
-    // What was filled is no shape of its own, and one undo takes all of it back.
-    EXPECT_EQ(session->view().shape_frames.size(), 2u);
+    // From now on it is drawn on every frame, and none is painted.
+    session->act(FollowShape{});
+    robot->frames(2);
+    EXPECT_TRUE(matte().keyframes.empty());
+    ASSERT_EQ(matte().shape.keys.size(), 2u);
+    session->act(GoToFrame{2});
+    const auto drawn = [&]() -> const RegionMatteView* {
+        for (const RegionMatteView& view : session->view().mattes)
+            if (view.frame == 2 && view.kind == RegionMatteView::Kind::kFile) return &view;
+        return nullptr;
+    };
+    ASSERT_TRUE(wait([&] { return drawn() && !drawn()->pixels.empty(); }));
+    EXPECT_EQ(drawn()->pixels.at(40, 30), 255);  // 30 to 50
+    EXPECT_EQ(drawn()->pixels.at(15, 30), 0);
+    EXPECT_EQ(drawn()->pixels.at(65, 30), 0);
+    ASSERT_TRUE(session->view().shape);
+    EXPECT_NEAR(session->view().shape->points[0].at.x, 30, 0.01);
+    // What lies between is no shape of its own; what is drawn there becomes one.
+    EXPECT_EQ(session->view().shape_frames, (std::vector<int>{1, 3}));
+    session->act(SetShape{square(20)});
+    robot->frames(2);
+    EXPECT_EQ(session->view().shape_frames, (std::vector<int>{1, 2, 3}));
+    // Painting is refused, and says what to do.
+    robot->key("B");
+    robot->stroke({at(30, 30), at(40, 32)});
+    robot->frames(3);
+    EXPECT_TRUE(matte().keyframes.empty());
+    // Back to painted keyframes, with the same shapes.
+    session->act(DetachShape{});
+    ASSERT_TRUE(wait([&] { return matte().keyframes.size() == 3; }));
+    EXPECT_TRUE(matte().shape.empty());
+    EXPECT_EQ(matte().keyframes.at(2).shape, square(20));
+    robot->key("Ctrl+Z");
+    robot->key("Ctrl+Z");
     robot->key("Ctrl+Z");
     robot->frames(2);
     EXPECT_FALSE(matte().keyframes.contains(2));
     EXPECT_TRUE(matte().keyframes.contains(3));
+    session->act(GoToFrame{3});
+    robot->frames(2);
     // Painting over a shape makes it an ordinary matte.
     robot->key("B");
     robot->stroke({at(30, 30), at(40, 32)});

@@ -104,6 +104,70 @@ TEST_F(Tools, APointOfAShapeIsDragged) {
     EXPECT_NEAR(set[0].shape.points[2].at.x, 110, 0.6);
 }
 
+RotoShape box_shape() {
+    RotoShape shape;
+    for (const Vec2 at : {Vec2{100, 60}, Vec2{180, 60}, Vec2{180, 120}, Vec2{100, 120}})
+        shape.points.push_back({at, {0, 0}, {0, 0}, 0});
+    return shape;
+}
+
+TEST_F(Tools, AShapeIsScaledAndTurnedAboutItsPivot) {
+    view.shape = box_shape();
+    go("Mask", Tool::kShape);
+    const DrawnItem* corner = robot->find("Handle shape scale 3");
+    const DrawnItem* pivot = robot->find("Handle shape pivot");
+    ASSERT_TRUE(corner && pivot);
+    // Half as far from the pivot again: one and a half times as large.
+    const ImVec2 away((corner->min.x - pivot->min.x) / 2, (corner->min.y - pivot->min.y) / 2);
+    ASSERT_TRUE(robot->drag("Handle shape scale 3", away));
+    auto set = emitted<SetShape>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_NEAR(set[0].shape.points[1].at.x - set[0].shape.points[0].at.x, 120, 3);
+    EXPECT_NEAR(set[0].shape.points[2].at.y - set[0].shape.points[1].at.y, 90, 3);
+    clear();
+    robot->frames(2);
+    const DrawnItem* knob = robot->find("Handle shape rotate");
+    pivot = robot->find("Handle shape pivot");
+    ASSERT_TRUE(knob && pivot);
+    // From above the pivot to its right: a quarter turn.
+    const float reach = pivot->min.y - knob->min.y;
+    ASSERT_TRUE(robot->drag("Handle shape rotate", {reach, reach}));
+    set = emitted<SetShape>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_NEAR(set[0].shape.points[0].at.x, 170, 2);
+    EXPECT_NEAR(set[0].shape.points[0].at.y, 50, 2);
+    clear();
+    // About another pivot, which alone changes nothing.
+    ASSERT_TRUE(robot->drag("Handle shape pivot", {40, 0}));
+    EXPECT_THAT(emitted<SetShape>(), SizeIs(0));
+}
+
+TEST_F(Tools, WhatAShapeFollowsIsChosen) {
+    view.shape = box_shape();
+    view.shape_frames = {1003};
+    change([](Region& r) {
+        MatteSource matte;
+        matte.keyframes[1003] = {"m.png", box_shape()};
+        r.matte = matte;
+    });
+    go("Mask", Tool::kShape);
+    ASSERT_TRUE(robot->click("Follow"));
+    ASSERT_TRUE(robot->click("Planar"));
+    ASSERT_THAT(emitted<FollowShape>(), SizeIs(1));
+    EXPECT_EQ(emitted<FollowShape>()[0], FollowShape{ShapeFollow::kPlanar});
+    change([](Region& r) {
+        MatteSource matte;
+        matte.shape = {{{1003, box_shape()}}, ShapeFollow::kPlanar, "t.json"};
+        r.matte = matte;
+    });
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Track again"));
+    EXPECT_TRUE(emitted<FollowShape>().back().again);
+    ASSERT_TRUE(robot->click("Follow"));
+    ASSERT_TRUE(robot->click("Surface (propagated)"));
+    EXPECT_THAT(emitted<DetachShape>(), SizeIs(1));
+}
+
 TEST_F(Tools, ALampIsDraggedOnThePicture) {
     change([](Region& r) {
         r.light.source = LightSource::kPainted;

@@ -78,6 +78,9 @@ void write_extras(OrderedJson& object, const Extras& extra);
 // Roto shapes: {"points": [[x, y, in x, in y, out x, out y, feather], …]}, plate pixels.
 [[nodiscard]] Expected<RotoShape> read_shape(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_shape(const RotoShape& shape);
+// Over time: {"follow": "planar", "track": path, "keys": [{"frame", "points"}, …]}.
+[[nodiscard]] Expected<KeyedShape> read_keyed_shape(const Json& value, const std::string& path);
+[[nodiscard]] OrderedJson write_keyed_shape(const KeyedShape& shape);
 /// Returns true for an empty string or list, or an unset value.
 [[nodiscard]] bool is_nothing(const ParameterValue& value);
 [[nodiscard]] OrderedJson write_value(const ParameterInfo& info, const ParameterValue& value);

@@ -12,26 +12,36 @@ namespace {
 constexpr auto kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 constexpr std::size_t kMostNumbers = 16;
 
-using Key = std::pair<int, std::vector<double>>;
-
-Expected<Key> read_key(const Json& json, const std::string& path) {
+Expected<NumberKey> read_key(const Json& json, const std::string& path) {
     WEFT_TRY(object, ObjectReader::open(json, path));
     WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+    NumberKey key{static_cast<int>(frame), {}};
     const Json* value = object.take("value");
+    if (const Json* name = object.take("interpolation")) {
+        const auto after = parse_interpolation(name->is_string() ? name->get<std::string>() : "");
+        if (!after)
+            return fail_at(object.path_of("interpolation"),
+                           "This must be \"linear\", \"smooth\" or \"hold\"");
+        key.after = *after;
+    }
     WEFT_CHECK_OK(object.expect_no_rest());
-    if (value && value->is_number()) return Key{static_cast<int>(frame), {value->get<double>()}};
+    if (value && value->is_number()) {
+        key.numbers = {value->get<double>()};
+        return key;
+    }
     const bool fits = value && value->is_array() && value->size() <= kMostNumbers &&
                       std::all_of(value->begin(), value->end(),
                                   [](const Json& number) { return number.is_number(); });
     if (!fits)
         return fail_at(object.path_of("value"), "This must be a number or a list of numbers");
-    return Key{static_cast<int>(frame), value->get<std::vector<double>>()};
+    key.numbers = value->get<std::vector<double>>();
+    return key;
 }
 
 Expected<KeyedNumbers> read_key_list(const Json& json, const std::string& path) {
     if (!json.is_array())
         return fail_at(path, fmt::format("This is {}, but must be a list of keys", type_of(json)));
-    std::vector<Key> keys;
+    std::vector<NumberKey> keys;
     for (std::size_t i = 0; i < json.size(); ++i) {
         WEFT_TRY(key, read_key(json[i], fmt::format("{}[{}]", path, i)));
         keys.push_back(std::move(key));
@@ -92,12 +102,13 @@ Expected<ParameterValue> read_guides(const Json& value, const std::string& path)
 
 OrderedJson write_keys(const KeyedNumbers& keyed) {
     OrderedJson list = OrderedJson::array();
-    for (const auto& [frame, numbers] : keyed.keys) {
+    for (const auto& [frame, numbers, after] : keyed.keys) {
         OrderedJson key{{"frame", frame}};
         if (numbers.size() == 1)
             key["value"] = numbers[0];
         else
             key["value"] = numbers;
+        if (after != KeyInterpolation::kLinear) key["interpolation"] = name_of(after);
         list.push_back(std::move(key));
     }
     return list;

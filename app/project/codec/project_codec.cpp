@@ -143,6 +143,10 @@ Expected<MatteSource> read_matte_source(const Json& json, const std::string& pat
         WEFT_TRY(keys, read_keyframes(*keyframes, object.path_of("keyframes")));
         matte.keyframes = std::move(keys);
     }
+    if (const Json* shape = object.take("shape")) {
+        WEFT_TRY(read, read_keyed_shape(*shape, object.path_of("shape")));
+        matte.shape = std::move(read);
+    }
     matte.extra = object.rest();
     return matte;
 }
@@ -316,6 +320,7 @@ OrderedJson write_matte_source(const MatteSource& matte) {
             list.push_back(std::move(entry));
         }
     }
+    if (!matte.shape.empty()) object["shape"] = write_keyed_shape(matte.shape);
     write_extras(object, matte.extra);
     return object;
 }

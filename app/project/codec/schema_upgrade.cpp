@@ -126,8 +126,8 @@ Expected<Json> keys_from_1(const std::string& text, std::size_t count) {
 /// Version 1 accepted any strength and clamped it when rendering.
 Expected<Json> strength_keys_from_1(const std::string& text) {
     WEFT_TRY(keyed, parse_keyed_numbers(text));
-    for (auto& [frame, numbers] : keyed.keys)
-        numbers[0] = std::clamp(numbers[0], 0.0, 1.0);
+    for (NumberKey& key : keyed.keys)
+        key.numbers[0] = std::clamp(key.numbers[0], 0.0, 1.0);
     return Json(write_keys(keyed));
 }
 

@@ -10,6 +10,8 @@ namespace weft {
 
 /// Samples the curve as a polygon with `steps` points per segment.
 [[nodiscard]] std::vector<Vec2> outline_of(const RotoShape& shape, int steps = 16);
+/// The inside of a closed polygon (even-odd rule), anti-aliased; empty of less than three points.
+[[nodiscard]] Matte polygon_matte(const std::vector<Vec2>& points, Size size);
 /// Rasterizes the shape: 255 inside, falling to 0 over the feather, whose width is interpolated
 /// between points.
 [[nodiscard]] Matte matte_of_shape(const RotoShape& shape, Size size);

@@ -1,8 +1,6 @@
-#include "app/mattes/roto_shape.h"
+#include "engine/mask/shape_matte.h"
 
 #include <gtest/gtest.h>
-
-#include "app/mattes/matte_layer.h"
 
 namespace weft {
 namespace {
@@ -53,12 +51,14 @@ TEST(RotoShape, TheOutlineRunsThroughThePoints) {
         EXPECT_NE(std::find(outline.begin(), outline.end(), point.at), outline.end());
 }
 
-TEST(MatteLayer, NumbersTheHoldouts) {
-    Region region;
-    region.name = "wall";
-    EXPECT_EQ(layer_name(region, 0), "wall");
-    EXPECT_EQ(layer_name(region, 2), "holdout 2 of wall");
-    EXPECT_TRUE(layer_source(region, 1).empty());
+TEST(RotoShape, FarPointsDoNotSpillIntoTheFrame) {
+    RotoShape far = square(10);
+    far.points[1].at = {1e20f, 10};
+    far.points[2].at = {1e20f, 30};
+    const Matte matte = matte_of_shape(far, {60, 40});
+    EXPECT_EQ(matte.at(50, 20), 255);
+    EXPECT_EQ(matte.at(50, 5), 0);
+    EXPECT_EQ(matte.at(50, 35), 0);
 }
 
 }  // namespace

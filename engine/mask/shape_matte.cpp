@@ -1,11 +1,10 @@
-#include "app/mattes/roto_shape.h"
+#include "engine/mask/shape_matte.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/mattes/paint.h"
 #include "engine/core/smooth_step.h"
 
 namespace weft {
@@ -36,9 +35,29 @@ std::vector<Vec2> outline_of(const RotoShape& shape, int steps) {
     return out;
 }
 
+Matte polygon_matte(const std::vector<Vec2>& points, Size size) {
+    Matte out(size);
+    if (points.size() < 3 || size.empty()) return out;
+    constexpr int kShift = 4;
+    // Far beyond the frame a place is cut off: OpenCV's integers would overflow.
+    constexpr float kFarPx = 1 << 18;
+    const auto fixed = [&](float v) {
+        const float near = v >= -kFarPx ? std::min(v, kFarPx) : -kFarPx;  // also of what is NaN
+        return static_cast<int>(std::lround((near - 0.5f) * (1 << kShift)));
+    };
+    std::vector<cv::Point> corners;
+    corners.reserve(points.size());
+    for (const Vec2 p : points)
+        corners.emplace_back(fixed(p.x), fixed(p.y));
+    cv::Mat area(size.height, size.width, CV_8UC1, out.data());
+    cv::fillPoly(area, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255), cv::LINE_AA,
+                 kShift);
+    return out;
+}
+
 Matte matte_of_shape(const RotoShape& shape, Size size) {
     const std::vector<Vec2> outline = outline_of(shape, kSteps);
-    Matte out = fill_polygon(Matte(size), outline, false);
+    Matte out = polygon_matte(outline, size);
     float widest = 0;
     for (const RotoPoint& point : shape.points)
         widest = std::max(widest, point.feather_px);
@@ -52,12 +71,17 @@ Matte matte_of_shape(const RotoShape& shape, Size size) {
         const Vec2 from = outline[k], to = outline[(k + 1) % outline.size()];
         const float a = shape.points[k / kSteps].feather_px;
         const float b = shape.points[(k / kSteps + 1) % count].feather_px;
-        const int dots = 1 + static_cast<int>(2 * std::hypot(to.x - from.x, to.y - from.y));
+        // A shape of which most lies far away is no more than its part in the frame.
+        constexpr float kMostDots = 1 << 14;
+        const int dots =
+            1 + static_cast<int>(std::min(kMostDots, 2 * std::hypot(to.x - from.x, to.y - from.y)));
         for (int d = 0; d < dots; ++d) {
             const float part = static_cast<float>(d) / static_cast<float>(dots);
             const Vec2 p = mixed(from, to, part);
+            if (!(p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(size.width) &&
+                  p.y < static_cast<float>(size.height)))
+                continue;
             const cv::Point at(static_cast<int>(p.x), static_cast<int>(p.y));
-            if (p.x < 0 || p.y < 0 || at.x >= size.width || at.y >= size.height) continue;
             const float t = (static_cast<float>(k % kSteps) + part) / kSteps;
             curve.at<std::uint8_t>(at) = 0;
             places.emplace_back(at, a + t * (b - a));
