@@ -44,7 +44,8 @@ inline constexpr std::string_view kAlbedo = "light.albedo", kBackend = "run.back
                                   kTemporalMode = "temporal.mode",
                                   kTextureSpace = "color.texture_space", kTrack = "motion.track",
                                   kTrustOnce = "run.trust", kTruth = "measure.truth",
-                                  kVersionUp = "run.version_up", kZone = "zones";
+                                  kVersionUp = "run.version_up", kWarp = "placement.warp",
+                                  kZone = "zones";
 // Commands.
 inline constexpr std::string_view kAddRegion = "command.add_region",
                                   kBuildLibrary = "command.build_library",
@@ -68,7 +69,7 @@ inline constexpr std::array kAll{
     kResume,           kSample,       kSkipExisting, kTemporalMode,   kTextureSpace, kTrack,
     kTrustOnce,        kTruth,        kVersionUp,    kZone,           kAddRegion,    kBuildLibrary,
     kImportTextures,   kListTextures, kListTrusted,  kSaveLook,       kTrainLibrary, kTrustFolder,
-    kUseModel,         kVerifyLibrary};
+    kUseModel,         kVerifyLibrary,  kWarp};
 }  // namespace setting
 
 /// A setting and, where it should get one, its value: {"reference_frames", "1012"}.
