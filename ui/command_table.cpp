@@ -289,8 +289,13 @@ void add_tool_commands(std::vector<Command>& out) {
     add("tool.crypto", "Cryptomatte picker", icons::kPick, "Shift+C", Tool::kCrypto);
     add("tool.flood", "Select by colour", icons::kFlood, "U", Tool::kFlood);
     add("tool.place", "Transform texture", icons::kMove, "R", Tool::kPlace);
+    add("tool.warp", "Grid warp", icons::kGridWarp, "Shift+N", Tool::kWarp);
     add("tool.form", "Draw form", icons::kForm, "Shift+D", Tool::kForm);
     add("tool.measure", "Scale by reference line", icons::kRuler, "Shift+M", Tool::kMeasure);
+    out.push_back(command(
+        "tool.snap", "Tool", "Snap to edges (Ctrl: other way)", icons::kMagnet, "Shift+Tab",
+        [](Ctx& c) { c.state.snap = !c.state.snap; }, {},
+        [](const Ctx& c) { return c.state.snap; }));
     const auto add_size = [&](const char* id, const char* name, const char* key, float factor) {
         out.push_back(command(id, "Tool", name, "", key, [factor](Ctx& c) {
             float& r = c.state.brush.brush.radius_px;

@@ -35,6 +35,7 @@ void begin_document(UiState& state, std::uint64_t document) {
     state.adding = {};
     state.output = {};
     state.transform = {};
+    state.warp = {};
     state.handle_held.clear();
     state.pins.clear();
     const bool keys_open = state.keys.open;

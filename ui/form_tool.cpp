@@ -33,6 +33,29 @@ std::string id_of(const FormGuide& guide, std::size_t index) {
     return is_shape(guide.kind) ? out : out + " " + std::to_string(index + 1);
 }
 
+// A stroke lies on a straight edge of the plate as a whole, if there is one beside it.
+FormGuide with_snapped_handle(Ctx& c, const ViewMap& map, const FormGuide& guide, std::size_t k,
+                              Vec2 at) {
+    if (!snaps(c)) return with_handle_at(guide, k, at);
+    if (!is_shape(guide.kind)) {
+        const std::size_t other = k ^ 1U;
+        const auto ends = snapped_segment(c, map, handles_of(guide)[other].at, at);
+        if (ends) return with_handle_at(with_handle_at(guide, other, ends->first), k, ends->second);
+    }
+    return with_handle_at(guide, k, snapped(c, map, at, true));
+}
+
+// What a drag draws, its ends on edges of the plate while they snap.
+std::optional<FormGuide> drawn_guide(Ctx& c, const ViewMap& map, FormGuideKind kind, Vec2 from,
+                                     Vec2 to) {
+    if (!snaps(c)) return guide_of_drag(kind, from, to, matte_of(c));
+    if (!is_shape(kind))
+        if (const auto ends = snapped_segment(c, map, from, to))
+            return guide_of_drag(kind, ends->first, ends->second, matte_of(c));
+    const Vec2 begin = snapped(c, map, from, true);
+    return guide_of_drag(kind, begin, snapped(c, map, to, true), matte_of(c));
+}
+
 struct Touched {
     bool over = false, done = false;
     std::optional<std::size_t> removed;  // the handle
@@ -55,7 +78,7 @@ Touched drag_handles(Ctx& c, const ViewMap& map, bool hovered, std::size_t index
             out.removed = k;
         }
         if (grip != Grip::kHeld && grip != Grip::kLetGo) continue;
-        const FormGuide changed = with_handle_at(guide, k, at);
+        const FormGuide changed = with_snapped_handle(c, map, guide, k, at);
         if (check_form_guide(changed)) guide = changed;
         out.done |= grip == Grip::kLetGo;
     }
@@ -95,7 +118,7 @@ void take(Ctx& c, const Region& region, const FormGuide& drawn) {
 void draw_new(Ctx& c, const ViewMap& map, const Region& region) {
     FormToolState& s = c.state.form;
     const Vec2 to = map.to_plate(ImGui::GetIO().MousePos);
-    const auto drawn = guide_of_drag(s.kind, *s.from, to, matte_of(c));
+    const auto drawn = drawn_guide(c, map, s.kind, *s.from, to);
     if (drawn) draw_lines(c, map, *drawn, c.theme.accent_hover);
     if (ImGui::IsKeyPressed(256)) s.from.reset();
     if (ImGui::IsMouseDown(0) || !s.from) return;

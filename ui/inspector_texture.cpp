@@ -161,6 +161,7 @@ void texture_inspector(Ctx& c) {
         section_gap(c);
     }
     form_section(c, *region);
+    warp_section(c, *region);
     provenance_section(c, *region);
     if (section(c, "Perspective", false)) {
         const PanelName panel(c, "Perspective");

@@ -59,6 +59,13 @@ void no_region(Ctx& c);
 /// Moves the texture by the arrow keys while the transform tool is in hand. Returns true if one was
 /// pressed.
 bool nudge_texture(Ctx& c);
+/// The grid warp of the region, or the one that would be laid over its corner pin or matte; none
+/// without either.
+[[nodiscard]] std::optional<GridWarp> warp_shown(Ctx& c, const Region& region);
+/// Moves the selected points of a grid warp by the arrow keys. Returns true if one was pressed.
+bool nudge_warp(Ctx& c);
+/// The grid warp: its size, fall-off and keys.
+void warp_section(Ctx& c, const Region& region);
 
 // Floating windows.
 void notices(Ctx& c);

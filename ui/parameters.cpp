@@ -261,6 +261,7 @@ void parameter_control(Ctx& c, const ParameterInfo& info, const ParameterValue& 
         case ParameterKind::kKeys:
         case ParameterKind::kLamps:
         case ParameterKind::kGuides:
+        case ParameterKind::kWarp:
         case ParameterKind::kFrames: {
             std::string value = format_parameter(info, now);
             if (text_row(c, label.c_str(), value, "default", help.c_str()) != Change::kDone) return;

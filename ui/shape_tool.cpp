@@ -21,13 +21,6 @@ void outline(Ctx& c, const ViewMap& map, const std::vector<Vec2>& points, bool c
     list.AddPolyline(on_screen.data(), count, color, flags, c.theme.px(1.5f));
 }
 
-// Alt, or Ctrl and Shift where the window manager keeps Alt: breaks handles, removes a point,
-// begins another shape.
-bool breaks_off() {
-    const ImGuiIO& io = ImGui::GetIO();
-    return io.KeyAlt || (io.KeyCtrl && io.KeyShift);
-}
-
 void finish_drawing(Ctx& c) {
     constexpr std::size_t kLeast = 3;
     if (c.state.shape.points.size() >= kLeast) c.emit(SetShape{c.state.shape});

@@ -31,6 +31,7 @@ enum class Tool : std::uint8_t {
     kFlood,
     kScribble,
     kPlace,
+    kWarp,  ///< Drags the points of a grid warp.
     kSimilar,
     kPin,
     kLamp,
@@ -224,6 +225,21 @@ struct KeysState {
     std::optional<std::pair<double, double>> values;  ///< Visible; unset: to be fitted.
 };
 
+/// The grid warp of the selected region.
+struct WarpToolState {
+    RegionId region = 0;             ///< Which it belongs to.
+    std::set<std::size_t> selected;  ///< Points.
+    std::optional<GridWarp> before;  ///< When a drag began; set while there is one.
+    std::size_t held = 0;            ///< The point that the mouse has,
+    int side = -1;                   ///< or one of its handles: left, right, up, down.
+    std::optional<Vec2> box_from;    ///< Where a drag began that selects, on the plate.
+    /// The grid that would be laid, while the region has none.
+    std::optional<GridWarp> proposed;
+    int frame = 0;
+    /// As TransformState::places.
+    std::shared_ptr<const SurfacePlaces> places;
+};
+
 struct UiState {
     std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
@@ -254,6 +270,8 @@ struct UiState {
     std::string leave_then;  ///< "": quit; otherwise a path to open.
     int tour_step = -1;      ///< −1: no tour.
     TransformState transform;
+    WarpToolState warp;
+    bool snap = false;  ///< What is dragged snaps to edges of the plate; Ctrl turns it around.
     std::string handle_held;          ///< Id of the handle being dragged.
     Vec2 handle_offset{0, 0};         ///< Offset from the mouse to its centre.
     std::vector<CorrectionPin> pins;  ///< Pins of this frame while one is being dragged.

@@ -27,6 +27,33 @@ Vec2 ground(const Ctx& c, Vec2 plate) {
     return places ? places->at(plate) : plate;
 }
 
+// Where two lines through a and b meet, each with a direction; nothing where they are parallel.
+std::optional<Vec2> meeting(Vec2 a, Vec2 along, Vec2 b, Vec2 other) {
+    const float det = along.x * other.y - along.y * other.x;
+    if (std::abs(det) < 1e-3f * std::hypot(along.x, along.y) * std::hypot(other.x, other.y))
+        return std::nullopt;
+    const Vec2 d = b - a;
+    return a + along * ((d.x * other.y - d.y * other.x) / det);
+}
+
+// A dragged corner: where the two sides that end in it lie on edges of the plate, on their meeting;
+// where one does, on that edge; else on the edge or corner of the plate that is nearest.
+Vec2 snapped_corner(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at, std::size_t k) {
+    if (!snaps(c)) return at[k];
+    const auto before = snapped_segment(c, map, at[(k + 3) % 4], at[k]);
+    const auto after = snapped_segment(c, map, at[(k + 1) % 4], at[k]);
+    if (before && after) {
+        const auto both = meeting(before->first, before->second - before->first, after->first,
+                                  after->second - after->first);
+        const Vec2 d = both.value_or(at[k]) - at[k];
+        constexpr float kReach = 16;  // screen px: two edges, each within its own reach
+        if (both && std::hypot(d.x, d.y) * map.zoom < c.theme.px(kReach)) return *both;
+    }
+    if (before) return before->second;
+    if (after) return after->second;
+    return snapped(c, map, at[k], true);
+}
+
 // Handles of a corner pin.
 bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovered) {
     if (!region.placement.corners_px) return false;
@@ -44,6 +71,7 @@ bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovere
         taken |= grip != Grip::kNone;
         held |= grip == Grip::kHeld;
         done |= grip == Grip::kLetGo;
+        if (grip == Grip::kHeld || grip == Grip::kLetGo) at[k] = snapped_corner(c, map, at, k);
         numbers.push_back(static_cast<double>(at[k].x));
         numbers.push_back(static_cast<double>(at[k].y));
     }
@@ -242,14 +270,7 @@ bool nudge_texture(Ctx& c) {
     const Region* region = c.view.selected_region();
     const ImGuiIO& io = ImGui::GetIO();
     if (c.state.tool != Tool::kPlace || !region || io.WantTextInput) return false;
-    KeyChord pressed = pressed_chord(true);
-    const float step = pressed.shift ? 10 : 1;
-    pressed.shift = false;
-    Vec2 by{0, 0};
-    if (pressed == *parse_chord("Left")) by.x = -step;
-    if (pressed == *parse_chord("Right")) by.x = step;
-    if (pressed == *parse_chord("Up")) by.y = -step;
-    if (pressed == *parse_chord("Down")) by.y = step;
+    const Vec2 by = arrow_step();
     if (by == Vec2{0, 0}) return false;
     follow_region(c, *region);
     const Vec2 at = pivot_of(c), d = ground(c, at + by) - ground(c, at);

@@ -71,6 +71,22 @@ Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool ho
     return grip;
 }
 
+bool breaks_off() {
+    const ImGuiIO& io = ImGui::GetIO();
+    return io.KeyAlt || (io.KeyCtrl && io.KeyShift);
+}
+
+Vec2 arrow_step() {
+    KeyChord pressed = pressed_chord(true);
+    const float step = pressed.shift ? 10 : 1;
+    pressed.shift = false;
+    if (pressed == *parse_chord("Left")) return {-step, 0};
+    if (pressed == *parse_chord("Right")) return {step, 0};
+    if (pressed == *parse_chord("Up")) return {0, -step};
+    if (pressed == *parse_chord("Down")) return {0, step};
+    return {0, 0};
+}
+
 bool any_handle_held(const Ctx& c) {
     return !c.state.handle_held.empty();
 }

@@ -2,6 +2,8 @@
 // Internal to the viewer: handles that can be dragged.
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "ui/ctx.h"
 #include "ui/view_map.h"
@@ -16,11 +18,28 @@ Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool ho
             bool filled = true);
 [[nodiscard]] bool any_handle_held(const Ctx& c);
 
+/// Alt, or Ctrl and Shift where the window manager keeps Alt: breaks handles, removes a point,
+/// begins another shape.
+[[nodiscard]] bool breaks_off();
+/// The arrow key that was pressed, in pixels: 1, with Shift 10.
+[[nodiscard]] Vec2 arrow_step();
+
+/// Whether what is dragged snaps to edges of the plate: the switch, the other way round while Ctrl
+/// is held.
+[[nodiscard]] bool snaps(const Ctx& c);
+/// The place on the nearest strong edge of the plate within 8 px of the screen, which is shown; the
+/// place itself while nothing snaps, and where there is none.
+[[nodiscard]] Vec2 snapped(Ctx& c, const ViewMap& map, Vec2 at, bool snap);
+/// The ends of a segment laid on a straight edge within the same reach; none where there is none.
+[[nodiscard]] std::optional<std::pair<Vec2, Vec2>> snapped_segment(Ctx& c, const ViewMap& map,
+                                                                   Vec2 from, Vec2 to);
+
 void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void lamp_tool(Ctx& c, const ViewMap& map, bool hovered);
 void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// The box that rotates and scales the shape. Returns true if a drag has ended that changed it.
 bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over);
+void warp_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// The outline of four corners.
 void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at);

@@ -85,7 +85,10 @@ void lasso(Ctx& c, const ViewMap& map, bool active) {
 
 void polygon(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     BrushState& b = c.state.brush;
-    const Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
+    Vec2 at = map.to_plate(ImGui::GetIO().MousePos);
+    // With the first point Ctrl subtracts.
+    const bool snap = b.outline.empty() ? c.state.snap : snaps(c);
+    if (hovered) at = snapped(c, map, at, snap);
     const bool closes = b.outline.size() > 2 && [&] {
         const ImVec2 first = map.to_screen(b.outline.front()), now = ImGui::GetIO().MousePos;
         return std::hypot(first.x - now.x, first.y - now.y) < c.theme.px(9);
@@ -209,6 +212,8 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return;
         case Tool::kPlace:
             return transform_tool(c, map, hovered, active);
+        case Tool::kWarp:
+            return warp_tool(c, map, hovered, active);
         case Tool::kMeasure:
             return measure(c, map, hovered, active);
         case Tool::kForm:

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "app/cli/zone_texts.h"
+#include "app/project/codec/project_json.h"
+#include "engine/core/input_file.h"
 
 namespace weft {
 namespace {
@@ -156,6 +158,17 @@ std::string joined(const ParameterInfo& info, const std::vector<std::string>& te
     return out;
 }
 
+// A grid warp comes from a file as well, which holds what a project has under placement.warp.
+template <class Owner>
+Status set_text(Owner& owner, const Parameter<Owner>& parameter, const std::string& text) {
+    if (parameter.kind != ParameterKind::kWarp || !text.ends_with(".json"))
+        return set_parameter_text(owner, parameter, text);
+    WEFT_TRY(json, read_file(text, "The grid warp"));
+    auto warp = grid_warp_from_json(json);
+    if (!warp) return fail_in(std::move(warp).error(), text);
+    return set_parameter(owner, parameter, std::move(*warp));
+}
+
 template <class Owner, class List>
 Status apply_given(Owner& owner, const List& given) {
     for (const auto& g : given) {
@@ -163,7 +176,7 @@ Status apply_given(Owner& owner, const List& given) {
             if (g.option->count() > 0)
                 WEFT_CHECK_OK(set_parameter_text(owner, *g.parameter, g.flag ? "true" : "false"));
         } else if (!g.texts.empty()) {
-            WEFT_CHECK_OK(set_parameter_text(owner, *g.parameter, joined(*g.parameter, g.texts)));
+            WEFT_CHECK_OK(set_text(owner, *g.parameter, joined(*g.parameter, g.texts)));
         }
     }
     return {};

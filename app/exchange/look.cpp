@@ -37,6 +37,7 @@ Region with_look_of(Region to, const Region& from) {
     to.placement = from.placement;
     to.placement.uv = shot.uv;
     to.placement.uv_layer = shot.uv_layer;
+    to.placement.warp = shot.warp;
     to.form.amount = from.form.amount;
     to.form.amount_keys = from.form.amount_keys;
     to.synthesis = from.synthesis;

@@ -22,6 +22,10 @@ Json numbers(const ParameterInfo& info, std::size_t count) {
     return out;
 }
 
+Json point() {
+    return {{"type", "array"}, {"items", any_of_type("number")}, {"minItems", 2}, {"maxItems", 2}};
+}
+
 // Keys over time whose values follow this schema.
 Json keys(Json value) {
     return {{"type", "array"},
@@ -43,6 +47,29 @@ Json guides(const ParameterInfo& info) {
               {"properties",
                {{"kind", {{"enum", info.choices}}},
                 {"numbers", {{"type", "array"}, {"items", any_of_type("number")}}}}}}}};
+}
+
+Json grid_warp() {
+    Json control{{"type", "object"}, {"required", {"at"}}};
+    for (const char* key : {"at", "left", "right", "up", "down"})
+        control["properties"][key] = point();
+    const Json points{{"type", "array"}, {"items", control}};
+    const Json patches{{"type", "integer"}, {"minimum", 1}, {"maximum", GridWarp::kMostPatches}};
+    return {
+        {"type", "object"},
+        {"required", {"columns", "rows", "corners"}},
+        {"properties",
+         {{"columns", patches},
+          {"rows", patches},
+          {"corners", {{"type", "array"}, {"items", point()}, {"minItems", 4}, {"maxItems", 4}}},
+          {"falloff_px", {{"type", "number"}, {"minimum", 0}, {"maximum", GridWarp::kMostPx}}},
+          {"points", points},
+          {"keys",
+           {{"type", "array"},
+            {"items",
+             {{"type", "object"},
+              {"required", {"frame", "points"}},
+              {"properties", {{"frame", any_of_type("integer")}, {"points", points}}}}}}}}}};
 }
 
 Json schema_of(const ParameterInfo& info) {
@@ -98,6 +125,9 @@ Json schema_of(const ParameterInfo& info) {
         case ParameterKind::kGuides:
             out = guides(info);
             break;
+        case ParameterKind::kWarp:
+            out = grid_warp();
+            break;
     }
     out["description"] =
         std::string(info.help) + (info.unit.empty() ? "" : " (" + std::string(info.unit) + ")");
@@ -116,10 +146,6 @@ void add_table(Json& object, std::span<const Parameter<Owner>> table) {
         }
         (*into)[std::string(parameter.key)] = schema_of(parameter);
     }
-}
-
-Json point() {
-    return {{"type", "array"}, {"items", any_of_type("number")}, {"minItems", 2}, {"maxItems", 2}};
 }
 
 Json keyed_shape() {

@@ -72,6 +72,7 @@ std::vector<PreviewScenes::Keys> PreviewScenes::keys_of(const Shot& shot,
             placed.value(p.scale).value(p.rotate_deg).value(p.offset_px.x).value(p.offset_px.y);
             for (const Vec2 c : p.corners.value_or(std::array<Vec2, 4>{}))
                 placed.value(c.x).value(c.y);
+            if (plan.warp) placed.text(grid_warp_text(*plan.warp));
         }
         key.exact = placed.finish().hex() + key.texture + size_key;
         keys.push_back(std::move(key));

@@ -36,7 +36,7 @@ std::map<RegionId, std::shared_ptr<const SurfacePlaces>> Preview::Impl::places_o
         const auto bytes = current->store->get({static_cast<int>(k), frame, AnalysisKind::kCoords});
         if (!bytes) continue;
         auto ref_from_cur = decode_lattice(*bytes);
-        PlanePlacement bare = plan.placement;
+        PlanePlacement bare = plan.placement_at(frame);
         bare.scale = 1;
         bare.rotate_deg = 0;
         bare.offset_px = {0, 0};

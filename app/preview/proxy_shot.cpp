@@ -81,6 +81,11 @@ RegionPlan divided(const RegionPlan& full, int factor) {
             corner /= by;
     plan.scale_keys = divided(plan.scale_keys, factor);
     plan.offset_keys = divided(plan.offset_keys, factor);
+    if (plan.warp) {
+        plan.warp = on_smaller_frame(std::move(*plan.warp), factor);
+        const int first = plan.warp->moves() ? plan.warp->keys.front().first : 0;
+        plan.placement.warp = std::make_shared<const PlaneWarp>(*plan.warp, first);
+    }
     for (Lamp& lamp : plan.lamps)
         lamp = divided(std::move(lamp), factor);
     for (FormGuide& guide : plan.form_guides)

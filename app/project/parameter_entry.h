@@ -39,6 +39,8 @@ constexpr ParameterKind kind_of(const ParameterInfo& info) {
         return ParameterKind::kLamps;
     else if constexpr (std::same_as<T, std::vector<FormGuide>>)
         return ParameterKind::kGuides;
+    else if constexpr (std::same_as<T, std::optional<GridWarp>>)
+        return ParameterKind::kWarp;
     else if constexpr (std::same_as<T, std::string>)
         return info.is_path ? ParameterKind::kPath : ParameterKind::kText;
     else
@@ -78,6 +80,9 @@ inline ParameterValue to_value(const std::vector<Lamp>& member) {
 }
 inline ParameterValue to_value(const std::vector<FormGuide>& member) {
     return member;
+}
+inline ParameterValue to_value(const std::optional<GridWarp>& member) {
+    return member ? ParameterValue(*member) : ParameterValue();
 }
 inline ParameterValue to_value(const std::optional<int>& member) {
     return member ? ParameterValue(std::int64_t{*member}) : ParameterValue();
@@ -136,6 +141,10 @@ inline void from_value(const ParameterValue& value, std::vector<Lamp>& member) {
 }
 inline void from_value(const ParameterValue& value, std::vector<FormGuide>& member) {
     member = std::get<std::vector<FormGuide>>(value);
+}
+inline void from_value(const ParameterValue& value, std::optional<GridWarp>& member) {
+    const auto* warp = std::get_if<GridWarp>(&value);
+    member = warp ? std::optional<GridWarp>(*warp) : std::nullopt;
 }
 inline void from_value(const ParameterValue& value, std::optional<int>& member) {
     const auto* number = std::get_if<std::int64_t>(&value);

@@ -135,6 +135,17 @@ Expected<ParameterValue> guides(const ParameterInfo& info, ParameterValue value)
     return ParameterValue(std::move(out));
 }
 
+Expected<ParameterValue> warp(const ParameterInfo&, ParameterValue value) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        WEFT_TRY(parsed, parse_grid_warp(*text));
+        value = std::move(parsed);
+    }
+    auto* typed = std::get_if<GridWarp>(&value);
+    if (!typed) return fail(ErrorCode::kUsage, "it must be a grid warp");
+    WEFT_CHECK_OK(check_grid_warp(*typed));
+    return value;
+}
+
 std::string text_of(const ParameterValue& value) {
     if (const auto* names = std::get_if<std::vector<std::string>>(&value))
         return fmt::format("{}", fmt::join(*names, ","));
@@ -142,6 +153,7 @@ std::string text_of(const ParameterValue& value) {
     if (const auto* lamps = std::get_if<std::vector<Lamp>>(&value)) return lamps_text(*lamps);
     if (const auto* guides = std::get_if<std::vector<FormGuide>>(&value))
         return form_guides_text(*guides);
+    if (const auto* warp = std::get_if<GridWarp>(&value)) return grid_warp_text(*warp);
     return {};
 }
 

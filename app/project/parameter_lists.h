@@ -1,6 +1,6 @@
 #pragma once
-// Parameters that are lists: names, keys over time, lamps, guides of form. Internal to
-// parameter_values.cpp.
+// Parameters that are lists: names, keys over time, lamps, guides of form, and grid warps. Internal
+// to parameter_values.cpp.
 
 #include <string>
 
@@ -14,6 +14,7 @@ namespace weft::parameter_lists {
 [[nodiscard]] Expected<ParameterValue> keys(const ParameterInfo& info, ParameterValue value);
 [[nodiscard]] Expected<ParameterValue> lamps(const ParameterInfo& info, ParameterValue value);
 [[nodiscard]] Expected<ParameterValue> guides(const ParameterInfo& info, ParameterValue value);
+[[nodiscard]] Expected<ParameterValue> warp(const ParameterInfo& info, ParameterValue value);
 
 /// Formats a value of one of these kinds as command-line text.
 [[nodiscard]] std::string text_of(const ParameterValue& value);

@@ -52,6 +52,8 @@ std::string_view type_name(ParameterKind kind) {
             return "a list of lamps";
         case ParameterKind::kGuides:
             return "a list of shapes or strokes";
+        case ParameterKind::kWarp:
+            return "a grid warp";
     }
     return "";
 }
@@ -80,6 +82,9 @@ std::string shown(const ParameterValue& value) {
         }
         std::string operator()(const std::vector<FormGuide>& v) const {
             return fmt::format("{} shapes or strokes", v.size());
+        }
+        std::string operator()(const GridWarp& v) const {
+            return fmt::format("a grid of {} × {}", v.columns, v.rows);
         }
     };
     return std::visit(Show{}, value);
@@ -338,6 +343,8 @@ Expected<ParameterValue> normalise(const ParameterInfo& info, ParameterValue val
             return normalise_list(info, std::move(value), parameter_lists::lamps);
         case ParameterKind::kGuides:
             return normalise_list(info, std::move(value), parameter_lists::guides);
+        case ParameterKind::kWarp:
+            return normalise_list(info, std::move(value), parameter_lists::warp);
         case ParameterKind::kPoint:
         case ParameterKind::kRgb:
         case ParameterKind::kCorners:
@@ -359,7 +366,8 @@ std::string format_parameter(const ParameterInfo& info, const ParameterValue& va
     if (std::holds_alternative<std::monostate>(value)) return {};
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     if (info.kind == ParameterKind::kNames || info.kind == ParameterKind::kKeys ||
-        info.kind == ParameterKind::kLamps || info.kind == ParameterKind::kGuides)
+        info.kind == ParameterKind::kLamps || info.kind == ParameterKind::kGuides ||
+        info.kind == ParameterKind::kWarp)
         return parameter_lists::text_of(value);
     std::string out;
     if (const auto* paths = std::get_if<std::vector<std::string>>(&value)) {
@@ -399,6 +407,7 @@ std::string allowed_values(const ParameterInfo& info) {
         case ParameterKind::kPaths:
         case ParameterKind::kLamps:
         case ParameterKind::kGuides:
+        case ParameterKind::kWarp:
             return {};
         case ParameterKind::kNames:
             return "all, or of " + choices_text(info);

@@ -31,14 +31,15 @@ enum class ParameterKind {
                ///< between them, or "all".
     kKeys,     ///< KeyedNumbers of `components` each. On the command line "FRAME:X FRAME:X,Y".
     kLamps,    ///< std::vector<Lamp>. On the command line as parse_lamps() reads them.
+    kWarp,     ///< A GridWarp, or unset. On the command line as parse_grid_warp() reads it.
     kGuides    ///< std::vector<FormGuide>, each of one of `choices`, at most `max`. On the command
                ///< line as parse_form_guides() reads them.
 };
 
 /// std::monostate: not set (only if `optional`); std::vector<double>: points and frames.
-using ParameterValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
-                 std::vector<std::string>, KeyedNumbers, std::vector<Lamp>, std::vector<FormGuide>>;
+using ParameterValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                                    std::vector<double>, std::vector<std::string>, KeyedNumbers,
+                                    std::vector<Lamp>, std::vector<FormGuide>, GridWarp>;
 
 struct ParameterInfo {
     /// JSON object that holds it; empty: directly in the region or project.

@@ -219,6 +219,11 @@ std::size_t own_bytes(const Region& r) {
     for (const auto* guides : {&r.form.shape, &r.form.strokes})
         for (const FormGuide& guide : *guides)
             keys += sizeof guide + guide.numbers.capacity() * sizeof(double);
+    if (r.placement.warp) {
+        keys += r.placement.warp->points.capacity() * sizeof(WarpPoint);
+        for (const auto& [frame, points] : r.placement.warp->keys)
+            keys += sizeof frame + points.capacity() * sizeof(WarpPoint);
+    }
     return sizeof r + pins + samples + keys + r.reference_frames.capacity() * sizeof(int) +
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.uv, r.placement.uv_layer, r.placement.extra,

@@ -19,6 +19,7 @@
 #include "engine/compute/wrap_mode.h"
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
+#include "engine/core/grid_warp.h"
 #include "engine/core/keyed_numbers.h"
 #include "engine/form/depth_positions.h"
 #include "engine/form/form_guide.h"
@@ -187,6 +188,7 @@ struct Placement {
     bool fit = true;
     /// Animated values that replace those above; an offset has two numbers, x and y.
     KeyedNumbers scale_keys, rotate_keys, offset_keys;
+    std::optional<GridWarp> warp;  ///< On the reference frame, on top of the surface's form.
     std::string uv;        ///< Pattern of a UV pass or ST-map with exact texture coordinates.
     std::string uv_layer;  ///< Empty: found.
     Extras extra;

@@ -118,6 +118,13 @@ std::vector<Parameter<Region>> make_region_table() {
              .min = -kMaxPlatePx,
              .max = kMaxPlatePx,
              .components = 2}),
+        entry<R, &R::placement, &Placement::warp>(
+            {.group = "placement",
+             .key = "warp",
+             .flag = "--warp",
+             .help = "Grid warp on the reference frame: a JSON file, text (2x2 corners x,y x,y x,y "
+                     "x,y falloff PX points x,y …), or none",
+             .optional = true}),
         entry<R, &R::placement, &Placement::uv>(
             {.group = "placement",
              .key = "uv",

@@ -47,6 +47,23 @@ PlanePlacement plane_placement(const Placement& p) {
     return out;
 }
 
+Status project_warp(const Placement& placement, TemporalMode mode, RegionPlan& plan) {
+    if (!placement.warp) return {};
+    if (mode != TemporalMode::kLocked || !placement.uv.empty()) {
+        return fail(ErrorCode::kUsage,
+                    "A grid warp needs the locked temporal mode, and no UV pass beside it, which "
+                    "gives the exact place already. Set the mode" +
+                        by({{setting::kTemporalMode, "locked"}}) + ", or remove the warp" +
+                        by({{setting::kWarp, "none"}}) + ".");
+    }
+    if (auto checked = check_grid_warp(*placement.warp); !checked)
+        return fail_in(std::move(checked).error(), "grid warp");
+    plan.warp = placement.warp;
+    const int first = plan.warp->moves() ? plan.warp->keys.front().first : 0;
+    plan.placement.warp = std::make_shared<const PlaneWarp>(*plan.warp, first);
+    return {};
+}
+
 }  // namespace
 
 MatteEdgePlan project_edge(const MatteEdgeParams& edge) {
@@ -145,6 +162,7 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
                              [](const auto& a, const auto& b) { return a.numbers < b.numbers; });
         plan.placement.scale = static_cast<float>(smallest->numbers[0]);
     }
+    WEFT_CHECK_OK(project_warp(placement, mode, plan));
     WEFT_CHECK_OK(texture_mapping(plan.placement));
     plan.has_uv = !placement.uv.empty();
     if (plan.has_uv && mode != TemporalMode::kLocked) {

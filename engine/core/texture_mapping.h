@@ -8,13 +8,15 @@
 #include <utility>
 
 #include "engine/core/geometry.h"
+#include "engine/core/plane_warp.h"
 #include "engine/core/surface_form.h"
 
 namespace weft {
 
 /// The texture coordinates of the reference frame: the one function through which every stage asks
-/// which texel a place of the reference frame shows. The surface is laid flat by its form, if it
-/// has one, and then a homography acts, that of the artist's placement. Immutable and thread-safe.
+/// which texel a place of the reference frame shows. A grid warp, if there is one, is undone, then
+/// the surface is laid flat by its form, if it has one, and then a homography acts, that of the
+/// artist's placement. Immutable and thread-safe.
 class TextureMapping {
   public:
     /// A texel for every pixel, both from (0, 0).
@@ -42,13 +44,19 @@ class TextureMapping {
         out.smaller_ = other.smaller_;
         return out;
     }
+    /// The same with a grid warp on top of the form; null: none.
+    [[nodiscard]] TextureMapping with_warp(std::shared_ptr<const PlaneWarp> warp) const {
+        TextureMapping out = *this;
+        out.warp_ = std::move(warp);
+        return out;
+    }
 
     /// The mapping about one place, to first order.
     struct Linear {
         Vec2 texel;  ///< Of the place itself.
         Mat3 map{1};
         float depth = 1;    ///< Third homogeneous coordinate there.
-        glm::mat2 form{1};  ///< Of the surface laid flat, by pixel.
+        glm::mat2 form{1};  ///< Of the warp undone and the surface laid flat, by pixel.
         /// Texels for a step of that many pixels on the reference frame.
         [[nodiscard]] Vec2 step(Vec2 pixels) const {
             // d(p.xy / p.z) = (dp.xy − u dp.z) / p.z
@@ -59,7 +67,7 @@ class TextureMapping {
     [[nodiscard]] Linear linear_at(Vec2 pixel) const {
         const Vec3 p = texel_from_reference_ * Vec3(flat(pixel), 1.0f);
         Linear out{Vec2(p.x, p.y) / p.z, texel_from_reference_, p.z};
-        if (form_) {
+        if (bends()) {
             const Vec2 x(0.5f, 0), y(0, 0.5f);
             out.form = {flat(pixel + x) - flat(pixel - x), flat(pixel + y) - flat(pixel - y)};
         }
@@ -72,8 +80,8 @@ class TextureMapping {
     };
     [[nodiscard]] Bounds bounds_of(const Recti& pixels) const {
         // A homography takes straight edges to straight ones: the corners bound the rest. With a
-        // form, so do the places of a grid, closely.
-        const int steps = form_ ? 32 : 1;
+        // form or a warp, so do the places of a grid, closely.
+        const int steps = bends() ? 32 : 1;
         Bounds out;
         for (int j = 0; j <= steps; ++j) {
             for (int i = 0; i <= steps; ++i) {
@@ -92,8 +100,8 @@ class TextureMapping {
         return out;
     }
 
-    /// The way back on a surface without a form: the place in pixels of the reference frame that
-    /// shows a texel.
+    /// The way back on a surface without a form and a warp: the place in pixels of the reference
+    /// frame that shows a texel.
     class Inverse {
       public:
         explicit Inverse(const Mat3& reference_from_texel) : map_(reference_from_texel) {}
@@ -110,6 +118,7 @@ class TextureMapping {
         enlarge[0][0] = enlarge[1][1] = factor;
         TextureMapping out(texel_from_reference_ * enlarge);
         out.form_ = form_;
+        out.warp_ = warp_;
         out.smaller_ = smaller_ * factor;
         return out;
     }
@@ -117,12 +126,17 @@ class TextureMapping {
     bool operator==(const TextureMapping&) const = default;
 
   private:
+    [[nodiscard]] bool bends() const { return form_ != nullptr || warp_ != nullptr; }
     [[nodiscard]] Vec2 flat(Vec2 pixel) const {
-        return form_ ? form_->flat(pixel * smaller_) / smaller_ : pixel;
+        if (!bends()) return pixel;
+        Vec2 at = pixel * smaller_;
+        if (warp_) at = warp_->rest(at);
+        return (form_ ? form_->flat(at) : at) / smaller_;
     }
 
     Mat3 texel_from_reference_{1};
-    std::shared_ptr<const SurfaceForm> form_;  // of the frame at full size
+    std::shared_ptr<const SurfaceForm> form_;  // these two of the frame at full size
+    std::shared_ptr<const PlaneWarp> warp_;
     float smaller_ = 1;
 };
 

@@ -12,6 +12,7 @@
 #include "engine/color/grade.h"
 #include "engine/composite/blend_mode.h"
 #include "engine/compute/backend.h"
+#include "engine/core/grid_warp.h"
 #include "engine/core/image.h"
 #include "engine/core/keyed_numbers.h"
 #include "engine/form/form_guide.h"
@@ -91,8 +92,11 @@ struct RegionPlan {
     PlanePlacement placement;  ///< With keyed scales the smallest, for which the plane is grown.
     /// Over time, in place of the values in `placement`.
     KeyedNumbers scale_keys, rotate_keys, offset_keys;
+    /// The grid of placement.warp: with keys over time that of their first frame is there.
+    std::optional<GridWarp> warp;
     [[nodiscard]] bool placement_moves() const {
-        return !scale_keys.empty() || !rotate_keys.empty() || !offset_keys.empty();
+        return !scale_keys.empty() || !rotate_keys.empty() || !offset_keys.empty() ||
+               (warp && warp->moves());
     }
     /// The placement on a frame, relative to the reference frame.
     [[nodiscard]] PlanePlacement placement_at(int frame) const {
@@ -101,6 +105,7 @@ struct RegionPlan {
         if (!rotate_keys.empty()) out.rotate_deg = rotate_keys.float_at(frame)[0];
         if (!offset_keys.empty())
             out.offset_px = {offset_keys.float_at(frame)[0], offset_keys.float_at(frame)[1]};
+        if (warp && warp->moves()) out.warp = std::make_shared<const PlaneWarp>(*warp, frame);
         return out;
     }
     // Texture.

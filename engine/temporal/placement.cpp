@@ -27,8 +27,9 @@ Expected<TextureMapping> texture_mapping(const PlanePlacement& p) {
     const long double angle = glm::radians(p.rotate_deg);
     const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
     if (!p.corners) {
-        return TextureMapping(
-            glm::inverse(affine(p.scale * c, -p.scale * s, p.scale * s, p.scale * c, p.offset_px)));
+        return TextureMapping(glm::inverse(affine(p.scale * c, -p.scale * s, p.scale * s,
+                                                  p.scale * c, p.offset_px)))
+            .with_warp(p.warp);
     }
     if (!is_convex<float>(*p.corners)) {
         return fail(ErrorCode::kUsage,
@@ -48,7 +49,8 @@ Expected<TextureMapping> texture_mapping(const PlanePlacement& p) {
         affine(square_texels.x / p.scale, 0, 0, square_texels.y / p.scale, {0, 0});
     // Rotation and offset act inside the plane, so that the perspective stays the artist's.
     const Mat3 turned = glm::inverse(affine(c, -s, s, c, p.offset_px / p.scale));
-    return TextureMapping(turned * texels_from_square * glm::inverse(plate_from_square));
+    return TextureMapping(turned * texels_from_square * glm::inverse(plate_from_square))
+        .with_warp(p.warp);
 }
 
 TextureCoords texture_coords(const LatticeField& ref_from_cur, const TextureMapping& mapping,

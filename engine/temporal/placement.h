@@ -2,6 +2,7 @@
 // Where the artist puts the texture on the reference frame.
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "engine/core/error.h"
@@ -24,6 +25,8 @@ struct PlanePlacement {
     std::optional<std::array<Vec2, 4>> corners;
     /// Of a given picture: its own corners go to `corners` at a scale of 1, whatever its size.
     std::optional<Size> picture_texels;
+    /// A correction of the plane on the reference frame, beneath all of the above; null: none.
+    std::shared_ptr<const PlaneWarp> warp;
     bool operator==(const PlanePlacement&) const = default;
 };
 

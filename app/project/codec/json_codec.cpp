@@ -187,6 +187,8 @@ Expected<ParameterValue> read_value(const Json& value, const std::string& path) 
         }
         case Json::value_t::number_float:
             return ParameterValue(value.get<double>());
+        case Json::value_t::object:
+            return read_warp(value, path);
         case Json::value_t::array:
             break;
         default:
@@ -234,6 +236,7 @@ OrderedJson write_value(const ParameterInfo& info, const ParameterValue& value) 
     if (const auto* lamps = std::get_if<std::vector<Lamp>>(&value)) return write_lamps(*lamps);
     if (const auto* guides = std::get_if<std::vector<FormGuide>>(&value))
         return write_guides(*guides);
+    if (const auto* warp = std::get_if<GridWarp>(&value)) return write_warp(*warp);
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     if (!numbers) return {};
     if (info.kind != ParameterKind::kFrames) return *numbers;

@@ -75,6 +75,10 @@ void write_extras(OrderedJson& object, const Extras& extra);
 // Shapes and strokes, [{"kind": "ball", "numbers": [x, y, r]}].
 [[nodiscard]] Expected<ParameterValue> read_guides(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_guides(const std::vector<FormGuide>& guides);
+// A grid warp, {"columns": 2, "rows": 2, "corners": [[x, y], …], "points": [{"at": [x, y]}, …], …}
+// (app/project/codec/warp_json.cpp). Points may be left out: at rest, or as on the first key.
+[[nodiscard]] Expected<ParameterValue> read_warp(const Json& value, const std::string& path);
+[[nodiscard]] OrderedJson write_warp(const GridWarp& warp);
 // Roto shapes: {"points": [[x, y, in x, in y, out x, out y, feather], …]}, plate pixels.
 [[nodiscard]] Expected<RotoShape> read_shape(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_shape(const RotoShape& shape);

@@ -22,4 +22,8 @@ inline constexpr int kProjectSchemaVersion = 5;
 /// Errors: Usage when a name or path is not UTF-8. Thread-safe.
 [[nodiscard]] Expected<std::string> project_to_json(const Project& project);
 
+/// Reads a grid warp as a project file has it under placement.warp; without check_grid_warp().
+/// Errors: Unreadable with the place. Thread-safe.
+[[nodiscard]] Expected<GridWarp> grid_warp_from_json(std::string_view text);
+
 }  // namespace weft
