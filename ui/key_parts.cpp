@@ -15,7 +15,8 @@ constexpr float kNames = 172;  // unscaled width of the names' column
 // A row whose keys lie on frames of the plate.
 bool needs_frames(const KeyRowId& row) {
     return row.kind != KeyRowKind::kNumbers && row.kind != KeyRowKind::kLamp &&
-           row.kind != KeyRowKind::kZoneValue;
+           row.kind != KeyRowKind::kZoneValue && row.kind != KeyRowKind::kMatteEdge &&
+           row.kind != KeyRowKind::kWarp;
 }
 
 std::string layer_text(int layer) {
@@ -25,11 +26,10 @@ std::string layer_text(int layer) {
 
 const char* numbers_name(const std::string& key) {
     constexpr std::pair<std::string_view, const char*> kNamesOf[] = {
-        {"placement.scale_keys", "Texture scale"},
-        {"placement.rotate_keys", "Texture rotation"},
-        {"placement.offset_keys", "Texture offset"},
-        {"form.amount_keys", "Form amount"},
-        {"light.strength_keys", "Light strength"}};
+        {"placement.scale_keys", "Texture scale"},   {"placement.rotate_keys", "Texture rotation"},
+        {"placement.offset_keys", "Texture offset"}, {"form.amount_keys", "Form amount"},
+        {"light.strength_keys", "Light strength"},   {"matte.choke_keys", "choke"},
+        {"matte.feather_keys", "feather"},           {"matte.blur_keys", "blur"}};
     for (const auto& [known, name] : kNamesOf)
         if (known == key) return name;
     return "";
@@ -69,6 +69,10 @@ std::string row_name(const KeyRowId& row) {
             return "Lamp " + std::to_string(row.layer + 1);
         case KeyRowKind::kZoneValue:
             return "Zone " + std::to_string(row.layer + 1) + " value";
+        case KeyRowKind::kMatteEdge:
+            return layer_text(row.layer) + " " + numbers_name(row.key);
+        case KeyRowKind::kWarp:
+            return "Grid warp";
         case KeyRowKind::kNumbers:
             break;
     }

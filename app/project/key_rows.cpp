@@ -52,6 +52,15 @@ const Parameter<Region>* entry_of(const std::string& key) {
 }
 
 // The members behind the entries of kind kKeys; the table reads copies.
+const KeyedNumbers* edge_member_of(const Region& region, const KeyRowId& row) {
+    const MatteSource* matte = matte_of(region, row.layer);
+    if (!matte) return nullptr;
+    if (row.key == "matte.choke_keys") return &matte->edge.choke_keys;
+    if (row.key == "matte.feather_keys") return &matte->edge.feather_keys;
+    if (row.key == "matte.blur_keys") return &matte->edge.blur_keys;
+    return nullptr;
+}
+
 const KeyedNumbers* member_of(const Region& region, const std::string& key) {
     if (key == "placement.scale_keys") return &region.placement.scale_keys;
     if (key == "placement.rotate_keys") return &region.placement.rotate_keys;
@@ -63,7 +72,13 @@ const KeyedNumbers* member_of(const Region& region, const std::string& key) {
 
 void set_numbers(Region& region, const KeyRowId& row, KeyedNumbers numbers) {
     const auto at = static_cast<std::size_t>(row.layer);
-    if (row.kind == KeyRowKind::kLamp)
+    if (row.kind == KeyRowKind::kMatteEdge)
+        change_matte(region, row.layer, [&](MatteSource& matte) {
+            (row.key == "matte.choke_keys"     ? matte.edge.choke_keys
+             : row.key == "matte.feather_keys" ? matte.edge.feather_keys
+                                               : matte.edge.blur_keys) = std::move(numbers);
+        });
+    else if (row.kind == KeyRowKind::kLamp)
         region.light.lamps[at].numbers = std::move(numbers);
     else if (row.kind == KeyRowKind::kZoneValue)
         region.zones = region.zones.with(
@@ -78,6 +93,7 @@ bool has_row(const Region& region, const KeyRowId& row) {
     if (row.kind == KeyRowKind::kMatte || row.kind == KeyRowKind::kShape)
         return matte_of(region, row.layer) != nullptr;
     if (row.kind == KeyRowKind::kReference || row.kind == KeyRowKind::kCorrection) return true;
+    if (row.kind == KeyRowKind::kWarp) return region.placement.warp.has_value();
     return numbers_of(region, row) != nullptr;
 }
 
@@ -92,6 +108,7 @@ Contents contents_of(const Region& region, const KeyRowId& row) {
         if (row.kind == KeyRowKind::kShape) add(matte->shape.keys);
     }
     if (row.kind == KeyRowKind::kCorrection) add(region.corrections);
+    if (row.kind == KeyRowKind::kWarp && region.placement.warp) add(region.placement.warp->keys);
     if (row.kind == KeyRowKind::kReference)
         for (std::size_t k = 0; k < region.reference_frames.size(); ++k)
             out.emplace(region.reference_frames[k], k);
@@ -132,8 +149,17 @@ void set_contents(Region& region, const KeyRowId& row, const Contents& contents)
                 region.reference_frames.push_back(frame);
             break;
         }
+        case KeyRowKind::kWarp: {
+            // Without keys the grid stays as the first one had it.
+            GridWarp& warp = *region.placement.warp;
+            const auto keys = only<std::vector<WarpPoint>>(contents);
+            if (keys.empty() && warp.moves()) warp.points = warp.keys.front().second;
+            warp.keys.assign(keys.begin(), keys.end());
+            break;
+        }
         case KeyRowKind::kNumbers:
         case KeyRowKind::kLamp:
+        case KeyRowKind::kMatteEdge:
         case KeyRowKind::kZoneValue: {
             KeyedNumbers numbers;
             for (auto& [frame, key] : only<NumberKey>(contents)) {
@@ -169,6 +195,7 @@ void drop_empty_layers(Region& region) {
 const KeyedNumbers* numbers_of(const Region& region, const KeyRowId& row) {
     const auto at = static_cast<std::size_t>(row.layer);
     if (row.kind == KeyRowKind::kNumbers) return member_of(region, row.key);
+    if (row.kind == KeyRowKind::kMatteEdge) return edge_member_of(region, row);
     if (row.kind == KeyRowKind::kLamp && at < region.light.lamps.size())
         return &region.light.lamps[at].numbers;
     if (row.kind == KeyRowKind::kZoneValue && at < region.zones->size())
@@ -178,7 +205,7 @@ const KeyedNumbers* numbers_of(const Region& region, const KeyRowId& row) {
 
 NumberRange range_of(const KeyRowId& row) {
     constexpr double kAny = std::numeric_limits<float>::max();
-    if (row.kind == KeyRowKind::kNumbers)
+    if (row.kind == KeyRowKind::kNumbers || row.kind == KeyRowKind::kMatteEdge)
         if (const auto* entry = entry_of(row.key)) return {entry->min, entry->max};
     if (row.kind == KeyRowKind::kZoneValue)
         for (const Parameter<Zone>& entry : zone_parameters())
@@ -191,12 +218,15 @@ std::vector<KeyRow> key_rows(const Region& region) {
     for (const int layer : layers_of(region)) {
         ids.push_back({KeyRowKind::kMatte, layer});
         ids.push_back({KeyRowKind::kShape, layer});
+        for (const char* key : {"matte.choke_keys", "matte.feather_keys", "matte.blur_keys"})
+            ids.push_back({KeyRowKind::kMatteEdge, layer, key});
     }
     ids.push_back({KeyRowKind::kReference});
     ids.push_back({KeyRowKind::kCorrection});
     for (const Parameter<Region>& entry : region_parameters())
         if (entry.kind == ParameterKind::kKeys)
             ids.push_back({KeyRowKind::kNumbers, 0, entry.full_key()});
+    ids.push_back({KeyRowKind::kWarp});
     for (std::size_t k = 0; k < region.light.lamps.size(); ++k)
         // A lamp with one key stands still.
         if (region.light.lamps[k].numbers.keys.size() > 1)
@@ -301,6 +331,9 @@ PastedKeys with_keys_pasted(const Region& region, const std::vector<CopiedKey>& 
             if (there.empty() || there.begin()->second.points.size() != shape->points.size())
                 continue;
         }
+        if (const auto* points = std::get_if<std::vector<WarpPoint>>(&copied.content);
+            points && points->size() != out.region.placement.warp->points.size())
+            continue;
         if (row.kind == KeyRowKind::kMatte && matte_of(out.region, row.layer)->by_frame()) continue;
         const int to = frame + copied.key.frame - earliest;
         KeyContent content = copied.content;

@@ -20,14 +20,17 @@ enum class KeyRowKind : std::uint8_t {
     kCorrection,  ///< Pins.
     kNumbers,     ///< The parameter `key`.
     kLamp,        ///< The lamp of number `layer`.
-    kZoneValue    ///< The value of the zone of number `layer`.
+    kZoneValue,   ///< The value of the zone of number `layer`.
+    kMatteEdge,   ///< The edge setting `key` of the matte of `layer`.
+    kWarp         ///< Points of the grid warp.
 };
 
-/// A row. `layer` of mattes and shapes: 0 the region's own, k its holdout k − 1, −1 − k its zone k.
+/// A row. `layer` of mattes, their edges and shapes: 0 the region's own, k its holdout k − 1, −1 −
+/// k its zone k.
 struct KeyRowId {
     KeyRowKind kind = KeyRowKind::kNumbers;
     int layer = 0;
-    std::string key = {};  ///< Of region_parameters(): "placement.scale_keys".
+    std::string key = {};  ///< Of region_parameters(): "placement.scale_keys", "matte.choke_keys".
     auto operator<=>(const KeyRowId&) const = default;
 };
 
@@ -73,8 +76,8 @@ struct NumberRange {
                                     double value);
 
 /// What a key holds. An order is the place of a reference frame among them.
-using KeyContent =
-    std::variant<std::size_t, NumberKey, MatteKeyframe, RotoShape, std::vector<CorrectionPin>>;
+using KeyContent = std::variant<std::size_t, NumberKey, MatteKeyframe, RotoShape,
+                                std::vector<CorrectionPin>, std::vector<WarpPoint>>;
 struct CopiedKey {
     KeyRef key;
     KeyContent content;
@@ -85,7 +88,7 @@ struct PastedKeys {
     KeySet keys;  ///< As they are now.
 };
 /// The keys in the same rows, the earliest of them on `frame`. Keys of holdouts, zones and lamps
-/// that the region does not have, and shapes with another number of points, are left out.
+/// that the region does not have, and shapes and warps with another number of points, are left out.
 [[nodiscard]] PastedKeys with_keys_pasted(const Region& region, const std::vector<CopiedKey>& keys,
                                           int frame);
 

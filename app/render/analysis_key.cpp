@@ -219,9 +219,9 @@ Expected<std::string> focus_key(const Shot& shot, std::size_t index,
         if (zone.kind != ZoneKind::kDetail) continue;
         WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
         hasher.value(zone.value);
-        for (const auto& [frame, values] : zone.value_keys.keys) {
-            hasher.value(frame);
-            for (const double value : values)
+        for (const NumberKey& key : zone.value_keys.keys) {
+            hasher.value(key.frame).value(static_cast<int>(key.after));
+            for (const double value : key.numbers)
                 hasher.value(value);
         }
     }

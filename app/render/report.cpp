@@ -18,6 +18,7 @@ Json value_json(const ParameterInfo& info, const ParameterValue& value) {
                 return nullptr;
             } else if constexpr (std::is_same_v<T, KeyedNumbers> ||
                                  std::is_same_v<T, std::vector<Lamp>> ||
+                                 std::is_same_v<T, GridWarp> ||
                                  std::is_same_v<T, std::vector<FormGuide>>) {
                 return format_parameter(info, value);
             } else {

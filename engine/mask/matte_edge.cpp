@@ -44,8 +44,8 @@ Recti covered_box(ViewF1 alpha) {
 }
 
 KeyedNumbers divided(KeyedNumbers keys, int factor) {
-    for (auto& [frame, values] : keys.keys)
-        for (double& v : values)
+    for (NumberKey& key : keys.keys)
+        for (double& v : key.numbers)
             v /= factor;
     return keys;
 }

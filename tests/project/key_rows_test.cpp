@@ -46,6 +46,22 @@ Region keyed() {
     return r;
 }
 
+// The matte's choke, its holdout's blur and the grid warp, keyed too.
+Region with_edges_and_warp() {
+    Region r = keyed();
+    r.matte =
+        r.matte.with([](MatteSource& m) { m.edge.choke_keys = *parse_keyed_numbers("1:0 9:4"); });
+    r.holdouts = r.holdouts.with([](std::vector<MatteSource>& holdouts) {
+        holdouts[0].edge.blur_keys = *parse_keyed_numbers("3:2");
+    });
+    r.placement.warp = grid_over({{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}}}, 1, 1);
+    set_key(*r.placement.warp, 2, r.placement.warp->points);
+    std::vector<WarpPoint> moved = r.placement.warp->points;
+    moved[0].at = {1, 1};
+    set_key(*r.placement.warp, 6, moved);
+    return r;
+}
+
 std::vector<int> frames_of(const Region& region, const KeyRowId& id) {
     std::vector<int> out;
     for (const KeyRow& row : key_rows(region))
@@ -59,10 +75,10 @@ TEST(KeyRows, ShowEverythingThatIsKeyedAndNothingElse) {
     std::vector<KeyRowId> ids;
     for (const KeyRow& row : key_rows(keyed()))
         ids.push_back(row.id);
-    EXPECT_THAT(ids, ElementsAre(kMatte, kHoldout, KeyRowId{KeyRowKind::kShape, -1}, kReference,
-                                 KeyRowId{KeyRowKind::kCorrection}, kScale, kOffset,
-                                 KeyRowId{KeyRowKind::kLamp, 1},
-                                 KeyRowId{KeyRowKind::kZoneValue, 0}));
+    EXPECT_THAT(ids,
+                ElementsAre(kMatte, kHoldout, KeyRowId{KeyRowKind::kShape, -1}, kReference,
+                            KeyRowId{KeyRowKind::kCorrection}, kScale, kOffset,
+                            KeyRowId{KeyRowKind::kLamp, 1}, KeyRowId{KeyRowKind::kZoneValue, 0}));
     EXPECT_THAT(key_rows(Region{}), IsEmpty());
     EXPECT_EQ(key_rows(keyed())[5].keys[0].after, KeyInterpolation::kSmooth);
 }
@@ -152,6 +168,39 @@ TEST(KeyRows, AShapeKeepsItsNumberOfPoints) {
     EXPECT_THAT(frames_of(with_keys_pasted(region, copied, 8).region, row), ElementsAre(2, 8));
     std::get<RotoShape>(copied[0].content).points.pop_back();
     EXPECT_THAT(with_keys_pasted(region, copied, 8).keys, IsEmpty());
+}
+
+TEST(KeyRows, EdgesOfEveryMatteAndTheWarpHaveRows) {
+    const KeyRowId choke{KeyRowKind::kMatteEdge, 0, "matte.choke_keys"};
+    const KeyRowId blur{KeyRowKind::kMatteEdge, 1, "matte.blur_keys"};
+    const KeyRowId warp{KeyRowKind::kWarp};
+    const Region region = with_edges_and_warp();
+    EXPECT_THAT(frames_of(region, choke), ElementsAre(1, 9));
+    EXPECT_THAT(frames_of(region, blur), ElementsAre(3));
+    EXPECT_THAT(frames_of(region, warp), ElementsAre(2, 6));
+    EXPECT_EQ(range_of(choke).min, -200);
+    EXPECT_EQ(range_of(blur).min, 0);
+
+    const Region moved = with_keys_moved(region, {{blur, 3}, {warp, 6}}, 2);
+    EXPECT_THAT(frames_of(moved, blur), ElementsAre(5));
+    EXPECT_THAT(frames_of(moved, warp), ElementsAre(2, 8));
+    EXPECT_EQ((*with_key_value(region, {choke, 9}, 0, 500).matte).edge.choke_keys.at(9)[0], 200);
+
+    const Region bare = without_keys(region, {{warp, 2}, {warp, 6}, {choke, 1}, {choke, 9}});
+    EXPECT_THAT(frames_of(bare, choke), IsEmpty());
+    EXPECT_FALSE(bare.placement.warp->moves());
+    EXPECT_EQ(bare.placement.warp->points, region.placement.warp->keys.front().second);
+}
+
+TEST(KeyRows, AWarpOfAnotherGridIsNotPasted) {
+    const KeyRowId warp{KeyRowKind::kWarp};
+    const std::vector<CopiedKey> copied = copied_keys(with_edges_and_warp(), {{warp, 6}});
+    Region other = with_edges_and_warp();
+    EXPECT_THAT(with_keys_pasted(other, copied, 9).keys, SizeIs(1));
+    other.placement.warp = grid_over(other.placement.warp->corners, 2, 2);
+    EXPECT_THAT(with_keys_pasted(other, copied, 9).keys, IsEmpty());
+    other.placement.warp.reset();
+    EXPECT_THAT(with_keys_pasted(other, copied, 9).keys, IsEmpty());
 }
 
 }  // namespace
