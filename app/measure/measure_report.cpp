@@ -21,7 +21,8 @@ Json steps_json(const std::optional<PopSteps>& steps) {
     Json out = Json::object();
     for (std::size_t k = 0; k < kPopKinds; ++k) {
         const auto kind = static_cast<PopKind>(k);
-        out[name_of(kind)] = number(steps->of(kind));
+        const auto& step = steps->of(kind);
+        out[name_of(kind)] = step ? Json(step->beyond) : Json();
     }
     return out;
 }

@@ -18,6 +18,7 @@
 #include "app/render/analysis_cache.h"
 #include "app/textures/provenance.h"
 #include "engine/core/cancel.h"
+#include "engine/metrics/pops.h"
 
 namespace weft {
 

@@ -149,15 +149,16 @@ Look look_at(ViewF1 luma, ViewU8x1 region) {
 
 // What of the result's step lies beyond the plate's: its distance from what is between no step and
 // the plate's.
-std::optional<double> beyond(const std::optional<double>& result_from,
-                             const std::optional<double>& result_to,
-                             const std::optional<double>& source_from,
-                             const std::optional<double>& source_to, bool forward) {
+std::optional<PopSteps::Step> step_of(const std::optional<double>& result_from,
+                                      const std::optional<double>& result_to,
+                                      const std::optional<double>& source_from,
+                                      const std::optional<double>& source_to, bool forward) {
     if (!result_from || !result_to) return std::nullopt;
     const double sign = forward ? 1 : -1;
-    const double result = sign * (*result_to - *result_from);
+    const double own = sign * (*result_to - *result_from);
     const double plate = source_from && source_to ? sign * (*source_to - *source_from) : 0;
-    return result - std::clamp(result, std::min(0.0, plate), std::max(0.0, plate));
+    return PopSteps::Step{own - std::clamp(own, std::min(0.0, plate), std::max(0.0, plate)), own,
+                          plate};
 }
 
 std::optional<double> slide(ViewF1 from, ViewF1 to, const FlowField& motion, ViewU8x1 visible) {
@@ -166,7 +167,24 @@ std::optional<double> slide(ViewF1 from, ViewF1 to, const FlowField& motion, Vie
     return left.mean_px;
 }
 
-// Of the meter; 0 without departures.
+// Of a value of each step, from the median of those around it.
+template <class Value>
+std::vector<std::optional<double>> departures_of(const std::vector<PopSteps>& steps, PopKind kind,
+                                                 Value&& value) {
+    std::vector<std::optional<double>> out(steps.size());
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (!steps[k].of(kind)) continue;
+        std::vector<double> around;
+        for (const PopSteps& s : steps) {
+            if (std::abs(s.frame - steps[k].frame) <= kAround && s.of(kind))
+                around.push_back(value(*s.of(kind)));
+        }
+        out[k] = value(*steps[k].of(kind)) - middle_of(around);
+    }
+    return out;
+}
+
+// Of a normal distribution with the same lower quarter of lengths.
 double deviation_of(const std::vector<std::optional<double>>& departures) {
     std::vector<double> lengths;
     for (const auto& d : departures)
@@ -176,6 +194,14 @@ double deviation_of(const std::vector<std::optional<double>>& departures) {
                     static_cast<std::ptrdiff_t>(kQuarter * static_cast<double>(lengths.size()));
     std::nth_element(lengths.begin(), at, lengths.end());
     return std::max(kLeastDeviation, *at / kOfNormal);
+}
+
+// Of the meter; 0 without steps.
+double deviation_of(const std::vector<PopSteps>& steps, PopKind kind) {
+    using Step = PopSteps::Step;
+    return std::min(
+        deviation_of(departures_of(steps, kind, [](const Step& s) { return s.own; })),
+        deviation_of(departures_of(steps, kind, [](const Step& s) { return s.own - s.plate; })));
 }
 
 double counts_from(PopKind kind, double deviation) {
@@ -209,7 +235,7 @@ PopSteps pop_steps(const PopPair& pair) {
     const Look source_to = look_at(pair.source_to, there);
     const auto set = [&](PopKind kind, std::optional<double> Look::*member) {
         out.step[static_cast<std::size_t>(kind)] =
-            beyond(result_from.*member, result_to.*member, source_from.*member, source_to.*member,
+            step_of(result_from.*member, result_to.*member, source_from.*member, source_to.*member,
                    pair.forward);
     };
     set(PopKind::kSharpness, &Look::sharpness);
@@ -219,22 +245,13 @@ PopSteps pop_steps(const PopPair& pair) {
     const auto plate = slide(pair.source_from, pair.source_to, *pair.to_from_from, pair.visible);
     if (result)
         out.step[static_cast<std::size_t>(PopKind::kPlace)] =
-            std::max(0.0, *result - plate.value_or(0.0));
+            PopSteps::Step{std::max(0.0, *result - plate.value_or(0.0)), *result,
+                           plate.value_or(0.0)};
     return out;
 }
 
 std::vector<std::optional<double>> departures(const std::vector<PopSteps>& steps, PopKind kind) {
-    std::vector<std::optional<double>> out(steps.size());
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-        if (!steps[k].of(kind)) continue;
-        std::vector<double> around;
-        for (const PopSteps& s : steps) {
-            if (std::abs(s.frame - steps[k].frame) <= kAround && s.of(kind))
-                around.push_back(*s.of(kind));
-        }
-        out[k] = *steps[k].of(kind) - middle_of(around);
-    }
-    return out;
+    return departures_of(steps, kind, [](const PopSteps::Step& s) { return s.beyond; });
 }
 
 std::vector<std::optional<PopHeight>> pop_heights(const std::vector<PopSteps>& steps) {
@@ -242,7 +259,7 @@ std::vector<std::optional<PopHeight>> pop_heights(const std::vector<PopSteps>& s
     for (std::size_t k = 0; k < kPopKinds; ++k) {
         const auto kind = static_cast<PopKind>(k);
         const std::vector<std::optional<double>> all = departures(steps, kind);
-        const double least = counts_from(kind, deviation_of(all));
+        const double least = counts_from(kind, deviation_of(steps, kind));
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (!all[i]) continue;
             const double height = std::abs(*all[i]) / least;
@@ -258,7 +275,7 @@ Pops find_pops(const std::vector<PopSteps>& steps) {
         const auto kind = static_cast<PopKind>(k);
         const std::vector<std::optional<double>> all = departures(steps, kind);
         PopsOfKind& pops = out.kinds[k];
-        pops.deviation = deviation_of(all);
+        pops.deviation = deviation_of(steps, kind);
         const double least = counts_from(kind, pops.deviation);
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (!all[i]) continue;

@@ -34,9 +34,13 @@ struct PopPair {
 /// further than the plate does, in the same direction. As logarithms of ratios, so 0.03 is 3 %; of
 /// place in pixels. Empty where too little is seen.
 struct PopSteps {
+    struct Step {
+        double beyond = 0;
+        double own = 0, plate = 0;  ///< The result's step, and the plate's.
+    };
     int frame = 0;
-    std::array<std::optional<double>, kPopKinds> step;
-    [[nodiscard]] const std::optional<double>& of(PopKind kind) const {
+    std::array<std::optional<Step>, kPopKinds> step;
+    [[nodiscard]] const std::optional<Step>& of(PopKind kind) const {
         return step[static_cast<std::size_t>(kind)];
     }
 };
@@ -54,7 +58,7 @@ struct PopSteps {
 struct PopsOfKind {
     double largest = 0;    ///< The largest departure of a step from those around it.
     int frame = 0;         ///< Of that; the later frame of the two.
-    double deviation = 0;  ///< Of the meter, from the steps of the clip.
+    double deviation = 0;  ///< Of the meter; 0: nothing was measured.
     std::vector<int> frames;  ///< Where it is kLeastPop and kPopDeviations · deviation or more.
 };
 
@@ -67,8 +71,8 @@ struct Pops {
     [[nodiscard]] std::vector<int> frames() const;
 };
 
-/// How far a step departs from the median of the steps up to three frames away: a pull of focus or
-/// a fade that goes on over several frames is none. Ascending frames.
+/// How far a step beyond the plate departs from the median of those up to three frames away: a pull
+/// of focus or a fade that goes on over several frames is none. Ascending frames.
 [[nodiscard]] std::vector<std::optional<double>> departures(const std::vector<PopSteps>& steps,
                                                             PopKind kind);
 /// A step against the one from which it counts as a pop: 1 or more is one.
@@ -79,8 +83,10 @@ struct PopHeight {
 };
 [[nodiscard]] std::vector<std::optional<PopHeight>> pop_heights(const std::vector<PopSteps>& steps);
 
-/// The pops of a clip. The deviation is that of a normal distribution whose lower quarter of
-/// lengths is the departures': most frames of a clip may pop without hiding it.
+/// The pops of a clip. The deviation of the meter is that of the result's own steps, or of their
+/// differences from the plate's, whichever is less, about the steps around them: of a normal
+/// distribution with their lower quarter of lengths, so that most frames of a clip may pop without
+/// hiding it.
 [[nodiscard]] Pops find_pops(const std::vector<PopSteps>& steps);
 
 }  // namespace weft

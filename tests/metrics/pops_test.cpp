@@ -141,7 +141,8 @@ TEST(Pops, AStepIsJudgedByThoseAroundIt) {
     for (int f = 1; f <= 9; ++f) {
         PopSteps s;
         s.frame = f;
-        s.step[0] = f == 5 ? 0.2 : 0.01;
+        const double step = f == 5 ? 0.2 : 0.01;
+        s.step[0] = PopSteps::Step{step, step, 0};
         steps.push_back(s);
     }
     const auto off = departures(steps, PopKind::kSharpness);
