@@ -177,6 +177,12 @@ void edge_section(Ctx& c, const Region& region, const MatteSource& matte) {
     matte_parameter(c, region, "matte.choke_px", "matte.choke_keys");
     matte_parameter(c, region, "matte.feather_px", "matte.feather_keys");
     matte_parameter(c, region, "matte.blur_px", "matte.blur_keys");
+    section_gap(c);
+}
+
+void clean_up_section(Ctx& c, const Region& region, const MatteSource& matte) {
+    if (matte.empty() || !section(c, "Clean up", false)) return;
+    const PanelName panel(c, "Clean up");
     matte_parameter(c, region, "matte.smooth_px");
     matte_parameter(c, region, "matte.min_island_px");
     matte_parameter(c, region, "matte.min_hole_px");
@@ -296,6 +302,7 @@ void mask_inspector(Ctx& c) {
     }
     const MatteSource painted = c.view.painted_source();
     edge_section(c, *region, painted);
+    clean_up_section(c, *region, painted);
     holdouts_section(c, *region);
     zones_section(c, *region);
     propagation_section(c, *region);

@@ -22,6 +22,11 @@ constexpr float kMisfit = 0.15f;  // of coverage, from which an edge is not a li
 constexpr float kLine_px = 2.5f, kSoft_px = 3.5f, kRamp_px = 4, kPlateau_px = 8;
 constexpr float kMargin_px = 9;  // that distances have to tell beyond the farthest shift
 
+// How far distances have to tell for a Gaussian of this deviation.
+float smooth_reach(float sigma_px) {
+    return 3 * sigma_px;
+}
+
 float coverage_of(float distance) {
     return std::clamp(0.5f + distance, 0.0f, 1.0f);
 }
@@ -66,14 +71,27 @@ Vec2 direction(ViewF1 field, int x, int y) {
     return length > 1e-6f ? d / length : Vec2(0);
 }
 
-// The shift of soft edges, level set by level set from the lowest.
+// 2 G φ − G G φ.
+ImageF1 twiced(ImageF1 phi, float sigma_px) {
+    ImageF1 once = box_gaussian(std::move(phi), sigma_px);
+    const ImageF1 twice = box_gaussian(once, sigma_px);
+    parallel_rows(once.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y)
+            for (int x = 0; x < once.width(); ++x)
+                once.row(y)[x] = 2 * once.row(y)[x] - twice.row(y)[x];
+    });
+    return once;
+}
+
+// How soft edges are moved, level set by level set from the lowest: by `shift`, and smoothed.
 class SoftShift {
   public:
-    SoftShift(const ImageF1& alpha, const EdgeShift& shift)
+    SoftShift(const ImageF1& alpha, const EdgeShift& shift, float sigma_px)
         : alpha_(alpha), shift_(shift), value_(alpha.size(), kPending), width_(alpha.size(), 0.0f) {
-        const float reach = shift.reach() + kMargin_px;
+        const float reach = shift.reach() + smooth_reach(sigma_px) + kMargin_px;
         for (std::size_t k = 0; k < kLevels.size(); ++k) {
             ImageF1 phi = level_distance(alpha, kLevels[k], reach);
+            if (sigma_px > 0) phi = twiced(std::move(phi), sigma_px);
             if (k == 0) lowest_ = phi;
             take(k, phi);
             last_ = std::move(phi);
@@ -134,22 +152,22 @@ ImageF1 copy_of(ViewF1 view) {
     return out;
 }
 
-}  // namespace
-
-ImageF1 shifted_edge(const ImageF1& alpha, const EdgeShift& shift) {
-    const ImageF1 phi = level_distance(alpha, 0.5f, shift.reach() + kMargin_px);
+ImageF1 moved_edge(const ImageF1& alpha, const EdgeShift& shift, float sigma_px) {
+    const float reach = shift.reach() + smooth_reach(sigma_px) + kMargin_px;
+    ImageF1 phi = level_distance(alpha, 0.5f, reach);
+    const Recti soft = soft_box(alpha, phi);
+    if (sigma_px > 0) phi = twiced(std::move(phi), sigma_px);
     ImageF1 out(alpha.size());
     parallel_rows(alpha.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y)
             for (int x = 0; x < alpha.width(); ++x)
                 out.row(y)[x] = shifted_coverage(phi.row(y)[x], shift);
     });
-    const Recti soft = soft_box(alpha, phi);
     if (soft.empty()) return out;
-    const int reach = static_cast<int>(std::ceil(shift.reach() + kMargin_px)) + 3;
-    const Recti box = soft.grown(reach).intersected(rect_of(alpha.size()));
+    const int around = static_cast<int>(std::ceil(reach)) + 3;
+    const Recti box = soft.grown(around).intersected(rect_of(alpha.size()));
     const ImageF1 part = copy_of(alpha.view().crop(box));
-    const SoftShift moved(part, shift);
+    const SoftShift moved(part, shift, sigma_px);
     parallel_rows(box.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < box.width(); ++x) {
@@ -161,44 +179,14 @@ ImageF1 shifted_edge(const ImageF1& alpha, const EdgeShift& shift) {
     return out;
 }
 
+}  // namespace
+
+ImageF1 shifted_edge(const ImageF1& alpha, const EdgeShift& shift) {
+    return moved_edge(alpha, shift, 0);
+}
+
 ImageF1 smoothed_edge(const ImageF1& alpha, float sigma_px) {
-    const float reach = 3 * sigma_px + 2;
-    const ImageF1 phi = level_distance(alpha, 0.5f, reach);
-    ImageF1 smooth = box_gaussian(phi, sigma_px);
-    const ImageF1 twice = box_gaussian(smooth, sigma_px);
-    ImageF1 out(alpha.size());
-    parallel_rows(alpha.height(), 32, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < alpha.width(); ++x) {
-                float& s = smooth.row(y)[x];
-                s = 2 * s - twice.row(y)[x];
-                out.row(y)[x] = coverage_of(s);
-            }
-        }
-    });
-    const Recti no_line = soft_box(alpha, phi);
-    if (no_line.empty()) return out;
-    const int around = static_cast<int>(std::ceil(reach)) + 3;
-    const Recti box = no_line.grown(around).intersected(rect_of(alpha.size()));
-    const ImageF1 part = copy_of(alpha.view().crop(box));
-    const ImageF1 outer = level_distance(part, kLevels[1], reach);
-    const ImageF1 inner = level_distance(part, kLevels[kLevels.size() - 2], reach);
-    // What is no line is moved with the one at one half.
-    parallel_rows(box.height(), 32, [&](int y0, int y1) {
-        for (int v = y0; v < y1; ++v) {
-            for (int u = 0; u < box.width(); ++u) {
-                const float width = outer.row(v)[u] - inner.row(v)[u];
-                const float soft = share_between(width, kLine_px - 0.5f, kSoft_px - 0.5f);
-                if (soft <= 0) continue;
-                const int x = box.x0 + u, y = box.y0 + v;
-                const Vec2 at = Vec2(static_cast<float>(x), static_cast<float>(y)) +
-                                (smooth.row(y)[x] - phi.row(y)[x]) * direction(phi, x, y);
-                float& value = out.row(y)[x];
-                value += soft * (sample_bilinear(alpha, at.x, at.y) - value);
-            }
-        }
-    });
-    return out;
+    return moved_edge(alpha, {}, sigma_px);
 }
 
 }  // namespace weft

@@ -26,7 +26,7 @@ struct EdgeShift {
 /// Filters the outline: the signed distance of the line at one half is replaced by
 /// 2 G φ − G G φ, G a Gaussian of deviation `sigma_px`. That is Tukey's "twicing": curves keep
 /// their place up to the fourth order of σ, where G alone would shrink a disc of radius r by
-/// σ²/(2 r). What is soft is moved along with the line.
+/// σ²/(2 r). Soft edges are smoothed level set by level set.
 [[nodiscard]] ImageF1 smoothed_edge(const ImageF1& alpha, float sigma_px);
 
 }  // namespace weft

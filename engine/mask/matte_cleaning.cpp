@@ -83,22 +83,25 @@ class Islands {
             if (mine[static_cast<std::size_t>(i)]) owner(i) = sets.find(i);
     }
 
-    // Soft pixels go to the nearest set that is connected with them, in steps; in a tie to the one
-    // that comes first in the image.
+    // Soft pixels go to the set from which they are reached downhill, as waters part (Vincent &
+    // Soille 1991): from the highest coverage to the lowest, in the order of their discovery.
     void claim_rims() {
-        std::vector<std::int32_t> front, next;
+        constexpr int kSteps = 255;
+        std::vector<std::vector<std::int32_t>> fronts(kSteps + 1);
         for (std::int32_t i = 0; i < static_cast<std::int32_t>(owner_.size()); ++i)
-            if (owner(i) != kNobody && touches_soft(i)) front.push_back(i);
-        while (!front.empty()) {
-            next.clear();
-            for (const std::int32_t i : front) {
+            if (owner(i) != kNobody && touches_soft(i)) fronts[kSteps].push_back(i);
+        for (int step = kSteps; step >= 0; --step) {
+            auto& front = fronts[static_cast<std::size_t>(step)];
+            for (std::size_t k = 0; k < front.size(); ++k) {
+                const std::int32_t i = front[k];
                 for_neighbours(i, [&](std::int32_t j) {
                     if (owner(j) != kNobody || !(value(j) > 0)) return;
                     owner(j) = owner(i);
-                    next.push_back(j);
+                    const int own = static_cast<int>(value(j) * kSteps);
+                    fronts[static_cast<std::size_t>(std::min(step, own))].push_back(j);
                 });
             }
-            front.swap(next);
+            front = {};
         }
     }
     bool touches_soft(std::int32_t i) {
