@@ -24,20 +24,20 @@ void layer_banner(Ctx& c) {
                    ". The region's matte stays as it is.");
 }
 
+void shape_card(Ctx& c, const KeyedShape& shape) {
+    const std::size_t keys = shape.keys.size();
+    info_row(c, "Roto shape", std::to_string(keys) + (keys == 1 ? " key" : " keys"),
+             "Drawn on every frame; edit it with the roto shape tool (N)");
+    if (c.state.tool != Tool::kShape &&
+        button(c, "Edit shape", {.icon = icons::kCurve, .command = "tool.shape", .width = -1}))
+        c.commands.run("tool.shape", c);
+}
+
 void matte_source_card(Ctx& c, const Region& region) {
     const Theme& t = c.theme;
     const MatteSource matte = c.view.painted_source();
     layer_banner(c);
-    if (!matte.shape.empty()) {
-        info_row(c, "Roto shape",
-                 std::to_string(matte.shape.keys.size()) +
-                     (matte.shape.keys.size() == 1 ? " key" : " keys"),
-                 "Drawn on every frame; edit it with the roto shape tool (N)");
-        if (c.state.tool != Tool::kShape &&
-            button(c, "Edit shape", {.icon = icons::kCurve, .command = "tool.shape", .width = -1}))
-            c.commands.run("tool.shape", c);
-        return;
-    }
+    if (!matte.shape.empty()) return shape_card(c, matte.shape);
     if (!matte.files.empty() || !matte.select.crypto.empty()) {
         if (!matte.select.crypto.empty())
             info_row(c, "Cryptomatte", matte.select.crypto, matte.select.crypto.c_str());

@@ -11,6 +11,8 @@
 namespace weft {
 namespace {
 
+constexpr float kKeysLeast = 96;  // height of the keys area, unscaled
+
 // A press outside of an open menu or list closes it and also does what it was meant for; ImGui by
 // itself would only close it. Esc closes the innermost one. Returns true if Esc did.
 bool close_popups(UiState& state) {
@@ -206,11 +208,9 @@ void Shell::layout(Ctx& c) {
     if (low && state_.timeline_h <= UiState{}.timeline_h) timeline_unscaled = timeline_least;
     const float ruler_h = panels ? std::floor(t.px(timeline_unscaled)) : 0;
     // The keys lie below the ruler, which they share.
-    constexpr float kKeysLeast = 96;
     const float keys_most = std::max(kKeysLeast, body_h / t.scale * 0.5f);
-    const float keys_h = panels && state_.keys.open
-                             ? std::floor(t.px(std::clamp(state_.keys_h, kKeysLeast, keys_most)))
-                             : 0;
+    state_.keys_h = std::clamp(state_.keys_h, kKeysLeast, keys_most);
+    const float keys_h = panels && state_.keys.open ? std::floor(t.px(state_.keys_h)) : 0;
     const float timeline_h = ruler_h + keys_h;
     const bool drawer = panels && state_.workspace == Workspace::kTexture;
     const bool report = panels && state_.workspace == Workspace::kReview;
@@ -263,10 +263,8 @@ void Shell::layout(Ctx& c) {
         part("timeline");
         at(0, top + view_h + extra_h);
         ui::timeline(c, {left_w, ruler_h});
-        if (keys_h > 0) {
-            at(0, top + view_h + extra_h + ruler_h);
-            ui::keys_panel(c, {left_w, keys_h});
-        }
+        at(0, top + view_h + extra_h + ruler_h);
+        if (keys_h > 0) ui::keys_panel(c, {left_w, keys_h});
         part("inspector");
         at(screen.x - inspector_w, top);
         ui::inspector(c, {inspector_w, body_h});

@@ -4,10 +4,35 @@
 
 namespace weft {
 
-std::vector<Parameter<Region>> form_parameters() {
+namespace {
+
+std::vector<Parameter<Region>> amount_parameters() {
     using parameter_entry::entry;
     using R = Region;
     return {
+        entry<R, &R::form, &FormParams::amount>(
+            {.group = "form",
+             .key = "amount",
+             .flag = "--form-amount",
+             .help = "How far the texture follows the form: 0 flat, 1 as found",
+             .min = 0,
+             .max = 1}),
+        entry<R, &R::form, &FormParams::amount_keys>(
+            {.group = "form",
+             .key = "amount_keys",
+             .flag = "--form-amount-keys",
+             .help = "Animated amount: FRAME:A, separated by spaces",
+             .min = 0,
+             .max = 1}),
+    };
+}
+
+}  // namespace
+
+std::vector<Parameter<Region>> form_parameters() {
+    using parameter_entry::entry;
+    using R = Region;
+    std::vector<Parameter<Region>> out{
         entry<R, &R::form, &FormParams::position>(
             {.group = "form",
              .key = "position",
@@ -76,21 +101,10 @@ std::vector<Parameter<Region>> form_parameters() {
              .min = 1,
              .max = 175,
              .optional = true}),
-        entry<R, &R::form, &FormParams::amount>(
-            {.group = "form",
-             .key = "amount",
-             .flag = "--form-amount",
-             .help = "How far the texture follows the form: 0 flat, 1 as found",
-             .min = 0,
-             .max = 1}),
-        entry<R, &R::form, &FormParams::amount_keys>(
-            {.group = "form",
-             .key = "amount_keys",
-             .flag = "--form-amount-keys",
-             .help = "Animated amount: FRAME:A, separated by spaces",
-             .min = 0,
-             .max = 1}),
     };
+    for (const Parameter<Region>& amount : amount_parameters())
+        out.push_back(amount);
+    return out;
 }
 
 }  // namespace weft

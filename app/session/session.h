@@ -179,6 +179,10 @@ class Session {
     void follow_shape(const FollowShape& action);
     void track_shape(const FollowShape& action, const RotoShape& shape, int frame);
     void detach_shape();
+    /// Its shape over time, with the track's whole path.
+    [[nodiscard]] KeyedShape absolute_shape(const MatteSource& source) const;
+    [[nodiscard]] std::pair<std::string, MatteShelf::Reader> drawn_matte(const MatteSource& source,
+                                                                         int frame) const;
     void commit_layer(const Region& region, int layer, const MatteSource& matte,
                       const std::string& label);
     void show_shape();

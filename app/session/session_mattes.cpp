@@ -37,6 +37,19 @@ std::string keys_text(const MatteSource& matte) {
 
 }  // namespace
 
+// The name and the reader of a matte that is drawn from a shape.
+std::pair<std::string, MatteShelf::Reader> Session::drawn_matte(const MatteSource& source,
+                                                                int frame) const {
+    const KeyedShape shape = absolute_shape(source);
+    Hasher hasher;
+    add_shape(hasher, shape);
+    hasher.value(source.select.invert).value(frame);
+    return {"shape " + hasher.finish().hex(),
+            [drawn = drawn_, shape, invert = source.select.invert, frame] {
+                return drawn->matte(shape, invert, frame);
+            }};
+}
+
 RegionMatteView Session::matte_of(const Region& region, int layer, int frame, int place) {
     RegionMatteView out;
     out.region = region.id;
@@ -61,15 +74,7 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
                                                               : std::string();
     if (!source.shape.empty()) {
         out.kind = RegionMatteView::Kind::kFile;
-        KeyedShape shape = source.shape;
-        if (!shape.track.empty()) shape.track = resolve_path(dir, shape.track);
-        Hasher hasher;
-        add_shape(hasher, shape);
-        name = "shape " + hasher.finish().hex() + " " + std::to_string(frame) +
-               (source.select.invert ? " inverted" : "");
-        read = [drawn = drawn_, shape = std::move(shape), invert = source.select.invert, frame] {
-            return drawn->matte(shape, invert, frame);
-        };
+        std::tie(name, read) = drawn_matte(source, frame);
     } else if (!files.empty()) {
         out.kind = RegionMatteView::Kind::kFile;
         const auto pattern = SequencePattern::parse(resolve_path(dir, files));

@@ -191,6 +191,12 @@ void Session::detach_shape() {
     });
 }
 
+KeyedShape Session::absolute_shape(const MatteSource& source) const {
+    KeyedShape out = source.shape;
+    if (!out.track.empty()) out.track = resolve_path(project_dir(path_), out.track);
+    return out;
+}
+
 void Session::show_shape() {
     view_.shape.reset();
     view_.shape_frames.clear();
@@ -200,9 +206,7 @@ void Session::show_shape() {
     if (!source.shape.empty()) {
         for (const auto& [frame, shape] : source.shape.keys)
             view_.shape_frames.push_back(frame);
-        KeyedShape shape = source.shape;
-        if (!shape.track.empty()) shape.track = resolve_path(project_dir(path_), shape.track);
-        if (drawn_) view_.shape = drawn_->known_shape(shape, playback_.frame());
+        if (drawn_) view_.shape = drawn_->known_shape(absolute_shape(source), playback_.frame());
         return;
     }
     for (const auto& [frame, key] : source.keyframes) {

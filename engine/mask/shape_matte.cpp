@@ -73,8 +73,9 @@ Matte matte_of_shape(const RotoShape& shape, Size size) {
         const float b = shape.points[(k / kSteps + 1) % count].feather_px;
         // A shape of which most lies far away is no more than its part in the frame.
         constexpr float kMostDots = 1 << 14;
-        const int dots =
-            1 + static_cast<int>(std::min(kMostDots, 2 * std::hypot(to.x - from.x, to.y - from.y)));
+        const int dots = 1 + static_cast<int>(std::min(
+                                 kMostDots, 2 * std::sqrt((to.x - from.x) * (to.x - from.x) +
+                                                          (to.y - from.y) * (to.y - from.y))));
         for (int d = 0; d < dots; ++d) {
             const float part = static_cast<float>(d) / static_cast<float>(dots);
             const Vec2 p = mixed(from, to, part);

@@ -194,8 +194,7 @@ class Curves : public KeysArea {
 
 TEST_F(Curves, AKeyIsDraggedInFrameAndValue) {
     // Lower is less: between the keys of 1 and 3 the curve falls by so much a pixel.
-    const float per_px =
-        2 / (middle("Texture scale 1002").y - middle("Texture scale 1006").y);
+    const float per_px = 2 / (middle("Texture scale 1002").y - middle("Texture scale 1006").y);
     ASSERT_GT(per_px, 0);
     ASSERT_TRUE(robot->drag("Texture scale 1002", {frame_px(), -20}));
     ASSERT_THAT(emitted<DoEdits>(), SizeIs(1));

@@ -58,8 +58,8 @@ Expected<int> frame_of(const Region& region, const FrameReader& plate) {
 Expected<std::string> matte_file(const Region& region, int frame) {
     if (!region.matte->shape.empty())
         return fail(ErrorCode::kUsage, "Region '" + region.name +
-                                           "' is drawn from a shape. Write its mattes with 'weft "
-                                           "matte', and give them with --matte.");
+                                           "' is drawn from a shape, which this command does not "
+                                           "draw. Give its matte as a file with --matte.");
     if (region.matte->files.empty()) {
         const auto key = region.matte->keyframes.find(frame);
         if (key != region.matte->keyframes.end()) return key->second.path;
