@@ -3,6 +3,7 @@
 #include "app/preview/preview_impl.h"
 #include "engine/pipeline/analyse.h"
 #include "engine/pipeline/form_pass.h"
+#include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/matte_pass.h"
 #include "engine/pipeline/surface_pass.h"
 
@@ -24,7 +25,7 @@ ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
 int steps_to(const OpenedShot& opened, std::vector<int> frames) {
     const ShotPlan plan = plan_for(opened, std::move(frames));
     return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store) +
-           count_form_steps(plan, *opened.store);
+           count_form_steps(plan, *opened.store) + count_gloss_steps(plan, *opened.store);
 }
 
 std::optional<int> stored_layer(const Region& region, int layer) {

@@ -76,6 +76,27 @@ Status draw_light(const AnalysisStore& store, int region, int frame, float refer
     return {};
 }
 
+Status draw_light_confidence(const AnalysisStore& store, int region, int frame,
+                             OverlayPicture& out) {
+    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kShading}));
+    WEFT_TRY(shading, decode_shading(bytes));
+    out.low = 0;
+    out.high = 1;
+    out.unit = "light told from paint";
+    for (int y = 0; y < out.value.height(); ++y) {
+        for (int x = 0; x < out.value.width(); ++x) {
+            if (shading.sure.empty()) {
+                out.value.at(x, y) = 255;
+                continue;
+            }
+            const int sx = std::min(x / shading.downscale, shading.sure.width() - 1);
+            const int sy = std::min(y / shading.downscale, shading.sure.height() - 1);
+            out.value.at(x, y) = shading.sure.at(sx, sy);
+        }
+    }
+    return {};
+}
+
 int wrapped(float v, int n) {
     const int k = static_cast<int>(std::floor(v)) % n;
     return k < 0 ? k + n : k;
@@ -329,6 +350,10 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
         WEFT_CHECK_OK(draw_light(store, region, frame, scene.reference_shading, out));
         return out;
     }
+    if (kind == Overlay::kLightConfidence) {
+        WEFT_CHECK_OK(draw_light_confidence(store, region, frame, out));
+        return out;
+    }
     WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
     WEFT_TRY(mapping, mapping_on(plan, scene, frame));
@@ -370,6 +395,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
             draw_circles(coords, plan.placement.scale, out);
             break;
         case Overlay::kLight:
+        case Overlay::kLightConfidence:
         case Overlay::kNone:
             break;
     }

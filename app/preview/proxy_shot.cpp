@@ -188,6 +188,11 @@ class ProxyStore final : public AnalysisStore {
                 return encode(FormMap{form.origin / static_cast<float>(factor_),
                                       shrunk(form.displacement, factor_), form.finding});
             }
+            case AnalysisKind::kStillSurface: {
+                WEFT_TRY(still, decode_still_surface(bytes));
+                still.pixel_px /= static_cast<float>(factor_);
+                return encode(still);
+            }
             case AnalysisKind::kMatte: {
                 WEFT_TRY(stored, decode_matte(bytes));
                 return encode(StoredMatte{shrunk(stored.matte, factor_), stored.confidence});

@@ -1,6 +1,7 @@
 #include "engine/pipeline/analyse.h"
 
 #include "engine/pipeline/form_pass.h"
+#include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/matte_pass.h"
 #include "engine/pipeline/surface_pass.h"
 
@@ -10,7 +11,7 @@ Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStor
                     const CancelToken& cancel, const ProgressFn& progress, const Backend* backend) {
     ProgressEvent event{"analyse", 0,
                         count_matte_steps(plan, store) + count_surface_steps(plan, store) +
-                            count_form_steps(plan, store),
+                            count_form_steps(plan, store) + count_gloss_steps(plan, store),
                         0, 0};
     const PassContext context{source, plan, cancel,
                               [&](int frame, double seconds) {
@@ -22,7 +23,8 @@ Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStor
                               backend};
     WEFT_CHECK_OK(propagate_mattes(context, store));
     WEFT_CHECK_OK(follow_surfaces(context, store));
-    return find_forms(context, store);
+    WEFT_CHECK_OK(find_forms(context, store));
+    return find_still_surfaces(context, store);
 }
 
 }  // namespace weft
