@@ -248,6 +248,7 @@ Shading shrunk(const Shading& shading, int factor) {
     if (shading.downscale % factor == 0) {
         out.value = shading.value;
         out.inside = shading.inside;
+        out.sure = shading.sure;
         out.downscale = shading.downscale / factor;
         return out;
     }
@@ -256,6 +257,7 @@ Shading shrunk(const Shading& shading, int factor) {
     out.value = ImageF1(out.full);
     mean_of_blocks<float, 1, float>(shading.value, further, out.value);
     if (!shading.inside.empty()) out.inside = shrunk(shading.inside, further);
+    if (!shading.sure.empty()) out.sure = shrunk(shading.sure, further);
     return out;
 }
 

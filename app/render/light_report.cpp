@@ -86,7 +86,7 @@ std::optional<std::string> unsure_light_warning(const LightReport& light) {
         "there{}.",
         100 * light.unsure, light.region, 100 * light.worst, light.worst_frame,
         by({{setting::kLayers, "light_confidence"}}),
-        by({{setting::kZone, "light_detail=1@MATTE"}, {setting::kZone, "light_detail=0@MATTE"}}));
+        by({{setting::kZone, "detail=1@MATTE"}, {setting::kZone, "detail=0@MATTE"}}));
 }
 
 nlohmann::ordered_json light_json(const LightReport& light) {
