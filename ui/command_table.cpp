@@ -165,6 +165,8 @@ void add_view_commands(std::vector<Command>& out) {
                 Overlay::kChecker);
     add_overlay("view.circles", "Circles on the surface", icons::kCircleOutline, "Shift+H",
                 Overlay::kCircles);
+    add_overlay("view.light_confidence", "Light confidence", icons::kLight, "",
+                Overlay::kLightConfidence);
     add_display_commands(out);
     out.push_back(command(
         "view.panels", "View", "Hide all panels", "", "Tab",

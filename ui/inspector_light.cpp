@@ -46,10 +46,16 @@ void light_inspector(Ctx& c) {
             if (region->light.highlights > 0) region_parameter(c, *region, "light.roughness");
             region_parameter(c, *region, "light.form", "Light mode");
         }
-        const Command* over = c.commands.find("view.light");
-        bool on = over->checked(c);
-        if (checkbox(c, "Show shading", on, "The plate's estimated shading on the surface"))
-            over->run(c);
+        const auto unsure = c.view.preview.lights.find(region->id);
+        if (unsure != c.view.preview.lights.end()) wrapped(c, unsure->second, t.warn);
+        const auto show = [&](const char* command, const char* name, const char* tip) {
+            const Command* over = c.commands.find(command);
+            bool on = over->checked(c);
+            if (checkbox(c, name, on, tip)) over->run(c);
+        };
+        show("view.light", "Show shading", "The plate's estimated shading on the surface");
+        show("view.light_confidence", "Show light confidence",
+             "Where light and paint of the old surface were told apart, and where they were not");
         section_gap(c);
     }
     if (section(c, "Seams")) {

@@ -102,6 +102,7 @@ void menus(Ctx& c) {
           "view.onion",
           "view.seams",
           "view.light",
+          "view.light_confidence",
           "view.grid",
           "view.stretch",
           "view.arrows",

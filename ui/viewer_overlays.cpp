@@ -179,7 +179,8 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
                                              "Tracking confidence",
                                              "Source map",
                                              "Checker",
-                                             "Circles"};
+                                             "Circles",
+                                             "Light confidence"};
     const std::string name = kNames[static_cast<int>(c.view.overlay)];
     const bool scale = over && has_scale(over->kind) && over->kind != Overlay::kMotion;
     const float w = t.px(220), h = scale ? t.px(52) : t.px(26);

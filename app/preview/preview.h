@@ -38,7 +38,8 @@ enum class Overlay : std::uint8_t {
                   ///< from.
     kSourceMap,   ///< Which part of the sample each pixel shows.
     kChecker,     ///< A checker laid like the texture, to see the form.
-    kCircles      ///< A grid of circles, likewise.
+    kCircles,     ///< A grid of circles, likewise.
+    kLightConfidence  ///< How surely light and paint of the old surface were told apart.
 };
 
 /// Request for a card of the strip: a small result of another frame or with another setting.
@@ -140,6 +141,9 @@ struct PreviewView {
     std::map<RegionId, std::string> samples;
     /// What each region's form was found from; flat ones and those not yet found are left out.
     std::map<RegionId, std::string> forms;
+    /// The regions where light and paint cannot be told apart on too much of the surface, and what
+    /// is to be done about it.
+    std::map<RegionId, std::string> lights;
     std::uint64_t changes = 0;  ///< Increases with every change.
     double frame_seconds = 0;   ///< Render time of the last full-size frame, s.
     /// Time from the request to the first picture of its frame, provisional or not, s.

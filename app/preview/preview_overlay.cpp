@@ -58,19 +58,24 @@ void draw_stretch(const TextureCoords& coords, OverlayPicture& out) {
     }
 }
 
+// Draws the shading relative to the reference, or how surely it was told from paint.
 Status draw_light(const AnalysisStore& store, int region, int frame, float reference,
                   OverlayPicture& out) {
     WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kShading}));
     WEFT_TRY(shading, decode_shading(bytes));
+    const bool confidence = out.kind == Overlay::kLightConfidence;
     out.low = 0;
-    out.high = 2;
-    out.unit = "x the reference";
+    out.high = confidence ? 1.0f : 2.0f;
+    out.unit = confidence ? "told from paint" : "x the reference";
     for (int y = 0; y < out.value.height(); ++y) {
         for (int x = 0; x < out.value.width(); ++x) {
             const int sx = std::min(x / shading.downscale, shading.value.width() - 1);
             const int sy = std::min(y / shading.downscale, shading.value.height() - 1);
-            out.value.at(x, y) =
-                code(shading.value.at(sx, sy) / std::max(reference, 1e-6f) / out.high);
+            if (confidence)
+                out.value.at(x, y) = shading.sure.empty() ? 255 : shading.sure.at(sx, sy);
+            else
+                out.value.at(x, y) =
+                    code(shading.value.at(sx, sy) / std::max(reference, 1e-6f) / out.high);
         }
     }
     return {};
@@ -324,7 +329,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
     WEFT_TRY(shown, shown_matte(*shot.source, shot.plan, store, region, frame));
     out.where = std::move(shown);
     out.value = Matte(size);
-    if (kind == Overlay::kLight) {
+    if (kind == Overlay::kLight || kind == Overlay::kLightConfidence) {
         WEFT_CHECK_OK(draw_light(store, region, frame, scene.reference_shading, out));
         return out;
     }
@@ -369,6 +374,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
             draw_circles(coords, plan.placement.scale, out);
             break;
         case Overlay::kLight:
+        case Overlay::kLightConfidence:
         case Overlay::kNone:
             break;
     }

@@ -327,6 +327,7 @@ bool Preview::Impl::render(const PreviewRequest& now, int frame, int factor) {
     made->approximate = !scenes.exact();
     if (scenes.exact()) note_seam(frame, seam);
     note_forms();
+    note_lights(frame);
     made->places = places_on(frame);
     keep(now, frame, std::move(*made), seconds_since(start));
     return true;

@@ -57,8 +57,11 @@ PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                 for (int c = 0; c < 3; ++c)
                     out[c] = id == 0 ? 0 : static_cast<std::uint8_t>(64 + (mixed >> (8 * c)) % 192);
             } else {
-                const std::uint8_t grey =
-                    code(kind == LayerKind::kSeam ? layers.seam.at(x, y) : layers.alpha.at(x, y));
+                const ImageF1& plane = kind == LayerKind::kSeam ? layers.seam
+                                       : kind == LayerKind::kLightConfidence
+                                           ? layers.light_confidence
+                                           : layers.alpha;
+                const std::uint8_t grey = code(plane.at(x, y));
                 out[0] = out[1] = out[2] = grey;
             }
         }

@@ -3,6 +3,7 @@
 
 #include "app/preview/preview_impl.h"
 #include "app/render/form_report.h"
+#include "app/render/light_report.h"
 #include "engine/pipeline/region_form.h"
 
 namespace weft {
@@ -25,6 +26,24 @@ void Preview::Impl::note_forms() {
     noted_forms = current->pixels;
     const auto shared = guarded.lock();
     shared->shown.forms = std::move(found);
+    changed(*shared);
+}
+
+void Preview::Impl::note_lights(int frame) {
+    const Shot& shot = *current->shot;
+    const auto reports = light_reports(shot, *current->store, {frame});
+    if (!reports) return;  // as above
+    std::map<RegionId, std::string> found;
+    for (const LightReport& light : *reports) {
+        const auto text = unsure_light_text(light);
+        for (const std::size_t k : shot.region_index) {
+            const Region& region = *shot.project.regions[k];
+            if (text && region.name == light.region) found[region.id] = *text;
+        }
+    }
+    const auto shared = guarded.lock();
+    if (shared->shown.lights == found) return;
+    shared->shown.lights = std::move(found);
     changed(*shared);
 }
 

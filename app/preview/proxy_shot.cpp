@@ -204,6 +204,11 @@ class ProxyStore final : public AnalysisStore {
                 return encode(FormMap{form.origin / static_cast<float>(factor_),
                                       shrunk(form.displacement, factor_), form.finding});
             }
+            case AnalysisKind::kStillSurface: {
+                WEFT_TRY(still, decode_still_surface(bytes));
+                still.pixel_px /= static_cast<float>(factor_);
+                return encode(still);
+            }
             case AnalysisKind::kMatte: {
                 WEFT_TRY(stored, decode_matte(bytes));
                 return encode(StoredMatte{shrunk(stored.matte, factor_), stored.confidence});
@@ -259,6 +264,7 @@ Shading shrunk(const Shading& shading, int factor) {
     if (shading.downscale % factor == 0) {
         out.value = shading.value;
         out.inside = shading.inside;
+        out.sure = shading.sure;
         out.downscale = shading.downscale / factor;
         return out;
     }
@@ -267,6 +273,7 @@ Shading shrunk(const Shading& shading, int factor) {
     out.value = ImageF1(out.full);
     mean_of_blocks<float, 1, float>(shading.value, further, out.value);
     if (!shading.inside.empty()) out.inside = shrunk(shading.inside, further);
+    if (!shading.sure.empty()) out.sure = shrunk(shading.sure, further);
     return out;
 }
 

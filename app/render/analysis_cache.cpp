@@ -68,6 +68,8 @@ const char* kind_name(AnalysisKind kind) {
             return "shading";
         case AnalysisKind::kForm:
             return "form";
+        case AnalysisKind::kStillSurface:
+            return "still-surface";
         case AnalysisKind::kGrain:
             return "grain";
         case AnalysisKind::kShutter:

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 22;
+constexpr int kAnalysisVersion = 23;
 constexpr int kFormVersion = 3;   // of the form alone
 constexpr int kFocusVersion = 1;  // of the focus alone
 

@@ -42,6 +42,9 @@ std::vector<ExrLayer> exr_layers(const FrameLayers& layers, const std::vector<La
             case LayerKind::kLight:
                 out.push_back(layer_of(name, {"R", "G", "B"}, layers.light));
                 break;
+            case LayerKind::kLightConfidence:
+                out.push_back(layer_of(name, {"A"}, layers.light_confidence));
+                break;
             case LayerKind::kGloss:
                 out.push_back(layer_of(name, {"R", "G", "B"}, layers.gloss));
                 break;

@@ -117,7 +117,8 @@ void warn_of_samples(JobRun& job, std::size_t region) {
 
 void warn_of_gloss(JobRun& job, std::size_t region, const RegionScene& scene) {
     constexpr float kUnsure = 0.5f;
-    if (!(job.plan.regions[region].highlights > 0) || scene.colours.confidence >= kUnsure) return;
+    const float sure = std::max(scene.colours.confidence, scene.still.confidence);
+    if (!(job.plan.regions[region].highlights > 0) || sure >= kUnsure) return;
     const Shot& shot = job.shot();
     const Region& of = *shot.project.regions[shot.region_index[region]];
     job.setup.result.warnings.push_back(unsure_highlights_text(of.name));
@@ -210,6 +211,8 @@ void add_warnings(JobRun& job) {
                                   "separately, with a reference frame in each" +
                                   by({{setting::kFrames}, {setting::kReferenceFrame}}) + ".");
     }
+    for (const LightReport& light : result.lights)
+        if (const auto warning = unsure_light_warning(light)) result.warnings.push_back(*warning);
     const bool some_touched =
         std::any_of(result.frames.begin(), result.frames.end(),
                     [](const FrameResult& f) { return !f.untouched && !f.skipped; });
@@ -239,6 +242,8 @@ Status run_stages(JobRun& job, Clock::time_point start, std::int64_t& frames_don
     WEFT_CHECK_OK(timed(result.seconds.analyse, [&] { return analysis_stage(job); }));
     WEFT_TRY(forms, form_reports(job.shot(), *job.store));
     result.forms = std::move(forms);
+    WEFT_TRY(lights, light_reports(job.shot(), *job.store, job.plan.frames));
+    result.lights = std::move(lights);
     WEFT_CHECK_OK(timed(result.seconds.synthesise, [&] { return plane_stage(job, planes); }));
     WEFT_CHECK_OK(export_plane(job));
     if (stage == JobStage::kAnalyse || stage == JobStage::kPlanes) return {};

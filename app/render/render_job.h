@@ -9,6 +9,7 @@
 #include "app/exchange/input_files.h"
 #include "app/render/analysis_cache.h"
 #include "app/render/form_report.h"
+#include "app/render/light_report.h"
 #include "app/shot/shot.h"
 #include "engine/compute/backend_registry.h"
 #include "engine/core/cancel.h"
@@ -91,6 +92,7 @@ struct JobResult {
     std::vector<std::string> changed_inputs;
     std::vector<std::optional<PlaneStats>> planes;
     std::vector<FormReport> forms;  ///< Of the regions whose form is known.
+    std::vector<LightReport> lights;  ///< Of the regions whose light is estimated.
     ShotSpaces spaces;
     std::vector<ShotTexture> textures;
     std::string movie;

@@ -106,6 +106,13 @@ Json forms_json(const JobResult& result) {
     return out;
 }
 
+Json lights_json(const JobResult& result) {
+    Json out = Json::array();
+    for (const LightReport& light : result.lights)
+        out.push_back(light_json(light));
+    return out;
+}
+
 Json frames_json(const JobResult& result) {
     Json out = Json::array();
     for (const FrameResult& f : result.frames) {
@@ -143,6 +150,7 @@ std::string report_json(const JobSpec& spec, const JobResult& result) {
                   {"out", result.spaces.out.name}}},
                 {"references", references_json(result)},
                 {"forms", forms_json(result)},
+                {"lights", lights_json(result)},
                 {"frames", frames_json(result)},
                 {"fps", result.fps},
                 {"seconds_per_stage",

@@ -13,6 +13,7 @@ std::vector<int> unreadable_evidence(const Shot& shot) {
         const RegionPlan& region = shot.plan.regions[k];
         RegionPlan needed = region;
         needed.light_evidence.clear();
+        needed.gloss_evidence.clear();
         needed.grain_frames.clear();
         needed.shutter_evidence.clear();
         needed.form_evidence.clear();

@@ -238,19 +238,40 @@ Expected<std::vector<int>> shutter_frames(const Region& region, const RegionPlan
     return frames_between(reference, run.last);
 }
 
-Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
-                                          const ShotPlan& shot, const FrameReader& plate,
-                                          const std::vector<int>& leave_out) {
-    if (!plan.estimates_light() || shot.quality == FlowQuality::kDraft) return std::vector<int>{};
-    constexpr int kReach = 48, kMostFrames = 20;
+namespace {
+
+// At most so many frames, evenly spread about the reference frame.
+Expected<std::vector<int>> spread_around(const Region& region, const RegionPlan& plan,
+                                         const FrameReader& plate, int most,
+                                         const std::vector<int>& leave_out) {
+    constexpr int kReach = 48;
     const int reference = plan.reference_frames.front();
     WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
     const auto [first, last] = run;
-    const int steps = std::min(last - first, kMostFrames - 1);
+    const int steps = std::min(last - first, most - 1);
     std::vector<int> chosen{first};
     for (int k = 1; k <= steps; ++k)
         chosen.push_back(first + (last - first) * k / steps);
     return chosen;
+}
+
+}  // namespace
+
+Expected<std::vector<int>> light_evidence(const Region& region, const RegionPlan& plan,
+                                          const ShotPlan& shot, const FrameReader& plate,
+                                          const std::vector<int>& leave_out) {
+    if (!plan.estimates_light() || shot.quality == FlowQuality::kDraft) return std::vector<int>{};
+    constexpr int kMostFrames = 20;
+    return spread_around(region, plan, plate, kMostFrames, leave_out);
+}
+
+Expected<std::vector<int>> gloss_evidence(const Region& region, const RegionPlan& plan,
+                                          const FrameReader& plate,
+                                          const std::vector<int>& leave_out) {
+    const bool follows = plan.temporal == TemporalMode::kLocked;
+    if (!follows || !plan.estimates_light() || !(plan.highlights > 0)) return std::vector<int>{};
+    constexpr int kMostFrames = 16;
+    return spread_around(region, plan, plate, kMostFrames, leave_out);
 }
 
 Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan& plan,

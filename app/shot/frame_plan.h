@@ -35,6 +35,13 @@ namespace weft {
                                                         const FrameReader& plate,
                                                         const std::vector<int>& leave_out);
 
+/// Up to sixteen frames, likewise, that show what moves over a region's surface. Empty if its
+/// highlights are not kept, or it is not followed.
+[[nodiscard]] Expected<std::vector<int>> gloss_evidence(const Region& region,
+                                                        const RegionPlan& plan,
+                                                        const FrameReader& plate,
+                                                        const std::vector<int>& leave_out);
+
 /// The frames whose motion is used for motion blur: the reference and some after it if the shutter
 /// is measured, one if it is given, none without blur.
 [[nodiscard]] Expected<std::vector<int>> shutter_frames(const Region& region,

@@ -219,7 +219,7 @@ class ShotOpener {
         return {};
     }
 
-    // The frames on which grain, motion blur, light, form and focus are measured.
+    // The frames on which grain, motion blur, light, gloss, form and focus are measured.
     Status add_evidence(const Region& region, RegionPlan& plan) const {
         const std::vector<int>& without = options_.leave_out;
         WEFT_TRY(grain, grain_frames(region, plan, *shot_.plate, without));
@@ -228,6 +228,8 @@ class ShotOpener {
         plan.shutter_evidence = std::move(blur);
         WEFT_TRY(light, light_evidence(region, plan, shot_.plan, *shot_.plate, without));
         plan.light_evidence = std::move(light);
+        WEFT_TRY(gloss, gloss_evidence(region, plan, *shot_.plate, without));
+        plan.gloss_evidence = std::move(gloss);
         WEFT_TRY(form, form_evidence(region, plan, *shot_.plate, without));
         plan.form_evidence = std::move(form);
         WEFT_TRY(focus, focus_frames(region, plan, *shot_.plate, without));

@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/light_doubt.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -218,6 +219,10 @@ ClipReflectance ReflectanceGatherer::finish() {
             light.data()[i] += share * (wide.data()[i] - light.data()[i]);
         out.value = difference_of(still.luma, light, out.confidence);
     }
+    // What moves has been told from paint by that; the light that never does has not.
+    out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
+                            out.confidence,
+                            std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
     return out;
 }
 

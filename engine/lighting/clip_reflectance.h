@@ -19,6 +19,7 @@ struct ClipReflectance {
     Recti box;
     ImageF1 value;
     ImageF1 confidence;  ///< Confidence, 0 to 1: the share of the frames that show the place.
+    ImageF1 doubt;       ///< light_doubt() of what never moves there.
 };
 
 /// Gathers a surface's frames. Not thread-safe.

@@ -7,6 +7,7 @@
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/clip_reflectance.h"
+#include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
 
 namespace weft {
@@ -39,8 +40,9 @@ ImageF1 detail_of(const ImageF1& plane, const ImageF1& weight, const ImageF1& to
     return detail;
 }
 
-// Bilinear lookup of a canvas; false where any corner is unknown.
-bool lookup(const ClipReflectance& r, float u, float v, float& value, float& confidence) {
+// Bilinear lookup of a canvas' plane; false where any corner is unknown.
+bool lookup(const ClipReflectance& r, const ImageF1& plane, float u, float v, float& value,
+            float& confidence) {
     u -= static_cast<float>(r.box.x0), v -= static_cast<float>(r.box.y0);
     if (!(u >= 0 && v >= 0 && u < static_cast<float>(r.box.width() - 1) &&
           v < static_cast<float>(r.box.height() - 1)))
@@ -51,8 +53,8 @@ bool lookup(const ClipReflectance& r, float u, float v, float& value, float& con
     const float* t1 = r.confidence.pixel(x, y + 1);
     confidence = std::min(std::min(t0[0], t0[1]), std::min(t1[0], t1[1]));
     if (!(confidence > 0)) return false;
-    const float* a = r.value.pixel(x, y);
-    const float* b = r.value.pixel(x, y + 1);
+    const float* a = plane.pixel(x, y);
+    const float* b = plane.pixel(x, y + 1);
     const float top = a[0] + fx * (a[1] - a[0]), low = b[0] + fx * (b[1] - b[0]);
     value = top + fy * (low - top);
     return true;
@@ -60,21 +62,23 @@ bool lookup(const ClipReflectance& r, float u, float v, float& value, float& con
 
 // The reflectance as this frame shows it, and where it is known.
 struct Seen {
-    ImageF1 value, known;
+    ImageF1 value, doubt, known;
 };
 
 Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2& ref_from_cur) {
-    Seen seen{ImageF1(s.box.size()), ImageF1(s.box.size())};
+    Seen seen{ImageF1(s.box.size()), ImageF1(s.box.size()), ImageF1(s.box.size())};
     parallel_rows(s.box.height(), 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < s.box.width(); ++x) {
                 if (s.weight.row(y)[x] == 0) continue;
                 const float* d = ref_from_cur.pixel(x, y);
-                float value = 0, confidence = 0;
-                if (!lookup(r, static_cast<float>(x + s.box.x0) + d[0],
-                            static_cast<float>(y + s.box.y0) + d[1], value, confidence))
-                    continue;
+                const float u = static_cast<float>(x + s.box.x0) + d[0];
+                const float v = static_cast<float>(y + s.box.y0) + d[1];
+                float value = 0, doubt = 0, confidence = 0;
+                if (!lookup(r, r.value, u, v, value, confidence)) continue;
+                (void)lookup(r, r.doubt, u, v, doubt, confidence);
                 seen.value.row(y)[x] = value;
+                seen.doubt.row(y)[x] = doubt;
                 seen.known.row(y)[x] = s.weight.row(y)[x] * confidence;
             }
         }
@@ -163,11 +167,24 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         lit.data()[i] -= seen.value.data()[i];
     ImageF1 light = without_noise(lit, seen.known);
-    if (shows_all(sample.weight, share)) return shading_from_log(light, known_part(sample, share));
+    ImageF1 doubt = seen.doubt;
+    if (shows_all(sample.weight, share)) {
+        const SurfaceSample known = known_part(sample, share);
+        Shading out = shading_from_log(light, known);
+        note_doubt(out, known, doubt);
+        return out;
+    }
     const ImageF1 alone = log_shading(sample, options);
+    const ImageF1 alone_doubt = light_doubt(sample, alone, options);
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         light.data()[i] = alone.data()[i] + share.data()[i] * (light.data()[i] - alone.data()[i]);
-    return shading_from_log(light, sample);
+    for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i) {
+        float& d = doubt.data()[i];
+        d = alone_doubt.data()[i] + share.data()[i] * (d - alone_doubt.data()[i]);
+    }
+    Shading out = shading_from_log(light, sample);
+    note_doubt(out, sample, doubt);
+    return out;
 }
 
 }  // namespace weft

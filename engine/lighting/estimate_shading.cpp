@@ -7,6 +7,7 @@
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/fast_math.h"
+#include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/quadratic_fit.h"
@@ -257,7 +258,11 @@ Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample) {
 }
 
 Shading shading_of(const SurfaceSample& sample, const ShadingOptions& options) {
-    return shading_from_log(sample.box.empty() ? ImageF1() : log_shading(sample, options), sample);
+    if (sample.box.empty()) return shading_from_log({}, sample);
+    const ImageF1 log = log_shading(sample, options);
+    Shading out = shading_from_log(log, sample);
+    note_doubt(out, sample, light_doubt(sample, log, options));
+    return out;
 }
 
 Shading estimate_shading(ViewF3 linear, ViewU8x1 visible, const ShadingOptions& options) {

@@ -30,6 +30,11 @@ constexpr float kOnePaint = 0.05f, kSeveral = 0.12f;
 constexpr float kRoughest = 0.03f;  // of the plate's width
 constexpr float kLeastWeight = 1e-3f;
 
+// What the colours do not decide.
+float rest_of(const SurfaceColours& colours) {
+    return 1.0f - colours.confidence;
+}
+
 bool finite(const float* p) {
     return std::isfinite(p[0] + p[1] + p[2]);
 }
@@ -132,24 +137,30 @@ float brightest_paint(ViewF3 plate, ViewU8x1 matte, Vec2i origin, const Shading&
                                    : kGlossAbove * quantile(std::move(ratios), kPaintQuantile);
 }
 
-// By the colours: the luminance of what is mirrored.
-ImageF1 mirrored_light(ViewF3 plate, ViewU8x1 matte, const SurfaceColours& colours) {
+// The luminance of what is mirrored: by the colours, and for the rest by its motion.
+ImageF1 mirrored_light(ViewF3 plate, ViewU8x1 matte, const SurfaceColours& colours,
+                       const MovingGloss& moving) {
     const Parts parts(colours);
+    const float by_motion = moving.luminance.empty() ? 0.0f : rest_of(colours) * moving.confidence;
     ImageF1 out(matte.size());
     parallel_rows(out.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < out.width(); ++x) {
                 const float* p = plate.pixel(x, y);
-                if (matte.row(y)[x] > 0 && finite(p))
-                    out.row(y)[x] = colours.confidence * mirrored(parts, colours, p);
+                if (matte.row(y)[x] == 0 || !finite(p)) continue;
+                float& found = out.row(y)[x];
+                if (colours.confidence > 0)
+                    found = colours.confidence * mirrored(parts, colours, p);
+                if (by_motion > 0) found += by_motion * moving.luminance.row(y)[x];
             }
         }
     });
     return out;
 }
 
+// What no motion has shown yet.
 void add_excess(ImageF3& gloss, Vec2i origin, ViewF3 plate, ViewU8x1 matte, const Shading& shading,
-                float amount) {
+                const MovingGloss& moving, float amount) {
     if (!(amount > 0)) return;
     const float paint = brightest_paint(plate, matte, origin, shading);
     if (!(paint > 0)) return;
@@ -161,7 +172,9 @@ void add_excess(ImageF3& gloss, Vec2i origin, ViewF3 plate, ViewU8x1 matte, cons
                 const float* p = plate.pixel(x, y);
                 if (matte.row(y)[x] == 0 || !finite(p)) continue;
                 const float luma = luma_709(p);
-                const float excess = luma - paint * row[static_cast<std::size_t>(x)];
+                float excess = luma - paint * row[static_cast<std::size_t>(x)];
+                if (!moving.luminance.empty())
+                    excess -= moving.confidence * moving.luminance.row(y)[x];
                 if (!(excess > 0)) continue;
                 for (int c = 0; c < 3; ++c)
                     gloss.pixel(x, y)[c] += amount * p[c] * (excess / luma);
@@ -172,9 +185,10 @@ void add_excess(ImageF3& gloss, Vec2i origin, ViewF3 plate, ViewU8x1 matte, cons
 
 // Of the light's colour, and the share of the body's light that is left without it.
 void add_mirrored(Highlights& out, ViewF3 plate, ViewU8x1 matte, const SurfaceColours& colours,
-                  const HighlightOptions& options) {
-    if (!(colours.confidence > 0)) return;
-    const ImageF1 sharp = mirrored_light(plate, matte, colours);
+                  const MovingGloss& moving, const HighlightOptions& options) {
+    const bool moves = moving.confidence > 0 && !moving.luminance.empty();
+    if (!(colours.confidence > 0) && !moves) return;
+    const ImageF1 sharp = mirrored_light(plate, matte, colours, moving);
     ImageF1 rough = sharp;
     roughen(rough, matte, options);
     const float taken = std::min(1.0f, options.amount);
@@ -233,12 +247,13 @@ SurfaceColours surface_colours(ViewF3 plate, ViewU8x1 matte, const Colour& light
 }
 
 Highlights find_highlights(Vec2i origin, ViewF3 plate, ViewU8x1 matte, const Shading& shading,
-                           const SurfaceColours& colours, const HighlightOptions& options) {
+                           const SurfaceColours& colours, const MovingGloss& moving,
+                           const HighlightOptions& options) {
     if (!(options.amount > 0)) return {};
     Highlights out{ImageF3(matte.size()), ImageF1(matte.size(), 1.0f)};
-    add_excess(out.gloss, origin, plate, matte, shading,
-               options.amount * (1.0f - colours.confidence));
-    add_mirrored(out, plate, matte, colours, options);
+    add_excess(out.gloss, origin, plate, matte, shading, moving,
+               options.amount * rest_of(colours));
+    add_mirrored(out, plate, matte, colours, moving, options);
     return out;
 }
 

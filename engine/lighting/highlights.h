@@ -37,12 +37,19 @@ struct Highlights {
     ImageF1 body;
 };
 
+/// What moves over the surface: moving_gloss(), and how far it is trusted; may be empty.
+struct MovingGloss {
+    ImageF1 luminance;
+    float confidence = 0;
+};
+
 /// Finds them. As far as its colours are trusted, gloss is what of the plate has the light's colour
-/// and not the body's; for the rest it is the excess of the plate over the brightest paint under
-/// its shading. `plate` and `matte` are of one size, whose pixel (0, 0) lies at `origin`. Amount 0:
-/// empty pictures. Thread-safe.
+/// and not the body's; for the rest what moves over the surface, as far as that is trusted, and at
+/// least the excess of the plate over the brightest paint under its shading. `plate`, `matte` and
+/// `moving` are of one size, whose pixel (0, 0) lies at `origin`. Amount 0: empty pictures.
+/// Thread-safe.
 [[nodiscard]] Highlights find_highlights(Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                                         const Shading& shading, const SurfaceColours& colours,
+                                         const Shading& shading, const SurfaceColours& colours, const MovingGloss& moving,
                                          const HighlightOptions& options);
 
 /// Puts them on a texture of their size; empty ones change no bit.

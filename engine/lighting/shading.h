@@ -46,6 +46,9 @@ struct Shading {
     int downscale = 2;
     Size full;          ///< Size of the plate it belongs to.
     Matte inside = {};  ///< H/d × W/d, 255 where estimated, 0 where continued; empty: everywhere.
+    /// H/d × W/d: how surely light and paint were told apart, 255 in full; empty: nothing had to be
+    /// (a pass, a picture).
+    Matte sure = {};
 };
 
 /// `linear`: plate in linear light, H×W×3; NaN and infinity are ignored. `visible`: the region's

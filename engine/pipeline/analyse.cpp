@@ -2,6 +2,7 @@
 
 #include "engine/pipeline/focus_pass.h"
 #include "engine/pipeline/form_pass.h"
+#include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/matte_pass.h"
 #include "engine/pipeline/surface_pass.h"
 
@@ -11,7 +12,8 @@ Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStor
                     const CancelToken& cancel, const ProgressFn& progress, const Backend* backend) {
     ProgressEvent event{"analyse", 0,
                         count_matte_steps(plan, store) + count_surface_steps(plan, store) +
-                            count_form_steps(plan, store) + count_focus_steps(plan, store),
+                            count_form_steps(plan, store) + count_gloss_steps(plan, store) +
+                            count_focus_steps(plan, store),
                         0, 0};
     const PassContext context{source, plan, cancel,
                               [&](int frame, double seconds) {
@@ -24,6 +26,7 @@ Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStor
     WEFT_CHECK_OK(propagate_mattes(context, store));
     WEFT_CHECK_OK(follow_surfaces(context, store));
     WEFT_CHECK_OK(find_forms(context, store));
+    WEFT_CHECK_OK(find_still_surfaces(context, store));
     return read_focus(context, store);
 }
 

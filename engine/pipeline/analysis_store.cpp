@@ -111,6 +111,25 @@ Bytes encode(const Shading& shading) {
         .value(shading.downscale)
         .value(shading.value.size())
         .raw(codes.data(), codes.size() * sizeof codes[0])
+        .value(static_cast<std::uint8_t>(!shading.sure.empty()))
+        .raw(shading.sure.data(), shading.sure.size_bytes())
+        .take();
+}
+
+Bytes encode(const StillSurface& still) {
+    std::vector<std::uint16_t> codes(still.colour.size_bytes() / sizeof(float));
+    std::transform(still.colour.data(), still.colour.data() + codes.size(), codes.begin(),
+                   log_code);
+    std::vector<std::uint8_t> known(still.known.size_bytes() / sizeof(float));
+    std::transform(still.known.data(), still.known.data() + known.size(), known.begin(),
+                   [](float w) { return static_cast<std::uint8_t>(w > 0); });
+    return ByteWriter()
+        .value(still.box)
+        .value(still.pixel_px)
+        .value(still.usual)
+        .value(still.confidence)
+        .raw(codes.data(), codes.size() * sizeof codes[0])
+        .raw(known.data(), known.size())
         .take();
 }
 
@@ -247,10 +266,41 @@ Expected<Shading> decode_shading(const Bytes& bytes) {
     }
     std::vector<std::uint16_t> codes(static_cast<std::size_t>(size.width) *
                                      static_cast<std::size_t>(size.height));
-    if (!reader.raw(codes.data(), codes.size() * sizeof codes[0]).complete())
-        return damaged("light");
+    std::uint8_t has_sure = 0;
+    reader.raw(codes.data(), codes.size() * sizeof codes[0]).value(has_sure);
+    if (!reader.ok()) return damaged("light");
+    if (has_sure != 0) {
+        out.sure = Matte(size);
+        reader.raw(out.sure.data(), out.sure.size_bytes());
+    }
+    if (!reader.complete()) return damaged("light");
     out.value = ImageF1(size);
     std::transform(codes.begin(), codes.end(), out.value.data(), from_log_code);
+    return out;
+}
+
+Expected<StillSurface> decode_still_surface(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    StillSurface out;
+    reader.value(out.box).value(out.pixel_px).value(out.usual).value(out.confidence);
+    const bool bounded = std::abs(static_cast<double>(out.box.x0)) < kLargestSide &&
+                         std::abs(static_cast<double>(out.box.y0)) < kLargestSide;
+    if (!reader.ok() || !bounded || !(out.pixel_px > 0 && out.pixel_px < kLargestSide) ||
+        !std::isfinite(out.usual) || !(out.confidence >= 0 && out.confidence <= 1))
+        return damaged("gloss");
+    if (out.box.empty()) return reader.complete() ? Expected<StillSurface>(out) : damaged("gloss");
+    if (!sane(out.box.size()) || !reader.holds(area(out.box.size()), 7)) return damaged("gloss");
+    out.colour = ImageF3(out.box.size());
+    out.known = ImageF1(out.box.size());
+    std::vector<std::uint16_t> codes(out.colour.size_bytes() / sizeof(float));
+    std::vector<std::uint8_t> known(out.known.size_bytes() / sizeof(float));
+    if (!reader.raw(codes.data(), codes.size() * sizeof codes[0])
+             .raw(known.data(), known.size())
+             .complete())
+        return damaged("gloss");
+    std::transform(codes.begin(), codes.end(), out.colour.data(), from_log_code);
+    std::transform(known.begin(), known.end(), out.known.data(),
+                   [](std::uint8_t k) { return k != 0 ? 1.0f : 0.0f; });
     return out;
 }
 

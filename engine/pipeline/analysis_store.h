@@ -14,6 +14,7 @@
 #include "engine/core/image.h"
 #include "engine/form/form_map.h"
 #include "engine/lighting/shading.h"
+#include "engine/lighting/still_surface.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {
@@ -30,6 +31,7 @@ enum class AnalysisKind : std::uint8_t {
     kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).
     kShading,
     kForm,         ///< At the reference frame, from the clip.
+    kStillSurface,  ///< At the reference frame, what highlights move over.
     kGrain,        ///< At the reference frame.
     kShutter,      ///< The plate's shutter, at the reference frame.
     kFocus,        ///< What the frame alone tells of the plate's focus.
@@ -81,6 +83,8 @@ struct StoredMatte {
 [[nodiscard]] Bytes encode(const Shading& shading);  ///< 16 bit, logarithmic: steps of 0.03%.
 /// Luma in 16 bit as above, weights in 8 bit; chromaticities are left out.
 [[nodiscard]] Bytes encode(const SurfaceSample& sample);
+/// Colours in 16 bit, as shadings.
+[[nodiscard]] Bytes encode(const StillSurface& still);
 [[nodiscard]] Bytes encode(const GrainModel& grain);
 [[nodiscard]] Bytes encode(const FocusReading& focus);
 [[nodiscard]] Bytes encode(const ImageU8x3& picture);
@@ -91,6 +95,7 @@ struct StoredMatte {
 [[nodiscard]] Expected<FormMap> decode_form(const Bytes& bytes);
 [[nodiscard]] Expected<Shading> decode_shading(const Bytes& bytes);
 [[nodiscard]] Expected<SurfaceSample> decode_light_sample(const Bytes& bytes);
+[[nodiscard]] Expected<StillSurface> decode_still_surface(const Bytes& bytes);
 [[nodiscard]] Expected<GrainModel> decode_grain(const Bytes& bytes);
 [[nodiscard]] Expected<FocusReading> decode_focus(const Bytes& bytes);
 [[nodiscard]] Expected<ImageU8x3> decode_picture(const Bytes& bytes);

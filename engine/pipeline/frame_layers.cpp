@@ -11,10 +11,22 @@ FrameLayers::FrameLayers(Size size)
       alpha(size),
       edge(size),
       light(size, 1.0f),
+      light_confidence(size),
       gloss(size),
       st(size),
       seam(size),
       id(size) {}
+
+namespace {
+
+float confidence_at(const Shading* light, int x, int y) {
+    if (!light || light->sure.empty()) return 1;
+    const int u = std::min(x / light->downscale, light->sure.width() - 1);
+    const int v = std::min(y / light->downscale, light->sure.height() - 1);
+    return static_cast<float>(light->sure.row(v)[u]) / 255.0f;
+}
+
+}  // namespace
 
 void add_share(FrameLayers& layers, const LayerShare& share) {
     constexpr float kDark = 1e-6f;
@@ -29,6 +41,7 @@ void add_share(FrameLayers& layers, const LayerShare& share) {
                 layers.gloss.at(px, py, c) = gloss;
                 layers.light.at(px, py, c) = before > kDark ? after / before : 1.0f;
             }
+            layers.light_confidence.at(px, py) = confidence_at(share.light, px, py);
             layers.id.at(px, py) = share.id;
             layers.seam.at(px, py) = 0;
             if (!share.coords || share.plane.empty()) continue;

@@ -4,6 +4,7 @@
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
+#include "engine/lighting/shading.h"
 #include "engine/synthesis/texture_plane.h"
 
 namespace weft {
@@ -16,6 +17,7 @@ struct FrameLayers {
     /// What soft edges remove of the old surface, and the remainder of the equation.
     ImageF3 edge;
     ImageF3 light;  ///< What the texture was multiplied by; 1 where there is no region.
+    ImageF1 light_confidence;  ///< Shading::sure, 0–1; 0 where there is no region.
     ImageF3 gloss;  ///< What was added to it then; 0 where there is none.
     ImageF2 st;     ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
     ImageF1 seam;   ///< 1 where a seam of the texture plane shows.
@@ -33,6 +35,7 @@ struct LayerShare {
     ViewU8x1 matte;
     ViewF3 unlit, lit, gloss;
     const TextureCoords* coords = nullptr;
+    const Shading* light = nullptr;  ///< May be null: nothing had to be told apart.
     Size plane = {};
     WrapMode wrap = WrapMode::kRepeat;
     ViewU8x1 plane_seams = {};

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/lighting/exact_light.h"
-#include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_detail.h"
 #include "engine/lighting/plate_tint.h"
 #include "engine/lighting/plate_transfer.h"
@@ -33,9 +32,10 @@ Expected<FrameLight> FrameLight::find(const FrameLightInputs& inputs) {
     if (!region.lights() || is_transfer(region.light.form)) return out;
     out.shading_ = inputs.scene.picture_light;
     if (!out.shading_) {
-        WEFT_TRY(found, region_shading(inputs.source, region, inputs.store, inputs.index,
-                                       inputs.frame, inputs.working));
-        out.shading_ = std::move(found);
+        auto found = region_shading(inputs.source, region, inputs.store, inputs.index, inputs.frame,
+                                    inputs.working);
+        if (!found) return tl::unexpected(std::move(found.error()));
+        if (*found) out.shading_.emplace(std::move(**found));
     }
     if (out.shading_) WEFT_CHECK_OK(out.change());
     return out;
@@ -113,15 +113,29 @@ Status FrameLight::put_light(ViewU8x1 inside, ImageF3& texture) const {
     return {};
 }
 
-ImageF3 FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const {
+// What moves over the surface; empty where colours decide, or its motion tells nothing.
+Expected<MovingGloss> FrameLight::moving_gloss_here(ViewU8x1 inside) const {
+    const StillSurface& still = in_.scene.still;
+    MovingGloss out;
+    if (!(still.confidence > 0) || in_.scene.colours.confidence >= 1) return out;
+    WEFT_TRY(bytes, in_.store.get({in_.index, in_.frame, AnalysisKind::kCoords}));
+    WEFT_TRY(ref_from_cur, decode_lattice(bytes));
+    out.luminance = moving_gloss({in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box),
+                                 inside, still, ref_from_cur);
+    out.confidence = still.confidence;
+    return out;
+}
+
+Expected<ImageF3> FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const {
     const RegionPlan& plan = region();
     const bool from_estimate =
         plan.lights() && !is_transfer(plan.light.form) && !in_.scene.picture_light;
     const bool exact = plan.exact_light && plan.light_pass != RegionPlan::Pass::kNone;
-    if (!from_estimate || exact || !shading_) return {};
+    if (!from_estimate || exact || !shading_ || !(plan.highlights > 0)) return ImageF3();
+    WEFT_TRY(moving, moving_gloss_here(inside));
     Highlights found = find_highlights(
         {in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box), inside, *shading_,
-        in_.scene.colours, {plan.highlights, plan.highlight_roughness, in_.working.width()});
+        in_.scene.colours, moving, {plan.highlights, plan.highlight_roughness, in_.working.width()});
     add_highlights(texture, found);
     return std::move(found.gloss);
 }
@@ -129,7 +143,7 @@ ImageF3 FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const {
 Expected<ImageF3> FrameLight::apply(ViewU8x1 inside, ImageF3& texture) const {
     WEFT_CHECK_OK(put_light(inside, texture));
     const Matte seen = on_surface(inside);
-    ImageF3 gloss = put_gloss(seen, texture);
+    WEFT_TRY(gloss, put_gloss(seen, texture));
     const auto keep_detail = [&](ImageF3& picture) {
         keep_plate_detail(picture, {in_.box.x0, in_.box.y0}, in_.working, seen,
                           shading_ ? &*shading_ : nullptr, region().keep_detail);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "engine/lighting/highlights.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/region_scene.h"
@@ -48,7 +49,8 @@ class FrameLight {
     [[nodiscard]] Status change();
     void tint(ViewU8x1 inside, ImageF3& texture) const;
     [[nodiscard]] Status put_light(ViewU8x1 inside, ImageF3& texture) const;
-    [[nodiscard]] ImageF3 put_gloss(ViewU8x1 inside, ImageF3& texture) const;
+    [[nodiscard]] Expected<MovingGloss> moving_gloss_here(ViewU8x1 inside) const;
+    [[nodiscard]] Expected<ImageF3> put_gloss(ViewU8x1 inside, ImageF3& texture) const;
 
     FrameLightInputs in_;
     std::optional<Shading> shading_;

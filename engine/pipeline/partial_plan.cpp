@@ -6,6 +6,7 @@ void leave_look_out(RegionPlan& region) {
     region.zones.clear();
     region.light_source = LightSource::kNone;
     region.light_evidence.clear();
+    region.gloss_evidence.clear();
     region.grain = 0;
     region.grain_frames.clear();
     region.focus = 0;

@@ -7,6 +7,7 @@
 #include "engine/lighting/shading.h"
 #include "engine/pipeline/focus_pass.h"
 #include "engine/pipeline/form_pass.h"
+#include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/paper_walker.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -64,7 +65,7 @@ std::set<int> unfinished_regions(const ShotPlan& plan, const AnalysisStore& know
     for (const SurfaceJob& job : surface_jobs(one, known))
         out.insert(job.region);
     for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k)
-        if (lacks_form(plan, known, k)) out.insert(k);
+        if (lacks_form(plan, known, k) || lacks_still_surface(plan, known, k)) out.insert(k);
     return out;
 }
 

@@ -114,6 +114,7 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
     for (const ZonePlan& zone : region.zones)
         std::for_each(zone.painted.keys.begin(), zone.painted.keys.end(), add);
     std::for_each(region.light_evidence.begin(), region.light_evidence.end(), add);
+    std::for_each(region.gloss_evidence.begin(), region.gloss_evidence.end(), add);
     std::for_each(region.grain_frames.begin(), region.grain_frames.end(), add);
     std::for_each(region.form_evidence.begin(), region.form_evidence.end(), add);
     std::for_each(region.shutter_evidence.begin(), region.shutter_evidence.end(), add);

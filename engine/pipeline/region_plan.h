@@ -179,6 +179,9 @@ struct RegionPlan {
     /// Frames that show what is old texture and what is light, ascending; empty: each frame is
     /// estimated alone. They do not depend on the part of the shot that is rendered.
     std::vector<int> light_evidence;
+    /// Frames that show what moves over the surface, ascending; empty: highlights are told apart by
+    /// their colour alone. They do not depend on the part of the shot that is rendered.
+    std::vector<int> gloss_evidence;
     // Colour, and the way over the old surface.
     float match = 0;  ///< How far the exposure follows the plate's, 0–1.
     Grade grade;

@@ -9,6 +9,7 @@
 #include "engine/lighting/plate_tint.h"
 #include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_layers.h"
+#include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_form.h"
@@ -60,8 +61,11 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
                                              : daylight_colour(find_daylight(working));
         scene.tint = region.cast ? plate_tint(working) : likely_tint(working);
     }
-    if (region.highlights > 0)
+    if (region.highlights > 0) {
         scene.colours = surface_colours(working, visible, likely_tint(working));
+        WEFT_TRY(still, still_surface(plan, store, index));
+        scene.still = std::move(still);
+    }
     return {};
 }
 

@@ -29,6 +29,7 @@ struct RegionScene {
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
     std::array<float, 3> tint{};   ///< plate_tint() or likely_tint() of the reference frame.
     SurfaceColours colours;        ///< Of the old surface there, where its highlights are kept.
+    StillSurface still;            ///< What they move over; empty where that is not known.
     /// Whether reference_colour or tint changes anything.
     [[nodiscard]] bool light_has_colour() const {
         return reference_colour.known || tint != std::array<float, 3>{};

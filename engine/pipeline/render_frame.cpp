@@ -223,7 +223,9 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     const ImageF3 unlit = layers_ ? texture : ImageF3();
     WEFT_TRY(gloss, light.apply(inside, texture));
     if (layers_) {
-        WEFT_CHECK_OK(note_share(index, surface, scene, {box, inside, unlit, texture, gloss}));
+        LayerShare share{box, inside, unlit, texture, gloss};
+        if (light.shading()) share.light = &*light.shading();
+        WEFT_CHECK_OK(note_share(index, surface, scene, share));
     }
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);

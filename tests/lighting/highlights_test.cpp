@@ -55,7 +55,7 @@ TEST(Highlights, OfACarAreWhatItMirrors) {
     // On black nothing is seen but gloss.
     ImageF3 texture(kSide, kSide, 0.0f);
     add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {1, 0, kSide}));
+                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
     for (const auto [x, y] : {std::array{40, 30}, {46, 34}, {30, 30}, {80, 80}, {8, 60}})
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(texture.at(x, y, c), mirrored_at(x, y), 0.03f) << x << " " << y;
@@ -72,7 +72,7 @@ TEST(Highlights, LightIsNotPutOnTwice) {
                 texture.pixel(x, y)[c] = plate.pixel(x, y)[1];
     const float before = texture.at(40, 30, 1);
     add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {1, 0, kSide}));
+                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
     EXPECT_LT(texture.at(40, 30, 1), 1.25f * before);
     EXPECT_NEAR(texture.at(80, 80, 1), kGreen[1] * shade_at(80), 0.05f);
 }
@@ -85,7 +85,7 @@ TEST(Highlights, OfAGreySurfaceAreItsExcess) {
     EXPECT_EQ(colours.confidence, 0.0f);
     ImageF3 texture(kSide, kSide, 0.1f);
     add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {1, 0, kSide}));
+                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
     EXPECT_NEAR(texture.at(10, 10, 1), 0.1f + 3.0f - 1.15f * 0.2f, 1e-3f);
     EXPECT_EQ(texture.at(30, 30, 1), 0.1f);
 }
@@ -119,10 +119,10 @@ TEST(Highlights, NoneAndNoNumbersChangeNothing) {
     plate.at(5, 5, 1) = NAN;
     ImageF3 texture(kSide, kSide, 0.25f);
     add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {0, 0, kSide}));
+                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {0, 0, kSide}));
     EXPECT_EQ(texture.at(40, 30, 1), 0.25f);
     add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {1, 0, kSide}));
+                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
     EXPECT_EQ(texture.at(5, 5, 1), 0.25f);
 }
 
