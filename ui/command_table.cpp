@@ -165,6 +165,7 @@ void add_view_commands(std::vector<Command>& out) {
                 Overlay::kChecker);
     add_overlay("view.circles", "Circles on the surface", icons::kCircleOutline, "Shift+H",
                 Overlay::kCircles);
+    add_overlay("view.normals", "Normals of the form", icons::kForm, "Shift+N", Overlay::kNormals);
     add_display_commands(out);
     out.push_back(command(
         "view.panels", "View", "Hide all panels", "", "Tab",

@@ -18,6 +18,7 @@
 #include "app/render/analysis_cache.h"
 #include "app/textures/provenance.h"
 #include "engine/core/cancel.h"
+#include "engine/core/quad.h"
 
 namespace weft {
 
@@ -37,7 +38,8 @@ enum class Overlay : std::uint8_t {
                   ///< from.
     kSourceMap,   ///< Which part of the sample each pixel shows.
     kChecker,     ///< A checker laid like the texture, to see the form.
-    kCircles      ///< A grid of circles, likewise.
+    kCircles,     ///< A grid of circles, likewise.
+    kNormals      ///< The normals of the form found, as colours.
 };
 
 /// Request for a card of the strip: a small result of another frame or with another setting.
@@ -115,6 +117,9 @@ struct OverlayPicture {
     };
     std::vector<Arrow> arrows;                     ///< Motion since the reference frame, px.
     std::shared_ptr<const Provenance> provenance;  ///< For kSourceMap.
+    /// For kNormals: colours over the picture, and the field of view by which they are seen; null
+    /// where the form is flat.
+    PicturePtr colours;
 };
 
 /// Quality measures of a region on a frame; below 0: not known.
@@ -138,6 +143,9 @@ struct PreviewView {
     std::map<RegionId, std::string> samples;
     /// What each region's form was found from; flat ones and those not yet found are left out.
     std::map<RegionId, std::string> forms;
+    /// Where a form is a plane: corners of a rectangle on it, on the reference frame as the corners
+    /// of a placement count.
+    std::map<RegionId, Quad<float>> planes;
     std::uint64_t changes = 0;  ///< Increases with every change.
     double frame_seconds = 0;   ///< Render time of the last full-size frame, s.
     /// Time from the request to the first picture of its frame, provisional or not, s.

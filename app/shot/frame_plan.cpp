@@ -223,7 +223,9 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
     constexpr int kReach = 48, kOthers = 11;
     const int reference = plan.reference_frames.front();
     std::vector<int> chosen{reference};
-    if (plan.form_from == RegionPlan::FormFrom::kShape) return chosen;
+    if (plan.form_from == RegionPlan::FormFrom::kShape ||
+        plan.form_from == RegionPlan::FormFrom::kOutline)
+        return chosen;
     if (reads_form(plan.form_from)) {
         WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
         if (pattern.is_single()) return chosen;

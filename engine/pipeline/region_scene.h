@@ -9,6 +9,7 @@
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
+#include "engine/form/form_map.h"
 #include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/pipeline/analysis_store.h"
@@ -22,6 +23,9 @@ namespace weft {
 struct RegionScene {
     PlanePyramid plane;           ///< Empty in the modes that make one for every frame.
     TextureMapping mapping;       ///< Of the still placement; with keys see mapping_on().
+    /// The form as it was found; null: flat. The scene's frame is `smaller` times smaller.
+    std::shared_ptr<const FormMap> form;
+    float smaller = 1;
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
     float exposure = 1;            ///< plate_exposure() of the reference frame.

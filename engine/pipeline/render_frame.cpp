@@ -14,6 +14,7 @@
 #include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_light.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_surface.h"
 #include "engine/pipeline/uv_coords.h"
@@ -42,7 +43,7 @@ class FrameRenderer {
           canvas_(plate_->size()),
           ready_(static_cast<std::size_t>(plate_->height())),
           touched_(plate_->size()) {
-        if (plan.layers) layers_.emplace(plate_->size());
+        if (plan.layers) layers_.emplace(plate_->size(), plan.form_layers);
         if (place == Place::kDevice) {
             make_ready(rect_of(plate_->size()));
             device_ = backend.open_frame(canvas_);
@@ -200,6 +201,10 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
     WEFT_TRY(gloss, light.apply(inside, texture));
     if (layers_) {
         WEFT_CHECK_OK(note_share(index, surface, scene, {box, inside, unlit, texture, gloss}));
+        if (plan_.form_layers) {
+            WEFT_TRY(form, region_form_on(scene, store_, index, frame_, inside, box));
+            add_form(*layers_, box, inside, form);
+        }
     }
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);
