@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -80,7 +81,10 @@ struct Pose {
 
 Pose find_pose(const Relief& relief, const Way& way, ViewU8x1 matte, const Recti& box,
                double sigma_px) {
-    const double area = static_cast<double>(box.width()) * box.height();
+    double area = 0;
+    for (int y = 0; y < box.height(); ++y)
+        area += static_cast<double>(std::count_if(matte.row(y), matte.row(y) + box.width(),
+                                                  [](std::uint8_t v) { return v >= 128; }));
     const int step = std::max(1, static_cast<int>(std::sqrt(area / kPlaces)));
     std::vector<SeenPlace> seen;
     bool still = true;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -36,19 +37,24 @@ double log_depth(const Metric& g, const glm::dvec3& ray, double focal_px) {
     return 0.5 * (ln(std::max(smaller, 1e-300)) - ln(n));
 }
 
-std::vector<double> log_depths(const MetricField& field, const ViewCamera& camera) {
+// Of all cells, or of those with evidence; 0 elsewhere.
+std::vector<double> log_depths(const MetricField& field, const ViewCamera& camera, bool all) {
     std::vector<double> out;
-    for (int j = 0; j < field.cells().height; ++j)
-        for (int i = 0; i < field.cells().width; ++i)
-            out.push_back(
-                log_depth(field.at(i, j), camera.ray(field.centre_of(i, j)), camera.focal_px));
+    for (int j = 0; j < field.cells().height; ++j) {
+        for (int i = 0; i < field.cells().width; ++i) {
+            const bool counts = all || field.evidence(i, j) > 0;
+            out.push_back(counts ? log_depth(field.at(i, j), camera.ray(field.centre_of(i, j)),
+                                             camera.focal_px)
+                                 : 0.0);
+        }
+    }
     return out;
 }
 
 // How far the larger lengths by the slopes of the depths are off those of the metric: the mean of
 // bounded squares.
 double disagreement(const MetricField& field, const ViewCamera& camera) {
-    const std::vector<double> depth = log_depths(field, camera);
+    const std::vector<double> depth = log_depths(field, camera, false);
     const auto at = [&](int i, int j) {
         return depth[static_cast<std::size_t>(j) * static_cast<std::size_t>(field.cells().width) +
                      static_cast<std::size_t>(i)];
@@ -79,6 +85,45 @@ double disagreement(const MetricField& field, const ViewCamera& camera) {
     return count > 0 ? sum / count : std::numeric_limits<double>::infinity();
 }
 
+// Continues the depth of what is known by a few nodes, along its slopes: between nodes it is a
+// surface through sixteen of them, and beyond the evidence the metric tells no depth.
+void continue_slopes(LatticeField& relief) {
+    constexpr int kRings = 3;
+    const int width = relief.nodes().width(), height = relief.nodes().height();
+    const auto index = [width](int i, int j) {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(i);
+    };
+    std::vector<bool> known(index(0, height));
+    for (int j = 0; j < height; ++j)
+        for (int i = 0; i < width; ++i)
+            known[index(i, j)] = relief.node(i, j).y > 0;
+    for (int ring = 0; ring < kRings; ++ring) {
+        const std::vector<bool> before = known;
+        const auto knows = [&](int i, int j) {
+            return i >= 0 && j >= 0 && i < width && j < height && before[index(i, j)];
+        };
+        for (int j = 0; j < height; ++j) {
+            for (int i = 0; i < width; ++i) {
+                if (before[index(i, j)]) continue;
+                float sum = 0, count = 0;
+                for (const auto& [di, dj] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                    if (!knows(i + di, j + dj)) continue;
+                    const float near = relief.node(i + di, j + dj).x;
+                    const float far = knows(i + 2 * di, j + 2 * dj)
+                                          ? relief.node(i + 2 * di, j + 2 * dj).x
+                                          : near;
+                    sum += 2 * near - far;
+                    ++count;
+                }
+                if (!(count > 0)) continue;
+                relief.set_node(i, j, {sum / count, 0});
+                known[index(i, j)] = true;
+            }
+        }
+    }
+}
+
 ViewCamera camera_of(double tangent, Size picture) {
     const double side = std::max(picture.width, picture.height);
     return {side / tangent,
@@ -89,7 +134,7 @@ ViewCamera camera_of(double tangent, Size picture) {
 
 LatticeField relief_from_metric(const MetricField& field, const ViewCamera& camera,
                                 bool known_beyond) {
-    const std::vector<double> depth = log_depths(field, camera);
+    const std::vector<double> depth = log_depths(field, camera, true);
     const double unit = 0.5 * ln(field.scaled_by());
     LatticeField out(field.domain().size(), field.spacing());
     const Size cells = field.cells();
@@ -113,6 +158,7 @@ LatticeField relief_from_metric(const MetricField& field, const ViewCamera& came
                          {static_cast<float>(mean - unit), known || known_beyond ? 1.0f : 0.0f});
         }
     }
+    if (!known_beyond) continue_slopes(out);
     return out;
 }
 

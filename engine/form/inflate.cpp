@@ -14,6 +14,7 @@ namespace {
 constexpr int kNodes = 192;          // along the longer side of the matte's box
 constexpr int kLeastNodes = 20;      // inside of it
 constexpr int kSmoothings = 24;      // of k, over some nodes: its kinks are no shape
+constexpr double kMostSlope = 4;     // of the height
 constexpr double kMostHeight = 0.8;  // of the distance to the camera
 
 enum class Edge { kInside, kTurns, kCut };
@@ -162,38 +163,58 @@ void for_inside(const Grid& grid, const Each& each) {
             if (grid.unknown(i, j) >= 0) each(i, j, grid.unknown(i, j));
 }
 
-// k: the larger eigenvalue of −½ of the Hessian, whose trace is 2, smoothed.
+// Whether a node's eight neighbours are inside.
+bool is_deep(const Grid& grid, int i, int j) {
+    for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di)
+            if (grid.unknown(i + di, j + dj) < 0) return false;
+    return true;
+}
+
+// k: the larger eigenvalue of −½ of the Hessian, whose trace is 2, smoothed. Beside the outline
+// second differences mean little; there it continues.
 Eigen::VectorXd curvature(const Grid& grid, const Eigen::VectorXd& u) {
     const OnGrid on(grid, u);
-    Eigen::VectorXd out(u.size());
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.size()), weight = sum;
     for_inside(grid, [&](int i, int j, int k) {
+        if (!is_deep(grid, i, j)) return;
         const auto second = [&](int di, int dj) {
-            return on.beside(i, j, di, dj) + on.beside(i, j, -di, -dj) - 2 * on.at(i, j);
-        };
-        const auto corner = [&](int di, int dj) {
-            return grid.unknown(i + di, j + dj) >= 0 ? on.at(i + di, j + dj) : on.at(i, j);
+            return on.at(i + di, j + dj) + on.at(i - di, j - dj) - 2 * on.at(i, j);
         };
         const double half = -0.25 * (second(1, 0) - second(0, 1));
-        const double across =
-            -0.125 * (corner(1, 1) + corner(-1, -1) - corner(1, -1) - corner(-1, 1));
-        out[k] = std::clamp(1 + std::sqrt(half * half + across * across), 1.0, 2.0);
+        const double across = -0.125 * (on.at(i + 1, j + 1) + on.at(i - 1, j - 1) -
+                                        on.at(i + 1, j - 1) - on.at(i - 1, j + 1));
+        sum[k] = std::clamp(1 + std::sqrt(half * half + across * across), 1.0, 2.0);
+        weight[k] = 1;
     });
     for (int round = 0; round < kSmoothings; ++round) {
-        const Eigen::VectorXd before = out;
+        const Eigen::VectorXd sum_before = sum, weight_before = weight;
         for_inside(grid, [&](int i, int j, int k) {
-            double sum = before[k], count = 1;
+            double count = 1;
             for (const auto& [di, dj] : kSides) {
                 const int other = grid.unknown(i + di, j + dj);
-                if (other >= 0) sum += before[other], ++count;
+                if (other < 0) continue;
+                sum[k] += sum_before[other];
+                weight[k] += weight_before[other];
+                ++count;
             }
-            out[k] = sum / count;
+            sum[k] /= count;
+            weight[k] /= count;
         });
     }
-    return out;
+    // A disc's where nothing is deep.
+    constexpr double kNothing = 1e-9;
+    return (sum.array() + kNothing) / (weight.array() + kNothing);
 }
 
 double dot(const glm::dvec3& a, const glm::dvec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// A slope, at most kMostSlope: what is seen more grazingly is a guess that would only be squeezed.
+glm::dvec2 bounded(glm::dvec2 slope) {
+    const double square = (slope.x * slope.x + slope.y * slope.y) / (kMostSlope * kMostSlope);
+    return slope / std::sqrt(1 + square);
 }
 
 // Of a surface whose height over the picture plane, in pixels, has these slopes.
@@ -223,8 +244,9 @@ bool add_inflated(MetricField& field, ViewU8x1 matte, ViewU8x1 cut, ViewU8x1 see
         const double height = std::sqrt(std::max(squares[k], 1e-6));
         // d√s = ds / (2 √s)
         const double by = 1 / (4.0 * grid.step() * height);
-        const glm::dvec2 slope(by * (on.beside(i, j, 1, 0) - on.beside(i, j, -1, 0)),
-                               by * (on.beside(i, j, 0, 1) - on.beside(i, j, 0, -1)));
+        const glm::dvec2 slope =
+            bounded({by * (on.beside(i, j, 1, 0) - on.beside(i, j, -1, 0)),
+                     by * (on.beside(i, j, 0, 1) - on.beside(i, j, 0, -1))});
         const Metric metric = metric_of(height, slope, camera.ray(at), camera.focal_px);
         const double cosine = facing(metric);
         if (cosine > 0) field.add(at, metric, cosine * cosine);

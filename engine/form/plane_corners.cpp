@@ -107,8 +107,8 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     const Vec2 middle = 0.5f * Vec2(static_cast<float>(places.box.x0 + places.box.x1),
                                     static_cast<float>(places.box.y0 + places.box.y1));
     const auto relative = [&](Vec2 p) {
-        return Vector2(static_cast<double>(p.x - middle.x), static_cast<double>(p.y - middle.y)) /
-               side;
+        return Vector2(static_cast<double>(p.x - middle.x) / side,
+                       static_cast<double>(p.y - middle.y) / side);
     };
     // A plane laid flat is a homography of its picture.
     std::vector<Vector2> picture, flat;
@@ -118,7 +118,8 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     }
     const auto map = fit_homography(flat, picture);
     if (!map || (pass && off_plane(*map, flat, picture) > kMostOff)) return std::nullopt;
-    const Growing growing(*map, Vector2(places.box.width(), places.box.height()) / (2 * side));
+    const Growing growing(*map, Vector2(0.5 * places.box.width() / side,
+                                        0.5 * places.box.height() / side));
     // From the place that the middle of the box shows.
     const Eigen::Vector3d at = map->inverse() * Eigen::Vector3d::UnitZ();
     if (!(std::abs(at.z()) > 1e-9)) return std::nullopt;
