@@ -81,7 +81,8 @@ std::vector<Parameter<Region>> form_parameters() {
             {.group = "form",
              .key = "roundness",
              .flag = "--form-roundness",
-             .help = "How far an inflated form comes out of the picture: 1 as thick as wide",
+             .help = "How far an inflated form comes out of the picture: 1 half as thick as "
+                     "wide, 2 as thick",
              .min = 0.05,
              .max = 2}),
         entry<R, &R::form, &FormParams::amount>(

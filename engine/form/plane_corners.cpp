@@ -13,7 +13,7 @@ constexpr int kPlaces = 24;      // along the longer side of the box
 constexpr double kFirst = 0.02;  // half side of the rectangle before it grows, by the box
 constexpr double kStep = 0.02;   // by which a side moves
 constexpr int kRounds = 200;
-constexpr double kMostOff = 0.006;  // by the box, of the form of a pass that shows a plane
+constexpr double kMostOff = 0.008;  // by the box, of the form of a pass that shows a plane
 
 using Vector2 = Eigen::Vector2d;
 
@@ -86,13 +86,15 @@ class Growing {
     Vector2 reach_;
 };
 
-// How far places are off what the homography says, root mean square.
+// How far places are off what the homography says, the median.
 double off_plane(const Eigen::Matrix3d& map, const std::vector<Vector2>& flat,
                  const std::vector<Vector2>& picture) {
-    double sum = 0;
+    std::vector<double> off;
     for (std::size_t k = 0; k < flat.size(); ++k)
-        sum += ((map * flat[k].homogeneous()).hnormalized() - picture[k]).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(flat.size()));
+        off.push_back(((map * flat[k].homogeneous()).hnormalized() - picture[k]).norm());
+    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+    std::nth_element(off.begin(), middle, off.end());
+    return *middle;
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(Inflate, IsLaidWithoutATear) {
     EXPECT_LT(laid.area_p90, flat.area_p90);
     const Matte star = filled([](float x, float y) {
         const float r = std::hypot(x - 160, y - 120), a = std::atan2(y - 120, x - 160);
-        return r < 60 + 40 * std::cos(7 * a) && !(std::abs(x - 150) < 2 && y < 110);
+        return r < 70 + 30 * std::cos(5 * a) && !(std::abs(x - 150) < 2 && y < 110);
     });
     const LatticeField map = flat_from_reference(inflated(star, Matte(kSize))).displacement;
     for (int j = 0; j + 1 < map.nodes().height(); ++j) {
