@@ -167,6 +167,7 @@ void add_view_commands(std::vector<Command>& out) {
                 Overlay::kCircles);
     add_overlay("view.light_confidence", "Light confidence", icons::kLight, "",
                 Overlay::kLightConfidence);
+    add_overlay("view.normals", "Normals of the form", icons::kForm, "Shift+J", Overlay::kNormals);
     add_display_commands(out);
     out.push_back(command(
         "view.panels", "View", "Hide all panels", "", "Tab",

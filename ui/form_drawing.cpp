@@ -132,6 +132,7 @@ std::optional<FormGuide> guide_of_drag(FormGuideKind kind, Vec2 from, Vec2 to,
             break;
         case FormGuideKind::kParallel:
         case FormGuideKind::kLevel:
+        case FormGuideKind::kCut:
             break;
     }
     if (!check_form_guide(out)) return std::nullopt;
@@ -166,6 +167,7 @@ std::vector<GuideHandle> handles_of(const FormGuide& guide) {
             break;
         case FormGuideKind::kParallel:
         case FormGuideKind::kLevel:
+        case FormGuideKind::kCut:
             for (std::size_t k = 0; k < guide.numbers.size(); k += 4) {
                 const std::string line = std::to_string(k / 4 + 1);
                 out.push_back({"start " + line, vec(guide.place(k))});
@@ -212,6 +214,7 @@ std::vector<std::vector<Vec2>> lines_of(const FormGuide& guide) {
         }
         case FormGuideKind::kParallel:
         case FormGuideKind::kLevel:
+        case FormGuideKind::kCut:
             break;
     }
     std::vector<std::vector<Vec2>> out;

@@ -100,7 +100,7 @@ void take(Ctx& c, const Region& region, const FormGuide& drawn) {
     if (is_shape(drawn.kind)) {
         s.shape = {drawn};
         std::erase_if(s.strokes, parallel);
-    } else if (drawn.kind == FormGuideKind::kLevel) {
+    } else if (drawn.kind == FormGuideKind::kLevel || drawn.kind == FormGuideKind::kCut) {
         s.strokes.push_back(drawn);
     } else {
         if (!s.parallel && std::none_of(s.strokes.begin(), s.strokes.end(), parallel)) {

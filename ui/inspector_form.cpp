@@ -18,14 +18,19 @@ double most_amount(const Region& region) {
 
 constexpr FormGuideKind kShapes[] = {FormGuideKind::kPlane, FormGuideKind::kCylinder,
                                      FormGuideKind::kCone, FormGuideKind::kBall};
-constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kParallel};
+constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kParallel,
+                                      FormGuideKind::kCut};
 
 // What was found, once the analysis is there.
 void finding(Ctx& c, const Region& region) {
     const auto found = c.view.preview.forms.find(region.id);
+    const auto& pinned = c.state.transform.pinned_on;
     const bool off = region.form.source == FormSource::kFlat || most_amount(region) <= 0;
     if (off)
         wrapped(c, "Flat", c.theme.quiet);
+    else if (region.placement.corners_px && pinned.contains(region.id))
+        wrapped(c, "The corner pin gives the perspective. It began on: " + pinned.at(region.id),
+                c.theme.quiet);
     else if (found != c.view.preview.forms.end())
         wrapped(c, found->second, c.theme.quiet);
     else if (region.form.source == FormSource::kPass && region.form.position.empty() &&
@@ -68,6 +73,8 @@ const char* how_to(FormGuideKind kind) {
         case FormGuideKind::kParallel:
             return "Drag along two or more lines that are parallel on the surface. Lines across "
                    "them are taken to be at right angles.";
+        case FormGuideKind::kCut:
+            return "Drag along an outline where the surface does not turn away but is cut off.";
     }
     return "";
 }
@@ -104,6 +111,16 @@ void tilt_controls(Ctx& c, const Region& region) {
     if (change != Change::kNone) set(change == Change::kDone);
 }
 
+void overlay_buttons(Ctx& c) {
+    constexpr Overlay kOverlays[] = {Overlay::kNone, Overlay::kChecker, Overlay::kCircles,
+                                     Overlay::kNormals};
+    int shown = 0;
+    for (int k = 1; k < 4; ++k)
+        if (c.view.overlay == kOverlays[k]) shown = k;
+    if (segments(c, "Shown", {"None", "Checker", "Circles", "Normals"}, shown))
+        c.emit(ShowOverlay{kOverlays[shown]});
+}
+
 }  // namespace
 
 std::optional<int> reference_of(const Ctx& c, const Region& region) {
@@ -117,10 +134,11 @@ void form_section(Ctx& c, const Region& region) {
     if (!section(c, "Form")) return;
     const PanelName panel(c, "Form");
     region_parameter(c, region, "form.source", "Source");
+    if (region.form.source == FormSource::kInflate) region_parameter(c, region, "form.roundness");
     keyed_parameter(c, region, "form.amount", "form.amount_keys");
     finding(c, region);
     kind_buttons(c, "Shapes", {"Plane", "Cylinder", "Cone", "Ball"}, kShapes);
-    kind_buttons(c, "Strokes", {"Level", "Parallel"}, kStrokes);
+    kind_buttons(c, "Strokes", {"Level", "Parallel", "Cut"}, kStrokes);
     const FormParams& form = region.form;
     if (c.state.tool == Tool::kForm) {
         const auto reference = reference_of(c, region);
@@ -139,12 +157,7 @@ void form_section(Ctx& c, const Region& region) {
         }
     }
     tilt_controls(c, region);
-    int shown = c.view.overlay == Overlay::kChecker   ? 1
-                : c.view.overlay == Overlay::kCircles ? 2
-                                                      : 0;
-    constexpr Overlay kOverlays[] = {Overlay::kNone, Overlay::kChecker, Overlay::kCircles};
-    if (segments(c, "Shown", {"No overlay", "Checker", "Circles"}, shown))
-        c.emit(ShowOverlay{kOverlays[shown]});
+    overlay_buttons(c);
     const auto clear = [&](const char* label, std::vector<FormGuide> shape,
                            std::vector<FormGuide> strokes) {
         if (button(c, label, {.icon = icons::kClose, .width = -1}))

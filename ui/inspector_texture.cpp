@@ -75,17 +75,36 @@ void bricks_controls(Ctx& c) {
                            static_cast<double>(c.state.measured_count)});
 }
 
-// Around the region, else in the middle of the plate.
-std::vector<double> first_corners(Ctx& c) {
-    const double w = c.view.plate.size.width, h = c.view.plate.size.height;
-    const auto box = corners_around_region(c);
-    if (!box) return {0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h, 0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h};
+std::vector<double> numbers_of(const std::array<Vec2, 4>& corners) {
     std::vector<double> out;
-    for (const Vec2 corner : *box) {
+    for (const Vec2 corner : corners) {
         out.push_back(static_cast<double>(corner.x));
         out.push_back(static_cast<double>(corner.y));
     }
     return out;
+}
+
+// On the plane that was found, else around the region, else in the middle of the plate.
+std::vector<double> first_corners(Ctx& c, RegionId region) {
+    const auto found = c.view.preview.planes.find(region);
+    if (found != c.view.preview.planes.end()) return numbers_of(found->second);
+    const double w = c.view.plate.size.width, h = c.view.plate.size.height;
+    const auto box = corners_around_region(c);
+    if (!box) return {0.3 * w, 0.3 * h, 0.7 * w, 0.3 * h, 0.7 * w, 0.7 * h, 0.3 * w, 0.7 * h};
+    return numbers_of(*box);
+}
+
+// Pins begin on the plane that was found, and say so.
+void add_pins(Ctx& c, const Region& region) {
+    const auto& view = c.view.preview;
+    auto& said = c.state.transform.pinned_on;
+    said.erase(region.id);
+    if (const auto text = view.forms.find(region.id);
+        text != view.forms.end() && view.planes.contains(region.id))
+        said[region.id] = text->second;
+    c.edit(
+        SetRegionParameter{{region.id, {}}, "placement.corners_px", first_corners(c, region.id)});
+    c.state.tool = Tool::kPlace;
 }
 
 }  // namespace
@@ -170,12 +189,11 @@ void texture_inspector(Ctx& c) {
         if (!set && button(c, "Add corner pin",
                            {.icon = icons::kCrosshairs,
                             .enabled = !c.view.plate.size.empty(),
-                            .tip = "Adds four corners to drag onto a flat "
-                                   "surface in perspective",
-                            .width = -1})) {
-            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", first_corners(c)});
-            c.state.tool = Tool::kPlace;
-        }
+                            .tip = "Adds four corners to drag onto a flat surface in "
+                                   "perspective. They begin on the plane that was found, if "
+                                   "there is one",
+                            .width = -1}))
+            add_pins(c, *region);
         if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
             c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", {}});
         section_gap(c);

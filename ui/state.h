@@ -188,6 +188,8 @@ struct TransformState {
     double box_angle = 0;            ///< with this rotation.
     /// Where the placement acts, as last known: a picture in progress says nothing.
     std::shared_ptr<const SurfacePlaces> places;
+    /// The form on which a region's corner pin began, in words.
+    std::map<RegionId, std::string> pinned_on;
 };
 
 /// The box around a roto shape.

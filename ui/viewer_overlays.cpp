@@ -6,6 +6,7 @@
 
 #include "ui/compare.h"
 #include "ui/icons.h"
+#include "ui/normals_view.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -116,6 +117,7 @@ static bool has_scale(Overlay kind) {
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const auto& over = c.view.overlay_picture;
     if (!over) return;
+    if (over->kind == Overlay::kNormals) return draw_normals_overlay(c, list, map, *over);
     const Theme& t = c.theme;
     MatteDraw draw;
     draw.pixels = over->value;
@@ -170,6 +172,10 @@ void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const auto& over = c.view.overlay_picture;
     const Theme& t = c.theme;
     if (c.view.overlay == Overlay::kNone) return;
+    if (c.view.overlay == Overlay::kNormals) {
+        const bool shows = over && over->kind == Overlay::kNormals;
+        return draw_normals_legend(c, list, min, max, shows ? &*over : nullptr);
+    }
     static constexpr const char* kNames[] = {"",
                                              "Texture grid",
                                              "Stretch",

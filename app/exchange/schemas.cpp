@@ -288,7 +288,7 @@ Json report_schema() {
                     {"properties",
                      {{"region", text},
                       {"reference_frame", any_of_type("integer")},
-                      {"source", {{"enum", {"pass", "motion", "shape", "flat"}}}},
+                      {"source", {{"enum", {"pass", "motion", "shape", "outline", "flat"}}}},
                       {"text", text},
                       {"amount", number},
                       {"amount_keyed", any_of_type("boolean")},
@@ -299,6 +299,8 @@ Json report_schema() {
                       {"tilt_deg", number},
                       {"tilt_error_deg", number},
                       {"fov_deg", number},
+                      {"fov_error_deg", number},
+                      {"fov_regions", any_of_type("integer")},
                       {"belief", number}}},
                     {"required", {"region", "reference_frame", "source", "text", "amount"}}};
     const Json body{

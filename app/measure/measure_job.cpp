@@ -4,6 +4,7 @@
 
 #include "app/measure/form_measure.h"
 #include "app/measure/truth_measure.h"
+#include "app/render/form_job.h"
 #include "app/shot/frame_plan.h"
 #include "engine/composite/focus.h"
 #include "engine/core/frame_range.h"
@@ -125,8 +126,18 @@ class Measurer {
         if (settings.placement.fit && !settings.texture.plane.empty())
             placed.picture_texels = plane.size();
         WEFT_TRY(mapping, texture_mapping(placed));
-        out.ideal = IdealInputs{std::move(plane), mapping, {}};
+        WEFT_TRY(form, laid_form());
+        out.ideal = IdealInputs{std::move(plane), mapping.with_form(form), {}};
         return out;
+    }
+
+    // The ideal texture lies on the surface as the render laid it.
+    Expected<std::shared_ptr<const SurfaceForm>> laid_form() {
+        if (!region().has_form()) return std::shared_ptr<const SurfaceForm>();
+        JobSpec spec;
+        spec.project = options_.project;
+        spec.cache = options_.cache;
+        return find_laid_form(spec, cancel_, out_.warnings);
     }
 
     // Compares Φ with the artist's pass, and writes its pictures.

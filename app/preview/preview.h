@@ -18,6 +18,7 @@
 #include "app/render/analysis_cache.h"
 #include "app/textures/provenance.h"
 #include "engine/core/cancel.h"
+#include "engine/core/quad.h"
 #include "engine/metrics/pops.h"
 
 namespace weft {
@@ -34,12 +35,13 @@ enum class Overlay : std::uint8_t {
     kLight,
     kSeams,
     kMotion,
-    kConfidence,  ///< Appearance change of the surface since the reference frame.
-                  ///< from.
-    kSourceMap,   ///< Which part of the sample each pixel shows.
-    kChecker,     ///< A checker laid like the texture, to see the form.
-    kCircles,     ///< A grid of circles, likewise.
-    kLightConfidence  ///< How surely light and paint of the old surface were told apart.
+    kConfidence,       ///< Appearance change of the surface since the reference frame.
+                       ///< from.
+    kSourceMap,        ///< Which part of the sample each pixel shows.
+    kChecker,          ///< A checker laid like the texture, to see the form.
+    kCircles,          ///< A grid of circles, likewise.
+    kLightConfidence,  ///< How surely light and paint of the old surface were told apart.
+    kNormals           ///< The normals of the form found, as colours.
 };
 
 /// Request for a card of the strip: a small result of another frame or with another setting.
@@ -117,6 +119,9 @@ struct OverlayPicture {
     };
     std::vector<Arrow> arrows;                     ///< Motion since the reference frame, px.
     std::shared_ptr<const Provenance> provenance;  ///< For kSourceMap.
+    /// For kNormals: colours over the picture, and the field of view by which they are seen; null
+    /// where the form is flat.
+    PicturePtr colours;
 };
 
 /// Quality measures of a region on a frame; below 0: not known.
@@ -144,6 +149,9 @@ struct PreviewView {
     /// The regions where light and paint cannot be told apart on too much of the surface, and what
     /// is to be done about it.
     std::map<RegionId, std::string> lights;
+    /// Where a form is a plane: corners of a rectangle on it, on the reference frame as the corners
+    /// of a placement count.
+    std::map<RegionId, Quad<float>> planes;
     std::uint64_t changes = 0;  ///< Increases with every change.
     double frame_seconds = 0;   ///< Render time of the last full-size frame, s.
     /// Time from the request to the first picture of its frame, provisional or not, s.

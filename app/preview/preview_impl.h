@@ -114,6 +114,7 @@ struct Preview::Impl {
     void note_seam(int frame, float seam);
     void note_forms();
     void note_lights(int frame);
+    [[nodiscard]] std::map<RegionId, Quad<float>> found_planes() const;
     [[nodiscard]] std::map<RegionId, std::shared_ptr<const SurfacePlaces>> places_on(int frame);
     bool grow(const OpenedShot& of);
     bool draw_overlay(const PreviewRequest& wanted);

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/preview/coords_jacobian.h"
+#include "app/preview/normals_overlay.h"
 #include "app/preview/preview_health.h"
 #include "app/preview/surface_pattern.h"
 #include "app/textures/patch_pick.h"
@@ -372,6 +373,9 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
             break;
         case Overlay::kCircles:
             draw_circles(coords, plan.placement.scale, out);
+            break;
+        case Overlay::kNormals:
+            WEFT_CHECK_OK(draw_normals(shot, scene, store, region, out));
             break;
         case Overlay::kLight:
         case Overlay::kLightConfidence:

@@ -21,6 +21,24 @@ void isolate(ImageF3& pixels, const Matte& touched) {
     }
 }
 
+float nearest_of(const ImageF1& depth) {
+    float out = 0;
+    for (int y = 0; y < depth.height(); ++y)
+        for (int x = 0; x < depth.width(); ++x)
+            if (const float d = depth.at(x, y); d > 0 && (!(out > 0) || d < out)) out = d;
+    return out;
+}
+
+// A layer of one channel; depth as nearness, white where it is nearest.
+float grey_of(const FrameLayers& layers, LayerKind kind, int x, int y, float nearest) {
+    if (kind == LayerKind::kSeam) return layers.seam.at(x, y);
+    if (kind == LayerKind::kLightConfidence) return layers.light_confidence.at(x, y);
+    if (kind == LayerKind::kFormConfidence) return layers.form.confidence.at(x, y);
+    if (kind != LayerKind::kDepth) return layers.alpha.at(x, y);
+    const float depth = layers.form.depth.at(x, y);
+    return depth > 0 ? nearest / depth : 0;
+}
+
 // Converts a layer for viewing: colours as displayed, data as grey or red and green.
 PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                          const ColorTransform& out_from_working, const MakePicture& picture) {
@@ -41,6 +59,7 @@ PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
         return picture(pixels);
     }
     ImageU8x3 data(size);
+    const float nearest = nearest_of(layers.form.depth);
     const auto code = [](float v) {
         return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
     };
@@ -56,13 +75,13 @@ PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                 const std::uint32_t mixed = id * 2654435761u;
                 for (int c = 0; c < 3; ++c)
                     out[c] = id == 0 ? 0 : static_cast<std::uint8_t>(64 + (mixed >> (8 * c)) % 192);
+            } else if (kind == LayerKind::kNormal) {
+                // 0.5 + 0.5 n, as normals are usually shown.
+                const bool known = layers.form.confidence.at(x, y) > 0;
+                for (int c = 0; c < 3; ++c)
+                    out[c] = known ? code(0.5f + 0.5f * layers.form.normal.at(x, y, c)) : 0;
             } else {
-                const ImageF1& plane = kind == LayerKind::kSeam ? layers.seam
-                                       : kind == LayerKind::kLightConfidence
-                                           ? layers.light_confidence
-                                           : layers.alpha;
-                const std::uint8_t grey = code(plane.at(x, y));
-                out[0] = out[1] = out[2] = grey;
+                out[0] = out[1] = out[2] = code(grey_of(layers, kind, x, y, nearest));
             }
         }
     }
@@ -77,6 +96,7 @@ Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stag
     PreviewFrame out;
     ShotPlan plan = in.plan;
     plan.layers = seam || layer;
+    plan.form_layers = layer && shows_form(*layer);
     WEFT_TRY(lit, render_frame(in.source, plan, in.scenes, in.store, in.backend, frame));
     out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
     if (seam) {

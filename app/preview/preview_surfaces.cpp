@@ -4,7 +4,9 @@
 #include "app/preview/preview_impl.h"
 #include "app/render/form_report.h"
 #include "app/render/light_report.h"
+#include "engine/form/plane_corners.h"
 #include "engine/pipeline/region_form.h"
+#include "engine/pipeline/region_mattes.h"
 
 namespace weft {
 
@@ -23,9 +25,11 @@ void Preview::Impl::note_forms() {
                 static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
         }
     }
+    std::map<RegionId, Quad<float>> planes = found_planes();
     noted_forms = current->pixels;
     const auto shared = guarded.lock();
     shared->shown.forms = std::move(found);
+    shared->shown.planes = std::move(planes);
     changed(*shared);
 }
 
@@ -45,6 +49,30 @@ void Preview::Impl::note_lights(int frame) {
     if (shared->shown.lights == found) return;
     shared->shown.lights = std::move(found);
     changed(*shared);
+}
+
+std::map<RegionId, Quad<float>> Preview::Impl::found_planes() const {
+    std::map<RegionId, Quad<float>> out;
+    const Shot& shot = *current->shot;
+    for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
+        const int index = static_cast<int>(k),
+                  frame = shot.plan.regions[k].reference_frames.front();
+        if (!current->store->has({index, frame, AnalysisKind::kForm})) continue;
+        const auto form = found_form(shot.plan.regions[k], *current->store, index);
+        if (!form || !*form) continue;
+        const auto matte = extent_matte(*shot.source, shot.plan, *current->store, index, frame);
+        if (!matte) continue;
+        auto corners = plane_corners(**form, *matte);
+        if (!corners) continue;
+        // Corners replace a form from motion; any other one stays beneath them.
+        const RegionPlan& plan = shot.plan.regions[k];
+        if (plan.form_from != RegionPlan::FormFrom::kMotion)
+            for (Vec2& corner : *corners)
+                corner += plan.form_amount_at(plan.reference_frames.front()) *
+                          (*form)->finding.belief * (*form)->at(corner);
+        out[shot.project.regions[shot.region_index[k]]->id] = *corners;
+    }
+    return out;
 }
 
 std::map<RegionId, std::shared_ptr<const SurfacePlaces>> Preview::Impl::places_on(int frame) {

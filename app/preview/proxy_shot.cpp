@@ -322,6 +322,7 @@ std::vector<RegionScene> proxy_scenes(const std::vector<RegionScene>& scenes, in
     for (const RegionScene& scene : scenes) {
         RegionScene& small = out.emplace_back(scene);
         small.mapping = scene.mapping.on_smaller_frame(static_cast<float>(factor));
+        small.smaller = scene.smaller * static_cast<float>(factor);
         if (small.picture_light) small.picture_light = shrunk(*small.picture_light, factor);
         small.seams.clear();
     }

@@ -70,11 +70,12 @@ struct Choices<MotionConvention> {
 };
 template <>
 struct Choices<FormSource> {
-    static constexpr std::array<std::pair<FormSource, std::string_view>, 5> kNames{
+    static constexpr std::array<std::pair<FormSource, std::string_view>, 6> kNames{
         {{FormSource::kAuto, "auto"},
          {FormSource::kPass, "pass"},
          {FormSource::kDepth, "depth"},
          {FormSource::kShape, "shape"},
+         {FormSource::kInflate, "inflate"},
          {FormSource::kFlat, "flat"}}};
 };
 template <>

@@ -68,7 +68,7 @@ std::vector<Parameter<Region>> form_parameters() {
                                                      "What shows the form: a pass, else a "
                                                      "shape, else the motion (auto), a position "
                                                      "or normal pass, the depth pass, a shape or "
-                                                     "strokes, or nothing"}),
+                                                     "strokes, the outline (inflate), or nothing"}),
         entry<R, &R::form, &FormParams::shape>(
             {.group = "form",
              .key = "shape",
@@ -82,10 +82,11 @@ std::vector<Parameter<Region>> form_parameters() {
              .key = "strokes",
              .flag = "--form-stroke",
              .help = "Lines on the surface: parallel:x,y,x,y,…, a second group at right angles to "
-                     "the first; level:x,y,x,y along the rows of the texture; repeatable",
+                     "the first; level:x,y,x,y along the rows of the texture; cut:x,y,x,y,… along "
+                     "an outline that does not turn away, for inflate; repeatable",
              .max = 16,
              .repeatable = true,
-             .choices = {"parallel", "level"}}),
+             .choices = {"parallel", "level", "cut"}}),
         entry<R, &R::form, &FormParams::depth_kind>(
             {.group = "form",
              .key = "depth_kind",
@@ -101,6 +102,14 @@ std::vector<Parameter<Region>> form_parameters() {
              .min = 1,
              .max = 175,
              .optional = true}),
+        entry<R, &R::form, &FormParams::roundness>(
+            {.group = "form",
+             .key = "roundness",
+             .flag = "--form-roundness",
+             .help = "How far an inflated form comes out of the picture: 1 half as thick as "
+                     "wide, 2 as thick",
+             .min = 0.05,
+             .max = 2}),
     };
     for (const Parameter<Region>& amount : amount_parameters())
         out.push_back(amount);

@@ -201,6 +201,7 @@ enum class FormSource {
     kPass,   ///< The position pass, without one the normal pass; flat without both.
     kDepth,  ///< The depth pass (FinishParams::depth), with the camera's field of view.
     kShape,  ///< What the artist drew: FormParams::shape, else the parallel ones of the strokes.
+    kInflate,  ///< The outline, taken to be where the surface turns away.
     kFlat
 };
 /// The axes of a normal pass.
@@ -221,6 +222,7 @@ struct FormParams {
     std::optional<double> fov_deg;   ///< Horizontal; unset: from the header of the pass, or found.
     std::vector<FormGuide> shape;    ///< At most one, over the surface on the reference frame.
     std::vector<FormGuide> strokes;  ///< Along it.
+    double roundness = 1;            ///< Of kInflate: 0 flat, 1 as thick as wide.
     double amount = 1;               ///< 0 flat, 1 as found.
     KeyedNumbers amount_keys;        ///< The amount over time; empty: `amount` throughout.
     Extras extra;

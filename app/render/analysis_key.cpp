@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 23;
-constexpr int kFormVersion = 3;   // of the form alone
+constexpr int kFormVersion = 4;   // of the form alone
 constexpr int kFocusVersion = 1;  // of the focus alone
 
 void add_file(Hasher& hasher, const std::string& path) {
@@ -185,7 +185,8 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index,
 }
 
 // Apart from the rest, so that another form does not make the surface be followed again.
-Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::string& surface) {
+Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::string& surface,
+                               const PaintedMattes& painted) {
     const RegionPlan& plan = shot.plan.regions[index];
     if (plan.form_from == RegionPlan::FormFrom::kNothing) return surface;
     const Region& region = *shot.project.regions[shot.region_index[index]];
@@ -195,12 +196,20 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
     if (reads_form(plan.form_from)) WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
     for (const int frame : plan.form_evidence)
         hasher.value(frame);
+    // The regions of a shot find its lens together.
+    for (std::size_t k = 0; plan.shares_lens() && k < shot.plan.regions.size(); ++k) {
+        const RegionPlan& other = shot.plan.regions[k];
+        if (k == index || !other.shares_lens()) continue;
+        WEFT_TRY(beside, surface_key(shot, k, painted));
+        hasher.text(beside);
+        for (const int frame : other.form_evidence)
+            hasher.value(frame);
+    }
     return hasher.finish().hex();
 }
 
 // Apart from the rest too. What is read on a frame does not depend on the frames to be rendered.
-Expected<std::string> focus_key(const Shot& shot, std::size_t index,
-                                const PaintedMattes& painted) {
+Expected<std::string> focus_key(const Shot& shot, std::size_t index, const PaintedMattes& painted) {
     const RegionPlan& plan = shot.plan.regions[index];
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
@@ -271,9 +280,10 @@ Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
     WEFT_TRY(surface, surface_key(shot, index, painted));
     const Region& region = *shot.project.regions[shot.region_index[index]];
-    WEFT_TRY(form, form_key(shot, index, surface));
+    WEFT_TRY(form, form_key(shot, index, surface, painted));
     WEFT_TRY(focus, focus_key(shot, index, painted));
-    return RegionKeys{std::move(surface), std::move(form), std::move(focus), all_matte_keys(shot, region, painted)};
+    return RegionKeys{std::move(surface), std::move(form), std::move(focus),
+                      all_matte_keys(shot, region, painted)};
 }
 
 }  // namespace weft

@@ -1,9 +1,11 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/render/form_report.h"
 #include "app/render/render_job.h"
+#include "engine/core/surface_form.h"
 
 namespace weft {
 
@@ -21,5 +23,10 @@ struct FormJobResult {
 /// cancellation.
 [[nodiscard]] Expected<FormJobResult> run_form_job(const JobSpec& spec, const CancelToken& cancel,
                                                    const ProgressFn& progress);
+
+/// The form of the first region as a render of the project lays it; null: flat. As run_form_job()
+/// otherwise.
+[[nodiscard]] Expected<std::shared_ptr<const SurfaceForm>> find_laid_form(
+    const JobSpec& spec, const CancelToken& cancel, std::vector<std::string>& warnings);
 
 }  // namespace weft

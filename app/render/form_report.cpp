@@ -80,6 +80,14 @@ bool has_tilt(const FormFinding& finding) {
     return finding.source == Source::kMotion || (finding.source == Source::kShape && finding.plane);
 }
 
+// ", field of view 47° ± 2° by 3 regions"
+std::string lens_text(const FormFinding& finding) {
+    std::string out =
+        fmt::format(", field of view {:.0f}°", finding.fov_deg) + error_text(finding.fov_error_deg);
+    if (finding.fov_regions > 1) out += fmt::format(" by {} regions", finding.fov_regions);
+    return out;
+}
+
 std::string what_was_found(const FormReport& form) {
     const FormFinding& f = form.finding;
     switch (f.source) {
@@ -93,6 +101,8 @@ std::string what_was_found(const FormReport& form) {
         case Source::kShape:
             return form.drawn == "parallel strokes" ? "plane, from parallel strokes"
                                                     : form.drawn + ", as drawn";
+        case Source::kOutline:
+            return "round, inflated from its outline";
     }
     return {};
 }
@@ -105,6 +115,8 @@ const char* source_name(Source source) {
             return "motion";
         case Source::kShape:
             return "shape";
+        case Source::kOutline:
+            return "outline";
         case Source::kNone:
             break;
     }
@@ -154,7 +166,7 @@ std::string form_text(const FormReport& form) {
         out += fmt::format(", tilted {:.0f}°", f.tilt_deg) + error_text(f.tilt_error_deg) +
                (f.plane ? "" : " in the middle");
     }
-    if (f.fov_deg > 0) out += fmt::format(", field of view {:.0f}°", f.fov_deg);
+    if (f.fov_deg > 0) out += lens_text(f);
     if (f.belief < kWhole) out += fmt::format(", believed to {:.0f} %", 100 * f.belief);
     if (form.keyed)
         out += fmt::format(", amount over time, at most {:.2g}", form.amount);
@@ -184,6 +196,8 @@ Json form_json(const FormReport& form) {
         out["tilt_error_deg"] = rounded(f.tilt_error_deg);
     }
     if (f.fov_deg > 0) out["fov_deg"] = rounded(f.fov_deg);
+    if (f.fov_error_deg > 0) out["fov_error_deg"] = rounded(f.fov_error_deg);
+    if (f.fov_regions > 0) out["fov_regions"] = f.fov_regions;
     out["belief"] = rounded(f.belief);
     return out;
 }

@@ -60,6 +60,15 @@ std::vector<ExrLayer> exr_layers(const FrameLayers& layers, const std::vector<La
             case LayerKind::kId:
                 out.push_back(layer_of(name, {"Y"}, layers.id, true));
                 break;
+            case LayerKind::kNormal:
+                out.push_back(layer_of(name, {"x", "y", "z"}, layers.form.normal));
+                break;
+            case LayerKind::kDepth:
+                out.push_back(layer_of(name, {"Z"}, layers.form.depth, true));
+                break;
+            case LayerKind::kFormConfidence:
+                out.push_back(layer_of(name, {"A"}, layers.form.confidence));
+                break;
         }
     }
     return out;

@@ -21,8 +21,9 @@ namespace {
 constexpr std::int64_t kProgramBytes = 220ll << 20;
 constexpr std::int64_t kShotBytesPerPixel = 70;
 constexpr std::int64_t kFrameBytesPerPixel = 55;
-// Additional memory of a frame's layers: images, samples by channel, and rows packed for the file.
-constexpr std::int64_t kLayersBytesPerPixel = 190;
+// Additional memory of a frame's layers: images, samples by channel, and rows packed for the file;
+// 60 of it for those of the form, if they are asked for.
+constexpr std::int64_t kLayersBytesPerPixel = 250;
 
 std::int64_t frame_bytes_per_pixel(bool layers) {
     return kFrameBytesPerPixel + (layers ? kLayersBytesPerPixel : 0);

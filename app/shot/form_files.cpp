@@ -59,6 +59,8 @@ FormFiles form_files(const Region& region) {
             return {From::kPositions, region.finish.depth, "The depth pass"};
         case FormSource::kShape:
             return drawn;
+        case FormSource::kInflate:
+            return {From::kOutline, "", "The outline"};
         case FormSource::kFlat:
             return {};
     }
@@ -72,6 +74,7 @@ void add_form_settings(Hasher& hasher, const Region& region) {
     hasher.text(form.position_layer).text(form.normal_layer);
     hasher.value(static_cast<int>(form.normal_space)).value(static_cast<int>(form.depth_kind));
     hasher.value(form.fov_deg.value_or(0));
+    if (files.from == RegionPlan::FormFrom::kOutline) hasher.value(form.roundness);
     for (const auto* guides : {&form.shape, &form.strokes}) {
         hasher.value(static_cast<std::uint64_t>(guides->size()));
         for (const FormGuide& guide : *guides) {

@@ -203,8 +203,7 @@ Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& 
     FrameSpan run{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
     if (focus_needs_propagation(plan)) {
         const int all = plate.frames().back() - plate.frames().front() + 1;
-        WEFT_TRY(around,
-                 run_around(region, plate, plan.reference_frames.front(), all, leave_out));
+        WEFT_TRY(around, run_around(region, plate, plan.reference_frames.front(), all, leave_out));
         run = around;
     }
     std::erase_if(frames, [&](int frame) {
@@ -281,7 +280,9 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
     constexpr int kReach = 48, kOthers = 11;
     const int reference = plan.reference_frames.front();
     std::vector<int> chosen{reference};
-    if (plan.form_from == RegionPlan::FormFrom::kShape) return chosen;
+    if (plan.form_from == RegionPlan::FormFrom::kShape ||
+        plan.form_from == RegionPlan::FormFrom::kOutline)
+        return chosen;
     if (reads_form(plan.form_from)) {
         WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
         if (pattern.is_single()) return chosen;

@@ -215,7 +215,8 @@ Status project_form(const Region& region, RegionPlan& plan) {
     }
     if (!(plan.form_amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
     for (const FormGuide& stroke : region.form.strokes)
-        if (stroke.kind == FormGuideKind::kLevel) plan.form_guides.push_back(stroke);
+        if (stroke.kind == FormGuideKind::kLevel || stroke.kind == FormGuideKind::kCut)
+            plan.form_guides.push_back(stroke);
     const bool locked = region.temporal.mode == TemporalMode::kLocked;
     if (pass.from == RegionPlan::FormFrom::kMotion) {
         // Corners are the artist's own perspective.
@@ -226,6 +227,19 @@ Status project_form(const Region& region, RegionPlan& plan) {
     }
     if (pass.from == RegionPlan::FormFrom::kShape)
         return project_drawn_form(region, locked && !plan.has_uv, plan);
+    if (pass.from == RegionPlan::FormFrom::kOutline) {
+        if (!locked || plan.has_uv) {
+            return fail(ErrorCode::kUsage,
+                        "An inflated form needs the locked temporal mode, and no UV pass beside "
+                        "it, which gives the exact place already. Set the mode" +
+                            by({{setting::kTemporalMode, "locked"}}) +
+                            ", or choose another source" + by({{setting::kFormSource}}) + ".");
+        }
+        plan.form_from = pass.from;
+        plan.form_fov_deg = region.form.fov_deg;
+        plan.form_roundness = static_cast<float>(region.form.roundness);
+        return {};
+    }
     if (pass.pattern.empty()) {
         return fail(ErrorCode::kUsage,
                     "The form is to come from the depth pass, but there is none. Give it" +
@@ -240,6 +254,7 @@ Status project_form(const Region& region, RegionPlan& plan) {
                         by({{setting::kTemporalMode, "locked"}}) + ", or leave one pass out.");
     }
     plan.form_from = pass.from;
+    plan.form_fov_deg = region.form.fov_deg;
     return {};
 }
 

@@ -83,7 +83,9 @@ class ShotOpener {
         }
         for (const std::string& w : shot_.plate->warnings())
             shot_.warnings.push_back(w);
-        shot_.plan.layers = !shot_.project.output.layers.empty();
+        const std::vector<LayerKind>& layers = shot_.project.output.layers;
+        shot_.plan.layers = !layers.empty();
+        shot_.plan.form_layers = std::any_of(layers.begin(), layers.end(), shows_form);
         WEFT_TRY(frames, frames_to_render(shot_.project, *shot_.plate));
         shot_.plan.frames = std::move(frames);
         shot_.plan.quality = shot_.project.settings.quality == Quality::kDraft

@@ -35,7 +35,7 @@ Expected<FormGuide> parse_guide(std::string_view text) {
                                           [&](const FormGuideInfo& k) { return k.name == name; });
     if (info == kFormGuides.end() || colon == std::string_view::npos) {
         return fail(ErrorCode::kUsage,
-                    "Start with plane:, cylinder:, cone:, ball:, parallel: or level:");
+                    "Start with plane:, cylinder:, cone:, ball:, parallel:, level: or cut:");
     }
     FormGuide out{info->kind, {}};
     for (const std::string_view part : split(text.substr(colon + 1), ',')) {
@@ -100,6 +100,7 @@ Status check_form_guide(const FormGuide& guide) {
         }
         case FormGuideKind::kParallel:
         case FormGuideKind::kLevel:
+        case FormGuideKind::kCut:
             for (std::size_t k = 0; k < count; k += 4)
                 if (length_between(guide.place(k), guide.place(k + 2)) < kLeast_px)
                     return fail(ErrorCode::kUsage,

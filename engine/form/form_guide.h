@@ -20,7 +20,9 @@ enum class FormGuideKind : std::uint8_t {
     kBall,      ///< x, y of the centre, radius.
     // Strokes.
     kParallel,  ///< x0, y0, x1, y1 of each line: a group that is parallel on the surface.
-    kLevel      ///< x0, y0, x1, y1: runs along the rows of the texture.
+    kLevel,     ///< x0, y0, x1, y1: runs along the rows of the texture.
+    kCut        ///< x0, y0, x1, y1 of each piece of the outline where the surface does not turn
+                ///< away but is cut off, to be inflated.
 };
 
 struct FormGuideInfo {
@@ -32,13 +34,14 @@ struct FormGuideInfo {
 };
 inline constexpr std::size_t kMostParallelNumbers = 64;
 /// The kinds by their names in files and on the command line.
-inline constexpr std::array<FormGuideInfo, 6> kFormGuides{
+inline constexpr std::array<FormGuideInfo, 7> kFormGuides{
     {{FormGuideKind::kPlane, "plane", 8, 8, 1, 8},
      {FormGuideKind::kCylinder, "cylinder", 6, 7, 1, 6},
      {FormGuideKind::kCone, "cone", 6, 7, 1, 6},
      {FormGuideKind::kBall, "ball", 3, 3, 1, 3},
      {FormGuideKind::kParallel, "parallel", 4, kMostParallelNumbers, 4, kMostParallelNumbers},
-     {FormGuideKind::kLevel, "level", 4, 4, 1, 4}}};
+     {FormGuideKind::kLevel, "level", 4, 4, 1, 4},
+     {FormGuideKind::kCut, "cut", 4, kMostParallelNumbers, 4, kMostParallelNumbers}}};
 [[nodiscard]] constexpr const FormGuideInfo& info_of(FormGuideKind kind) {
     return kFormGuides[static_cast<std::size_t>(kind)];
 }

@@ -11,7 +11,8 @@ struct FormFinding {
         kNone,    ///< Nothing: the surface stays flat.
         kPass,    ///< A renderer's pass.
         kMotion,  ///< The motion of a rigid thing.
-        kShape    ///< A shape or strokes that were drawn.
+        kShape,   ///< A shape or strokes that were drawn.
+        kOutline  ///< Inflated from the outline.
     };
     Source source = Source::kNone;
     bool plane = false;                      ///< A plane, not a curved surface.
@@ -19,6 +20,8 @@ struct FormFinding {
     float belief = 1;                        ///< How much of it is likely to be there, 0–1.
     float tilt_deg = 0, tilt_error_deg = 0;  ///< Of a plane or of motion, in the middle.
     float fov_deg = 0;                       ///< Horizontal; of motion or a shape.
+    float fov_error_deg = 0;                 ///< 0: not known, or not asked.
+    std::uint8_t fov_regions = 0;  ///< Of the shot, whose motion decided it together; 0: its own.
     bool operator==(const FormFinding&) const = default;
 };
 
@@ -28,6 +31,10 @@ struct FormMap {
     Vec2 origin{0};             ///< The rectangle's top left corner, in pixels of the frame.
     LatticeField displacement;  ///< By place less `origin`: from there to the flat place, px.
     FormFinding finding = {};
+    /// The surface in front of the camera, by place less `origin`: ln of its depth, up to a
+    /// constant unless a pass gives its unit, and how well that is known, 0 to 1. Empty: not known.
+    LatticeField relief = {};
+    float relief_fov_deg = 0;  ///< Horizontal field of view in which it is seen.
 
     /// The displacement of a place of the reference frame; beyond the rectangle it goes on
     /// linearly.

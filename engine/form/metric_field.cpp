@@ -208,7 +208,7 @@ bool MetricField::finish(const Beyond& beyond) {
         any = any || evidence_[k] > 0;
     }
     if (!any) return false;
-    const double by = scale_to_unit_area();
+    const double by = scaled_by_ = scale_to_unit_area();
     std::vector<bool> known(metrics_.size());
     for (int j = 0; j < cells_.height; ++j) {
         for (int i = 0; i < cells_.width; ++i) {

@@ -60,6 +60,8 @@ class MetricField {
     /// without evidence takes that.
     using Beyond = std::function<std::optional<Metric>(Vec2 place)>;
     [[nodiscard]] bool finish(const Beyond& beyond);
+    /// By how much finish() scaled what was added.
+    [[nodiscard]] double scaled_by() const { return scaled_by_; }
 
   private:
     [[nodiscard]] std::size_t index(int i, int j) const {
@@ -75,6 +77,7 @@ class MetricField {
     Size frame_, cells_;
     Recti domain_;
     int spacing_;
+    double scaled_by_ = 1;
     std::vector<Metric> metrics_;
     std::vector<double> evidence_;
 };

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/form/rigid_pose.h"
+
 namespace weft {
 namespace {
 
@@ -23,15 +25,6 @@ double bounded(double square) {
 double slope_of_bounded(double square) {
     const double d = 1 + square / kOutlier;
     return 1 / (d * d);
-}
-
-// A small rotation, exactly orthonormal (Cayley).
-Matrix3 rotation_by(const Vector3& w) {
-    const Vector3 h = 0.5 * w;
-    Matrix3 cross;
-    cross << 0, -h.z(), h.y(), h.z(), 0, -h.x(), -h.y(), h.x(), 0;
-    const double s = 2 / (1 + h.squaredNorm());
-    return Matrix3::Identity() + s * (cross + cross * cross);
 }
 
 // A place of the reference frame as a ray, and without the tangent.

@@ -21,6 +21,10 @@ constexpr double kNotRigid = 0.3;          // of the motion beyond a similarity 
 constexpr int kFirstSteps = 4, kMoreSteps = 30;
 constexpr std::size_t kKept = 6;
 constexpr double kKnown = 1e-3;    // deviation of a tangent that is given
+constexpr double kSays = 0.2;      // of what was believed, that motion has to add to be heard
+constexpr double kAlike = 0.04;    // error of a tangent that its covariance does not tell, relative
+constexpr double kContradict = 6;  // square of an error, in deviations, by surface
+constexpr double kSure = 0.12;     // deviation from which on one tangent is enough to start from
 constexpr double kBulge = 0.15;    // of nearness, from which a curved surface is looked for
 constexpr double kApart = 0.02;    // ln stretch between solutions that are two
 constexpr double kImpossible = 1;  // ln stretch from a shape that cannot be there
@@ -125,18 +129,16 @@ struct Problem {
 };
 
 std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size picture,
-                                  std::optional<double> tangent) {
+                                  const TangentBelief& tangent) {
     if (frames.size() < kLeastFrames) return std::nullopt;
-    Problem out{&frames, {}, {}, {}, tangent.has_value(), 0, {}};
+    Problem out{&frames, {}, {}, {}, tangent.deviation <= kSure, 0, {}};
     RigidSurface& flat = out.flat;
     flat.middle =
         0.5f * Vec2(static_cast<float>(picture.width), static_cast<float>(picture.height));
     flat.long_side = std::max(picture.width, picture.height);
     out.least_sigma = kTrackError * flat.long_side;
-    if (tangent) {
-        out.prior.tangent = *tangent;
-        out.prior.tangent_deviation = kKnown;
-    }
+    out.prior.tangent = tangent.value;
+    out.prior.tangent_deviation = tangent.deviation;
     flat.tangent = out.prior.tangent;
     double x = 0, y = 0, count = 0;
     for (const FrameMatches& m : frames) {
@@ -290,7 +292,13 @@ void find_errors(const Problem& problem, const std::vector<RigidBundle>& solutio
             tilt += 0.5 * turned * turned;
         }
     }
-    double all = 1, others = 0;
+    const Eigen::Index last = solver.eigenvalues().size() - 1;
+    double tangent = 0;
+    for (Eigen::Index k = 0; k <= last; ++k) {
+        const double part = solver.eigenvectors()(last, k);
+        tangent += part * part / std::max(solver.eigenvalues()[k], 1e-6);
+    }
+    double all = 1, others = 0, other_tangents = 0;
     for (std::size_t k = 1; k < solutions.size(); ++k) {
         const auto likely = static_cast<double>(
             std::exp(-0.5L * static_cast<long double>(solutions[k].cost() - best.cost())));
@@ -298,7 +306,10 @@ void find_errors(const Problem& problem, const std::vector<RigidBundle>& solutio
             std::min(kImpossible, between(fit.surface, solutions[k].surface(), problem.places));
         all += likely;
         others += likely * apart * apart;
+        const double lens = solutions[k].surface().tangent - fit.surface.tangent;
+        other_tangents += likely * lens * lens;
     }
+    fit.tangent_error = std::sqrt(tangent + other_tangents / all);
     fit.error = std::sqrt(squares + others / all);
     fit.tilt_error_deg = std::sqrt(tilt);
 }
@@ -310,8 +321,24 @@ double RigidFit::belief() const {
     return std::max(0.0, 1 - error * error / (log_stretch * log_stretch));
 }
 
+std::optional<TangentBelief> RigidFit::measured_tangent() const {
+    const auto information = [](double deviation) { return 1 / (deviation * deviation); };
+    const double before = information(believed.deviation), after = information(tangent_error);
+    const double own = after - before;
+    if (!(own > kSays * before)) return std::nullopt;
+    const double value = (after * surface.tangent - before * believed.value) / own;
+    if (!(value > 0)) return std::nullopt;
+    return TangentBelief{value, 1 / std::sqrt(own)};
+}
+
 std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,
                                           std::optional<double> tangent) {
+    return fit_rigid_surface(frames, picture,
+                             tangent ? TangentBelief{*tangent, kKnown} : TangentBelief());
+}
+
+std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,
+                                          const TangentBelief& tangent) {
     const auto problem = problem_of(frames, picture, tangent);
     if (!problem) return std::nullopt;
     double sigma = problem->least_sigma;
@@ -344,13 +371,40 @@ std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frame
     out.log_stretch = rms_over(problem->places, [&](Vec2 p) {
         return log_stretch_between({1, 0, 1}, out.surface.metric(p));
     });
-    out.fov_deg = static_cast<double>(
-        2 *
-        std::atan(0.5L * static_cast<long double>(out.surface.tangent) * picture.width /
-                  static_cast<long double>(out.surface.long_side)) *
-        180 / std::numbers::pi_v<long double>);
+    out.believed = tangent;
     find_errors(*problem, solutions, out);
+    const auto fov_of = [&](double t) {
+        return static_cast<double>(2 *
+                                   std::atan(0.5L * static_cast<long double>(t) * picture.width /
+                                             static_cast<long double>(out.surface.long_side)) *
+                                   180 / std::numbers::pi_v<long double>);
+    };
+    out.fov_deg = fov_of(out.surface.tangent);
+    out.fov_error_deg = 0.5 * (fov_of(out.surface.tangent + out.tangent_error) -
+                               fov_of(std::max(0.0, out.surface.tangent - out.tangent_error)));
     return out;
+}
+
+std::optional<TangentBelief> shared_tangent(const std::vector<TangentBelief>& measured) {
+    if (measured.size() < 2) return std::nullopt;
+    // Errors of tracks are alike over a region, which its covariance does not know.
+    const auto weight = [](const TangentBelief& m) {
+        const double alike = kAlike * m.value;
+        return 1 / (m.deviation * m.deviation + alike * alike);
+    };
+    double sum = 0, all = 0;
+    for (const TangentBelief& m : measured)
+        sum += weight(m) * m.value, all += weight(m);
+    const double mean = sum / all;
+    double off = 0;
+    for (const TangentBelief& m : measured)
+        off += weight(m) * (m.value - mean) * (m.value - mean);
+    if (off > kContradict * static_cast<double>(measured.size() - 1)) return std::nullopt;
+    // With what is believed of lenses in general.
+    const TangentBelief common;
+    const double before = 1 / (common.deviation * common.deviation);
+    return TangentBelief{(sum + before * common.value) / (all + before),
+                         1 / std::sqrt(all + before)};
 }
 
 }  // namespace weft

@@ -14,6 +14,11 @@ struct FrameMatches {
     std::vector<Vec2> reference, frame;
 };
 
+/// What is believed of the long side over the focal length: a normal distribution.
+struct TangentBelief {
+    double value = 0.91, deviation = 0.35;  ///< A field of view of 49° (32° to 64°).
+};
+
 /// A rigid surface that explains how its places move, and how far that is to be believed.
 struct RigidFit {
     RigidSurface surface;
@@ -25,10 +30,14 @@ struct RigidFit {
     /// places of the reference frame.
     double log_stretch = 0, error = 0;
     double tilt_deg = 0, tilt_error_deg = 0;  ///< Of the surface at the centre against the picture.
-    double fov_deg = 0;                       ///< Horizontal.
+    double fov_deg = 0, fov_error_deg = 0;    ///< Horizontal.
+    double tangent_error = 0;  ///< Of surface.tangent, with what was believed before.
+    TangentBelief believed;    ///< What that was.
 
     /// How much of the form is likely to be there: 0, no evidence, to 1.
     [[nodiscard]] double belief() const;
+    /// What the motion alone says of the tangent; empty if it says nothing.
+    [[nodiscard]] std::optional<TangentBelief> measured_tangent() const;
 };
 
 /// Fits a plane, and where that leaves more than the noise a curved surface, to matches between the
@@ -42,5 +51,13 @@ struct RigidFit {
 [[nodiscard]] std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames,
                                                         Size picture,
                                                         std::optional<double> tangent);
+/// The same with what is believed of the tangent before.
+[[nodiscard]] std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames,
+                                                        Size picture, const TangentBelief& tangent);
+
+/// What several surfaces before one lens say of it together, by the weights of their errors. Empty
+/// for fewer than two, and if they contradict each other, as when the lens zooms.
+[[nodiscard]] std::optional<TangentBelief> shared_tangent(
+    const std::vector<TangentBelief>& measured);
 
 }  // namespace weft

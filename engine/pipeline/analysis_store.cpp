@@ -87,7 +87,7 @@ Bytes encode(const LatticeField& field) {
 Bytes encode(const FormMap& form) {
     ByteWriter out;
     const FormFinding& f = form.finding;
-    return write(out, form.displacement)
+    write(out, form.displacement)
         .value(form.origin)
         .value(f.source)
         .value(static_cast<std::uint8_t>(f.plane))
@@ -96,7 +96,11 @@ Bytes encode(const FormMap& form) {
         .value(f.tilt_deg)
         .value(f.tilt_error_deg)
         .value(f.fov_deg)
-        .take();
+        .value(f.fov_error_deg)
+        .value(f.fov_regions)
+        .value(form.relief_fov_deg);
+    if (!form.relief.empty()) write(out, form.relief);
+    return out.take();
 }
 
 Bytes encode(const Shading& shading) {
@@ -246,9 +250,15 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
     std::uint8_t plane = 0;
     reader.value(out.origin).value(f.source).value(plane).value(f.frames).value(f.belief);
     reader.value(f.tilt_deg).value(f.tilt_error_deg).value(f.fov_deg);
+    reader.value(f.fov_error_deg).value(f.fov_regions).value(out.relief_fov_deg);
     f.plane = plane != 0;
+    if (out.relief_fov_deg != 0) {
+        if (!(out.relief_fov_deg > 0 && out.relief_fov_deg < 180)) return damaged("form");
+        WEFT_TRY(relief, read_lattice(reader, "form"));
+        out.relief = std::move(relief);
+    }
     if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y) ||
-        f.source > FormFinding::Source::kShape || !(f.belief >= 0 && f.belief <= 1))
+        f.source > FormFinding::Source::kOutline || !(f.belief >= 0 && f.belief <= 1))
         return damaged("form");
     return out;
 }

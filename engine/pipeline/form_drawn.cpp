@@ -8,6 +8,7 @@
 #include "engine/form/drawn_surface.h"
 #include "engine/form/flatten.h"
 #include "engine/form/form_level.h"
+#include "engine/form/form_relief.h"
 #include "engine/mask/matte_box.h"
 
 namespace weft {
@@ -105,6 +106,7 @@ Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
                    static_cast<float>(surface->tilt_deg),
                    static_cast<float>(surface->tilt_error_deg),
                    static_cast<float>(surface->fov_deg)};
+    add_relief(out, field, surface->fov_deg, plate, surface->is_plane());
     return out;
 }
 

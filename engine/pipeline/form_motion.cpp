@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "engine/form/flatten.h"
+#include "engine/form/form_relief.h"
 #include "engine/form/pulled_back.h"
 #include "engine/form/rigid_fit.h"
 #include "engine/form/view_camera.h"
@@ -34,14 +36,18 @@ FormMap flat_over(Size plate, const FormFinding& finding) {
     return {{}, LatticeField(plate, std::max(plate.width, plate.height)), finding};
 }
 
-FormFinding finding_of(const RigidFit& fit, FormFinding::Source source) {
-    return {source,
-            fit.plane,
-            fit.frames,
-            static_cast<float>(fit.belief()),
-            static_cast<float>(fit.tilt_deg),
-            static_cast<float>(fit.tilt_error_deg),
-            static_cast<float>(fit.fov_deg)};
+FormFinding finding_of(const RigidFit& fit, FormFinding::Source source, const MotionLens& lens) {
+    FormFinding out{source,
+                    fit.plane,
+                    fit.frames,
+                    static_cast<float>(fit.belief()),
+                    static_cast<float>(fit.tilt_deg),
+                    static_cast<float>(fit.tilt_error_deg),
+                    static_cast<float>(fit.fov_deg)};
+    if (lens.fov_deg) return out;
+    out.fov_error_deg = static_cast<float>(fit.fov_error_deg);
+    out.fov_regions = lens.shared ? static_cast<std::uint8_t>(std::min(lens.regions, 255)) : 0;
+    return out;
 }
 
 // Whether a place and its surroundings lie inside of a matte.
@@ -110,6 +116,12 @@ std::optional<double> tangent_of(std::optional<double> fov_deg, Size plate) {
     return std::max(plate.width, plate.height) / camera_with(*fov_deg, plate).focal_px;
 }
 
+std::optional<RigidFit> fit_matches(const std::vector<FrameMatches>& matches, Size plate,
+                                    const MotionLens& lens) {
+    if (lens.shared && !lens.fov_deg) return fit_rigid_surface(matches, plate, *lens.shared);
+    return fit_rigid_surface(matches, plate, tangent_of(lens.fov_deg, plate));
+}
+
 bool believable(const RigidFit& fit, Size plate) {
     return fit.belief() >= kLeastBelief && fit.error <= kMostError &&
            fit.turn_deg >= kLeastTurn_deg && fit.turn_deg <= kMostTurn_deg &&
@@ -120,15 +132,22 @@ bool believable(const RigidFit& fit, Size plate) {
 
 }  // namespace
 
+std::optional<RigidFit> fit_motion(const std::vector<FormEvidence>& evidence, Size plate,
+                                   const MotionLens& lens) {
+    auto fit = fit_matches(matches_of(evidence, plate), plate, lens);
+    if (fit && !believable(*fit, plate)) fit.reset();
+    return fit;
+}
+
 FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
-                         std::optional<double> fov_deg) {
+                         const MotionLens& lens) {
     const std::vector<FrameMatches> matches = matches_of(evidence, plate);
-    const auto fit = fit_rigid_surface(matches, plate, tangent_of(fov_deg, plate));
+    const auto fit = fit_matches(matches, plate, lens);
     FormFinding flat;
     flat.frames = static_cast<int>(matches.size());
     flat.belief = 0;
     if (!fit) return flat_over(plate, flat);
-    flat = finding_of(*fit, FormFinding::Source::kNone);
+    flat = finding_of(*fit, FormFinding::Source::kNone, lens);
     if (!believable(*fit, plate)) return flat_over(plate, flat);
     const RigidSurface& surface = fit->surface;
     MetricField field = field_over(plate, evidence);
@@ -145,7 +164,8 @@ FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
     }
     if (!field.finish(beyond)) return flat_over(plate, flat);
     FormMap out = flat_from_reference(field);
-    out.finding = finding_of(*fit, FormFinding::Source::kMotion);
+    out.finding = finding_of(*fit, FormFinding::Source::kMotion, lens);
+    add_relief(out, field, fit->fov_deg, plate, fit->plane);
     return out;
 }
 

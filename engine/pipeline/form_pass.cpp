@@ -2,21 +2,28 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "engine/core/setting.h"
 #include "engine/form/flatten.h"
+#include "engine/form/form_relief.h"
 #include "engine/form/normal_metric.h"
 #include "engine/form/position_metric.h"
 #include "engine/pipeline/form_drawn.h"
 #include "engine/pipeline/form_evidence.h"
+#include "engine/pipeline/form_lens.h"
 #include "engine/pipeline/form_motion.h"
+#include "engine/pipeline/form_outline.h"
+#include "engine/pipeline/region_mattes.h"
 
 namespace weft {
 namespace {
 
 // A frame's coordinates are as good as its motion was followed; the reference frame's are exact.
 constexpr double kOtherFrames = 0.01;
+
 std::string text_of(const std::vector<int>& frames) {
     const auto [first, last] = std::minmax_element(frames.begin(), frames.end());
     if (*first == *last) return "frame " + std::to_string(*first);
@@ -39,14 +46,20 @@ tl::unexpected<Error> no_form(const std::vector<int>& frames, RegionPlan::FormFr
                     by({{setting::kPositionLayer}}) + ", or leave the pass out.");
 }
 
-// Adds what a frame's pass shows.
-Status add_pass(const PassContext& context, int region, int frame, const FormEvidence& at,
-                double weight, MetricField& field) {
+double fov_of(const ViewCamera& camera, Size picture) {
+    const long double half = 0.5L * picture.width / static_cast<long double>(camera.focal_px);
+    return static_cast<double>(2 * std::atan(half) * 180 / std::numbers::pi_v<long double>);
+}
+
+// Adds what a frame's pass shows. The horizontal field of view, if it has to be known for that; 0:
+// not.
+Expected<double> add_pass(const PassContext& context, int region, int frame, const FormEvidence& at,
+                          double weight, MetricField& field) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
     if (plan.form_from == RegionPlan::FormFrom::kPositions) {
         WEFT_TRY(positions, context.source.positions(region, frame));
         add_positions(field, positions, at.visible, at.ref_from_cur, weight);
-        return {};
+        return 0.0;
     }
     WEFT_TRY(pass, context.source.normals(region, frame));
     const auto normals =
@@ -60,27 +73,37 @@ Status add_pass(const PassContext& context, int region, int frame, const FormEvi
                         ".");
     }
     add_normals(field, *normals, at.visible, pass.camera, at.ref_from_cur, weight);
-    return {};
+    return fov_of(pass.camera, context.source.size());
 }
 
 // What the region's own source says of its form.
-Expected<FormMap> form_as_found(const PassContext& context, int region,
+Expected<FormMap> form_as_found(const PassContext& context, const AnalysisStore& store, int region,
                                 const std::vector<int>& frames,
-                                const std::vector<FormEvidence>& evidence) {
+                                const std::vector<FormEvidence>& evidence, MotionLens lens) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
-    if (plan.form_from == RegionPlan::FormFrom::kMotion)
-        return form_from_motion(evidence, context.source.size(), plan.form_fov_deg);
+    if (plan.form_from == RegionPlan::FormFrom::kMotion) {
+        lens.fov_deg = plan.form_fov_deg;
+        return form_from_motion(evidence, context.source.size(), lens);
+    }
     if (plan.form_from == RegionPlan::FormFrom::kShape)
         return form_from_drawing(evidence.front(), context.source.size(), plan);
+    if (plan.form_from == RegionPlan::FormFrom::kOutline) {
+        WEFT_TRY(extent, extent_matte(context.source, context.plan, store, region, frames.front()));
+        return form_from_outline(evidence.front(), extent, context.source.size(), plan);
+    }
     MetricField field = field_over(context.source.size(), evidence);
+    double fov_deg = plan.form_fov_deg.value_or(0);
     for (std::size_t k = 0; k < frames.size(); ++k) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        WEFT_CHECK_OK(
-            add_pass(context, region, frames[k], evidence[k], k == 0 ? 1 : kOtherFrames, field));
+        WEFT_TRY(known, add_pass(context, region, frames[k], evidence[k], k == 0 ? 1 : kOtherFrames,
+                                 field));
+        if (k == 0 && known > 0) fov_deg = known;
     }
     if (!field.finish()) return no_form(frames, plan.form_from);
     FormMap out = flat_from_reference(field);
     out.finding = {FormFinding::Source::kPass, false, static_cast<int>(frames.size())};
+    const Size picture = context.source.size();
+    add_relief(out, field, fov_deg > 0 ? fov_deg : fov_of_metric(field, picture), picture, false);
     return out;
 }
 
@@ -92,10 +115,10 @@ AnalysisKey form_key(const ShotPlan& plan, int region) {
 }  // namespace
 
 Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& store, int region,
-                            const std::vector<int>& frames) {
+                            const std::vector<int>& frames, const MotionLens& lens) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
     WEFT_TRY(evidence, form_evidence_on(context, store, region, frames));
-    WEFT_TRY(form, form_as_found(context, region, frames, evidence));
+    WEFT_TRY(form, form_as_found(context, store, region, frames, evidence, lens));
     WEFT_CHECK_OK(level_form(evidence.front(), plan, form));
     return form;
 }
@@ -113,12 +136,14 @@ int count_form_steps(const ShotPlan& plan, const AnalysisStore& store) {
 }
 
 Status find_forms(const PassContext& context, AnalysisStore& store) {
+    if (count_form_steps(context.plan, store) == 0) return {};
+    WEFT_TRY(lens, shared_lens(context, store));
     for (int k = 0; k < static_cast<int>(context.plan.regions.size()); ++k) {
         if (!lacks_form(context.plan, store, k)) continue;
         const AnalysisKey key = form_key(context.plan, k);
         const auto start = std::chrono::steady_clock::now();
         const auto& evidence = context.plan.regions[static_cast<std::size_t>(k)].form_evidence;
-        WEFT_TRY(form, form_from(context, store, k, evidence));
+        WEFT_TRY(form, form_from(context, store, k, evidence, lens));
         WEFT_CHECK_OK(store.put(key, encode(form)));
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         if (context.step) context.step(key.frame, taken.count());

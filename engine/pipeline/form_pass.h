@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/form/form_map.h"
 #include "engine/pipeline/analysis_store.h"
+#include "engine/pipeline/form_motion.h"
 #include "engine/pipeline/sweep.h"
 
 namespace weft {
@@ -9,9 +10,10 @@ namespace weft {
 /// or normal pass on them, the others counting where they see the surface more squarely or alone,
 /// or from its motion between them. Needs mattes and kCoords of these frames. Errors: those of the
 /// source and the store; Unreadable if the pass shows no form there, or normals in other axes;
-/// cancellation.
+/// cancellation. `lens`: what other regions say of it.
 [[nodiscard]] Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& store,
-                                          int region, const std::vector<int>& frames);
+                                          int region, const std::vector<int>& frames,
+                                          const MotionLens& lens = {});
 
 /// Stores the form (kForm) of every region that has one and whose form is not in the store, from
 /// RegionPlan::form_evidence. Needs the mattes, and follow_surfaces() before. Errors: as

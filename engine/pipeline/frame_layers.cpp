@@ -6,7 +6,7 @@
 
 namespace weft {
 
-FrameLayers::FrameLayers(Size size)
+FrameLayers::FrameLayers(Size size, bool with_form)
     : patch(size),
       alpha(size),
       edge(size),
@@ -15,7 +15,9 @@ FrameLayers::FrameLayers(Size size)
       gloss(size),
       st(size),
       seam(size),
-      id(size) {}
+      id(size) {
+    if (with_form) form = {ImageF3(size), ImageF1(size), ImageF1(size)};
+}
 
 namespace {
 
@@ -71,6 +73,18 @@ void add_patch(FrameLayers& layers, const Recti& box, ViewU8x1 matte, ViewF3 tex
             for (int c = 0; c < 3; ++c)
                 patch[c] = share * texture.pixel(x, y)[c] + (1 - share) * patch[c];
             alpha = share + (1 - share) * alpha;
+        }
+    }
+}
+
+void add_form(FrameLayers& layers, const Recti& box, ViewU8x1 matte, const ShownForm& form) {
+    for (int y = 0; y < box.height(); ++y) {
+        for (int x = 0; x < box.width(); ++x) {
+            if (matte.row(y)[x] == 0) continue;
+            const int px = box.x0 + x, py = box.y0 + y;
+            std::copy_n(form.normal.pixel(x, y), 3, layers.form.normal.pixel(px, py));
+            layers.form.depth.at(px, py) = form.depth.at(x, y);
+            layers.form.confidence.at(px, py) = form.confidence.at(x, y);
         }
     }
 }

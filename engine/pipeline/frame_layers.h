@@ -4,6 +4,7 @@
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
+#include "engine/form/form_on_frame.h"
 #include "engine/lighting/shading.h"
 #include "engine/synthesis/texture_plane.h"
 
@@ -16,14 +17,17 @@ struct FrameLayers {
     ImageF1 alpha;
     /// What soft edges remove of the old surface, and the remainder of the equation.
     ImageF3 edge;
-    ImageF3 light;  ///< What the texture was multiplied by; 1 where there is no region.
+    ImageF3 light;             ///< What the texture was multiplied by; 1 where there is no region.
     ImageF1 light_confidence;  ///< Shading::sure, 0–1; 0 where there is no region.
-    ImageF3 gloss;  ///< What was added to it then; 0 where there is none.
-    ImageF2 st;     ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
-    ImageF1 seam;   ///< 1 where a seam of the texture plane shows.
-    ImageF1 id;     ///< The region's id, of the topmost; 0 where there is none.
+    ImageF3 gloss;             ///< What was added to it then; 0 where there is none.
+    ImageF2 st;    ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
+    ImageF1 seam;  ///< 1 where a seam of the texture plane shows.
+    ImageF1 id;    ///< The region's id, of the topmost; 0 where there is none.
+    /// Of the topmost region's form (form_on_frame()), 0 where it is flat; or empty.
+    ShownForm form;
 
-    explicit FrameLayers(Size size);
+    /// `with_form`: has the layers of the form.
+    explicit FrameLayers(Size size, bool with_form = false);
 };
 
 /// One region's share over `box`. `matte` and the pictures are of the box's size. `unlit` and
@@ -44,6 +48,8 @@ struct LayerShare {
 void add_share(FrameLayers& layers, const LayerShare& share);
 /// Lays the finished texture (with grain and ink) over the layers below.
 void add_patch(FrameLayers& layers, const Recti& box, ViewU8x1 matte, ViewF3 texture);
+/// Lays a region's form, of the box's size, over those below.
+void add_form(FrameLayers& layers, const Recti& box, ViewU8x1 matte, const ShownForm& form);
 /// `plate` and `composite` in the working space.
 void finish_layers(FrameLayers& layers, ViewF3 plate, ViewF3 composite);
 

@@ -145,15 +145,23 @@ struct RegionPlan {
     /// A UV pass gives the place of the plane that each pixel shows.
     bool has_uv = false;
     /// What shows the surface's form: places (a position pass, or depth with the camera), normals,
-    /// the motion of the surface, or what the artist drew.
-    enum class FormFrom : std::uint8_t { kNothing, kPositions, kNormals, kMotion, kShape };
+    /// the motion of the surface, what the artist drew, or the outline.
+    enum class FormFrom : std::uint8_t {
+        kNothing,
+        kPositions,
+        kNormals,
+        kMotion,
+        kShape,
+        kOutline
+    };
     FormFrom form_from = FormFrom::kNothing;
     float form_amount = 1;          ///< 0 flat, 1 as found; with keys the largest of them.
     KeyedNumbers form_amount_keys;  ///< Over time.
     [[nodiscard]] float form_amount_at(int frame) const {
         return form_amount_keys.empty() ? form_amount : form_amount_keys.float_at(frame)[0];
     }
-    /// Horizontal field of view for kMotion and kShape; empty: found as well.
+    float form_roundness = 1;  ///< Of kOutline: 0 flat, 1 as thick as wide.
+    /// Horizontal field of view; empty: found as well, or in the pass's header.
     std::optional<double> form_fov_deg;
     /// Shapes and strokes on the reference frame, in plate pixels; level strokes turn every form.
     std::vector<FormGuide> form_guides;
@@ -162,6 +170,11 @@ struct RegionPlan {
     std::vector<int> form_evidence;
     [[nodiscard]] bool has_form() const {
         return form_from != FormFrom::kNothing && form_amount > 0 && !form_evidence.empty();
+    }
+    /// Whether its motion says something of the shot's lens: its form comes from it, and no field
+    /// of view is given.
+    [[nodiscard]] bool shares_lens() const {
+        return form_from == FormFrom::kMotion && has_form() && !form_fov_deg;
     }
     /// λ on a frame.
     [[nodiscard]] float strength_at(int frame) const {
@@ -218,6 +231,7 @@ struct ShotPlan {
         out_from_plate, display_from_working;
     ExposureGreys exposure_greys;  ///< In the working space.
     bool layers = false;           ///< Frames are rendered with their FrameLayers.
+    bool form_layers = false;      ///< And with those of the form (shows_form()).
     bool keep_planes = false;      ///< Scenes keep what their planes were made of.
     /// The step of the plate's codes, as a share of white; 0: floating point.
     float plate_quantum = 0;

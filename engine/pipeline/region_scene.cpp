@@ -173,6 +173,8 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(region_index)];
     RegionScene scene;
     WEFT_TRY(mapping, texture_mapping(region.placement));
+    WEFT_TRY(found, found_form(region, store, region_index));
+    scene.form = std::move(found);
     WEFT_TRY(form, region_form(region, store, region_index));
     scene.mapping = mapping.with_form(form);
     if (has_plane(region)) {

@@ -6,10 +6,11 @@
 #include <memory>
 #include <optional>
 
+#include "engine/composite/texture_focus.h"
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
-#include "engine/composite/texture_focus.h"
+#include "engine/form/form_map.h"
 #include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/pipeline/analysis_store.h"
@@ -21,8 +22,11 @@
 namespace weft {
 
 struct RegionScene {
-    PlanePyramid plane;           ///< Empty in the modes that make one for every frame.
-    TextureMapping mapping;       ///< Of the still placement; with keys see mapping_on().
+    PlanePyramid plane;      ///< Empty in the modes that make one for every frame.
+    TextureMapping mapping;  ///< Of the still placement; with keys see mapping_on().
+    /// The form as it was found; null: flat. The scene's frame is `smaller` times smaller.
+    std::shared_ptr<const FormMap> form;
+    float smaller = 1;
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
     float exposure = 1;            ///< plate_exposure() of the reference frame.
@@ -35,7 +39,7 @@ struct RegionScene {
         return reference_colour.known || tint != std::array<float, 3>{};
     }
     GrainModel grain;
-    TextureFocus focus;           ///< Of the texture; measured where the plate's focus is matched.
+    TextureFocus focus;  ///< Of the texture; measured where the plate's focus is matched.
     float focus_texels_per_px = 1;  ///< On the reference frame, where that was measured.
     float shutter_deg = 0;
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.

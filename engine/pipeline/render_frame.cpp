@@ -14,6 +14,7 @@
 #include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_light.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_surface.h"
 #include "engine/pipeline/uv_coords.h"
@@ -62,7 +63,7 @@ class FrameRenderer {
           canvas_(plate_->size()),
           ready_(static_cast<std::size_t>(plate_->height())),
           touched_(plate_->size()) {
-        if (plan.layers) layers_.emplace(plate_->size());
+        if (plan.layers) layers_.emplace(plate_->size(), plan.form_layers);
         if (place == Place::kDevice) {
             make_ready(rect_of(plate_->size()));
             device_ = backend.open_frame(canvas_);
@@ -169,12 +170,12 @@ Expected<Mattes> FrameRenderer::composite_mattes(int index) {
     if (const float hardness = edge_hardness(extent); hardness > 0) {
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
         const Matte softened = soften_hard_edge(views_->display, extent);
-        std::transform(extent.data(), extent.data() + extent.size_bytes(), softened.data(),
-                       extent.data(), [&](std::uint8_t as_given, std::uint8_t soft) {
-                           const float away = static_cast<float>(soft) - as_given;
-                           return static_cast<std::uint8_t>(
-                               std::lround(as_given + hardness * away));
-                       });
+        std::transform(
+            extent.data(), extent.data() + extent.size_bytes(), softened.data(), extent.data(),
+            [&](std::uint8_t as_given, std::uint8_t soft) {
+                const float away = static_cast<float>(soft) - as_given;
+                return static_cast<std::uint8_t>(std::lround(as_given + hardness * away));
+            });
     }
     Matte covers = without_holdout(extent, holdout);
     if (shows_as_followed(region, frame_)) return Mattes{std::move(covers), {}};
@@ -226,6 +227,10 @@ Status FrameRenderer::add_on_cpu(int index, const RegionSurface& surface, const 
         LayerShare share{box, inside, unlit, texture, gloss};
         if (light.shading()) share.light = &*light.shading();
         WEFT_CHECK_OK(note_share(index, surface, scene, share));
+        if (plan_.form_layers) {
+            WEFT_TRY(form, region_form_on(scene, store_, index, frame_, inside, box));
+            add_form(*layers_, box, inside, form);
+        }
     }
     put_grain(index, scene, box, inside, texture);
     const ImageView<float, 3> area = canvas_.view().crop(box);

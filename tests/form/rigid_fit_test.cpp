@@ -173,5 +173,35 @@ TEST(RigidFit, TooFewMatchesAreNoEvidence) {
     EXPECT_FALSE(fit_rigid_surface(few, kSize, std::nullopt));
 }
 
+// The floor knows the lens better than a wall that hardly turns; together they know it best.
+TEST(RigidFit, TheMotionsOwnShareOfTheLensIsTold) {
+    const auto floor = fit(floor_below, round_about(4, 0.2f));
+    ASSERT_TRUE(floor);
+    const auto own = floor->measured_tangent();
+    ASSERT_TRUE(own);
+    EXPECT_NEAR(own->value, 320 / kFocal_px, 0.05);
+    EXPECT_LT(own->deviation, 0.1);
+    EXPECT_GT(floor->fov_error_deg, 0);
+    EXPECT_LT(floor->fov_error_deg, 4);
+    const auto given = fit_rigid_surface(matches(floor_below, round_about(4, 0.2f), 0.05), kSize,
+                                         TangentBelief{320 / kFocal_px, 0.01});
+    ASSERT_TRUE(given);
+    EXPECT_LT(given->error, floor->error);
+    EXPECT_LT(given->fov_error_deg, floor->fov_error_deg);
+}
+
+TEST(SharedTangent, TheBestDeterminedDecide) {
+    const auto shared = shared_tangent({{1.0, 0.01}, {1.3, 0.3}, {1.05, 0.1}});
+    ASSERT_TRUE(shared);
+    EXPECT_NEAR(shared->value, 1.01, 0.02);
+    EXPECT_LT(shared->deviation, 0.05);
+}
+
+TEST(SharedTangent, OneAloneOrContradictionsShareNothing) {
+    EXPECT_FALSE(shared_tangent({}));
+    EXPECT_FALSE(shared_tangent({{1.0, 0.01}}));
+    EXPECT_FALSE(shared_tangent({{0.7, 0.02}, {1.2, 0.02}})) << "as where the lens zooms";
+}
+
 }  // namespace
 }  // namespace weft

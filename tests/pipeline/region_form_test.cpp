@@ -148,6 +148,47 @@ TEST(RegionForm, FollowsADrawnShape) {
     EXPECT_NEAR(widened(Column(), drawn(column), 30), 1 / 0.78f, 0.04f);
 }
 
+// The column's normals, carried along as it pans; a flat region shows none.
+TEST(RegionForm, LayersShowItsNormalsOnEveryFrame) {
+    RegionPlan region = drawn({FormGuideKind::kCylinder, {80, 0, 80, 112, 80, 80}});
+    MemoryAnalysisStore store;
+    const Column shot;
+    const ShotPlan plan = make_plan(region);
+    ASSERT_TRUE(analyse_shot(shot, plan, store, {}, {}));
+    auto scene = make_scene(shot, plan, store, 0, {}, {});
+    ASSERT_TRUE(scene) << scene.error().text();
+    const Recti box = rect_of(kShotSize);
+    const Matte all(kShotSize, 255);
+    for (const int frame : {kFirst, 5}) {
+        const auto shown = region_form_on(*scene, store, 0, frame, all, box);
+        ASSERT_TRUE(shown);
+        const Vec2 panned = wall_moved({0, 0}, frame) - wall_moved({0, 0}, kFirst);
+        const int x = static_cast<int>(80 + panned.x), y = static_cast<int>(56 + panned.y);
+        EXPECT_NEAR(shown->normal.at(x, y, 2), 1, 0.03f) << frame;
+        EXPECT_NEAR(shown->normal.at(x + 40, y, 0), 0.5f, 0.06f) << frame;
+        EXPECT_NEAR(shown->normal.at(x - 40, y, 0), -0.5f, 0.06f) << frame;
+        EXPECT_GT(shown->depth.at(x + 40, y), shown->depth.at(x, y));
+        EXPECT_GT(shown->confidence.at(x, y), 0.9f) << frame;
+    }
+    scene->form = nullptr;
+    EXPECT_EQ(region_form_on(*scene, store, 0, 5, all, box)->confidence.at(80, 56), 0);
+}
+
+TEST(RegionForm, AnOutlineIsInflated) {
+    RegionPlan region = formed();
+    region.form_from = RegionPlan::FormFrom::kOutline;
+    const Column shot;
+    const float round = widened(shot, region, 30);
+    EXPECT_GT(round, 1.03f);
+    region.form_roundness = 0.2f;
+    EXPECT_LT(widened(shot, region, 30), round);
+    region.form_guides = {{FormGuideKind::kCut, {900, 900, 950, 950}}};
+    MemoryAnalysisStore store;
+    const Status found = analyse_shot(shot, make_plan(region), store, {}, {});
+    ASSERT_FALSE(found);
+    EXPECT_THAT(found.error().message, ::testing::HasSubstr("off the region's outline"));
+}
+
 TEST(RegionForm, ALevelStrokeTurnsIt) {
     RegionPlan region = drawn({FormGuideKind::kCylinder, {80, 0, 80, 112, 80, 80}});
     region.form_guides.push_back({FormGuideKind::kLevel, {70, 50, 90, 60}});

@@ -40,6 +40,19 @@ TEST(FormText, SaysWhatShowedItAndHowSureItIs) {
     EXPECT_EQ(form_text(form), "as the depth pass shows it on 1 frame");
 }
 
+TEST(FormText, SaysHowSureTheLensIsAndWhoFoundIt) {
+    FormReport form = found(Source::kMotion, true, 11, 1, 71.2f, 2.1f, 46.8f);
+    form.finding.fov_error_deg = 2.2f;
+    EXPECT_EQ(form_text(form),
+              "plane, from 11 frames of motion, tilted 71° ± 2°, field of view 47° ± 2°");
+    form.finding.fov_regions = 3;
+    EXPECT_THAT(form_text(form), testing::EndsWith("field of view 47° ± 2° by 3 regions"));
+    EXPECT_EQ(form_json(form)["fov_regions"], 3);
+    EXPECT_NEAR(form_json(form)["fov_error_deg"].get<double>(), 2.2, 1e-6);
+    EXPECT_EQ(form_text(found(Source::kOutline, false, 1, 1, 0, 0, 0)),
+              "round, inflated from its outline");
+}
+
 TEST(FormText, SaysWhyASurfaceIsFlat) {
     FormReport form = found(Source::kNone, true, 1, 0, 0, 0, 0);
     EXPECT_EQ(form_text(form), "flat, because too few frames show it for motion to tell its form");

@@ -91,6 +91,19 @@ TEST(LayerFiles, EachLayerHasItsChannels) {
     EXPECT_TRUE(exr[1].full_float);
 }
 
+TEST(LayerFiles, TheFormHasTheChannelsOfNuke) {
+    const FrameLayers layers({8, 4}, true);
+    const auto exr =
+        exr_layers(layers, {LayerKind::kNormal, LayerKind::kDepth, LayerKind::kFormConfidence});
+    ASSERT_EQ(exr.size(), 3u);
+    const std::vector<std::string> normal{"normal.x", "normal.y", "normal.z"};
+    EXPECT_EQ(exr[0].channels, normal);
+    EXPECT_EQ(exr[1].channels, std::vector<std::string>{"depth.Z"});
+    EXPECT_TRUE(exr[1].full_float);
+    EXPECT_EQ(exr[2].channels, std::vector<std::string>{"form_confidence.A"});
+    EXPECT_EQ(exr[2].samples.size(), 8u * 4);
+}
+
 TEST_F(RenderFiles, AVersionGoesUpOnlyWhereThereIsOne) {
     EXPECT_EQ(version_in("a/shot_v003.####.exr"), 3);
     EXPECT_EQ(version_in("v002/shot_v010/x.png"), 10);

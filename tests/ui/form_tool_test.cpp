@@ -127,6 +127,26 @@ TEST_F(FormTool, TheCheckerIsShownFromTheSection) {
     EXPECT_EQ(emitted<ShowOverlay>()[0].overlay, Overlay::kChecker);
 }
 
+TEST_F(FormTool, NormalsAreShownFromTheSection) {
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("Form/Normals"));
+    ASSERT_THAT(emitted<ShowOverlay>(), SizeIs(1));
+    EXPECT_EQ(emitted<ShowOverlay>()[0].overlay, Overlay::kNormals);
+}
+
+TEST_F(FormTool, ACutIsAStrokeBesideTheOthers) {
+    change([](Region& r) {
+        r.form.strokes = {guide(FormGuideKind::kLevel, {40, 40, 140, 40})};
+        r.form.source = FormSource::kInflate;
+    });
+    go("Texture", Tool::kPan);
+    draw("Cut", on(40, 90), on(140, 95));
+    take();
+    ASSERT_THAT(form().strokes, SizeIs(2));
+    EXPECT_EQ(form().strokes[1].kind, FormGuideKind::kCut);
+    EXPECT_EQ(form().source, FormSource::kInflate);
+}
+
 // ---- the geometry ----------------------------------------------------------------------------
 
 TEST(FormDrawing, ACylinderIsAsWideAsTheMatte) {

@@ -137,6 +137,20 @@ TEST_F(TransformTool, CornersBeginAroundTheRegion) {
                 ElementsAre(60, 40, 120, 40, 120, 100, 60, 100));
 }
 
+TEST_F(TransformTool, CornerPinsBeginOnThePlaneThatWasFoundAndSaySo) {
+    view.preview.planes[1] = {{{50, 60}, {150, 60}, {180, 120}, {30, 120}}};
+    view.preview.forms[1] = "Plane, from 11 frames of motion, tilted 71° ± 2°";
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("Perspective"));
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Add corner pin"));
+    const auto set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_THAT(std::get<std::vector<double>>(set[0].value),
+                ElementsAre(50, 60, 150, 60, 180, 120, 30, 120));
+    EXPECT_EQ(shell->state().transform.pinned_on.at(1), view.preview.forms[1]);
+}
+
 TEST(TransformBox, FollowsTheTexturesAxes) {
     Matte matte(100, 100);
     for (int y = 30; y < 70; ++y)
