@@ -76,19 +76,15 @@ Expected<std::optional<Shading>> light_alone(const Looked& at) {
     if (region.light_source != LightSource::kPlate || !region.lights() ||
         is_transfer(region.light.form))
         return Found(std::nullopt);
-    std::optional<Shading> out;
-    if (region.estimates_light()) {
-        ShadingOptions options = shading_options(at.plan, at.working.size());
-        options.downscale = kDownscale;
-        out = estimate_shading(at.working, at.visible, options);
-    } else {
-        WEFT_TRY(pass, region_shading(at.source, region, at.store, at.index, at.frame, at.working));
-        out = std::move(pass);
-    }
+    ShadingOptions options = shading_options(at.plan, at.working.size());
+    options.downscale = kDownscale;
+    Found out = region.estimates_light()
+                    ? Found(estimate_shading(at.working, at.visible, options))
+                    : region_shading(at.source, region, at.store, at.index, at.frame, at.working);
+    if (!out || !*out) return out;
     WEFT_TRY(detail, light_detail(at.source, at.plan, at.store, at.index, at.frame));
-    if (!detail.empty())
-        out = with_light_detail(*out, at.working, at.visible, at.box, detail);
-    return Found(std::move(out));
+    if (!detail.empty()) *out = with_light_detail(**out, at.working, at.visible, at.box, detail);
+    return out;
 }
 
 // The plate's edges in the box that are paint: the edge of a shadow is as soft as its penumbra.

@@ -54,7 +54,7 @@ Region with_edges_and_warp() {
     r.holdouts = r.holdouts.with([](std::vector<MatteSource>& holdouts) {
         holdouts[0].edge.blur_keys = *parse_keyed_numbers("3:2");
     });
-    r.placement.warp = grid_over({{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}}}, 1, 1);
+    r.placement.warp = grid_over({glm::dvec2(0, 0), {8, 0}, {8, 8}, {0, 8}}, 1, 1);
     set_key(*r.placement.warp, 2, r.placement.warp->points);
     std::vector<WarpPoint> moved = r.placement.warp->points;
     moved[0].at = {1, 1};
