@@ -16,26 +16,36 @@ Eigen::Vector2d through(const Eigen::Matrix3d& map, const Eigen::Vector2d& p) {
     return q.hnormalized();
 }
 
-// The direct linear transform, again without the fifth that fits worst: places that something else
-// covered, or that left the plane.
+// Least trimmed squares over the direct linear transform: fitted, again and again, to the four
+// fifths that agree best with the last fit (the C-steps of Rousseeuw & Van Driessen 2006,
+// "Computing LTS regression for large data sets"). What is left out was covered, or left the plane.
 std::optional<Eigen::Matrix3d> robust_fit(const Points& from, const Points& to) {
-    const auto first = fit_homography(from, to);
-    if (!first) return std::nullopt;
-    std::vector<std::size_t> order(from.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<double> apart(from.size());
-    for (std::size_t k = 0; k < from.size(); ++k)
-        apart[k] = (through(*first, from[k]) - to[k]).squaredNorm();
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return apart[a] < apart[b]; });
-    order.resize(std::max<std::size_t>(4, 4 * order.size() / 5));
-    Points near_from, near_to;
-    for (const std::size_t k : order) {
-        near_from.push_back(from[k]);
-        near_to.push_back(to[k]);
+    constexpr int kSteps = 20;
+    auto fit = fit_homography(from, to);
+    const std::size_t kept = std::max<std::size_t>(4, 4 * from.size() / 5);
+    std::vector<std::size_t> last;
+    for (int step = 0; fit && step < kSteps; ++step) {
+        std::vector<double> apart(from.size());
+        for (std::size_t k = 0; k < from.size(); ++k)
+            apart[k] = (through(*fit, from[k]) - to[k]).squaredNorm();
+        std::vector<std::size_t> order(from.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t m, std::size_t n) { return apart[m] < apart[n]; });
+        order.resize(kept);
+        std::sort(order.begin(), order.end());
+        if (order == last) break;
+        Points near_from, near_to;
+        for (const std::size_t k : order) {
+            near_from.push_back(from[k]);
+            near_to.push_back(to[k]);
+        }
+        const auto again = fit_homography(near_from, near_to);
+        if (!again) break;
+        fit = again;
+        last = std::move(order);
     }
-    const auto again = fit_homography(near_from, near_to);
-    return again ? again : first;
+    return fit;
 }
 
 }  // namespace

@@ -97,8 +97,8 @@ TEST_F(TransformTool, KeysOfThisFrameAreWrittenWhereThereAreSome) {
     robot->stroke({on(100, 80), on(110, 82), on(130, 90)});
     const Placement now = placed();
     ASSERT_THAT(now.offset_keys.keys, SizeIs(2));
-    EXPECT_EQ(now.offset_keys.keys[1].first, 1003);
-    EXPECT_NEAR(now.offset_keys.keys[1].second[0], 35, 0.6);
+    EXPECT_EQ(now.offset_keys.keys[1].frame, 1003);
+    EXPECT_NEAR(now.offset_keys.keys[1].numbers[0], 35, 0.6);
     EXPECT_EQ(now.offset_px.x, 0);
 }
 
