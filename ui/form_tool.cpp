@@ -40,8 +40,7 @@ FormGuide with_snapped_handle(Ctx& c, const ViewMap& map, const FormGuide& guide
     if (!is_shape(guide.kind)) {
         const std::size_t other = k ^ 1U;
         const auto ends = snapped_segment(c, map, handles_of(guide)[other].at, at);
-        if (ends)
-            return with_handle_at(with_handle_at(guide, other, ends->first), k, ends->second);
+        if (ends) return with_handle_at(with_handle_at(guide, other, ends->first), k, ends->second);
     }
     return with_handle_at(guide, k, snapped(c, map, at, true));
 }

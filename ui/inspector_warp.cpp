@@ -40,18 +40,19 @@ void size_controls(Ctx& c, const Region& region, const GridWarp& warp) {
 
 void falloff_control(Ctx& c, const Region& region, GridWarp warp) {
     double value = warp.falloff_px;
-    const Change change = slider(c,
-                                 {.label = "Fall-off",
-                                  .unit = "px",
-                                  .tip = "Beyond the border of the grid the warp fades over so many "
-                                         "plate pixels; 0: it continues",
-                                  .min = 0,
-                                  .max = 500,
-                                  .standard = 0,
-                                  .decimals = 0,
-                                  .typed_min = 0,
-                                  .typed_max = GridWarp::kMostPx},
-                                 value);
+    const Change change =
+        slider(c,
+               {.label = "Fall-off",
+                .unit = "px",
+                .tip = "Beyond the border of the grid the warp fades over so many "
+                       "plate pixels; 0: it continues",
+                .min = 0,
+                .max = 500,
+                .standard = 0,
+                .decimals = 0,
+                .typed_min = 0,
+                .typed_max = GridWarp::kMostPx},
+               value);
     if (change == Change::kNone) return;
     warp.falloff_px = value;
     if (!check_grid_warp(warp)) return;
@@ -113,8 +114,7 @@ void warp_section(Ctx& c, const Region& region) {
                    {.icon = icons::kCurve,
                     .tip = "Handles of the selected points follow from their neighbours again",
                     .width = -1}))
-            set_warp(c, region,
-                     with_smooth_points(*warp, c.view.frame, c.state.warp.selected));
+            set_warp(c, region, with_smooth_points(*warp, c.view.frame, c.state.warp.selected));
         if (region.placement.warp &&
             button(c, "Reset warp", {.icon = icons::kClose, .width = -1})) {
             c.state.warp.selected.clear();

@@ -77,10 +77,9 @@ float length(Vec2 v) {
 }
 
 Recti around(Vec2 low, Vec2 high, float margin) {
-    return {static_cast<int>(std::floor(low.x - margin)),
-            static_cast<int>(std::floor(low.y - margin)),
-            static_cast<int>(std::ceil(high.x + margin)),
-            static_cast<int>(std::ceil(high.y + margin))};
+    return {
+        static_cast<int>(std::floor(low.x - margin)), static_cast<int>(std::floor(low.y - margin)),
+        static_cast<int>(std::ceil(high.x + margin)), static_cast<int>(std::ceil(high.y + margin))};
 }
 
 // The peak of three values a step apart, from the middle one, by a parabola.
@@ -258,8 +257,7 @@ std::optional<SnapPlace> snapped_to_edge(const Picture& picture, Vec2 at, float 
             // The point of this piece of the edge that is nearest, at most half a pixel along.
             const Vec2 on = centre + across * peak(before, here, after), along(-across.y, across.x);
             const Vec2 d = at - on;
-            const Vec2 near =
-                on + along * std::clamp(d.x * along.x + d.y * along.y, -0.7f, 0.7f);
+            const Vec2 near = on + along * std::clamp(d.x * along.x + d.y * along.y, -0.7f, 0.7f);
             const float off = length(near - at);
             if (off < edge_off) {
                 edge_off = off;

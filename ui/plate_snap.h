@@ -24,7 +24,8 @@ struct SnapPlace {
 /// A segment laid on a straight edge of the picture that runs within `reach_px` along at least 60 %
 /// of it, by a least-squares fit of its gradients: the nearest places of the two ends on that line.
 /// Nothing if there is no such edge, or the segment is short. Thread-safe.
-[[nodiscard]] std::optional<std::pair<Vec2, Vec2>> snapped_to_line(const Picture& picture, Vec2 from,
-                                                                   Vec2 to, float reach_px);
+[[nodiscard]] std::optional<std::pair<Vec2, Vec2>> snapped_to_line(const Picture& picture,
+                                                                   Vec2 from, Vec2 to,
+                                                                   float reach_px);
 
 }  // namespace weft::ui

@@ -93,8 +93,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");
     const bool escaped = close_popups(state_);
-    if (!sheet && !escaped && !ui::nudge_texture(c) && !ui::nudge_warp(c))
-        commands_.dispatch(c);
+    if (!sheet && !escaped && !ui::nudge_texture(c) && !ui::nudge_warp(c)) commands_.dispatch(c);
     layout(c);
     part("windows");
     // The strip is hidden elsewhere.

@@ -35,8 +35,7 @@ void follow(Ctx& c, const Region& region) {
     const auto known = c.view.stages.places.find(region.id);
     if (known != c.view.stages.places.end()) s.places = known->second;
     const auto grid = warp_shown(c, region);
-    if (grid)
-        std::erase_if(s.selected, [&](std::size_t k) { return k >= grid->count(); });
+    if (grid) std::erase_if(s.selected, [&](std::size_t k) { return k >= grid->count(); });
 }
 
 Vec2 on_frame(const Ctx& c, Vec2 reference) {
@@ -110,24 +109,22 @@ bool drag_handles(Ctx& c, const ViewMap& map, const Region& region, const GridWa
         WarpPoint point = points[k];
         const int column = static_cast<int>(k) % (warp.columns + 1);
         const int row = static_cast<int>(k) / (warp.columns + 1);
-        const std::array<bool, kWarpHandles> there{column > 0, column < warp.columns, row > 0,
+        const std::array<bool, kWarpHandles> there{column > 0, column<warp.columns, row> 0,
                                                    row < warp.rows};
         for (std::size_t side = 0; side < kWarpHandles; ++side) {
             if (!there[side]) continue;
             const glm::dvec2 offset = *warp_handle(point, side);
             Vec2 end = on_frame(c, float_of(point.at + offset));
-            ImGui::GetWindowDrawList()->AddLine(
-                map.to_screen(on_frame(c, float_of(point.at))), map.to_screen(end),
-                faded(c.theme.text, 0.7f), c.theme.px(1));
-            const Grip grip =
-                handle(c, map, "warp " + std::to_string(k + 1) + " " + kSides[side], end, hovered,
-                       c.theme.text, false);
+            ImGui::GetWindowDrawList()->AddLine(map.to_screen(on_frame(c, float_of(point.at))),
+                                                map.to_screen(end), faded(c.theme.text, 0.7f),
+                                                c.theme.px(1));
+            const Grip grip = handle(c, map, "warp " + std::to_string(k + 1) + " " + kSides[side],
+                                     end, hovered, c.theme.text, false);
             over |= grip != Grip::kNone;
             if (grip == Grip::kTaken) s.before = warp;
             if ((grip != Grip::kHeld && grip != Grip::kLetGo) || !s.before) continue;
             const Vec2 to = on_reference(c, end) - float_of(point.at);
-            show(c, region,
-                 with_handle(*s.before, c.view.frame, k, side, to, !breaks_off()), grip);
+            show(c, region, with_handle(*s.before, c.view.frame, k, side, to, !breaks_off()), grip);
         }
     }
     return over;
@@ -194,8 +191,8 @@ std::optional<GridWarp> warp_shown(Ctx& c, const Region& region) {
     if (region.placement.corners_px) {
         Quad<float> corners;
         for (std::size_t k = 0; k < 4; ++k)
-            corners[k] = float_of({(*region.placement.corners_px)[k].x,
-                                   (*region.placement.corners_px)[k].y});
+            corners[k] = float_of(
+                {(*region.placement.corners_px)[k].x, (*region.placement.corners_px)[k].y});
         return laid_grid(corners);
     }
     if (s.proposed) return s.proposed;
@@ -227,12 +224,13 @@ bool nudge_warp(Ctx& c) {
     const auto warp = warp_shown(c, *region);
     if (!warp) return false;
     const Vec2 at = on_frame(
-        c, float_of(points_on(*warp, c.view.frame)[std::min(*s.selected.begin(),
-                                                            warp->count() - 1)].at));
+        c,
+        float_of(
+            points_on(*warp, c.view.frame)[std::min(*s.selected.begin(), warp->count() - 1)].at));
     const Vec2 step = on_reference(c, at + by) - on_reference(c, at);
-    c.emit(DoEdits{
-        {edit_of_warp(*region, with_points_moved(*warp, c.view.frame, s.selected, step))},
-        "Warp texture"});
+    c.emit(
+        DoEdits{{edit_of_warp(*region, with_points_moved(*warp, c.view.frame, s.selected, step))},
+                "Warp texture"});
     return true;
 }
 

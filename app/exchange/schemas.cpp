@@ -51,27 +51,22 @@ Json grid_warp() {
     for (const char* key : {"at", "left", "right", "up", "down"})
         control["properties"][key] = point();
     const Json points{{"type", "array"}, {"items", control}};
-    const Json patches{
-        {"type", "integer"}, {"minimum", 1}, {"maximum", GridWarp::kMostPatches}};
-    return {{"type", "object"},
-            {"required", {"columns", "rows", "corners"}},
-            {"properties",
-             {{"columns", patches},
-              {"rows", patches},
-              {"corners",
-               {{"type", "array"},
-                {"items", point()},
-                {"minItems", 4},
-                {"maxItems", 4}}},
-              {"falloff_px", {{"type", "number"}, {"minimum", 0}, {"maximum", GridWarp::kMostPx}}},
-              {"points", points},
-              {"keys",
-               {{"type", "array"},
-                {"items",
-                 {{"type", "object"},
-                  {"required", {"frame", "points"}},
-                  {"properties",
-                   {{"frame", any_of_type("integer")}, {"points", points}}}}}}}}}};
+    const Json patches{{"type", "integer"}, {"minimum", 1}, {"maximum", GridWarp::kMostPatches}};
+    return {
+        {"type", "object"},
+        {"required", {"columns", "rows", "corners"}},
+        {"properties",
+         {{"columns", patches},
+          {"rows", patches},
+          {"corners", {{"type", "array"}, {"items", point()}, {"minItems", 4}, {"maxItems", 4}}},
+          {"falloff_px", {{"type", "number"}, {"minimum", 0}, {"maximum", GridWarp::kMostPx}}},
+          {"points", points},
+          {"keys",
+           {{"type", "array"},
+            {"items",
+             {{"type", "object"},
+              {"required", {"frame", "points"}},
+              {"properties", {{"frame", any_of_type("integer")}, {"points", points}}}}}}}}}};
 }
 
 Json schema_of(const ParameterInfo& info) {
@@ -149,7 +144,6 @@ void add_table(Json& object, std::span<const Parameter<Owner>> table) {
         (*into)[std::string(parameter.key)] = schema_of(parameter);
     }
 }
-
 
 Json region_schema() {
     Json region{{"type", "object"}, {"properties", Json::object()}};

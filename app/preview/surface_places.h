@@ -14,9 +14,7 @@ class SurfacePlaces {
     /// `ground`: the region's mapping without scale, rotation and offset.
     SurfacePlaces(LatticeField ref_from_cur, TextureMapping ground)
         : ref_from_cur_(std::move(ref_from_cur)), ground_(std::move(ground)) {}
-    [[nodiscard]] Vec2 at(Vec2 plate) const {
-        return ground_.texel(reference(plate));
-    }
+    [[nodiscard]] Vec2 at(Vec2 plate) const { return ground_.texel(reference(plate)); }
     /// Where a place of this frame lies on the reference frame.
     [[nodiscard]] Vec2 reference(Vec2 plate) const { return plate + ref_from_cur_.at(plate); }
     /// The way back: where this frame shows a place of the reference frame, by Newton's method with

@@ -1,6 +1,6 @@
 #pragma once
-// Parameters that are lists: names, keys over time, lamps, guides of form, and grid warps. Internal to
-// parameter_values.cpp.
+// Parameters that are lists: names, keys over time, lamps, guides of form, and grid warps. Internal
+// to parameter_values.cpp.
 
 #include <string>
 

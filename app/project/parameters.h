@@ -37,9 +37,9 @@ enum class ParameterKind {
 };
 
 /// std::monostate: not set (only if `optional`); std::vector<double>: points and frames.
-using ParameterValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
-                 std::vector<std::string>, KeyedNumbers, std::vector<Lamp>, std::vector<FormGuide>, GridWarp>;
+using ParameterValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                                    std::vector<double>, std::vector<std::string>, KeyedNumbers,
+                                    std::vector<Lamp>, std::vector<FormGuide>, GridWarp>;
 
 struct ParameterInfo {
     /// JSON object that holds it; empty: directly in the region or project.

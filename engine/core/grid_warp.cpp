@@ -77,9 +77,9 @@ Status check_folds(const GridWarp& warp) {
         // That the next key folds by itself is said by its own turn.
         if (next.unfolded_towards(next).share < 1) continue;
         if (const auto found = at.unfolded_towards(next); found.share < 1)
-            return folds(
-                warp, found.grid,
-                fmt::format(" between frames {} and {}", warp.keys[k].first, warp.keys[k + 1].first));
+            return folds(warp, found.grid,
+                         fmt::format(" between frames {} and {}", warp.keys[k].first,
+                                     warp.keys[k + 1].first));
     }
     return {};
 }

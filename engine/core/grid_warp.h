@@ -27,7 +27,7 @@ struct WarpPoint {
 /// where the points have been moved. Points are in rows from the top left.
 struct GridWarp {
     int columns = 2, rows = 2;  ///< 1 to kMostPatches.
-    Quad<double> corners = {};   ///< Convex; plate pixels.
+    Quad<double> corners = {};  ///< Convex; plate pixels.
     double falloff_px = 0;      ///< Beyond the border the warp fades over so far; 0: it continues.
     std::vector<WarpPoint> points = {};
     /// Points over time, in place of `points`: by frame, ascending, each frame once. Linear between
@@ -68,13 +68,13 @@ void set_key(GridWarp& warp, int frame, std::vector<WarpPoint> points);
 /// The warp in a frame that is `factor` times smaller, factor > 0.
 [[nodiscard]] GridWarp on_smaller_frame(GridWarp warp, double factor);
 
-/// Whether the warp has its points, all numbers are finite and in range, and it folds nowhere, on no
-/// key and between no two keys. Errors: Usage with what is wrong, where, and what to do.
+/// Whether the warp has its points, all numbers are finite and in range, and it folds nowhere, on
+/// no key and between no two keys. Errors: Usage with what is wrong, where, and what to do.
 [[nodiscard]] Status check_grid_warp(const GridWarp& warp);
 
-/// Text such as "2x1 corners 0,0 640,0 640,360 0,360 falloff 40 points P P P P P P key 12 P …", each
-/// P "x,y" or with handles "x,y:l-10,0:r10,0:u0,-9:d0,9". Errors: Usage with the place; without
-/// check_grid_warp().
+/// Text such as "2x1 corners 0,0 640,0 640,360 0,360 falloff 40 points P P P P P P key 12 P …",
+/// each P "x,y" or with handles "x,y:l-10,0:r10,0:u0,-9:d0,9". Errors: Usage with the place;
+/// without check_grid_warp().
 [[nodiscard]] Expected<GridWarp> parse_grid_warp(std::string_view text);
 /// The text that parse_grid_warp() reads back to the same warp.
 [[nodiscard]] std::string grid_warp_text(const GridWarp& warp);

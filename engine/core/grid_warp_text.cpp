@@ -119,8 +119,8 @@ Expected<std::vector<WarpPoint>> read_points(Words& words, std::size_t most) {
 Status read_size(std::string_view word, GridWarp& warp) {
     const std::size_t times = word.find('x');
     const auto columns = number_of(word.substr(0, times));
-    const auto rows = times == std::string_view::npos ? std::nullopt
-                                                      : number_of(word.substr(times + 1));
+    const auto rows =
+        times == std::string_view::npos ? std::nullopt : number_of(word.substr(times + 1));
     const auto fits = [](std::optional<double> n) {
         return n && *n >= 1 && *n <= GridWarp::kMostPatches && std::trunc(*n) == *n;
     };

@@ -73,9 +73,9 @@ dvec2 PlaneWarp::start(dvec2 pixel) const {
     const int x = std::min(static_cast<int>(on.x), nodes_.width - 2);
     const int y = std::min(static_cast<int>(on.y), nodes_.height - 2);
     const double tx = on.x - x, ty = on.y - y;
-    const dvec2* row = &starts_[static_cast<std::size_t>(y) *
-                                    static_cast<std::size_t>(nodes_.width) +
-                                static_cast<std::size_t>(x)];
+    const dvec2* row =
+        &starts_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nodes_.width) +
+                 static_cast<std::size_t>(x)];
     const dvec2* below = row + nodes_.width;
     return pixel + glm::mix(glm::mix(row[0], row[1], tx), glm::mix(below[0], below[1], tx), ty);
 }

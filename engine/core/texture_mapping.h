@@ -94,8 +94,8 @@ class TextureMapping {
         return out;
     }
 
-    /// The way back on a surface without a form and a warp: the place in pixels of the reference frame that
-    /// shows a texel.
+    /// The way back on a surface without a form and a warp: the place in pixels of the reference
+    /// frame that shows a texel.
     class Inverse {
       public:
         explicit Inverse(const Mat3& reference_from_texel) : map_(reference_from_texel) {}

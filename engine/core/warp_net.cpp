@@ -135,8 +135,8 @@ void WarpNet::place_controls(const std::vector<WarpPoint>& points) {
 }
 
 // Bernstein's polynomials inside. Beyond the border the patch goes on along its slope there, ever
-// less: x / (1 + x / r) after x patches, r a quarter of the grid's, so that it is differentiable and
-// bounded, however finely the grid is divided.
+// less: x / (1 + x / r) after x patches, r a quarter of the grid's, so that it is differentiable
+// and bounded, however finely the grid is divided.
 WarpNet::Weights WarpNet::weights(double along, int patches) {
     Weights out;
     const int cell = along >= patches ? patches - 1 : along > 0 ? static_cast<int>(along) : 0;
@@ -208,12 +208,12 @@ WarpNet::Place WarpNet::moved(dvec2 rest) const {
     glm::dmat2 slopes(0);
     for (int axis = 0; axis < 2; ++axis) {
         const glm::dvec3 step = sign * grid_from_rest_[axis];
-        const dvec2 by = z > depth * 0.5 ? (dvec2(step.x, step.y) - grid * step.z) / depth
-                                         : dvec2(0, 0);
+        const dvec2 by =
+            z > depth * 0.5 ? (dvec2(step.x, step.y) - grid * step.z) / depth : dvec2(0, 0);
         slopes[axis] = d.by_column * by.x + d.by_row * by.y;
     }
-    const bool inside = z > 0 && grid.x >= 0 && grid.y >= 0 && grid.x <= columns_ &&
-                        grid.y <= rows_;
+    const bool inside =
+        z > 0 && grid.x >= 0 && grid.y >= 0 && grid.x <= columns_ && grid.y <= rows_;
     if (falloff_px_ <= 0 || inside) return {rest + d.at, glm::dmat2(1) + slopes};
     const OnSegment border = nearest_on_border(corners_, rest);
     const double distance = std::sqrt(border.squared), x = distance / falloff_px_;

@@ -35,8 +35,8 @@ TEST(PlaneWarp, UndoesTheWarpEverywhere) {
         double most = 0;
         for (float y = -300; y < 600; y += 2.3f)
             for (float x = -300; x < 800; x += 2.9f)
-                most = std::max(most, glm::distance(net.moved(dvec2(back.rest({x, y}))).at,
-                                                    dvec2(x, y)));
+                most = std::max(most,
+                                glm::distance(net.moved(dvec2(back.rest({x, y}))).at, dvec2(x, y)));
         EXPECT_LT(most, 5e-4) << falloff;
     }
 }
@@ -58,8 +58,8 @@ TEST(PlaneWarp, FindsItsWayCloseToAFold) {
     double most = 0;
     for (float y = 40; y < 260; y += 0.7f)
         for (float x = 90; x < 410; x += 0.9f)
-            most = std::max(most,
-                            glm::distance(net.moved(dvec2(back.rest({x, y}))).at, dvec2(x, y)));
+            most =
+                std::max(most, glm::distance(net.moved(dvec2(back.rest({x, y}))).at, dvec2(x, y)));
     EXPECT_LT(most, 2e-3);
 }
 
@@ -73,7 +73,9 @@ TEST(PlaneWarp, IsTheSameForAnyNumberOfThreads) {
         for (float y = 0; y < 300; y += 7)
             for (float x = 0; x < 500; x += 7)
                 now.push_back(back.rest({x, y}));
-        if (!before.empty()) { EXPECT_EQ(now, before); }
+        if (!before.empty()) {
+            EXPECT_EQ(now, before);
+        }
         before = now;
     }
     set_thread_count(0);
@@ -103,10 +105,9 @@ TEST(PlaneWarp, IsFastEnoughForEveryPixel) {
     for (int y = 0; y < 300; ++y)
         for (int x = 0; x < 500; ++x)
             sum += back.rest({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
-    const double ns = std::chrono::duration<double, std::nano>(
-                          std::chrono::steady_clock::now() - begin)
-                          .count() /
-                      (300 * 500);
+    const double ns =
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() /
+        (300 * 500);
     RecordProperty("ns_per_pixel", static_cast<int>(ns));
     EXPECT_GT(sum.x, 0);
     EXPECT_LT(ns, 20'000) << "even without optimisation, in a sanitised build on a busy machine";

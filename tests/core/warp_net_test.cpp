@@ -71,9 +71,9 @@ TEST(WarpNet, IsDifferentiableEverywhereAndSaysItsDerivative) {
                     const auto here = net.moved({x, y});
                     for (int axis = 0; axis < 2; ++axis) {
                         const dvec2 step = axis == 0 ? dvec2(kStep, 0) : dvec2(0, kStep);
-                        const dvec2 slope = (net.moved(dvec2(x, y) + step).at -
-                                             net.moved(dvec2(x, y) - step).at) /
-                                            (2 * kStep);
+                        const dvec2 slope =
+                            (net.moved(dvec2(x, y) + step).at - net.moved(dvec2(x, y) - step).at) /
+                            (2 * kStep);
                         most = std::max(most, glm::distance(slope, here.jacobian[axis]));
                     }
                 }

@@ -64,22 +64,26 @@ INSTANTIATE_TEST_SUITE_P(
                 "regions[1].placement.warp.columns: "},
         Hostile{"warp_no_corners", WEFT_REGION(R"("placement":{"warp":{"columns":2,"rows":2}})"),
                 "regions[1].placement.warp.corners: "},
-        Hostile{"warp_point",
-                WEFT_REGION(
-                    R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[9,0],[9,9],[0,9]],"points":[{"at":[0,0]},{"at":[9]},{"at":[0,9]},{"at":[9,9]}]}})"),
-                "regions[1].placement.warp.points[1].at: "},
-        Hostile{"warp_key_twice",
-                WEFT_REGION(
-                    R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[9,0],[9,9],[0,9]],"keys":[{"frame":1,"points":[{"at":[0,0]},{"at":[9,0]},{"at":[0,9]},{"at":[9,9]}]},{"frame":1,"points":[{"at":[0,0]},{"at":[9,0]},{"at":[0,9]},{"at":[9,9]}]}]}})"),
-                "Frame 1 has two keys"},
-        Hostile{"warp_fold",
-                WEFT_REGION(
-                    R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[90,0],[90,90],[0,90]],"points":[{"at":[0,0]},{"at":[-90,0]},{"at":[0,90]},{"at":[90,90]}]}})"),
-                "the grid folds"},
-        Hostile{"warp_flat",
-                WEFT_REGION(
-                    R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[9,0],[0,0],[0,9]]}})"),
-                "convex"},
+        Hostile{
+            "warp_point",
+            WEFT_REGION(
+                R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[9,0],[9,9],[0,9]],"points":[{"at":[0,0]},{"at":[9]},{"at":[0,9]},{"at":[9,9]}]}})"),
+            "regions[1].placement.warp.points[1].at: "},
+        Hostile{
+            "warp_key_twice",
+            WEFT_REGION(
+                R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[9,0],[9,9],[0,9]],"keys":[{"frame":1,"points":[{"at":[0,0]},{"at":[9,0]},{"at":[0,9]},{"at":[9,9]}]},{"frame":1,"points":[{"at":[0,0]},{"at":[9,0]},{"at":[0,9]},{"at":[9,9]}]}]}})"),
+            "Frame 1 has two keys"},
+        Hostile{
+            "warp_fold",
+            WEFT_REGION(
+                R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[90,0],[90,90],[0,90]],"points":[{"at":[0,0]},{"at":[-90,0]},{"at":[0,90]},{"at":[90,90]}]}})"),
+            "the grid folds"},
+        Hostile{
+            "warp_flat",
+            WEFT_REGION(
+                R"("placement":{"warp":{"columns":1,"rows":1,"corners":[[0,0],[9,0],[0,0],[0,9]]}})"),
+            "convex"},
         Hostile{"offset_short", WEFT_REGION(R"("placement":{"offset_px":[1]})"), "two numbers"},
         Hostile{"offset_texts", WEFT_REGION(R"("placement":{"offset_px":["1","2"]})"),
                 "must be numbers"},

@@ -64,10 +64,9 @@ Region full_region() {
     r.form.amount = 0.75;
     r.form.shape = {{FormGuideKind::kCylinder, {100, 40, 104, 300, 50, 52.5, -10}}};
     r.form.strokes = {{FormGuideKind::kLevel, {80, 100, 130, 104}}};
-    r.placement.warp =
-        grid_over({glm::dvec2(10, 20), glm::dvec2(300, 25), glm::dvec2(290, 220.5),
-                   glm::dvec2(0, 200)},
-                  2, 1);
+    r.placement.warp = grid_over(
+        {glm::dvec2(10, 20), glm::dvec2(300, 25), glm::dvec2(290, 220.5), glm::dvec2(0, 200)}, 2,
+        1);
     r.placement.warp->falloff_px = 40.25;
     r.placement.warp->points[1].at.y += 6;
     r.placement.warp->points[1].right = glm::dvec2(44, 3.5);

@@ -46,9 +46,8 @@ TEST(Warp, SurvivesTheProjectFileAndActions) {
     Project project;
     Region region;
     region.id = 1;
-    region.placement.warp =
-        grid_over({glm::dvec2(1, 2), glm::dvec2(300, 5), glm::dvec2(290, 200), glm::dvec2(3, 190)},
-                  3, 2);
+    region.placement.warp = grid_over(
+        {glm::dvec2(1, 2), glm::dvec2(300, 5), glm::dvec2(290, 200), glm::dvec2(3, 190)}, 3, 2);
     region.placement.warp->points[4].up = glm::dvec2(0.1, -20);
     set_key(*region.placement.warp, 12, region.placement.warp->points);
     project.regions.push_back(region);
@@ -72,8 +71,8 @@ TEST(Warp, SurvivesTheProjectFileAndActions) {
 }
 
 TEST(Warp, AFileMayLeaveOutPointsAtRest) {
-    const auto rest = grid_warp_from_json(
-        R"({"columns":2,"rows":1,"corners":[[0,0],[90,0],[90,60],[0,60]]})");
+    const auto rest =
+        grid_warp_from_json(R"({"columns":2,"rows":1,"corners":[[0,0],[90,0],[90,60],[0,60]]})");
     ASSERT_TRUE(rest) << rest.error().text();
     EXPECT_EQ(*rest, grid_over({glm::dvec2(0, 0), glm::dvec2(90, 0), glm::dvec2(90, 60),
                                 glm::dvec2(0, 60)},

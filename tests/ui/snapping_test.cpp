@@ -14,7 +14,8 @@ PicturePtr quad_picture(Size size, Vec2 middle, float half, float turn) {
     ImageU8x3 out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
-            const Vec2 d = Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) - middle;
+            const Vec2 d =
+                Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) - middle;
             const Vec2 q(c * d.x + s * d.y, -s * d.x + c * d.y);
             const float inside = std::min(half - std::abs(q.x), half - std::abs(q.y));
             const float share = std::clamp(inside + 0.5f, 0.0f, 1.0f);
@@ -82,7 +83,8 @@ TEST(PlateSnap, IsFastEnoughForEveryFrameOfTheWindow) {
         static_cast<void>(ui::snapped_to_line(*picture, {540, 70}, {1300, 150}, 32));
     }
     const double ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count() /
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+            .count() /
         kTimes;
     RecordProperty("ms", std::to_string(ms));
     EXPECT_LT(ms, 200) << "even in a sanitised build on a busy machine";

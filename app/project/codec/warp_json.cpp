@@ -52,8 +52,8 @@ Expected<std::vector<WarpPoint>> read_points(const Json& json, const std::string
 
 Status read_warp_keys(const Json& json, const std::string& path, GridWarp& warp) {
     if (!json.is_array() || json.size() > GridWarp::kMostKeys)
-        return fail_at(path, fmt::format("This must be a list of at most {} keys",
-                                         GridWarp::kMostKeys));
+        return fail_at(path,
+                       fmt::format("This must be a list of at most {} keys", GridWarp::kMostKeys));
     for (std::size_t i = 0; i < json.size(); ++i) {
         WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
         WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
@@ -94,7 +94,8 @@ Expected<ParameterValue> read_warp(const Json& value, const std::string& path) {
     if (!corners || !corners->is_array() || corners->size() != 4)
         return fail_at(object.path_of("corners"), "This must be four corners, [[x, y], …]");
     for (std::size_t k = 0; k < 4; ++k) {
-        WEFT_TRY(at, read_place(&(*corners)[k], fmt::format("{}[{}]", object.path_of("corners"), k)));
+        WEFT_TRY(at,
+                 read_place(&(*corners)[k], fmt::format("{}[{}]", object.path_of("corners"), k)));
         warp.corners[k] = at;
     }
     if (const Json* falloff = object.take("falloff_px")) {
