@@ -88,6 +88,25 @@ std::vector<double> first_corners(Ctx& c) {
     return out;
 }
 
+void perspective_section(Ctx& c, const Region& region) {
+    if (!section(c, "Perspective", false)) return;
+    const PanelName panel(c, "Perspective");
+    region_parameter(c, region, "placement.corners_px", "Corners");
+    const bool set = region.placement.corners_px.has_value();
+    if (!set && button(c, "Add corner pin",
+                       {.icon = icons::kCrosshairs,
+                        .enabled = !c.view.plate.size.empty(),
+                        .tip = "Adds four corners to drag onto a flat "
+                               "surface in perspective",
+                        .width = -1})) {
+        c.edit(SetRegionParameter{{region.id, {}}, "placement.corners_px", first_corners(c)});
+        c.state.tool = Tool::kPlace;
+    }
+    if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
+        c.edit(SetRegionParameter{{region.id, {}}, "placement.corners_px", {}});
+    section_gap(c);
+}
+
 }  // namespace
 
 void texture_inspector(Ctx& c) {
@@ -163,23 +182,7 @@ void texture_inspector(Ctx& c) {
     form_section(c, *region);
     warp_section(c, *region);
     provenance_section(c, *region);
-    if (section(c, "Perspective", false)) {
-        const PanelName panel(c, "Perspective");
-        region_parameter(c, *region, "placement.corners_px", "Corners");
-        const bool set = region->placement.corners_px.has_value();
-        if (!set && button(c, "Add corner pin",
-                           {.icon = icons::kCrosshairs,
-                            .enabled = !c.view.plate.size.empty(),
-                            .tip = "Adds four corners to drag onto a flat "
-                                   "surface in perspective",
-                            .width = -1})) {
-            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", first_corners(c)});
-            c.state.tool = Tool::kPlace;
-        }
-        if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
-            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", {}});
-        section_gap(c);
-    }
+    perspective_section(c, *region);
 }
 
 }  // namespace weft::ui
