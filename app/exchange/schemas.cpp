@@ -57,7 +57,7 @@ Json lamps() {
 }
 
 Json grid_warp() {
-    Json control{{"type", "object"}, {"required", {"at"}}};
+    Json control{{"type", "object"}, {"required", Json::array({"at"})}};
     for (const char* key : {"at", "left", "right", "up", "down"})
         control["properties"][key] = point();
     const Json points{{"type", "array"}, {"items", control}};
