@@ -107,6 +107,23 @@ void add_pins(Ctx& c, const Region& region) {
     c.state.tool = Tool::kPlace;
 }
 
+void perspective_section(Ctx& c, const Region& region) {
+    if (!section(c, "Perspective", false)) return;
+    const PanelName panel(c, "Perspective");
+    region_parameter(c, region, "placement.corners_px", "Corners");
+    const bool set = region.placement.corners_px.has_value();
+    if (!set && button(c, "Add corner pin",
+                       {.icon = icons::kCrosshairs,
+                        .enabled = !c.view.plate.size.empty(),
+                        .tip = "Adds four corners to drag onto a flat surface in perspective. They "
+                               "begin on the plane that was found, if there is one",
+                        .width = -1}))
+        add_pins(c, region);
+    if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
+        c.edit(SetRegionParameter{{region.id, {}}, "placement.corners_px", {}});
+    section_gap(c);
+}
+
 }  // namespace
 
 void texture_inspector(Ctx& c) {
@@ -182,22 +199,7 @@ void texture_inspector(Ctx& c) {
     form_section(c, *region);
     warp_section(c, *region);
     provenance_section(c, *region);
-    if (section(c, "Perspective", false)) {
-        const PanelName panel(c, "Perspective");
-        region_parameter(c, *region, "placement.corners_px", "Corners");
-        const bool set = region->placement.corners_px.has_value();
-        if (!set && button(c, "Add corner pin",
-                           {.icon = icons::kCrosshairs,
-                            .enabled = !c.view.plate.size.empty(),
-                            .tip = "Adds four corners to drag onto a flat surface in "
-                                   "perspective. They begin on the plane that was found, if "
-                                   "there is one",
-                            .width = -1}))
-            add_pins(c, *region);
-        if (set && button(c, "Remove corner pin", {.icon = icons::kClose, .width = -1}))
-            c.edit(SetRegionParameter{{region->id, {}}, "placement.corners_px", {}});
-        section_gap(c);
-    }
+    perspective_section(c, *region);
 }
 
 }  // namespace weft::ui

@@ -36,6 +36,7 @@ std::string placeholder(const ParameterInfo& info) {
             return "FRAMES";
         case ParameterKind::kPath:
         case ParameterKind::kPaths:
+        case ParameterKind::kWarp:
             return "PATH";
         default:
             return info.is_path || !info.path_key.empty() ? "PATH" : "NAME";

@@ -49,8 +49,18 @@ Json guides(const ParameterInfo& info) {
                 {"numbers", {{"type", "array"}, {"items", any_of_type("number")}}}}}}}};
 }
 
+Json lamps() {
+    return {{"type", "array"},
+            {"items",
+             {{"type", "object"},
+              {"required", {"kind", "keys"}},
+              {"properties",
+               {{"kind", {{"enum", {"point", "directional", "gradient"}}}},
+                {"keys", keys({{"type", "array"}, {"items", any_of_type("number")}})}}}}}};
+}
+
 Json grid_warp() {
-    Json control{{"type", "object"}, {"required", {"at"}}};
+    Json control{{"type", "object"}, {"required", Json::array({"at"})}};
     for (const char* key : {"at", "left", "right", "up", "down"})
         control["properties"][key] = point();
     const Json points{{"type", "array"}, {"items", control}};
@@ -114,13 +124,7 @@ Json schema_of(const ParameterInfo& info) {
                 keys(info.components == 1 ? any_of_type("number") : numbers(info, info.components));
             break;
         case ParameterKind::kLamps:
-            out = {{"type", "array"},
-                   {"items",
-                    {{"type", "object"},
-                     {"required", {"kind", "keys"}},
-                     {"properties",
-                      {{"kind", {{"enum", {"point", "directional", "gradient"}}}},
-                       {"keys", keys({{"type", "array"}, {"items", any_of_type("number")}})}}}}}};
+            out = lamps();
             break;
         case ParameterKind::kGuides:
             out = guides(info);

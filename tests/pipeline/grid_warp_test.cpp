@@ -106,7 +106,8 @@ TEST(GridWarpInThePicture, KeysMoveItOverTime) {
     EXPECT_NEAR(edge_in(rendered(shot, make_region(halves()), warp, 7), 56), 96, 1);
 }
 
-// Stripes of two texels squeezed to a third: far beyond what the pixels can show.
+// Stripes of two texels squeezed to a third: far beyond what the pixels can show. Looked up without
+// a filter they would have their whole contrast, 1.
 TEST(GridWarpInThePicture, ItsOwnScaleIsFiltered) {
     const MemoryShot shot = make_wall(false, false);
     const auto stripes = columns([](int x) { return x % 2 == 0 ? 0.0f : 1.0f; });
@@ -119,7 +120,7 @@ TEST(GridWarpInThePicture, ItsOwnScaleIsFiltered) {
         low = std::min(low, out.at(x, 56, 0));
         high = std::max(high, out.at(x, 56, 0));
     }
-    EXPECT_LT(high - low, 0.12f);
+    EXPECT_LT(high - low, 0.2f);
     EXPECT_GT(low, 0.2f);
     EXPECT_LT(high, 0.85f);
 }
