@@ -115,15 +115,10 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
         return out;
     }
     Shown& shown = shown_mattes_[{region.id, layer, place}];
-    const MattePtr edged =
-        shown.edged.of(out.keep, project_edge(source.edge).at(frame), name, shelf_);
-    const MattePtr visible = edged ? edged : out.keep;
-    if (shown.matte != visible) {
-        shown.matte = visible;
-        shown.version = next_picture_id();
-    }
+    out.edged = shown.edged.of(out.keep, project_edge(source.edge).at(frame), name, shelf_);
+    const MattePtr& visible = out.edged ? out.edged : out.keep;
+    if (shown.matte != visible) shown = {shown.edged, visible, next_picture_id()};
     out.version = shown.version;
-    out.edged = edged;
     out.pixels = visible->view();
     return out;
 }
