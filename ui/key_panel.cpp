@@ -193,7 +193,7 @@ bool keys_area_shortcut(Ctx& c) {
     const KeyChord pressed = pressed_chord(false);
     const auto is = [&](const char* chord) { return pressed == *parse_chord(chord); };
     if (pressed.key == 0) return false;
-    if (is("Escape") && s.drag != KeysState::Drag::kNone) {
+    if (is("Esc") && s.drag != KeysState::Drag::kNone) {
         cancel_drag(c);
         return true;
     }
