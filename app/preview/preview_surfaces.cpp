@@ -3,6 +3,7 @@
 
 #include "app/preview/preview_impl.h"
 #include "app/render/form_report.h"
+#include "engine/pipeline/region_form.h"
 
 namespace weft {
 
