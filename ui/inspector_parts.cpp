@@ -21,9 +21,7 @@ void follow_controls(Ctx& c) {
     int now = 0;
     for (std::size_t k = 0; k < kFollows.size(); ++k)
         if (!shape.empty() && shape.follow == kFollows[k]) now = static_cast<int>(k) + 1;
-    if (choice(c, "Follow",
-               {"Surface (propagated)", "None (interpolated)", "Position",
-                "Position, rotation, scale", "Planar"},
+    if (choice(c, "Follow", {"Surface", "None", "Position", "Position, rotation, scale", "Planar"},
                now,
                "What moves the shape between its keys: the matte is propagated along the surface, "
                "or the shape is drawn on every frame and moves with a track. Keys are then offsets "

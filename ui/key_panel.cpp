@@ -106,7 +106,12 @@ void tools(Ctx& c, const Region& region, const std::vector<KeyRow>& rows, ImVec2
     const Theme& t = c.theme;
     KeysState& s = c.state.keys;
     ImGui::SetCursorScreenPos({at.x + t.px(8), at.y + t.px(3)});
-    if (segments(c, "view", {"Keys", "Curves"}, s.view, t.px(148))) s.values.reset();
+    if (segments(c, "view", {"Keys", "Curves"}, s.view, t.px(148))) {
+        // Curves of unlike units flatten each other: begin with the one that is being worked on.
+        s.curves.clear();
+        if (s.active && numbers_of(region, s.active->row)) s.curves = {s.active->row};
+        s.values.reset();
+    }
     ImGui::SameLine(0, t.px(16));
     const float side = t.px(26);
     if (icon_button(c, icons::kChevronLeft, "Previous key", false, "time.previous_key",
@@ -193,7 +198,7 @@ bool keys_area_shortcut(Ctx& c) {
     const KeyChord pressed = pressed_chord(false);
     const auto is = [&](const char* chord) { return pressed == *parse_chord(chord); };
     if (pressed.key == 0) return false;
-    if (is("Escape") && s.drag != KeysState::Drag::kNone) {
+    if (is("Esc") && s.drag != KeysState::Drag::kNone) {
         cancel_drag(c);
         return true;
     }

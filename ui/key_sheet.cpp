@@ -91,7 +91,8 @@ void draw_rows(Ctx& c, ImDrawList& list, const Sheet& sheet, float left, float r
                 list.AddTriangleFilled({at.x, at.y - r}, {at.x + r, at.y + r}, {at.x - r, at.y + r},
                                        color);
             else
-                key_glyph(list, at, key.between ? r * 0.6f : r, key.after, color, t.line);
+                key_glyph(list, at, key.between ? r * 0.6f : r, key.after, color,
+                          selected ? t.text : t.line);
             c.note(row_name(row.id) + " " + std::to_string(key.frame), {at.x - r, at.y - r},
                    {at.x + r, at.y + r});
         }
@@ -136,6 +137,12 @@ void key_sheet(Ctx& c, const Region& region, const std::vector<KeyRow>& rows, Im
             s.scroll_y -= ImGui::GetIO().MouseWheel * row_h;
     }
     if (s.drag == KeysState::Drag::kKeys || s.drag == KeysState::Drag::kBox) go_on(c, sheet);
+    // What is above and below.
+    if (all_h > max.y - min.y) {
+        const float part = (max.y - min.y) / all_h, from = min.y + s.scroll_y * part;
+        list.AddRectFilled({max.x - t.px(4), from}, {max.x, from + (max.y - min.y) * part},
+                           faded(t.quiet, 0.6f), t.px(2));
+    }
     list.PopClipRect();
     list.PopClipRect();
 }

@@ -64,7 +64,10 @@ TEST_F(Drawn, HoldoutsAndZonesAreDrawnToo) {
         matte.select.invert = true;
         region.holdouts = std::vector<MatteSource>{matte};
         matte.select.invert = false;
-        region.zones = std::vector<Zone>{{.kind = ZoneKind::kLight, .value = 0.5, .matte = matte}};
+        Zone zone;
+        zone.value = 0.5;
+        zone.matte = matte;
+        region.zones = std::vector<Zone>{zone};
     });
     const auto shot = open_shot(drawn);
     ASSERT_TRUE(shot) << shot.error().text();

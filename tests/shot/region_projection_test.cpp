@@ -134,7 +134,9 @@ TEST(RegionProjection, AShapeIsAMatteOfEveryFrame) {
     EXPECT_FALSE(plan.propagated());
     EXPECT_TRUE(plan.has_holdout);
     EXPECT_TRUE(plan.painted_holdouts.empty());
-    ASSERT_TRUE(project_zones({{.kind = ZoneKind::kLight, .matte = drawn}}, plan));
+    Zone zone;
+    zone.matte = drawn;
+    ASSERT_TRUE(project_zones({zone}, plan));
     EXPECT_FALSE(plan.zones[0].propagated());
 }
 

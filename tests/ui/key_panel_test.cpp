@@ -92,7 +92,7 @@ TEST_F(KeysArea, EscapeTakesADragBack) {
     robot->press();
     robot->move({middle("Texture scale 1002").x + 3 * frame_px(), middle("Texture scale 1002").y});
     robot->frames(2);
-    robot->key("Escape");
+    robot->key("Esc");
     robot->release();
     robot->frames(2);
     EXPECT_THAT(emitted<DoEdits>(), IsEmpty());
@@ -130,7 +130,6 @@ TEST_F(KeysArea, CopiedKeysArePastedAtThePlayhead) {
     apply();
     EXPECT_EQ(scale(), "1002:1 1006:3:smooth 1008:2 1009:3:smooth");
     EXPECT_EQ(keyed_text(region().light.strength_keys), "1002:0.5 1006:1 1009:1");
-    EXPECT_THAT(shell->state().keys.selected, SizeIs(2));
 }
 
 TEST_F(KeysArea, ShortcutsBelongToItOnlyAfterAPressThere) {

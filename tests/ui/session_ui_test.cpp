@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "app/base/trust.h"
+#include "app/exchange/track_file.h"
 #include "app/project/codec/project_file.h"
 #include "engine/media/image_files.h"
 #include "tests/ui/ui_harness.h"
@@ -358,6 +359,49 @@ TEST_F(EditorSession, ShapesAreKeyedAndFilledInBetween) {
     robot->stroke({at(30, 30), at(40, 32)});
     robot->frames(3);
     EXPECT_EQ(session->view().shape_frames, (std::vector<int>{1}));
+}
+
+// The track is stored, so that a render does not depend on the analysis that it came from.
+TEST_F(EditorSession, AShapeFollowsTheSurfacesOwnMotion) {
+    open();
+    robot->key("Ctrl+Shift+N");
+    robot->frames(2);
+    RotoShape shape;
+    for (const Vec2 at : {Vec2{26, 18}, Vec2{62, 18}, Vec2{62, 46}, Vec2{26, 46}})
+        shape.points.push_back({at, {0, 0}, {0, 0}, 0});
+    session->act(FollowShape{ShapeFollow::kPlanar});
+    robot->frames(2);
+    EXPECT_TRUE(matte().empty()) << "there is no shape yet";
+    session->act(SetShape{shape});
+    ASSERT_TRUE(wait([&] { return matte().keyframes.contains(1); }));
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    ASSERT_TRUE(wait([&] { return session->view().result_current; }));
+    // Refused until the whole shot has been analysed.
+    int polls = 0;
+    ASSERT_TRUE(wait([&] {
+        constexpr int kOften = 100;
+        if (polls++ % kOften == 0) session->act(FollowShape{ShapeFollow::kPlanar});
+        return !matte().shape.empty();
+    }));
+    EXPECT_EQ(matte().shape.follow, ShapeFollow::kPlanar);
+    EXPECT_TRUE(matte().keyframes.empty());
+    ASSERT_EQ(matte().shape.keys.size(), 1u);
+    const auto track = read_corner_track(matte().shape.track, {{96, 64}, 1, true});
+    ASSERT_TRUE(track) << track.error().text();
+    EXPECT_EQ(track->size(), session->view().plate.frames.size());
+    // The card pans to the right.
+    session->act(GoToFrame{3});
+    ASSERT_TRUE(wait([&] {
+        return session->view().frame == 3 && session->view().shape &&
+               session->view().shape->points[0].at.x > 26.5f;
+    }));
+    const float moved = session->view().shape->points[0].at.x - 26;
+    EXPECT_NEAR(moved, session->view().shape->points[2].at.x - 62, 1.0f);
+    // Another way to follow keeps the track.
+    session->act(FollowShape{ShapeFollow::kPosition});
+    robot->frames(2);
+    EXPECT_EQ(matte().shape.follow, ShapeFollow::kPosition);
+    EXPECT_FALSE(matte().shape.track.empty());
 }
 
 TEST_F(EditorSession, ScribblesAreOneStepOfTheHistory) {

@@ -164,7 +164,7 @@ TEST_F(Tools, WhatAShapeFollowsIsChosen) {
     ASSERT_TRUE(robot->click("Track again"));
     EXPECT_TRUE(emitted<FollowShape>().back().again);
     ASSERT_TRUE(robot->click("Follow"));
-    ASSERT_TRUE(robot->click("Surface (propagated)"));
+    ASSERT_TRUE(robot->click("Surface"));
     EXPECT_THAT(emitted<DetachShape>(), SizeIs(1));
 }
 
