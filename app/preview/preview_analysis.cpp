@@ -25,8 +25,7 @@ ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
 int steps_to(const OpenedShot& opened, std::vector<int> frames) {
     const ShotPlan plan = plan_for(opened, std::move(frames));
     return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store) +
-           count_focus_steps(plan, *opened.store) +
-           count_form_steps(plan, *opened.store);
+           count_focus_steps(plan, *opened.store) + count_form_steps(plan, *opened.store);
 }
 
 std::optional<int> stored_layer(const Region& region, int layer) {

@@ -9,6 +9,7 @@
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
+#include "engine/metrics/pops.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {

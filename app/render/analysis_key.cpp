@@ -194,8 +194,7 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
 }
 
 // Apart from the rest too. What is read on a frame does not depend on the frames to be rendered.
-Expected<std::string> focus_key(const Shot& shot, std::size_t index,
-                                const PaintedMattes& painted) {
+Expected<std::string> focus_key(const Shot& shot, std::size_t index, const PaintedMattes& painted) {
     const RegionPlan& plan = shot.plan.regions[index];
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
@@ -268,7 +267,8 @@ Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
     const Region& region = *shot.project.regions[shot.region_index[index]];
     WEFT_TRY(form, form_key(shot, index, surface));
     WEFT_TRY(focus, focus_key(shot, index, painted));
-    return RegionKeys{std::move(surface), std::move(form), std::move(focus), all_matte_keys(shot, region, painted)};
+    return RegionKeys{std::move(surface), std::move(form), std::move(focus),
+                      all_matte_keys(shot, region, painted)};
 }
 
 }  // namespace weft

@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
 #include "engine/media/frame_reader.h"
+#include "engine/metrics/pops.h"
 
 namespace weft {
 namespace {

@@ -202,8 +202,7 @@ Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& 
     FrameSpan run{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
     if (focus_needs_propagation(plan)) {
         const int all = plate.frames().back() - plate.frames().front() + 1;
-        WEFT_TRY(around,
-                 run_around(region, plate, plan.reference_frames.front(), all, leave_out));
+        WEFT_TRY(around, run_around(region, plate, plan.reference_frames.front(), all, leave_out));
         run = around;
     }
     std::erase_if(frames, [&](int frame) {

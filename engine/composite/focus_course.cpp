@@ -16,9 +16,9 @@ constexpr double kLeastError_px = 0.02;
 constexpr double kNarrowest = kFocusStep, kWidest = kFocusReach + 1.0, kFewest = 2.1;
 constexpr int kHalvings = 24, kPasses = 20;
 constexpr double kOfMedian = 1.4826;  // deviation of a normal distribution, by its median length
-constexpr double kOutlier = 3;  // deviations, at which a reading counts a quarter
-constexpr double kDiffer = 2.5;   // deviations, of two readings
-constexpr float kSharp_px = 0.6f;  // of both, below which a difference is not seen
+constexpr double kOutlier = 3;        // deviations, at which a reading counts a quarter
+constexpr double kDiffer = 2.5;       // deviations, of two readings
+constexpr float kSharp_px = 0.6f;     // of both, below which a difference is not seen
 // Of the slope of the line, in squared frames: with readings on one side only it stays flat.
 constexpr double kRidge = 2;
 
@@ -34,9 +34,7 @@ struct Point {
     double weight = 0;
     const FocusReading* reading = nullptr;
     // What it tells. Of soft and sharp ones the same share of the blur is an error.
-    [[nodiscard]] double information() const {
-        return certainty * (blur / error) * (blur / error);
-    }
+    [[nodiscard]] double information() const { return certainty * (blur / error) * (blur / error); }
 };
 
 // The biweight.
@@ -144,7 +142,8 @@ void weigh(std::vector<Point>& points) {
 BlurSlope slope_by(const Line& line) {
     BlurSlope out;
     const auto at = [&](float BlurSlope::*member) {
-        return line.at([&](const Point& p) { return static_cast<double>(p.reading->slope.*member); });
+        return line.at(
+            [&](const Point& p) { return static_cast<double>(p.reading->slope.*member); });
     };
     out.agreement = std::clamp(at(&BlurSlope::agreement), 0.0f, 1.0f);
     if (!(out.agreement > 0)) return {};
@@ -214,7 +213,8 @@ FocusState focus_at(int frame, const std::vector<TimedReading>& readings) {
         const Line line(points);
         out.blur_px = std::clamp(line.at([](const Point& p) { return p.blur; }), kSharpestEdge_px,
                                  kSoftestEdge_px);
-        out.confidence = std::clamp(line.at([](const Point& p) { return p.certainty; }), 0.0f, 1.0f);
+        out.confidence =
+            std::clamp(line.at([](const Point& p) { return p.certainty; }), 0.0f, 1.0f);
         out.slope = slope_by(line);
     }
     std::vector<Point> lenses = points_around(frame, readings, true);

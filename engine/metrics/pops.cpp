@@ -14,14 +14,14 @@ namespace weft {
 namespace {
 
 constexpr std::int64_t kFewestPixels = 400;
-constexpr double kFlattest = 0.25;       // of the pixels
-constexpr double kLower = 0.75;          // of the responses there
+constexpr double kFlattest = 0.25;  // of the pixels
+constexpr double kLower = 0.75;     // of the responses there
 // Times the root of their number: neighbours overlap, so two of them count as one.
 constexpr double kGrainError = 1.2;
-constexpr double kLeastGrain = 0.5;      // levels; fainter grain is not seen
-constexpr int kPlaceStep_px = 24;        // between the patches whose motion is measured
+constexpr double kLeastGrain = 0.5;  // levels; fainter grain is not seen
+constexpr int kPlaceStep_px = 24;    // between the patches whose motion is measured
 constexpr std::int64_t kFewestPatches = 6;
-constexpr int kAround = 3;               // frames
+constexpr int kAround = 3;                              // frames
 constexpr double kQuarter = 0.25, kOfNormal = 0.31864;  // of |x|, x of deviation 1
 constexpr double kLeastDeviation = 0.002;
 
@@ -121,10 +121,9 @@ std::optional<Grain> grain_of(ViewF1 luma, ViewU8x1 region) {
                 return static_cast<double>(luma.row(y + j)[x + i]);
             };
             const double filter = at(-1, -1) + at(1, -1) + at(-1, 1) + at(1, 1) -
-                                  2 * (at(0, -1) + at(0, 1) + at(-1, 0) + at(1, 0)) +
-                                  4 * at(0, 0);
-            const double slope =
-                std::abs(mean(x + 2, y) - mean(x - 2, y)) + std::abs(mean(x, y + 2) - mean(x, y - 2));
+                                  2 * (at(0, -1) + at(0, 1) + at(-1, 0) + at(1, 0)) + 4 * at(0, 0);
+            const double slope = std::abs(mean(x + 2, y) - mean(x - 2, y)) +
+                                 std::abs(mean(x, y + 2) - mean(x, y - 2));
             if (std::isfinite(filter) && std::isfinite(slope))
                 places.push_back({slope, std::abs(filter)});
         }
@@ -137,7 +136,8 @@ std::optional<Grain> grain_of(ViewF1 luma, ViewU8x1 region) {
     std::sort(places.begin(), flat,
               [](const Place& a, const Place& b) { return a.response < b.response; });
     // The mean of the lower three quarters: the median of pictures of 8 bit is that of a few codes.
-    const auto counted = static_cast<std::size_t>(kLower * static_cast<double>(flat - places.begin()));
+    const auto counted =
+        static_cast<std::size_t>(kLower * static_cast<double>(flat - places.begin()));
     double sum = 0;
     for (std::size_t k = 0; k < counted; ++k)
         sum += places[k].response;
@@ -151,7 +151,8 @@ Look look_at(ViewF1 luma, ViewU8x1 region) {
     Look out;
     const Matte known = inside_and_finite(region, luma);
     const ImageF1 pattern = divided_by_local_mean(luma, known);
-    const RowSum energy = over(known, [&](int x, int y) { return squared_gradient(pattern, x, y); });
+    const RowSum energy =
+        over(known, [&](int x, int y) { return squared_gradient(pattern, x, y); });
     const RowSum light =
         over(known, [&](int x, int y) { return static_cast<double>(luma.row(y)[x]); });
     if (energy.count >= kFewestPixels && energy.mean() > 0)
@@ -256,7 +257,7 @@ PopSteps pop_steps(const PopPair& pair) {
     const auto set = [&](PopKind kind, std::optional<double> Look::*member) {
         out.step[static_cast<std::size_t>(kind)] =
             step_of(result_from.*member, result_to.*member, source_from.*member, source_to.*member,
-                   pair.forward);
+                    pair.forward);
     };
     set(PopKind::kSharpness, &Look::sharpness);
     set(PopKind::kLight, &Look::light);
@@ -267,9 +268,8 @@ PopSteps pop_steps(const PopPair& pair) {
     const auto result = slide(pair.result_from, pair.result_to, *pair.to_from_from, pair.visible);
     const auto plate = slide(pair.source_from, pair.source_to, *pair.to_from_from, pair.visible);
     if (result)
-        out.step[static_cast<std::size_t>(PopKind::kPlace)] =
-            PopSteps::Step{std::max(0.0, *result - plate.value_or(0.0)), *result,
-                           plate.value_or(0.0)};
+        out.step[static_cast<std::size_t>(PopKind::kPlace)] = PopSteps::Step{
+            std::max(0.0, *result - plate.value_or(0.0)), *result, plate.value_or(0.0)};
     return out;
 }
 

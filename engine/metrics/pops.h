@@ -57,9 +57,9 @@ struct PopSteps {
 
 /// The pops of one kind.
 struct PopsOfKind {
-    double largest = 0;    ///< The largest departure of a step from those around it.
-    int frame = 0;         ///< Of that; the later frame of the two.
-    double deviation = 0;  ///< Of the meter; 0: nothing was measured.
+    double largest = 0;       ///< The largest departure of a step from those around it.
+    int frame = 0;            ///< Of that; the later frame of the two.
+    double deviation = 0;     ///< Of the meter; 0: nothing was measured.
     std::vector<int> frames;  ///< Where it is kLeastPop and kPopDeviations · deviation or more.
 };
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
+#include "engine/composite/texture_focus.h"
 #include "engine/compute/plane_pyramid.h"
 #include "engine/core/cancel.h"
 #include "engine/core/progress.h"
-#include "engine/composite/texture_focus.h"
 #include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/pipeline/analysis_store.h"
@@ -34,7 +34,7 @@ struct RegionScene {
         return reference_colour.known || tint != std::array<float, 3>{};
     }
     GrainModel grain;
-    TextureFocus focus;           ///< Of the texture; measured where the plate's focus is matched.
+    TextureFocus focus;  ///< Of the texture; measured where the plate's focus is matched.
     float focus_texels_per_px = 1;  ///< On the reference frame, where that was measured.
     float shutter_deg = 0;
     std::vector<HistorySeam> seams;   ///< Between the histories from two references.

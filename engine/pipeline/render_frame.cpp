@@ -148,12 +148,12 @@ Expected<Matte> FrameRenderer::composite_matte(int index) {
     if (const float hardness = edge_hardness(extent); hardness > 0) {
         if (!views_) views_ = make_views(*plate_, *plan_.display_from_plate);
         const Matte softened = soften_hard_edge(views_->display, extent);
-        std::transform(extent.data(), extent.data() + extent.size_bytes(), softened.data(),
-                       extent.data(), [&](std::uint8_t as_given, std::uint8_t soft) {
-                           const float away = static_cast<float>(soft) - as_given;
-                           return static_cast<std::uint8_t>(
-                               std::lround(as_given + hardness * away));
-                       });
+        std::transform(
+            extent.data(), extent.data() + extent.size_bytes(), softened.data(), extent.data(),
+            [&](std::uint8_t as_given, std::uint8_t soft) {
+                const float away = static_cast<float>(soft) - as_given;
+                return static_cast<std::uint8_t>(std::lround(as_given + hardness * away));
+            });
     }
     return without_holdout(extent, holdout);
 }
