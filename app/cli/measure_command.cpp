@@ -26,13 +26,14 @@ std::string to_text(const Pops& pops) {
         const PopsOfKind& p = pops.of(kind);
         if (!(p.deviation > 0)) continue;
         const bool place = kind == PopKind::kPlace;
-        char line[160];
-        std::snprintf(line, sizeof line,
-                      place ? "  %-10s largest    %.2f px on frame %d (deviation %.2f px), pops %zu\n"
-                            : "  %-10s largest    %.1f %% on frame %d (deviation %.1f %%), pops %zu\n",
-                      name_of(kind), place ? p.largest : 100 * p.largest, p.frame,
-                      place ? p.deviation : 100 * p.deviation, p.frames.size());
-        text += line;
+        char one[160];
+        std::snprintf(
+            one, sizeof one,
+            place ? "  %-10s largest    %.2f px on frame %d (deviation %.2f px), pops %zu\n"
+                  : "  %-10s largest    %.1f %% on frame %d (deviation %.1f %%), pops %zu\n",
+            name_of(kind), place ? p.largest : 100 * p.largest, p.frame,
+            place ? p.deviation : 100 * p.deviation, p.frames.size());
+        text += one;
     }
     return text;
 }

@@ -129,7 +129,7 @@ struct FrameHealth {
     // As in FrameMarks.
     float drift = -1, stretch = -1, seam = -1, seam_motion = -1;
     float flicker = -1, flicker_plate = -1, flicker_floor = -1, chatter = -1;
-    std::optional<PopSteps> steps = {};  ///< From the frame before, beyond the plate's.
+    std::optional<PopSteps> steps = {};  ///< From the frame before; `frame` is not set.
 };
 
 struct PreviewView {

@@ -203,7 +203,6 @@ bool Preview::Impl::step_flicker(const PreviewRequest& now) {
         health.chatter = found.chatter;
         health.seam_motion = found.seam_motion;
         health.steps = found.steps;
-        if (health.steps) health.steps->frame = frame;
         changed(*shared);
     }
     return true;

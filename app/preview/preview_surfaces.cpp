@@ -6,7 +6,6 @@
 #include "app/render/light_report.h"
 #include "engine/form/plane_corners.h"
 #include "engine/pipeline/region_form.h"
-#include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {

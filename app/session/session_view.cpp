@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
 #include "engine/media/frame_reader.h"
+#include "engine/metrics/pops.h"
 
 namespace weft {
 namespace {
@@ -37,12 +38,24 @@ std::string pop_text(const PopHeight& pop) {
     return text;
 }
 
+template <class Frames>
+void mark_rendered(const std::vector<int>& frames, const Frames& rendered,
+                   std::vector<FrameMarks>& marks) {
+    for (const int frame : rendered)
+        if (const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
+            at != frames.end())
+            marks[static_cast<std::size_t>(at - frames.begin())].result = true;
+}
+
 // Judges each step by those of its neighbours that are known.
 void mark_pops(const std::vector<int>& frames, const std::map<int, FrameHealth>& health,
                std::vector<FrameMarks>& marks) {
     std::vector<PopSteps> steps;
     for (const auto& [frame, measured] : health)
-        if (measured.steps) steps.push_back(*measured.steps);
+        if (measured.steps) {
+            steps.push_back(*measured.steps);
+            steps.back().frame = frame;
+        }
     const std::vector<std::optional<PopHeight>> pops = pop_heights(steps);
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const auto at = std::lower_bound(frames.begin(), frames.end(), steps[i].frame);
@@ -221,10 +234,7 @@ void Session::show_marks() {
     const auto chosen = view_.preview.references.find(selected_);
     const std::map<int, float>& confidence = preview_reading_.confidence;
     const std::map<int, FrameHealth>& health = preview_reading_.health;
-    for (const int frame : preview_reading_.rendered)
-        if (const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
-            at != frames.end())
-            view_.marks[static_cast<std::size_t>(at - frames.begin())].result = true;
+    mark_rendered(frames, preview_reading_.rendered, view_.marks);
     for (std::size_t k = 0; k < frames.size(); ++k) {
         FrameMarks& mark = view_.marks[k];
         if (k < plate_reading_.states.size()) {
@@ -253,7 +263,6 @@ void Session::show_marks() {
             mark.chatter = found->second.chatter;
         }
     }
-    mark_pops(frames, health, view_.marks);
     if (view_.report.state == QualityReport::State::kDone) {
         // The first row has no previous frame.
         for (std::size_t r = 1; r < view_.report.rows.size(); ++r) {
@@ -266,6 +275,7 @@ void Session::show_marks() {
             mark.flicker_floor = row.flicker_floor;
         }
     }
+    mark_pops(frames, health, view_.marks);
     if (!region) return;
     std::vector<int> painted, anchored = region->reference_frames;
     for (const auto& [frame, key] : layer_source(*region, layer_).keyframes)

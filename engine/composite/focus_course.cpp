@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace weft {
 namespace {
@@ -10,12 +11,14 @@ namespace {
 // the one that is aimed at by taking more frames.
 constexpr double kLeastError = 0.03, kWantedError = 0.03;
 constexpr double kLeastError_px = 0.02;
-// Half the width of the window, frames.
-constexpr double kNarrowest = 2.0 * kFocusStep, kWidest = kFocusReach + 1.0;
+// Half the width of the window, frames, and how many readings it holds at least, each counted by
+// how near it is: as many as two steps of the grid to either side.
+constexpr double kNarrowest = kFocusStep, kWidest = kFocusReach + 1.0, kFewest = 2.1;
 constexpr int kHalvings = 24, kPasses = 20;
-constexpr double kOutlier = 1.5;  // deviations, from which a reading counts less (Huber)
-constexpr double kDiffer = 2.5;   // deviations, of two readings
-constexpr float kSharp_px = 0.6f;  // of both, below which a difference is not seen
+constexpr double kOfMedian = 1.4826;  // deviation of a normal distribution, by its median length
+constexpr double kOutlier = 3;        // deviations, at which a reading counts a quarter
+constexpr double kDiffer = 2.5;       // deviations, of two readings
+constexpr float kSharp_px = 0.6f;     // of both, below which a difference is not seen
 // Of the slope of the line, in squared frames: with readings on one side only it stays flat.
 constexpr double kRidge = 2;
 
@@ -30,6 +33,8 @@ struct Point {
     double blur = 0, error = 1, certainty = 0;
     double weight = 0;
     const FocusReading* reading = nullptr;
+    // What it tells. Of soft and sharp ones the same share of the blur is an error.
+    [[nodiscard]] double information() const { return certainty * (blur / error) * (blur / error); }
 };
 
 // The biweight.
@@ -79,9 +84,9 @@ double typical_blur(std::vector<Point> points) {
               [](const Point& a, const Point& b) { return a.blur < b.blur; });
     double all = 0, below = 0;
     for (const Point& p : points)
-        all += p.certainty / (p.error * p.error);
+        all += p.information();
     for (const Point& p : points) {
-        below += p.certainty / (p.error * p.error);
+        below += p.information();
         if (2 * below >= all) return p.blur;
     }
     return points.back().blur;
@@ -89,17 +94,19 @@ double typical_blur(std::vector<Point> points) {
 
 // How far the window has to reach for the error that is wanted.
 double window_for(const std::vector<Point>& points) {
-    const double wanted = kWantedError * typical_blur(points);
-    const auto information = [&](double half_width) {
-        double sum = 0;
-        for (const Point& p : points)
-            sum += nearness_of(p.away, half_width) * p.certainty / (p.error * p.error);
-        return sum;
+    const auto enough = [&](double half_width) {
+        double information = 0, count = 0;
+        for (const Point& p : points) {
+            const double nearness = nearness_of(p.away, half_width);
+            information += nearness * p.information();
+            count += nearness;
+        }
+        return count >= kFewest && information * kWantedError * kWantedError >= 1;
     };
     double low = kNarrowest, high = kWidest;
     for (int i = 0; i < kHalvings; ++i) {
         const double middle = 0.5 * (low + high);
-        (information(middle) * wanted * wanted >= 1 ? high : low) = middle;
+        (enough(middle) ? high : low) = middle;
     }
     return 0.5 * (low + high);
 }
@@ -109,24 +116,34 @@ double window_for(const std::vector<Point>& points) {
 void weigh(std::vector<Point>& points) {
     const double half_width = window_for(points);
     const double typical = typical_blur(points);
-    const auto set = [&](Point& p, double expected) {
-        const double off = std::abs(p.blur - expected) / p.error;
-        p.weight = nearness_of(p.away, half_width) * p.certainty / (p.error * p.error) *
-                   std::min(1.0, kOutlier / std::max(off, 1e-9));
+    const auto set = [&](double level, double slope) {
+        // What no line explains of the others is no outlier: a pull begins and ends.
+        std::vector<double> residues;
+        for (const Point& p : points)
+            if (std::abs(p.away) < half_width)
+                residues.push_back(std::abs(p.blur - level - slope * p.away));
+        std::nth_element(residues.begin(), residues.begin() + std::ssize(residues) / 2,
+                         residues.end());
+        const double common = kOfMedian * residues[residues.size() / 2];
+        for (Point& p : points) {
+            const double off = std::abs(p.blur - level - slope * p.away) /
+                               std::sqrt(p.error * p.error + common * common);
+            const double among = 1 / (1 + off * off / (kOutlier * kOutlier));
+            p.weight = nearness_of(p.away, half_width) * p.information() * among * among;
+        }
     };
-    for (Point& p : points)
-        set(p, typical);
+    set(typical, 0);
     for (int pass = 0; pass < kPasses; ++pass) {
         const auto [level, slope] = Line(points).fit([](const Point& p) { return p.blur; });
-        for (Point& p : points)
-            set(p, level + slope * p.away);
+        set(level, slope);
     }
 }
 
 BlurSlope slope_by(const Line& line) {
     BlurSlope out;
     const auto at = [&](float BlurSlope::*member) {
-        return line.at([&](const Point& p) { return static_cast<double>(p.reading->slope.*member); });
+        return line.at(
+            [&](const Point& p) { return static_cast<double>(p.reading->slope.*member); });
     };
     out.agreement = std::clamp(at(&BlurSlope::agreement), 0.0f, 1.0f);
     if (!(out.agreement > 0)) return {};
@@ -196,7 +213,8 @@ FocusState focus_at(int frame, const std::vector<TimedReading>& readings) {
         const Line line(points);
         out.blur_px = std::clamp(line.at([](const Point& p) { return p.blur; }), kSharpestEdge_px,
                                  kSoftestEdge_px);
-        out.confidence = std::clamp(line.at([](const Point& p) { return p.certainty; }), 0.0f, 1.0f);
+        out.confidence =
+            std::clamp(line.at([](const Point& p) { return p.certainty; }), 0.0f, 1.0f);
         out.slope = slope_by(line);
     }
     std::vector<Point> lenses = points_around(frame, readings, true);

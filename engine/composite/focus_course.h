@@ -46,8 +46,8 @@ struct FocusState {
 
 /// The blur on a frame: a line over time through the readings around it (local regression,
 /// Cleveland 1979) that counts each by its errors and its confidence, follows none that departs
-/// from what the others say (Huber 1964), and reaches as far as is needed to be sure. It varies
-/// smoothly with the frame. Readings more than kFocusReach away do not count.
+/// from what the others say (Geman & McClure 1985), and reaches as far as is needed to be sure. It
+/// varies smoothly with the frame. Readings more than kFocusReach away do not count.
 [[nodiscard]] FocusState focus_at(int frame, const std::vector<TimedReading>& readings);
 
 }  // namespace weft

@@ -14,11 +14,14 @@ namespace weft {
 namespace {
 
 constexpr std::int64_t kFewestPixels = 400;
-constexpr double kFlattest = 0.25;       // of the pixels
-constexpr double kLeastGrain = 0.5;      // levels; fainter grain is not seen
-constexpr int kPlaceStep_px = 24;        // between the patches whose motion is measured
+constexpr double kFlattest = 0.25;  // of the pixels
+constexpr double kLower = 0.75;     // of the responses there
+// Times the root of their number: neighbours overlap, so two of them count as one.
+constexpr double kGrainError = 1.2;
+constexpr double kLeastGrain = 0.5;  // levels; fainter grain is not seen
+constexpr int kPlaceStep_px = 24;    // between the patches whose motion is measured
 constexpr std::int64_t kFewestPatches = 6;
-constexpr int kAround = 3;               // frames
+constexpr int kAround = 3;                              // frames
 constexpr double kQuarter = 0.25, kOfNormal = 0.31864;  // of |x|, x of deviation 1
 constexpr double kLeastDeviation = 0.002;
 
@@ -89,9 +92,14 @@ double middle_of(std::vector<double>& list) {
 // What is measured of one picture over a part of it.
 struct Look {
     std::optional<double> sharpness, light, grain;  // logarithms
+    double grain_error = 0;
 };
 
-std::optional<double> log_grain(ViewF1 luma, ViewU8x1 region) {
+struct Grain {
+    double log = 0, error = 0;
+};
+
+std::optional<Grain> grain_of(ViewF1 luma, ViewU8x1 region) {
     // Flat by the slopes of means over 3 × 3 pixels, in which most noise is gone.
     struct Place {
         double slope, response;
@@ -113,10 +121,9 @@ std::optional<double> log_grain(ViewF1 luma, ViewU8x1 region) {
                 return static_cast<double>(luma.row(y + j)[x + i]);
             };
             const double filter = at(-1, -1) + at(1, -1) + at(-1, 1) + at(1, 1) -
-                                  2 * (at(0, -1) + at(0, 1) + at(-1, 0) + at(1, 0)) +
-                                  4 * at(0, 0);
-            const double slope =
-                std::abs(mean(x + 2, y) - mean(x - 2, y)) + std::abs(mean(x, y + 2) - mean(x, y - 2));
+                                  2 * (at(0, -1) + at(0, 1) + at(-1, 0) + at(1, 0)) + 4 * at(0, 0);
+            const double slope = std::abs(mean(x + 2, y) - mean(x - 2, y)) +
+                                 std::abs(mean(x, y + 2) - mean(x, y - 2));
             if (std::isfinite(filter) && std::isfinite(slope))
                 places.push_back({slope, std::abs(filter)});
         }
@@ -126,24 +133,33 @@ std::optional<double> log_grain(ViewF1 luma, ViewU8x1 region) {
                       static_cast<std::ptrdiff_t>(kFlattest * static_cast<double>(places.size()));
     std::nth_element(places.begin(), flat, places.end(),
                      [](const Place& a, const Place& b) { return a.slope < b.slope; });
-    std::vector<double> responses;
-    for (auto at = places.begin(); at != flat; ++at)
-        responses.push_back(at->response);
-    constexpr double kOfFilter = 6 * 0.67449;  // its deviation, and the median of |x|
-    return std::log(middle_of(responses) / kOfFilter + kLeastGrain);
+    std::sort(places.begin(), flat,
+              [](const Place& a, const Place& b) { return a.response < b.response; });
+    // The mean of the lower three quarters: the median of pictures of 8 bit is that of a few codes.
+    const auto counted =
+        static_cast<std::size_t>(kLower * static_cast<double>(flat - places.begin()));
+    double sum = 0;
+    for (std::size_t k = 0; k < counted; ++k)
+        sum += places[k].response;
+    constexpr double kOfFilter = 6 * 0.5149;  // its deviation, and that mean of |x|
+    const double mean_of_lower = sum / static_cast<double>(counted);
+    return Grain{std::log(mean_of_lower / kOfFilter + kLeastGrain),
+                 kGrainError / std::sqrt(static_cast<double>(counted))};
 }
 
 Look look_at(ViewF1 luma, ViewU8x1 region) {
     Look out;
     const Matte known = inside_and_finite(region, luma);
     const ImageF1 pattern = divided_by_local_mean(luma, known);
-    const RowSum energy = over(known, [&](int x, int y) { return squared_gradient(pattern, x, y); });
+    const RowSum energy =
+        over(known, [&](int x, int y) { return squared_gradient(pattern, x, y); });
     const RowSum light =
         over(known, [&](int x, int y) { return static_cast<double>(luma.row(y)[x]); });
     if (energy.count >= kFewestPixels && energy.mean() > 0)
         out.sharpness = 0.5 * std::log(energy.mean());
     if (light.count >= kFewestPixels && light.mean() > 0) out.light = std::log(light.mean() + 1);
-    out.grain = log_grain(luma, known);
+    if (const auto grain = grain_of(luma, known))
+        out.grain = grain->log, out.grain_error = grain->error;
     return out;
 }
 
@@ -199,9 +215,14 @@ double deviation_of(const std::vector<std::optional<double>>& departures) {
 // Of the meter; 0 without steps.
 double deviation_of(const std::vector<PopSteps>& steps, PopKind kind) {
     using Step = PopSteps::Step;
-    return std::min(
+    std::vector<double> errors;
+    for (const PopSteps& s : steps)
+        if (s.of(kind)) errors.push_back(s.of(kind)->error);
+    if (errors.empty()) return 0;
+    const double of_steps = std::min(
         deviation_of(departures_of(steps, kind, [](const Step& s) { return s.own; })),
         deviation_of(departures_of(steps, kind, [](const Step& s) { return s.own - s.plate; })));
+    return std::max(of_steps, middle_of(errors));
 }
 
 double counts_from(PopKind kind, double deviation) {
@@ -236,17 +257,19 @@ PopSteps pop_steps(const PopPair& pair) {
     const auto set = [&](PopKind kind, std::optional<double> Look::*member) {
         out.step[static_cast<std::size_t>(kind)] =
             step_of(result_from.*member, result_to.*member, source_from.*member, source_to.*member,
-                   pair.forward);
+                    pair.forward);
     };
     set(PopKind::kSharpness, &Look::sharpness);
     set(PopKind::kLight, &Look::light);
     set(PopKind::kGrain, &Look::grain);
+    if (auto& grain = out.step[static_cast<std::size_t>(PopKind::kGrain)])
+        grain->error = std::sqrt(result_from.grain_error * result_from.grain_error +
+                                 result_to.grain_error * result_to.grain_error);
     const auto result = slide(pair.result_from, pair.result_to, *pair.to_from_from, pair.visible);
     const auto plate = slide(pair.source_from, pair.source_to, *pair.to_from_from, pair.visible);
     if (result)
-        out.step[static_cast<std::size_t>(PopKind::kPlace)] =
-            PopSteps::Step{std::max(0.0, *result - plate.value_or(0.0)), *result,
-                           plate.value_or(0.0)};
+        out.step[static_cast<std::size_t>(PopKind::kPlace)] = PopSteps::Step{
+            std::max(0.0, *result - plate.value_or(0.0)), *result, plate.value_or(0.0)};
     return out;
 }
 

@@ -37,6 +37,7 @@ struct PopSteps {
     struct Step {
         double beyond = 0;
         double own = 0, plate = 0;  ///< The result's step, and the plate's.
+        double error = 0;           ///< Deviation of `own` by chance alone, where that is known.
     };
     int frame = 0;
     std::array<std::optional<Step>, kPopKinds> step;
@@ -49,16 +50,16 @@ struct PopSteps {
 /// - sharpness: the root of the gradients' energy of Y / its local mean, over what both frames
 ///   show, each on its own pixels, so that nothing is resampled;
 /// - light: mean luma there;
-/// - grain: the median of a filter that sees noise only (Immerkær 1996) where the picture is
-///   flattest;
+/// - grain: the weaker responses of a filter that sees noise only (Immerkær 1996) where the
+///   picture is flattest;
 /// - place: the mean length of the motion that is left between the two when moved onto each other.
 [[nodiscard]] PopSteps pop_steps(const PopPair& pair);
 
 /// The pops of one kind.
 struct PopsOfKind {
-    double largest = 0;    ///< The largest departure of a step from those around it.
-    int frame = 0;         ///< Of that; the later frame of the two.
-    double deviation = 0;  ///< Of the meter; 0: nothing was measured.
+    double largest = 0;       ///< The largest departure of a step from those around it.
+    int frame = 0;            ///< Of that; the later frame of the two.
+    double deviation = 0;     ///< Of the meter; 0: nothing was measured.
     std::vector<int> frames;  ///< Where it is kLeastPop and kPopDeviations · deviation or more.
 };
 
@@ -86,7 +87,7 @@ struct PopHeight {
 /// The pops of a clip. The deviation of the meter is that of the result's own steps, or of their
 /// differences from the plate's, whichever is less, about the steps around them: of a normal
 /// distribution with their lower quarter of lengths, so that most frames of a clip may pop without
-/// hiding it.
+/// hiding it; and no less than chance alone gives.
 [[nodiscard]] Pops find_pops(const std::vector<PopSteps>& steps);
 
 }  // namespace weft
