@@ -254,6 +254,13 @@ Json report_schema() {
                       {"fov_deg", number},
                       {"belief", number}}},
                     {"required", {"region", "reference_frame", "source", "text", "amount"}}};
+    const Json light{{"type", "object"},
+                     {"properties",
+                      {{"region", text},
+                       {"unsure", number},
+                       {"worst", number},
+                       {"worst_frame", any_of_type("integer")}}},
+                     {"required", {"region", "unsure", "worst", "worst_frame"}}};
     const Json body{
         {"type", "object"},
         {"properties",
@@ -264,6 +271,7 @@ Json report_schema() {
           {"size", point()},
           {"spaces", any_of_type("object")},
           {"forms", {{"type", "array"}, {"items", form}}},
+          {"lights", {{"type", "array"}, {"items", light}}},
           {"frames", {{"type", "array"}, {"items", frame}}},
           {"fps", number},
           {"seconds_per_stage", any_of_type("object")},
