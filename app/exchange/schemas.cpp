@@ -307,6 +307,13 @@ Json report_schema() {
                       {"fov_regions", any_of_type("integer")},
                       {"belief", number}}},
                     {"required", {"region", "reference_frame", "source", "text", "amount"}}};
+    const Json light{{"type", "object"},
+                     {"properties",
+                      {{"region", text},
+                       {"unsure", number},
+                       {"worst", number},
+                       {"worst_frame", any_of_type("integer")}}},
+                     {"required", {"region", "unsure", "worst", "worst_frame"}}};
     const Json body{
         {"type", "object"},
         {"properties",
@@ -317,6 +324,7 @@ Json report_schema() {
           {"size", point()},
           {"spaces", any_of_type("object")},
           {"forms", {{"type", "array"}, {"items", form}}},
+          {"lights", {{"type", "array"}, {"items", light}}},
           {"frames", {{"type", "array"}, {"items", frame}}},
           {"fps", number},
           {"seconds_per_stage", any_of_type("object")},

@@ -24,16 +24,17 @@ constexpr float kDarkest = 0.25f;  // of the frames
 constexpr float kLowQuarter = 0.25f;
 constexpr float kBlack = 1e-4f;  // linear light
 constexpr int kLevelRounds = 2;
-constexpr int kWindow = 4;  // radius in which paint is compared with what moves, pixels
+constexpr int kWindow = 3;  // radius in which paint is compared with what moves, pixels
 
 // What tells gloss from moving shadows, measured on rendered surfaces with gloss and without.
 // Highlights are bright and rare, so the median over time lies near the dark end.
 constexpr float kEven = 0.12f, kRare = 0.35f;
 // The range over time, of the usual light: below this it is noise and errors of the motion.
 constexpr float kStill = 0.1f, kMoves = 0.25f;
-// Light is multiplied by the paint's pattern, gloss is not: what is left unexplained by the one
-// less by the other, of both.
-constexpr float kMultiplied = -0.2f, kAdded = -0.12f;
+// Light is multiplied by the paint's pattern, gloss is not: the slope of what moves on the pattern,
+// 1 for light; and the contrast of a pattern that tells.
+constexpr float kAdded = 0.3f, kMultiplied = 0.6f;
+constexpr float kPlain = 0.03f, kPatterned = 0.08f;
 
 // A frame's surface at the reduced size.
 struct Reduced {
@@ -233,56 +234,55 @@ Changes darkest(const std::vector<Part>& parts, StillSurface& out, ImageF1& midd
     return all;
 }
 
-// Sums over windows of a part's paint a, of what it shows beyond it, e, and of white.
-struct Moments {
-    ImageF1 aa, a, n, ae, e, ee;
-    explicit Moments(Size size) : aa(size), a(size), n(size), ae(size), e(size), ee(size) {}
+// Of fine differences of what moves: x, as they would be if the paint multiplied it, y, as they are.
+struct Pattern {
+    double xx = 0, xy = 0, moved = 0;  // moved: energy of what moves, over the windows
 };
 
-Moments moments_of(const Part& part, const StillSurface& still) {
-    Moments m(part.box.size());
-    parallel_rows(part.box.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < part.box.width(); ++x) {
-                const int u = x + part.box.x0 - still.box.x0, v = y + part.box.y0 - still.box.y0;
-                if (part.weight.row(y)[x] == 0 || still.known.row(v)[u] == 0) continue;
-                m.n.row(y)[x] = 3;
-                for (int c = 0; c < 3; ++c) {
-                    const float a = still.colour.pixel(u, v)[c];
-                    const float e = part.colour.pixel(x, y)[c] / part.level - a;
-                    m.aa.row(y)[x] += a * a, m.a.row(y)[x] += a;
-                    m.ae.row(y)[x] += a * e, m.e.row(y)[x] += e, m.ee.row(y)[x] += e * e;
-                }
-            }
-        }
-    });
-    for (ImageF1* plane : {&m.aa, &m.a, &m.n, &m.ae, &m.e, &m.ee})
-        box_blur(*plane, kWindow);
-    return m;
-}
-
-// From −1, where all that moves is multiplied by the paint, to 1, where all of it is added.
-double added_share(const std::vector<Part>& parts, const StillSurface& still) {
-    double multiplied = 0, added = 0;
-    for (const Part& part : parts) {
-        const Moments m = moments_of(part, still);
-        for (std::size_t i = 0; i < m.n.size_bytes() / sizeof(float); ++i) {
-            const double aa = m.aa.data()[i], n = m.n.data()[i], ee = m.ee.data()[i];
-            if (!(aa > 0 && n > 0)) continue;
-            const double ae = m.ae.data()[i], e = m.e.data()[i];
-            multiplied += ee - ae * ae / aa, added += ee - e * e / n;
+void add_pattern(const Part& part, const StillSurface& still, Pattern& sums) {
+    ImageF1 known(part.box.size()), paint(part.box.size()), beyond(part.box.size());
+    for (int y = 0; y < part.box.height(); ++y) {
+        for (int x = 0; x < part.box.width(); ++x) {
+            const int u = x + part.box.x0 - still.box.x0, v = y + part.box.y0 - still.box.y0;
+            if (part.weight.row(y)[x] == 0 || still.known.row(v)[u] == 0) continue;
+            known.row(y)[x] = 1;
+            paint.row(y)[x] = luma_709(still.colour.pixel(u, v));
+            beyond.row(y)[x] = luma_709(part.colour.pixel(x, y)) / part.level - paint.row(y)[x];
         }
     }
-    return multiplied + added > 0 ? (multiplied - added) / (multiplied + added) : 0;
+    ImageF1 count = known, mean_paint = paint, mean_beyond = beyond;
+    for (ImageF1* plane : {&count, &mean_paint, &mean_beyond})
+        box_blur(*plane, kWindow);
+    for (std::size_t i = 0; i < known.size_bytes() / sizeof(float); ++i) {
+        const float n = count.data()[i];
+        if (known.data()[i] == 0 || !(mean_paint.data()[i] > kBlack * n)) continue;
+        const double a = mean_paint.data()[i] / n, e = mean_beyond.data()[i] / n;
+        const double x = (paint.data()[i] - a) * e / a, y = beyond.data()[i] - e;
+        sums.xx += x * x, sums.xy += x * y, sums.moved += e * e;
+    }
 }
 
-float confidence_in(const Changes& changes, double added) {
+// 1 where what moves is added to the paint, 0 where the paint multiplies it. A plain surface does
+// not tell: there light of sun and sky may be moving.
+float added_share(const std::vector<Part>& parts, const StillSurface& still, float daylight) {
+    Pattern sums;
+    for (const Part& part : parts)
+        add_pattern(part, still, sums);
+    if (!(sums.xx > 0 && sums.moved > 0)) return 1 - daylight;
+    const float patterned =
+        smooth_step(static_cast<float>(std::sqrt(sums.xx / sums.moved)), kPlain, kPatterned);
+    const float multiplied =
+        smooth_step(static_cast<float>(sums.xy / sums.xx), kAdded, kMultiplied);
+    return patterned * (1 - multiplied) + (1 - patterned) * (1 - daylight);
+}
+
+float confidence_in(const Changes& changes, float added) {
     if (!(changes.range2 > 0 && changes.middle > 0)) return 0;
     const double range = std::sqrt(changes.range2 / changes.places);
     const double skew = changes.skew / changes.range2;
     return smooth_step(static_cast<float>(range * changes.places / changes.middle), kStill, kMoves) *
            smooth_step(static_cast<float>(skew), kEven, kRare) *
-           smooth_step(static_cast<float>(added), kMultiplied, kAdded);
+           added;
 }
 
 // The still surface as the frame sees it; false where it is not known.
@@ -340,7 +340,7 @@ void StillSurfaceGatherer::add(ViewF3 linear, ViewU8x1 visible, const LatticeFie
     if (!box.empty()) parts_.push_back(splat(frame, at, box));
 }
 
-StillSurface StillSurfaceGatherer::finish() {
+StillSurface StillSurfaceGatherer::finish(float daylight) {
     StillSurface out;
     out.pixel_px = static_cast<float>(pixel_px_);
     if (static_cast<int>(parts_.size()) < kFewestFrames) return out;
@@ -364,7 +364,7 @@ StillSurface StillSurfaceGatherer::finish() {
     for (const Part& part : parts_)
         out.usual += (low_level(part, out.box, luma, out.known) - fast_log(part.level)) /
                      static_cast<float>(parts_.size());
-    out.confidence = confidence_in(changes, added_share(parts_, out));
+    out.confidence = confidence_in(changes, added_share(parts_, out, daylight));
     return out;
 }
 

@@ -35,8 +35,9 @@ class StillSurfaceGatherer {
     /// `linear`: the plate in linear light; NaN and infinity are ignored. `visible`: the region's
     /// matte without holdouts; pixels under 250 do not count. `ref_from_cur` in plate pixels.
     void add(ViewF3 linear, ViewU8x1 visible, const LatticeField& ref_from_cur);
-    /// Of places that at least four frames show.
-    [[nodiscard]] StillSurface finish();
+    /// Of places that at least four frames show. `daylight`: Daylight::confidence of the shot; the
+    /// light of sun and sky that moves over a plain surface looks like gloss.
+    [[nodiscard]] StillSurface finish(float daylight);
 
     struct Part {
         Recti box;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "engine/lighting/daylight.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
@@ -24,8 +25,11 @@ AnalysisKey still_key(const ShotPlan& plan, int region) {
 Expected<StillSurface> gathered(const PassContext& context, const AnalysisStore& store,
                                 int region) {
     const ShotPlan& plan = context.plan;
+    const RegionPlan& of = plan.regions[static_cast<std::size_t>(region)];
+    WEFT_TRY(primary, context.source.plate(of.reference_frames.front()));
+    const Daylight daylight = find_daylight(transformed(*primary, *plan.working_from_plate));
     StillSurfaceGatherer gatherer(pixel_px(plan, context.source.size()));
-    for (const int frame : plan.regions[static_cast<std::size_t>(region)].gloss_evidence) {
+    for (const int frame : of.gloss_evidence) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
         WEFT_TRY(extent, extent_matte(context.source, plan, store, region, frame));
         WEFT_TRY(holdout, holdout_matte(context.source, plan, store, region, frame));
@@ -35,7 +39,7 @@ Expected<StillSurface> gathered(const PassContext& context, const AnalysisStore&
         gatherer.add(transformed(*plate, *plan.working_from_plate),
                      without_holdout(extent, holdout), ref_from_cur);
     }
-    return gatherer.finish();
+    return gatherer.finish(daylight.confidence);
 }
 
 }  // namespace
