@@ -266,6 +266,30 @@ Json actions_schema() {
     return headed("Actions on a Weft project", {{"oneOf", {actions, whole}}});
 }
 
+// An entry of the report's forms.
+Json form_schema() {
+    const Json number = any_of_type("number"), text = any_of_type("string");
+    return {{"type", "object"},
+            {"properties",
+             {{"region", text},
+              {"reference_frame", any_of_type("integer")},
+              {"source", {{"enum", {"pass", "motion", "shape", "outline", "flat"}}}},
+              {"text", text},
+              {"amount", number},
+              {"amount_keyed", any_of_type("boolean")},
+              {"reason", text},
+              {"plane", any_of_type("boolean")},
+              {"drawn", text},
+              {"frames", any_of_type("integer")},
+              {"tilt_deg", number},
+              {"tilt_error_deg", number},
+              {"fov_deg", number},
+              {"fov_error_deg", number},
+              {"fov_regions", any_of_type("integer")},
+              {"belief", number}}},
+            {"required", {"region", "reference_frame", "source", "text", "amount"}}};
+}
+
 Json report_schema() {
     const Json text = any_of_type("string"), number = any_of_type("number"),
                texts{{"type", "array"}, {"items", any_of_type("string")}};
@@ -288,25 +312,6 @@ Json report_schema() {
                          {"author", text},
                          {"licence", text}}},
                        {"required", {"path", "id"}}};
-    const Json form{{"type", "object"},
-                    {"properties",
-                     {{"region", text},
-                      {"reference_frame", any_of_type("integer")},
-                      {"source", {{"enum", {"pass", "motion", "shape", "outline", "flat"}}}},
-                      {"text", text},
-                      {"amount", number},
-                      {"amount_keyed", any_of_type("boolean")},
-                      {"reason", text},
-                      {"plane", any_of_type("boolean")},
-                      {"drawn", text},
-                      {"frames", any_of_type("integer")},
-                      {"tilt_deg", number},
-                      {"tilt_error_deg", number},
-                      {"fov_deg", number},
-                      {"fov_error_deg", number},
-                      {"fov_regions", any_of_type("integer")},
-                      {"belief", number}}},
-                    {"required", {"region", "reference_frame", "source", "text", "amount"}}};
     const Json light{{"type", "object"},
                      {"properties",
                       {{"region", text},
@@ -323,7 +328,7 @@ Json report_schema() {
           {"threads", any_of_type("integer")},
           {"size", point()},
           {"spaces", any_of_type("object")},
-          {"forms", {{"type", "array"}, {"items", form}}},
+          {"forms", {{"type", "array"}, {"items", form_schema()}}},
           {"lights", {{"type", "array"}, {"items", light}}},
           {"frames", {{"type", "array"}, {"items", frame}}},
           {"fps", number},

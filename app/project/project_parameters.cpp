@@ -117,9 +117,7 @@ std::vector<Parameter<Project>> make_project_table() {
             {.group = "output",
              .key = "layers",
              .flag = "--layers",
-             .help =
-                 "EXR layers for compositing: all, or any of patch, edge, light, st, matte, seam, "
-                 "id, separated by commas"}),
+             .help = "EXR layers for compositing, separated by commas"}),
         entry<P, &P::output, &Output::layers_path>(
             {.group = "output",
              .key = "layers_path",

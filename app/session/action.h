@@ -359,13 +359,13 @@ struct MeasureResult {
 
 using Action = std::variant<
     DoEdit, DoEdits, TryEdit, TryEdits, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
-    OpenAny, Save, SaveAs, SaveVersion, CollectProject, CancelCollect, RelinkFiles, CloseProject, Recover,
-    TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe, Play,
-    SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke, SelectMatteLayer,
-    FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape, DetachShape, ShowStrip,
-    ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe, PaintInstead,
-    ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture, ApplyTextures,
-    UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay, ShowStages, ChooseScreen,
-    SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+    OpenAny, Save, SaveAs, SaveVersion, CollectProject, CancelCollect, RelinkFiles, CloseProject,
+    Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe,
+    Play, SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke,
+    SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape, DetachShape,
+    ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe,
+    PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture,
+    ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay, ShowStages,
+    ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

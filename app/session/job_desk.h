@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/session/action.h"
 #include "app/jobs/child_jobs.h"
+#include "app/session/action.h"
 
 namespace weft {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "app/base/picture.h"
+#include "app/jobs/child_jobs.h"
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/matte_shelf.h"
 #include "app/preview/preview.h"
 #include "app/project/project.h"
 #include "app/project/validate.h"
 #include "app/session/action.h"
-#include "app/jobs/child_jobs.h"
 #include "app/session/where_to_correct.h"
 
 namespace weft {

@@ -21,9 +21,6 @@ constexpr double kNotRigid = 0.3;          // of the motion beyond a similarity 
 constexpr int kFirstSteps = 4, kMoreSteps = 30;
 constexpr std::size_t kKept = 6;
 constexpr double kKnown = 1e-3;    // deviation of a tangent that is given
-constexpr double kSays = 0.2;      // of what was believed, that motion has to add to be heard
-constexpr double kAlike = 0.04;    // error of a tangent that its covariance does not tell, relative
-constexpr double kContradict = 6;  // square of an error, in deviations, by surface
 constexpr double kSure = 0.12;     // deviation from which on one tangent is enough to start from
 constexpr double kBulge = 0.15;    // of nearness, from which a curved surface is looked for
 constexpr double kApart = 0.02;    // ln stretch between solutions that are two
@@ -321,16 +318,6 @@ double RigidFit::belief() const {
     return std::max(0.0, 1 - error * error / (log_stretch * log_stretch));
 }
 
-std::optional<TangentBelief> RigidFit::measured_tangent() const {
-    const auto information = [](double deviation) { return 1 / (deviation * deviation); };
-    const double before = information(believed.deviation), after = information(tangent_error);
-    const double own = after - before;
-    if (!(own > kSays * before)) return std::nullopt;
-    const double value = (after * surface.tangent - before * believed.value) / own;
-    if (!(value > 0)) return std::nullopt;
-    return TangentBelief{value, 1 / std::sqrt(own)};
-}
-
 std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,
                                           std::optional<double> tangent) {
     return fit_rigid_surface(frames, picture,
@@ -383,28 +370,6 @@ std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frame
     out.fov_error_deg = 0.5 * (fov_of(out.surface.tangent + out.tangent_error) -
                                fov_of(std::max(0.0, out.surface.tangent - out.tangent_error)));
     return out;
-}
-
-std::optional<TangentBelief> shared_tangent(const std::vector<TangentBelief>& measured) {
-    if (measured.size() < 2) return std::nullopt;
-    // Errors of tracks are alike over a region, which its covariance does not know.
-    const auto weight = [](const TangentBelief& m) {
-        const double alike = kAlike * m.value;
-        return 1 / (m.deviation * m.deviation + alike * alike);
-    };
-    double sum = 0, all = 0;
-    for (const TangentBelief& m : measured)
-        sum += weight(m) * m.value, all += weight(m);
-    const double mean = sum / all;
-    double off = 0;
-    for (const TangentBelief& m : measured)
-        off += weight(m) * (m.value - mean) * (m.value - mean);
-    if (off > kContradict * static_cast<double>(measured.size() - 1)) return std::nullopt;
-    // With what is believed of lenses in general.
-    const TangentBelief common;
-    const double before = 1 / (common.deviation * common.deviation);
-    return TangentBelief{(sum + before * common.value) / (all + before),
-                         1 / std::sqrt(all + before)};
 }
 
 }  // namespace weft

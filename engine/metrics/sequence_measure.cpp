@@ -177,8 +177,8 @@ void SequenceMeasure::State::measure_step(const FlowField& motion, MotionDirecti
         source_grain.add(from.source_rgb, to.source_rgb, motion, visible, forward);
     }
     if (options.measure_pops) {
-        out.steps = pop_steps({out.frame, from.result, to.result, from.source, to.source, &motion,
-                               visible, forward});
+        out.steps = pop_steps(
+            {out.frame, from.result, to.result, from.source, to.source, &motion, visible, forward});
         steps.push_back(*out.steps);
     }
     if (texture == nullptr) return;

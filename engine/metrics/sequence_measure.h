@@ -106,8 +106,8 @@ struct SequenceMeasures {
 };
 
 /// Measures a sequence. Keeps the lumas of the frame before and of the first, their mattes and the
-/// motion chain, and some numbers of every frame, whatever the length. One thread at a time; uses several inside, with the same
-/// numbers for any count.
+/// motion chain, and some numbers of every frame, whatever the length. One thread at a time; uses
+/// several inside, with the same numbers for any count.
 class SequenceMeasure {
   public:
     explicit SequenceMeasure(MeasureOptions options);

@@ -6,8 +6,8 @@
 namespace weft {
 
 /// Computes what is missing of a shot's analysis in the store: propagated mattes, coordinates,
-/// shading, form, focus. A frame's results depend only on the frames between it and its references and
-/// keyframes, never on which frames are requested, so different machines can analyse parts of a
+/// shading, form, focus. A frame's results depend only on the frames between it and its references
+/// and keyframes, never on which frames are requested, so different machines can analyse parts of a
 /// shot. Progress: stage "analyse", one unit per visited frame. The backend may grow the textures
 /// of the paper's mode faster; the results are the same. Errors: those of the source and the store;
 /// cancellation.

@@ -24,8 +24,7 @@ std::vector<int> needed_focus_frames(const ShotPlan& plan, const RegionPlan& reg
     constexpr int kReach = kFocusReach + kFocusStep - 1;
     std::vector<int> out;
     for (const int frame : focus_grid(region)) {
-        const auto after =
-            std::lower_bound(plan.frames.begin(), plan.frames.end(), frame - kReach);
+        const auto after = std::lower_bound(plan.frames.begin(), plan.frames.end(), frame - kReach);
         if (after != plan.frames.end() && *after <= frame + kReach) out.push_back(frame);
     }
     return out;

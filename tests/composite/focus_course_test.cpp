@@ -69,7 +69,8 @@ TEST(FocusCourse, APullOfFocusIsFollowedWithoutLagOrSteps) {
         const float t = std::clamp((f - 14) / 12, 0.0f, 1.0f);
         return 0.6f + 2.4f * t * t * (3 - 2 * t);
     };
-    const auto readings = read_clip(40, [&](int f) { return reading(pull(static_cast<float>(f))); });
+    const auto readings =
+        read_clip(40, [&](int f) { return reading(pull(static_cast<float>(f))); });
     for (int f = 0; f <= 40; ++f) {
         const float wanted = pull(static_cast<float>(f));
         EXPECT_NEAR(focus_at(f, readings).blur_px, wanted, 0.05f + 0.06f * wanted) << f;
@@ -77,8 +78,7 @@ TEST(FocusCourse, APullOfFocusIsFollowedWithoutLagOrSteps) {
     // The pull itself changes by at most 0.3 px a frame.
     float step = 0;
     for (int f = 1; f <= 40; ++f)
-        step = std::max(step,
-                        focus_at(f, readings).blur_px - focus_at(f - 1, readings).blur_px);
+        step = std::max(step, focus_at(f, readings).blur_px - focus_at(f - 1, readings).blur_px);
     EXPECT_LT(step, 0.33f);
 }
 

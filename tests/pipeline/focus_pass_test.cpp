@@ -103,7 +103,8 @@ TEST(FocusPass, OneFrameOutOfFocusDoesNotShowInTheOthers) {
     const ShotPlan plan = make_plan(focused_region(), 1, kEnd);
     MemoryAnalysisStore store;
     read(shot, plan, store);
-    EXPECT_EQ(frames_read(store), (std::vector<int>{1, 4, 8, 9, 10, 11, 12, 13, 14, 15, 16, 20, 21}));
+    EXPECT_EQ(frames_read(store),
+              (std::vector<int>{1, 4, 8, 9, 10, 11, 12, 13, 14, 15, 16, 20, 21}));
     const float usual = focus_on(plan, store, 0, 1)->blur_px;
     for (int f = 2; f <= kEnd; ++f)
         EXPECT_NEAR(focus_on(plan, store, 0, f)->blur_px, usual, 0.08f * usual) << f;

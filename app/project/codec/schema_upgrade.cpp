@@ -139,8 +139,9 @@ Expected<Json> lamps_from_1(const std::string& text) {
 Expected<Json> layers_from_1(const std::string& text) {
     Json list = Json::array();
     if (text == "all") {
+        // All that there were.
         for (const LayerInfo& layer : kLayers)
-            list.push_back(layer.name);
+            if (!shows_form(layer.kind)) list.push_back(layer.name);
         return list;
     }
     for (const std::string_view name : split(text, ','))
