@@ -112,6 +112,15 @@ std::string output_in(const std::string& folder, const std::string& output) {
     return joined(folder, name.empty() ? "####.png" : name);
 }
 
+void add_holdout(Ctx& c, const std::string& files) {
+    const Region* region = c.view.selected_region();
+    if (!region) return;
+    std::vector<MatteSource> holdouts = *region->holdouts;
+    holdouts.emplace_back();
+    holdouts.back().files = files;
+    c.edit(SetHoldouts{RegionRef{region->id, {}}, holdouts});
+}
+
 void accept(Ctx& c, const std::string& path) {
     BrowserState& b = c.state.browser;
     const RegionRef ref{c.view.selected, {}};
@@ -131,15 +140,9 @@ void accept(Ctx& c, const std::string& path) {
             c.edit(SetMatte{ref, matte});
             break;
         }
-        case Purpose::kHoldout: {
-            const Region* region = c.view.selected_region();
-            if (!region) break;
-            std::vector<MatteSource> holdouts = *region->holdouts;
-            holdouts.emplace_back();
-            holdouts.back().files = path;
-            c.edit(SetHoldouts{ref, holdouts});
+        case Purpose::kHoldout:
+            add_holdout(c, path);
             break;
-        }
         case Purpose::kMotion:
             c.edit(SetRegionParameter{ref, "motion.files", path});
             break;

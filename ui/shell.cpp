@@ -34,6 +34,12 @@ bool close_popups(UiState& state) {
     return false;
 }
 
+// The unscaled height of the timeline's ruler; on a low screen, unless it was enlarged, the least.
+float ruler_height(const UiState& state, bool low, float least) {
+    if (low && state.timeline_h <= UiState{}.timeline_h) return least;
+    return std::clamp(state.timeline_h, least, 260.0f);
+}
+
 }  // namespace
 
 Shell::Shell(EditorSettings& settings, PictureHost& pictures)
@@ -204,9 +210,7 @@ void Shell::layout(Ctx& c) {
     // On a low screen, give the picture priority.
     const bool low = screen.y / t.scale < 800;
     const float timeline_least = low ? 84.0f : 96.0f;
-    float timeline_unscaled = std::clamp(state_.timeline_h, timeline_least, 260.0f);
-    if (low && state_.timeline_h <= UiState{}.timeline_h) timeline_unscaled = timeline_least;
-    const float ruler_h = panels ? std::floor(t.px(timeline_unscaled)) : 0;
+    const float ruler_h = panels ? std::floor(t.px(ruler_height(state_, low, timeline_least))) : 0;
     // The keys lie below the ruler, which they share.
     const float keys_most = std::max(kKeysLeast, body_h / t.scale * 0.5f);
     state_.keys_h = std::clamp(state_.keys_h, kKeysLeast, keys_most);
@@ -227,13 +231,12 @@ void Shell::layout(Ctx& c) {
                  : 0;
     // By default the picture keeps more than half of the height; the user may enlarge the panels.
     const UiState fresh;
-    const float most_h = std::min(body_h - timeline_h - least_view, (low ? 0.34f : 0.36f) * body_h);
+    const float room = std::max(0.0f, body_h - timeline_h - least_view);
     const bool own_size = (drawer && state_.drawer_h > fresh.drawer_h) ||
                           (strip && !sheet && state_.strip_h > fresh.strip_h) || sheet ||
                           (report && state_.review_h > fresh.review_h);
-    if (!own_size) extra_h = std::min(extra_h, most_h);
-    extra_h =
-        std::floor(std::clamp(extra_h, 0.0f, std::max(0.0f, body_h - timeline_h - least_view)));
+    if (!own_size) extra_h = std::min({extra_h, room, (low ? 0.34f : 0.36f) * body_h});
+    extra_h = std::floor(std::clamp(extra_h, 0.0f, room));
     const float left_w = screen.x - inspector_w - (panels ? 1 : 0);
     const float view_h = body_h - timeline_h - extra_h;
     if (panels) {

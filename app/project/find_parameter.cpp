@@ -50,6 +50,8 @@ Expected<const Parameter<Owner>*> find_parameter(std::span<const Parameter<Owner
 }
 template Expected<const Parameter<Region>*> find_parameter(std::span<const Parameter<Region>>,
                                                            std::string_view);
+template Expected<const Parameter<MatteSource>*> find_parameter(
+    std::span<const Parameter<MatteSource>>, std::string_view);
 template Expected<const Parameter<Project>*> find_parameter(std::span<const Parameter<Project>>,
                                                             std::string_view);
 

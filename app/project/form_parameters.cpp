@@ -10,6 +10,14 @@ std::vector<Parameter<Region>> amount_parameters() {
     using parameter_entry::entry;
     using R = Region;
     return {
+        entry<R, &R::form, &FormParams::roundness>(
+            {.group = "form",
+             .key = "roundness",
+             .flag = "--form-roundness",
+             .help = "How far an inflated form comes out of the picture: 1 half as thick as "
+                     "wide, 2 as thick",
+             .min = 0.05,
+             .max = 2}),
         entry<R, &R::form, &FormParams::amount>(
             {.group = "form",
              .key = "amount",
@@ -102,14 +110,6 @@ std::vector<Parameter<Region>> form_parameters() {
              .min = 1,
              .max = 175,
              .optional = true}),
-        entry<R, &R::form, &FormParams::roundness>(
-            {.group = "form",
-             .key = "roundness",
-             .flag = "--form-roundness",
-             .help = "How far an inflated form comes out of the picture: 1 half as thick as "
-                     "wide, 2 as thick",
-             .min = 0.05,
-             .max = 2}),
     };
     for (const Parameter<Region>& amount : amount_parameters())
         out.push_back(amount);

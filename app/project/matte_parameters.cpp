@@ -60,8 +60,7 @@ std::vector<Parameter<Owner>> matte_entries() {
             {.group = "matte",
              .key = "frozen_files",
              .flag = "--matte-frozen-files",
-             .help = "Pattern of the frozen frames' mattes, as 'weft matte' wrote them without "
-                     "edge tools",
+             .help = "Pattern of the frozen frames' mattes, written without edge tools",
              .is_path = true}),
         entry<Owner, Path..., &MatteSource::propagate_direction>(
             {.group = "matte",

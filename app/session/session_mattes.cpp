@@ -35,6 +35,12 @@ std::string keys_text(const MatteSource& matte) {
     return hasher.finish().hex();
 }
 
+// The files of a matte for every frame; a Cryptomatte without files uses the plate's.
+std::string files_of(const MatteSource& source, const std::string& plate) {
+    if (!source.files.empty()) return source.files;
+    return source.select.crypto.empty() ? std::string() : plate;
+}
+
 }  // namespace
 
 // The name and the reader of a matte that is drawn from a shape.
@@ -68,10 +74,7 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
     const Size size = reader_->size();
     std::string name;
     MatteShelf::Reader read;
-    // A Cryptomatte without files uses the plate's.
-    const std::string files = !source.files.empty()           ? source.files
-                              : !source.select.crypto.empty() ? document().plate.path
-                                                              : std::string();
+    const std::string files = files_of(source, document().plate.path);
     if (!source.shape.empty()) {
         out.kind = RegionMatteView::Kind::kFile;
         std::tie(name, read) = drawn_matte(source, frame);

@@ -114,6 +114,7 @@ const std::vector<Floor> kFloors{
      {"engine", "gpu", "texture_db", "app/project", "app/base", "app/exchange", "app/shot",
       "app/render", "app/measure", "bench"}},
     {"app/cli/cli.cpp", {"app/render", "app/cli"}},
+    {"app/processor_check.cpp", {"engine/core"}},
     {"app/main.cpp", {"engine", "gpu", "texture_db", "ui", "app"}},
 };
 
@@ -139,9 +140,9 @@ const std::vector<Library> kLibraries{
     {"nlohmann-json",
      {"nlohmann/"},
      {"app", "texture_db", "bench", "app/project/codec/json_codec.h",
-      "app/measure/measure_report.h", "app/render/form_report.h", "app/render/report.h",
-      "app/cli/answer.h", "app/cli/bench/bench_lighting.h", "app/cli/texture/texture_json.h",
-      "bench/shot/shot_bench.h"}},
+      "app/measure/measure_report.h", "app/render/form_report.h", "app/render/light_report.h",
+      "app/render/report.h", "app/cli/answer.h", "app/cli/bench/bench_lighting.h",
+      "app/cli/texture/texture_json.h", "bench/shot/shot_bench.h"}},
     {"CLI11", {"CLI/"}, {"app/cli", "app/main.cpp"}, true},
     {"CUDA",
      {"cuda", "cub/", "thrust/", "cufft", "cooperative_groups", "device_launch_parameters"},

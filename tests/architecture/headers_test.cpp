@@ -27,6 +27,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/project/codec/json_codec.h", "internal: tests/project, through project_json.h"},
     {"app/project/codec/json_limits.h", "internal: tests/project, through project_json.h"},
     {"app/project/leaf.h", "tests/project, through project.h"},
+    {"app/preview/normals_overlay.h", "internal: tests/preview, through preview.h"},
     {"app/project/form_parameters.h", "internal: tests/project, through parameters.h"},
     {"app/project/matte_edge_params.h", "tests/project, through project.h"},
     {"app/project/matte_parameters.h", "internal: tests/project, through parameters.h"},

@@ -24,6 +24,7 @@ const std::vector<std::string> kAllowed{
     "app/main.cpp",              // parses the editor's command line
     "app/project/form_parameters.cpp",
     "app/project/look_parameters.cpp",
+    "app/project/matte_parameters.cpp",
     "app/project/project_parameters.cpp",
     "app/project/region_parameters.cpp",
     "app/render/farm_engines.cpp",      // writes a farm's scripts

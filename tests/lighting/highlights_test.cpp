@@ -101,7 +101,7 @@ TEST(Highlights, RoughnessSpreadsThem) {
     const SurfaceColours colours = surface_colours(plate, kAll, kWhite);
     const auto gloss = [&](float roughness) {
         ImageF3 texture(kSide, kSide, 0.0f);
-        add_highlights(texture, find_highlights({0, 0}, plate, kAll, flat_light(1), colours,
+        add_highlights(texture, find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {},
                                                 {1, roughness, 20 * kSide}));
         return texture;
     };
