@@ -93,7 +93,7 @@ void key_controls(Ctx& c, const Region& region, GridWarp warp) {
 }  // namespace
 
 void warp_section(Ctx& c, const Region& region) {
-    if (!section(c, "Grid warp", region.placement.warp.has_value())) return;
+    if (!section(c, "Grid warp")) return;
     const PanelName panel(c, "Warp");
     const bool in_hand = c.state.tool == Tool::kWarp;
     if (button(c, "Warp by a grid",

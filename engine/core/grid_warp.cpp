@@ -60,8 +60,9 @@ Status folds(const GridWarp& warp, dvec2 grid, const std::string& where) {
     };
     return fail(ErrorCode::kUsage,
                 fmt::format("the grid folds at column {}, row {}{}; move the points or handles "
-                            "around it apart",
-                            patch(grid.x, warp.columns), patch(grid.y, warp.rows), where));
+                            "around it apart{}",
+                            patch(grid.x, warp.columns), patch(grid.y, warp.rows), where,
+                            warp.falloff_px > 0 ? ", or raise the fall-off" : ""));
 }
 
 Status check_folds(const GridWarp& warp) {

@@ -273,12 +273,19 @@ std::vector<std::pair<dvec2, dvec2>> WarpNet::samples() const {
 
 WarpNet::Box WarpNet::reach() const {
     Box out{dvec2(1e9), dvec2(-1e9)};
-    for (const auto& [rest, grid] : samples()) {
-        const dvec2 at = moved(rest).at;
-        out.low = glm::min(out.low, at);
-        out.high = glm::max(out.high, at);
+    for (int j = 0; j <= kSamples * rows_; ++j) {
+        for (int i = 0; i <= kSamples * columns_; ++i) {
+            const dvec2 at =
+                on_grid({static_cast<double>(i) / kSamples, static_cast<double>(j) / kSamples}).at;
+            out.low = glm::min(out.low, at);
+            out.high = glm::max(out.high, at);
+        }
     }
-    return out;
+    // Without a fall-off most of what continues lies within the quarter of the grid's size over
+    // which it does.
+    const dvec2 margin =
+        falloff_px_ > 0 ? dvec2(falloff_px_, falloff_px_) : 0.25 * (out.high - out.low);
+    return {out.low - margin, out.high + margin};
 }
 
 WarpNet::Unfolded WarpNet::unfolded_towards(const WarpNet& to) const {

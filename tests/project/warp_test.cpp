@@ -19,10 +19,10 @@ const Parameter<Region>& warp_parameter() {
 TEST(Warp, IsReadFromAFlagAndTakenAwayByNone) {
     Region region;
     ASSERT_TRUE(set_parameter_text(region, warp_parameter(),
-                                   "1x1 corners 0,0 90,0 90,60 0,60 falloff 5 "
+                                   "1x1 corners 0,0 90,0 90,60 0,60 falloff 40 "
                                    "points 0,0 95,-3:l-30,1 0,60 90,60"));
     ASSERT_TRUE(region.placement.warp);
-    EXPECT_EQ(region.placement.warp->falloff_px, 5);
+    EXPECT_EQ(region.placement.warp->falloff_px, 40);
     EXPECT_EQ(region.placement.warp->points[1].at, glm::dvec2(95, -3));
     const std::string text = format_parameter(warp_parameter(), warp_parameter().read(region));
     Region other;

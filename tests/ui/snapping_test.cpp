@@ -105,7 +105,7 @@ class Snapping : public CanvasTest {
     }
     void drag_corner() {
         go("Texture", Tool::kPlace);
-        robot->stroke({on(60, 20), on(90, 35), on(108.5f, 42)});
+        robot->stroke({on(60, 20), on(90, 35), on(109, 41)});
     }
 };
 
@@ -122,8 +122,8 @@ TEST_F(Snapping, WithoutTheSwitchItStaysAtTheMouse) {
     drag_corner();
     const auto at = corners();
     ASSERT_EQ(at.size(), 8U);
-    EXPECT_NEAR(at[0], 108.5, 0.5);
-    EXPECT_NEAR(at[1], 42, 0.5);
+    EXPECT_NEAR(at[0], 109, 0.5);
+    EXPECT_NEAR(at[1], 41, 0.5);
 }
 
 TEST_F(Snapping, TheSwitchIsACommandAndAButton) {

@@ -187,11 +187,10 @@ Expected<ParameterValue> read_value(const Json& value, const std::string& path) 
         }
         case Json::value_t::number_float:
             return ParameterValue(value.get<double>());
-        case Json::value_t::object:
-            return read_warp(value, path);
         case Json::value_t::array:
             break;
         default:
+            if (value.is_object() && value.contains("columns")) return read_warp(value, path);
             return fail_at(path, fmt::format("This is {}, but must be a value", type_of(value)));
     }
     const auto all = [&](auto&& holds) {
