@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "engine/metrics/sequence_measure.h"
 #include "tests/metrics/synthetic.h"
@@ -24,28 +25,36 @@ struct Taken {
 };
 using Course = std::function<Taken(int)>;
 
-double blob(double x, double y, std::uint64_t seed, double blur_px) {
-    // Waves in many directions; a blur damps each by its frequency.
-    double sum = 0;
+// Waves in many directions; a blur damps each by its frequency.
+struct Wave {
+    double x = 0, y = 0, phase = 0, height = 0;
+};
+
+std::vector<Wave> waves_of(std::uint64_t seed, double blur_px) {
+    std::vector<Wave> out;
     Rng rng(seed);
     for (int k = 0; k < 24; ++k) {
         const double angle = 2 * kPi * rng.uniform(), phase = 2 * kPi * rng.uniform();
         const double w = 2 * kPi / (5 + 25 * rng.uniform());
-        sum += std::exp(-0.5 * w * w * blur_px * blur_px) *
-               std::sin(w * (x * std::cos(angle) + y * std::sin(angle)) + phase);
+        out.push_back({w * std::cos(angle), w * std::sin(angle), phase,
+                       std::exp(-0.5 * w * w * blur_px * blur_px) / 5});
     }
-    return sum / 5;
+    return out;
 }
 
 ImageF3 picture(std::uint64_t seed, int frame, const Taken& how, std::uint64_t noise_seed) {
     ImageF1 luma(kSize);
+    const std::vector<Wave> waves = waves_of(seed, how.blur_px);
     Rng rng(noise_seed, static_cast<std::uint64_t>(frame));
     for (int y = 0; y < kSize.height; ++y) {
         for (int x = 0; x < kSize.width; ++x) {
             double noise = -6;
             for (int i = 0; i < 12; ++i)
                 noise += rng.uniform();
-            const double v = 110 + 28 * blob(x - 1.5 * frame - how.slid_px, y, seed, how.blur_px);
+            double v = 110;
+            for (const Wave& w : waves)
+                v += 28 * w.height *
+                     std::sin(w.x * (x - 1.5 * frame - how.slid_px) + w.y * y + w.phase);
             luma.at(x, y) = static_cast<float>(how.gain * v + how.grain * noise);
         }
     }
