@@ -59,7 +59,8 @@ TEST(GlossPass, TheStillSurfaceComesBackFromItsBytes) {
     EXPECT_EQ(back->known.at(1, 1), 0);
     EXPECT_NEAR(back->colour.at(0, 0, 1), 0.25f, 1e-3f);
     for (const std::size_t size : {std::size_t{0}, std::size_t{10}, bytes.size() - 1})
-        EXPECT_FALSE(decode_still_surface(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))));
+        EXPECT_FALSE(decode_still_surface(
+            Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))));
     EXPECT_TRUE(decode_still_surface(encode(StillSurface())));
 }
 
