@@ -33,11 +33,11 @@ enum class Overlay : std::uint8_t {
     kLight,
     kSeams,
     kMotion,
-    kConfidence,  ///< Appearance change of the surface since the reference frame.
-                  ///< from.
-    kSourceMap,   ///< Which part of the sample each pixel shows.
-    kChecker,     ///< A checker laid like the texture, to see the form.
-    kCircles,     ///< A grid of circles, likewise.
+    kConfidence,      ///< Appearance change of the surface since the reference frame.
+                      ///< from.
+    kSourceMap,       ///< Which part of the sample each pixel shows.
+    kChecker,         ///< A checker laid like the texture, to see the form.
+    kCircles,         ///< A grid of circles, likewise.
     kLightConfidence  ///< How surely light and paint of the old surface were told apart.
 };
 

@@ -67,7 +67,8 @@ void warn_untouched(const std::vector<FrameResult>& frames, std::vector<std::str
 std::string unsure_highlights_text(const std::string& region) {
     return fmt::format(
         "The highlights of region '{}' are unsure: its old surface has the colour of the light, or "
-        "several paints, and nothing that moves over it tells them from paint, so that bright paint "
+        "several paints, and nothing that moves over it tells them from paint, so that bright "
+        "paint "
         "may be taken for gloss. Look at the layer gloss{}, "
         "or "
         "lower the highlights{}.",

@@ -11,9 +11,9 @@
 namespace weft {
 namespace {
 
-constexpr int kUnsure = 128;      // of 255: below it, light and paint were not told apart
-constexpr double kSaid = 0.05;    // of the surface: less is not worth a warning
-constexpr std::size_t kMost = 24; // frames that are looked at
+constexpr int kUnsure = 128;       // of 255: below it, light and paint were not told apart
+constexpr double kSaid = 0.05;     // of the surface: less is not worth a warning
+constexpr std::size_t kMost = 24;  // frames that are looked at
 
 double unsure_share(const Shading& shading) {
     std::int64_t all = 0, unsure = 0;
@@ -59,8 +59,7 @@ Expected<std::vector<LightReport>> light_reports(const Shot& shot, const Analysi
             WEFT_TRY(shading, decode_shading(bytes));
             if (shading.sure.empty()) continue;
             const double share = unsure_share(shading);
-            if (seen++ == 0 || share > light.worst)
-                light.worst = share, light.worst_frame = frame;
+            if (seen++ == 0 || share > light.worst) light.worst = share, light.worst_frame = frame;
             light.unsure += share;
         }
         if (seen == 0) continue;

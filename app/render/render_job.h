@@ -91,7 +91,7 @@ struct JobResult {
     /// Inputs that changed during the run: frames may be mixed.
     std::vector<std::string> changed_inputs;
     std::vector<std::optional<PlaneStats>> planes;
-    std::vector<FormReport> forms;  ///< Of the regions whose form is known.
+    std::vector<FormReport> forms;    ///< Of the regions whose form is known.
     std::vector<LightReport> lights;  ///< Of the regions whose light is estimated.
     ShotSpaces spaces;
     std::vector<ShotTexture> textures;

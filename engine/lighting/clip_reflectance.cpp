@@ -220,9 +220,9 @@ ClipReflectance ReflectanceGatherer::finish() {
         out.value = difference_of(still.luma, light, out.confidence);
     }
     // What moves has been told from paint by that; the light that never does has not.
-    out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
-                            out.confidence,
-                            std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
+    out.doubt =
+        light_doubt(light, difference_of(out.value, still.paint, out.confidence), out.confidence,
+                    std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
     return out;
 }
 

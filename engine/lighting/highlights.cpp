@@ -251,8 +251,7 @@ Highlights find_highlights(Vec2i origin, ViewF3 plate, ViewU8x1 matte, const Sha
                            const HighlightOptions& options) {
     if (!(options.amount > 0)) return {};
     Highlights out{ImageF3(matte.size()), ImageF1(matte.size(), 1.0f)};
-    add_excess(out.gloss, origin, plate, matte, shading, moving,
-               options.amount * rest_of(colours));
+    add_excess(out.gloss, origin, plate, matte, shading, moving, options.amount * rest_of(colours));
     add_mirrored(out, plate, matte, colours, moving, options);
     return out;
 }

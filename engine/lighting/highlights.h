@@ -49,7 +49,8 @@ struct MovingGloss {
 /// `moving` are of one size, whose pixel (0, 0) lies at `origin`. Amount 0: empty pictures.
 /// Thread-safe.
 [[nodiscard]] Highlights find_highlights(Vec2i origin, ViewF3 plate, ViewU8x1 matte,
-                                         const Shading& shading, const SurfaceColours& colours, const MovingGloss& moving,
+                                         const Shading& shading, const SurfaceColours& colours,
+                                         const MovingGloss& moving,
                                          const HighlightOptions& options);
 
 /// Puts them on a texture of their size; empty ones change no bit.

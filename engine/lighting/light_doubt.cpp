@@ -56,8 +56,8 @@ ImageF1 light_doubt(const ImageF1& light, const ImageF1& paint, const ImageF1& w
     ImageF1 out = amplitude(light);
     const ImageF1 other = amplitude(paint);
     for (std::size_t i = 0; i < out.size_bytes() / sizeof(float); ++i) {
-        out.data()[i] = std::sqrt(std::max(0.0f, out.data()[i])) +
-                        std::sqrt(std::max(0.0f, other.data()[i]));
+        out.data()[i] =
+            std::sqrt(std::max(0.0f, out.data()[i])) + std::sqrt(std::max(0.0f, other.data()[i]));
     }
     return out;
 }

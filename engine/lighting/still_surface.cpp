@@ -85,9 +85,9 @@ ImageF2 places(const Reduced& frame, int d, float pixel_px, const LatticeField& 
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < out.width(); ++x) {
                 if (frame.known.row(y)[x] == 0) continue;
-                const Vec2 at = static_cast<float>(d) *
-                                Vec2(static_cast<float>(frame.box.x0 + x) + 0.5f,
-                                     static_cast<float>(frame.box.y0 + y) + 0.5f);
+                const Vec2 at =
+                    static_cast<float>(d) * Vec2(static_cast<float>(frame.box.x0 + x) + 0.5f,
+                                                 static_cast<float>(frame.box.y0 + y) + 0.5f);
                 const Vec2 there = (at + ref_from_cur.at(at)) / pixel_px;
                 out.pixel(x, y)[0] = there.x - 0.5f, out.pixel(x, y)[1] = there.y - 0.5f;
             }
@@ -206,9 +206,8 @@ Changes darkest(const std::vector<Part>& parts, StillSurface& out, ImageF1& midd
                 shown_at(parts, x + out.box.x0, y + out.box.y0, shown);
                 const std::size_t n = shown.size();
                 if (static_cast<int>(n) < kFewestFrames) continue;
-                const auto few =
-                    std::max<std::size_t>(1, static_cast<std::size_t>(
-                                                 kDarkest * static_cast<float>(n) + 0.5f));
+                const auto few = std::max<std::size_t>(
+                    1, static_cast<std::size_t>(kDarkest * static_cast<float>(n) + 0.5f));
                 float* colour = out.colour.pixel(x, y);
                 for (std::size_t k = 0; k < few; ++k) {
                     const Part& part = parts[static_cast<std::size_t>(shown[k].second)];
@@ -234,7 +233,8 @@ Changes darkest(const std::vector<Part>& parts, StillSurface& out, ImageF1& midd
     return all;
 }
 
-// Of fine differences of what moves: x, as they would be if the paint multiplied it, y, as they are.
+// Of fine differences of what moves: x, as they would be if the paint multiplied it, y, as they
+// are.
 struct Pattern {
     double xx = 0, xy = 0, moved = 0;  // moved: energy of what moves, over the windows
 };
@@ -280,9 +280,9 @@ float confidence_in(const Changes& changes, float added) {
     if (!(changes.range2 > 0 && changes.middle > 0)) return 0;
     const double range = std::sqrt(changes.range2 / changes.places);
     const double skew = changes.skew / changes.range2;
-    return smooth_step(static_cast<float>(range * changes.places / changes.middle), kStill, kMoves) *
-           smooth_step(static_cast<float>(skew), kEven, kRare) *
-           added;
+    return smooth_step(static_cast<float>(range * changes.places / changes.middle), kStill,
+                       kMoves) *
+           smooth_step(static_cast<float>(skew), kEven, kRare) * added;
 }
 
 // The still surface as the frame sees it; false where it is not known.

@@ -29,11 +29,11 @@ enum class AnalysisKind : std::uint8_t {
     kHeldBetween,
     kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).
     kShading,
-    kForm,         ///< At the reference frame, from the clip.
+    kForm,          ///< At the reference frame, from the clip.
     kStillSurface,  ///< At the reference frame, what highlights move over.
-    kGrain,        ///< At the reference frame.
-    kShutter,      ///< The plate's shutter, at the reference frame.
-    kPaperTexture  ///< The paper mode's synthesised picture.
+    kGrain,         ///< At the reference frame.
+    kShutter,       ///< The plate's shutter, at the reference frame.
+    kPaperTexture   ///< The paper mode's synthesised picture.
 };
 
 struct AnalysisKey {

@@ -16,12 +16,12 @@ struct FrameLayers {
     ImageF1 alpha;
     /// What soft edges remove of the old surface, and the remainder of the equation.
     ImageF3 edge;
-    ImageF3 light;  ///< What the texture was multiplied by; 1 where there is no region.
+    ImageF3 light;             ///< What the texture was multiplied by; 1 where there is no region.
     ImageF1 light_confidence;  ///< Shading::sure, 0–1; 0 where there is no region.
-    ImageF3 gloss;  ///< What was added to it then; 0 where there is none.
-    ImageF2 st;     ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
-    ImageF1 seam;   ///< 1 where a seam of the texture plane shows.
-    ImageF1 id;     ///< The region's id, of the topmost; 0 where there is none.
+    ImageF3 gloss;             ///< What was added to it then; 0 where there is none.
+    ImageF2 st;    ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
+    ImageF1 seam;  ///< 1 where a seam of the texture plane shows.
+    ImageF1 id;    ///< The region's id, of the topmost; 0 where there is none.
 
     explicit FrameLayers(Size size);
 };

@@ -110,8 +110,8 @@ Expected<MovingGloss> FrameLight::moving_gloss_here(ViewU8x1 inside) const {
     if (!(still.confidence > 0) || in_.scene.colours.confidence >= 1) return out;
     WEFT_TRY(bytes, in_.store.get({in_.index, in_.frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
-    out.luminance = moving_gloss({in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box),
-                                 inside, still, ref_from_cur);
+    out.luminance = moving_gloss({in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box), inside,
+                                 still, ref_from_cur);
     out.confidence = still.confidence;
     return out;
 }
@@ -123,9 +123,10 @@ Expected<ImageF3> FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const
     const bool exact = plan.exact_light && plan.light_pass != RegionPlan::Pass::kNone;
     if (!from_estimate || exact || !shading_ || !(plan.highlights > 0)) return ImageF3();
     WEFT_TRY(moving, moving_gloss_here(inside));
-    Highlights found = find_highlights(
-        {in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box), inside, *shading_,
-        in_.scene.colours, moving, {plan.highlights, plan.highlight_roughness, in_.working.width()});
+    Highlights found =
+        find_highlights({in_.box.x0, in_.box.y0}, in_.working.view().crop(in_.box), inside,
+                        *shading_, in_.scene.colours, moving,
+                        {plan.highlights, plan.highlight_roughness, in_.working.width()});
     add_highlights(texture, found);
     return std::move(found.gloss);
 }

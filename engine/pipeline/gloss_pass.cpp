@@ -69,8 +69,7 @@ Status find_still_surfaces(const PassContext& context, AnalysisStore& store) {
     return {};
 }
 
-Expected<StillSurface> still_surface(const ShotPlan& plan, const AnalysisStore& store,
-                                     int region) {
+Expected<StillSurface> still_surface(const ShotPlan& plan, const AnalysisStore& store, int region) {
     const AnalysisKey key = still_key(plan, region);
     if (plan.regions[static_cast<std::size_t>(region)].gloss_evidence.empty() || !store.has(key))
         return StillSurface();

@@ -11,9 +11,9 @@ namespace weft {
                                        int region);
 /// The regions of which that is true.
 [[nodiscard]] int count_gloss_steps(const ShotPlan& plan, const AnalysisStore& store);
-/// Finds the still surfaces (AnalysisKind::kStillSurface, at the reference frame) from the frames of
-/// RegionPlan::gloss_evidence; needs their kCoords. Errors: cancellation, and those of the source
-/// and of the store.
+/// Finds the still surfaces (AnalysisKind::kStillSurface, at the reference frame) from the frames
+/// of RegionPlan::gloss_evidence; needs their kCoords. Errors: cancellation, and those of the
+/// source and of the store.
 [[nodiscard]] Status find_still_surfaces(const PassContext& context, AnalysisStore& store);
 /// What was found of a region; empty where nothing was looked for or is stored yet.
 [[nodiscard]] Expected<StillSurface> still_surface(const ShotPlan& plan, const AnalysisStore& store,
