@@ -102,8 +102,8 @@ void add_pins(Ctx& c, const Region& region) {
     if (const auto text = view.forms.find(region.id);
         text != view.forms.end() && view.planes.contains(region.id))
         said[region.id] = text->second;
-    c.edit(SetRegionParameter{
-        {region.id, {}}, "placement.corners_px", first_corners(c, region.id)});
+    c.edit(
+        SetRegionParameter{{region.id, {}}, "placement.corners_px", first_corners(c, region.id)});
     c.state.tool = Tool::kPlace;
 }
 

@@ -36,7 +36,8 @@ std::map<RegionId, Quad<float>> Preview::Impl::found_planes() const {
     std::map<RegionId, Quad<float>> out;
     const Shot& shot = *current->shot;
     for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
-        const int index = static_cast<int>(k), frame = shot.plan.regions[k].reference_frames.front();
+        const int index = static_cast<int>(k),
+                  frame = shot.plan.regions[k].reference_frames.front();
         if (!current->store->has({index, frame, AnalysisKind::kForm})) continue;
         const auto form = found_form(shot.plan.regions[k], *current->store, index);
         if (!form || !*form) continue;

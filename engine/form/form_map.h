@@ -31,8 +31,8 @@ struct FormMap {
     Vec2 origin{0};             ///< The rectangle's top left corner, in pixels of the frame.
     LatticeField displacement;  ///< By place less `origin`: from there to the flat place, px.
     FormFinding finding = {};
-    /// The surface in front of the camera, by place less `origin`: ln of its depth, up to a constant
-    /// unless a pass gives its unit, and how well that is known, 0 to 1. Empty: not known.
+    /// The surface in front of the camera, by place less `origin`: ln of its depth, up to a
+    /// constant unless a pass gives its unit, and how well that is known, 0 to 1. Empty: not known.
     LatticeField relief = {};
     float relief_fov_deg = 0;  ///< Horizontal field of view in which it is seen.
 

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-constexpr double kPlaces = 240;      // that decide the pose
+constexpr double kPlaces = 240;  // that decide the pose
 constexpr std::size_t kLeastPlaces = 12;
 constexpr double kSigma = 0.3 / 854;  // of a place, by the longer side
 constexpr double kOff = 1.5 / 854;    // at which the confidence has fallen by half

@@ -68,10 +68,10 @@ double disagreement(const MetricField& field, const ViewCamera& camera) {
                 continue;
             const double by = 1 / (2.0 * field.spacing());
             const glm::dvec3 ray = camera.ray(field.centre_of(i, j));
-            const glm::dvec3 x = ray * (by * (at(i + 1, j) - at(i - 1, j))) +
-                                 glm::dvec3(1 / camera.focal_px, 0, 0);
-            const glm::dvec3 y = ray * (by * (at(i, j + 1) - at(i, j - 1))) +
-                                 glm::dvec3(0, 1 / camera.focal_px, 0);
+            const glm::dvec3 x =
+                ray * (by * (at(i + 1, j) - at(i - 1, j))) + glm::dvec3(1 / camera.focal_px, 0, 0);
+            const glm::dvec3 y =
+                ray * (by * (at(i, j + 1) - at(i, j - 1))) + glm::dvec3(0, 1 / camera.focal_px, 0);
             const auto dot = [](const glm::dvec3& a, const glm::dvec3& b) {
                 return a.x * b.x + a.y * b.y + a.z * b.z;
             };
@@ -146,9 +146,9 @@ LatticeField relief_from_metric(const MetricField& field, const ViewCamera& came
                 for (const int x : {i - 1, i}) {
                     if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) continue;
                     const std::size_t known = field.evidence(x, y) > 0 ? 1 : 0;
-                    sum[known] += depth[static_cast<std::size_t>(y) *
-                                            static_cast<std::size_t>(cells.width) +
-                                        static_cast<std::size_t>(x)];
+                    sum[known] +=
+                        depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.width) +
+                              static_cast<std::size_t>(x)];
                     ++count[known];
                 }
             }
@@ -175,8 +175,7 @@ double fov_of_metric(const MetricField& field, Size picture) {
     double from = kLeastTangent, to = kMostTangent;
     // Eight steps over all, then over what is left around the best.
     for (int round = 0; round < 4; ++round) {
-        const double ratio =
-            round == 0 ? step : std::sqrt(std::sqrt(std::sqrt(to / from)));
+        const double ratio = round == 0 ? step : std::sqrt(std::sqrt(std::sqrt(to / from)));
         for (double tangent = from; tangent <= to * 1.0001; tangent *= ratio) {
             const double now = disagreement(field, camera_of(tangent, picture));
             if (now < least) least = now, best = tangent;

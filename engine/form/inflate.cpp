@@ -244,9 +244,8 @@ bool add_inflated(MetricField& field, ViewU8x1 matte, ViewU8x1 cut, ViewU8x1 see
         const double height = std::sqrt(std::max(squares[k], 1e-6));
         // d√s = ds / (2 √s)
         const double by = 1 / (4.0 * grid.step() * height);
-        const glm::dvec2 slope =
-            bounded({by * (on.beside(i, j, 1, 0) - on.beside(i, j, -1, 0)),
-                     by * (on.beside(i, j, 0, 1) - on.beside(i, j, 0, -1))});
+        const glm::dvec2 slope = bounded({by * (on.beside(i, j, 1, 0) - on.beside(i, j, -1, 0)),
+                                          by * (on.beside(i, j, 0, 1) - on.beside(i, j, 0, -1))});
         const Metric metric = metric_of(height, slope, camera.ray(at), camera.focal_px);
         const double cosine = facing(metric);
         if (cosine > 0) field.add(at, metric, cosine * cosine);

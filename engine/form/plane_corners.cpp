@@ -65,7 +65,7 @@ class Growing {
     [[nodiscard]] Sides grown(Sides s, double step) const {
         for (int round = 0; round < kRounds; ++round) {
             bool any = false;
-            const auto move = [&](double Sides::* side, double by) {
+            const auto move = [&](double Sides::*side, double by) {
                 Sides next = s;
                 next.*side += by;
                 if (!fits(next)) return;
@@ -120,8 +120,8 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     }
     const auto map = fit_homography(flat, picture);
     if (!map || (pass && off_plane(*map, flat, picture) > kMostOff)) return std::nullopt;
-    const Growing growing(*map, Vector2(0.5 * places.box.width() / side,
-                                        0.5 * places.box.height() / side));
+    const Growing growing(
+        *map, Vector2(0.5 * places.box.width() / side, 0.5 * places.box.height() / side));
     // From the place that the middle of the box shows.
     const Eigen::Vector3d at = map->inverse() * Eigen::Vector3d::UnitZ();
     if (!(std::abs(at.z()) > 1e-9)) return std::nullopt;

@@ -31,8 +31,8 @@ struct RigidFit {
     double log_stretch = 0, error = 0;
     double tilt_deg = 0, tilt_error_deg = 0;  ///< Of the surface at the centre against the picture.
     double fov_deg = 0, fov_error_deg = 0;    ///< Horizontal.
-    double tangent_error = 0;                 ///< Of surface.tangent, with what was believed before.
-    TangentBelief believed;                   ///< What that was.
+    double tangent_error = 0;  ///< Of surface.tangent, with what was believed before.
+    TangentBelief believed;    ///< What that was.
 
     /// How much of the form is likely to be there: 0, no evidence, to 1.
     [[nodiscard]] double belief() const;
@@ -53,8 +53,7 @@ struct RigidFit {
                                                         std::optional<double> tangent);
 /// The same with what is believed of the tangent before.
 [[nodiscard]] std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames,
-                                                        Size picture,
-                                                        const TangentBelief& tangent);
+                                                        Size picture, const TangentBelief& tangent);
 
 /// What several surfaces before one lens say of it together, by the weights of their errors. Empty
 /// for fewer than two, and if they contradict each other, as when the lens zooms.

@@ -17,8 +17,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 Eigen::Vector2d error_of(const RigidPose& pose, const ViewCamera& camera, const SeenPlace& seen) {
     const Vector3 q = pose.rotation * seen.place + pose.shift;
-    if (!(q.z() > 1e-9))
-        return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+    if (!(q.z() > 1e-9)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
     return {camera.centre.x + camera.focal_px * q.x() / q.z() - seen.frame.x,
             camera.centre.y + camera.focal_px * q.y() / q.z() - seen.frame.y};
 }

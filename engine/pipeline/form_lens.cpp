@@ -12,8 +12,8 @@ Expected<MotionLens> shared_lens(const PassContext& context, const AnalysisStore
     std::vector<TangentBelief> measured;
     for (std::size_t k = 0; k < regions.size(); ++k) {
         if (!shares(regions[k])) continue;
-        WEFT_TRY(evidence, form_evidence_on(context, store, static_cast<int>(k),
-                                            regions[k].form_evidence));
+        WEFT_TRY(evidence,
+                 form_evidence_on(context, store, static_cast<int>(k), regions[k].form_evidence));
         const auto fit = fit_motion(evidence, context.source.size(), {});
         if (!fit) continue;
         if (const auto tangent = fit->measured_tangent()) measured.push_back(*tangent);

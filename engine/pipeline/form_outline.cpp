@@ -12,8 +12,8 @@ namespace weft {
 namespace {
 
 constexpr double kCommonFov_deg = 49;
-// Of a roundness of 1: bodies and folded cloth are flatter than wide. With it the texture of a column
-// is laid better, and that of a torso not worse than flat (docs/EVIDENCE.md).
+// Of a roundness of 1: bodies and folded cloth are flatter than wide. With it the texture of a
+// column is laid better, and that of a torso not worse than flat (docs/EVIDENCE.md).
 constexpr double kUsual = 0.5;
 constexpr double kReach = 0.02;  // of the picture's longer side, from a cut stroke
 constexpr int kNear = 6;         // px, the least such distance
@@ -37,11 +37,10 @@ double distance_to(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
 // Marks what lies near a line. Returns whether the matte's outline is among it.
 bool mark(glm::dvec2 a, glm::dvec2 b, double reach, const Matte& extent, Matte& cut) {
     const auto floor_of = [](double v) { return static_cast<int>(std::floor(v)); };
-    const Recti around = Recti{floor_of(std::min(a.x, b.x) - reach),
-                               floor_of(std::min(a.y, b.y) - reach),
-                               floor_of(std::max(a.x, b.x) + reach) + 1,
-                               floor_of(std::max(a.y, b.y) + reach) + 1}
-                             .intersected(rect_of(extent.size()));
+    const Recti around =
+        Recti{floor_of(std::min(a.x, b.x) - reach), floor_of(std::min(a.y, b.y) - reach),
+              floor_of(std::max(a.x, b.x) + reach) + 1, floor_of(std::max(a.y, b.y) + reach) + 1}
+            .intersected(rect_of(extent.size()));
     bool inside = false, outside = false;
     for (int y = around.y0; y < around.y1; ++y) {
         for (int x = around.x0; x < around.x1; ++x) {
@@ -78,8 +77,8 @@ Expected<FormMap> form_from_outline(const FormEvidence& evidence, const Matte& e
     const double fov_deg = region.form_fov_deg.value_or(kCommonFov_deg);
     const Recti box = box_of(extent);
     const int side = std::max(box.width(), box.height());
-    MetricField field =
-        field_over(plate, box.grown(std::min(std::max(plate.width, plate.height) / 2, side / 4 + 8)));
+    MetricField field = field_over(
+        plate, box.grown(std::min(std::max(plate.width, plate.height) / 2, side / 4 + 8)));
     const bool round =
         add_inflated(field, extent, cut, evidence.visible, camera_with(fov_deg, plate),
                      kUsual * static_cast<double>(region.form_roundness));

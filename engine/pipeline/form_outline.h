@@ -10,8 +10,7 @@ namespace weft {
 /// `evidence`: of the reference frame. The outline is cut where the region's cut strokes lie along
 /// it. Errors: Usage where the matte is too small, or turns away nowhere, or a stroke lies off its
 /// outline.
-[[nodiscard]] Expected<FormMap> form_from_outline(const FormEvidence& evidence,
-                                                  const Matte& extent, Size plate,
-                                                  const RegionPlan& region);
+[[nodiscard]] Expected<FormMap> form_from_outline(const FormEvidence& evidence, const Matte& extent,
+                                                  Size plate, const RegionPlan& region);
 
 }  // namespace weft

@@ -54,7 +54,7 @@ double fov_of(const ViewCamera& camera, Size picture) {
 // Adds what a frame's pass shows. The horizontal field of view, if it has to be known for that; 0:
 // not.
 Expected<double> add_pass(const PassContext& context, int region, int frame, const FormEvidence& at,
-                double weight, MetricField& field) {
+                          double weight, MetricField& field) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
     if (plan.form_from == RegionPlan::FormFrom::kPositions) {
         WEFT_TRY(positions, context.source.positions(region, frame));
@@ -95,8 +95,8 @@ Expected<FormMap> form_as_found(const PassContext& context, const AnalysisStore&
     double fov_deg = plan.form_fov_deg.value_or(0);
     for (std::size_t k = 0; k < frames.size(); ++k) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        WEFT_TRY(known, add_pass(context, region, frames[k], evidence[k],
-                                 k == 0 ? 1 : kOtherFrames, field));
+        WEFT_TRY(known, add_pass(context, region, frames[k], evidence[k], k == 0 ? 1 : kOtherFrames,
+                                 field));
         if (k == 0 && known > 0) fov_deg = known;
     }
     if (!field.finish()) return no_form(frames, plan.form_from);

@@ -19,13 +19,13 @@ Expected<std::shared_ptr<const SurfaceForm>> region_form(const RegionPlan& regio
     using Laid = Expected<std::shared_ptr<const SurfaceForm>>;
     WEFT_TRY(found, found_form(region, store, index));
     if (!found) return Laid(nullptr);
-    return Laid(
-        std::make_shared<LatticeForm>(*found, region.form_amount * found->finding.belief));
+    return Laid(std::make_shared<LatticeForm>(*found, region.form_amount * found->finding.belief));
 }
 
 Expected<ShownForm> region_form_on(const RegionScene& scene, const AnalysisStore& store, int index,
                                    int frame, ViewU8x1 matte, const Recti& box) {
-    if (!scene.form) return ShownForm{ImageF3(box.size()), ImageF1(box.size()), ImageF1(box.size())};
+    if (!scene.form)
+        return ShownForm{ImageF3(box.size()), ImageF1(box.size()), ImageF1(box.size())};
     WEFT_TRY(bytes, store.get({index, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
     return form_on_frame(*scene.form, ref_from_cur, matte, box, scene.smaller);

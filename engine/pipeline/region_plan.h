@@ -144,7 +144,7 @@ struct RegionPlan {
     };
     FormFrom form_from = FormFrom::kNothing;
     float form_amount = 1;     ///< 0 flat, 1 as found.
-    float form_roundness = 1;  ///< Of kOutline: 0 flat, 1 as thick as wide.
+    float form_roundness = 1;  ///< Of kOutline: 0 flat, 2 as thick as wide.
     /// Horizontal field of view; empty: found as well, or in the pass's header.
     std::optional<double> form_fov_deg;
     /// Shapes and strokes on the reference frame, in plate pixels; level strokes turn every form.

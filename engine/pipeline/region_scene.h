@@ -21,8 +21,8 @@
 namespace weft {
 
 struct RegionScene {
-    PlanePyramid plane;           ///< Empty in the modes that make one for every frame.
-    TextureMapping mapping;       ///< Of the still placement; with keys see mapping_on().
+    PlanePyramid plane;      ///< Empty in the modes that make one for every frame.
+    TextureMapping mapping;  ///< Of the still placement; with keys see mapping_on().
     /// The form as it was found; null: flat. The scene's frame is `smaller` times smaller.
     std::shared_ptr<const FormMap> form;
     float smaller = 1;

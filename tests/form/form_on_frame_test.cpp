@@ -46,7 +46,8 @@ double depth_off(const Surface& surface) {
             const Vec2 at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
             const Vec2 found = form.relief.at(at);
             EXPECT_GT(found.y, 0.9f);
-            most = std::max<double>(most, std::abs(std::exp(found.x) / surface.place.at(x, y, 2) - 1));
+            most =
+                std::max<double>(most, std::abs(std::exp(found.x) / surface.place.at(x, y, 2) - 1));
         }
     }
     return most;
@@ -80,7 +81,8 @@ struct Moved {
 
 TEST(FormOnFrame, TheReferenceFrameShowsTheNormalsOfABall) {
     const Surface surface = seen(ball);
-    const ShownForm shown = form_on_frame(form_of(surface), still(), surface.matte, rect_of(kSize), 1);
+    const ShownForm shown =
+        form_on_frame(form_of(surface), still(), surface.matte, rect_of(kSize), 1);
     int compared = 0;
     for (int y = 10; y < kSize.height - 10; y += 5) {
         for (int x = 10; x < kSize.width - 10; x += 5) {

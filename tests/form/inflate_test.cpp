@@ -41,7 +41,8 @@ TEST(Inflate, ADiscBecomesABall) {
     const Matte disc = filled([](float x, float y) { return std::hypot(x - 160, y - 120) < 90; });
     const MetricField field = inflated(disc, Matte(kSize));
     for (const float off : {4.0f, 28.0f, 44.0f, 60.0f, 76.0f})
-        EXPECT_NEAR(facing_at(field, {160 + off, 120}), std::sqrt(1 - off * off / 8100), 0.06) << off;
+        EXPECT_NEAR(facing_at(field, {160 + off, 120}), std::sqrt(1 - off * off / 8100), 0.06)
+            << off;
 }
 
 TEST(Inflate, AStripThatIsCutAtItsEndsBecomesATube) {
@@ -73,9 +74,8 @@ TEST(Inflate, RoundnessFlattens) {
 
 TEST(Inflate, NothingThatTurnsAwayIsNoSurface) {
     MetricField field(kSize, kSpacing);
-    const Matte all(kSize, 255), none(kSize), dot = filled([](float x, float y) {
-                                                 return std::hypot(x - 160, y - 120) < 2;
-                                             });
+    const Matte all(kSize, 255), none(kSize),
+        dot = filled([](float x, float y) { return std::hypot(x - 160, y - 120) < 2; });
     EXPECT_FALSE(add_inflated(field, all, none, all, kFar, 1)) << "cut all around";
     EXPECT_FALSE(add_inflated(field, none, none, none, kFar, 1));
     EXPECT_FALSE(add_inflated(field, dot, none, dot, kFar, 1));
@@ -86,8 +86,8 @@ TEST(Inflate, NothingThatTurnsAwayIsNoSurface) {
 TEST(Inflate, IsLaidWithoutATear) {
     const Surface ball = seen([](Vec3 r) { return sphere(r, {0, 0, 4}, 1.1f, {1, 1, 1}); });
     MetricField field(kSize, kSpacing);
-    ASSERT_TRUE(add_inflated(field, ball.matte, Matte(kSize), ball.matte,
-                             {kFocal_px, {160, 120}}, 1));
+    ASSERT_TRUE(
+        add_inflated(field, ball.matte, Matte(kSize), ball.matte, {kFocal_px, {160, 120}}, 1));
     ASSERT_TRUE(field.finish());
     const Distortion laid = distortion(ball, flat_from_reference(field).displacement);
     const Distortion flat = distortion(ball, still());

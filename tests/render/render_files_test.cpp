@@ -93,8 +93,8 @@ TEST(LayerFiles, EachLayerHasItsChannels) {
 
 TEST(LayerFiles, TheFormHasTheChannelsOfNuke) {
     const FrameLayers layers({8, 4}, true);
-    const auto exr = exr_layers(
-        layers, {LayerKind::kNormal, LayerKind::kDepth, LayerKind::kFormConfidence});
+    const auto exr =
+        exr_layers(layers, {LayerKind::kNormal, LayerKind::kDepth, LayerKind::kFormConfidence});
     ASSERT_EQ(exr.size(), 3u);
     const std::vector<std::string> normal{"normal.x", "normal.y", "normal.z"};
     EXPECT_EQ(exr[0].channels, normal);

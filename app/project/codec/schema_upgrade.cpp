@@ -206,13 +206,14 @@ Status upgrade_from_3(Json& document) {
 
 /// 4 → 5. Version 5 adds settings whose absence means what version 4 did: nothing to change, but a
 /// Weft that does not know them must not open the file, for it would render other pixels.
-Status upgrade_from_4(Json& /*document*/) { return {}; }
+Status upgrade_from_4(Json& /*document*/) {
+    return {};
+}
 
 using Upgrade = Status (*)(Json&);
 /// kUpgrades[n] upgrades version n to n + 1.
-constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{upgrade_from_0, upgrade_from_1,
-                                                               upgrade_from_2, upgrade_from_3,
-                                                               upgrade_from_4};
+constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{
+    upgrade_from_0, upgrade_from_1, upgrade_from_2, upgrade_from_3, upgrade_from_4};
 
 /// The n of "weft.project/n".
 std::optional<int> version_of(std::string_view schema) {
