@@ -222,7 +222,7 @@ struct FormParams {
     std::optional<double> fov_deg;   ///< Horizontal; unset: from the header of the pass, or found.
     std::vector<FormGuide> shape;    ///< At most one, over the surface on the reference frame.
     std::vector<FormGuide> strokes;  ///< Along it.
-    double roundness = 1;            ///< Of kInflate: 0 flat, 1 as thick as wide.
+    double roundness = 1;            ///< Of kInflate: 0 flat, 2 as thick as wide.
     double amount = 1;               ///< 0 flat, 1 as found.
     KeyedNumbers amount_keys;        ///< The amount over time; empty: `amount` throughout.
     Extras extra;

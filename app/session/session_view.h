@@ -61,7 +61,7 @@ struct FrameMarks {
     /// The sudden step since the previous frame that stands out most, as a share of what counts as
     /// a pop; 1 or more is one. Below 0: not known.
     float pop = -1;
-    std::string pop_text;  ///< What steps, and by how much: "sharpness 12%".
+    std::string pop_text = {};  ///< What steps, and by how much: "sharpness 12%".
 };
 
 /// A region's matte on the current frame.

@@ -160,7 +160,7 @@ struct RegionPlan {
     [[nodiscard]] float form_amount_at(int frame) const {
         return form_amount_keys.empty() ? form_amount : form_amount_keys.float_at(frame)[0];
     }
-    float form_roundness = 1;  ///< Of kOutline: 0 flat, 1 as thick as wide.
+    float form_roundness = 1;  ///< Of kOutline: 0 flat, 2 as thick as wide.
     /// Horizontal field of view; empty: found as well, or in the pass's header.
     std::optional<double> form_fov_deg;
     /// Shapes and strokes on the reference frame, in plate pixels; level strokes turn every form.
