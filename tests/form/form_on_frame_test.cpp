@@ -96,7 +96,7 @@ TEST(FormOnFrame, TheReferenceFrameShowsTheNormalsOfABall) {
             if (std::hypot(n.x, n.y) > 0.75f) continue;
             const float* found = shown.normal.pixel(x, y);
             const float cosine = n.x * found[0] - n.y * found[1] - n.z * found[2];
-            EXPECT_GT(cosine, std::cos(0.08f)) << x << ',' << y;
+            EXPECT_GT(cosine, std::cos(0.1f)) << x << ',' << y;
             EXPECT_NEAR(shown.depth.at(x, y), p[2], 0.03f * p[2]);
             EXPECT_NEAR(shown.confidence.at(x, y), 1, 0.01f);
             ++compared;
