@@ -34,6 +34,22 @@ bool close_popups(UiState& state) {
     return false;
 }
 
+// The window that fills the screen and holds all panels.
+void begin_root(const Theme& t, ImVec2 screen) {
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(screen);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.line);
+    ImGui::Begin("##root", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
+}
+
 // The unscaled height of the timeline's ruler; on a low screen, unless it was enlarged, the least.
 float ruler_height(const UiState& state, bool low, float least) {
     if (low && state.timeline_h <= UiState{}.timeline_h) return least;
@@ -167,18 +183,7 @@ void Shell::splitter(Ctx& c, const char* name, ImVec2 min, ImVec2 size, bool ver
 void Shell::layout(Ctx& c) {
     const Theme& t = theme_;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0, 0});
-    ImGui::SetNextWindowSize(screen);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, t.line);
-    ImGui::Begin("##root", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                     ImGuiWindowFlags_NoScrollWithMouse);
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(3);
+    begin_root(t, screen);
     const auto at = [](float x, float y) { ImGui::SetCursorScreenPos({x, y}); };
     const float top = t.px(40), bottom = t.px(26);
     const bool panels = !state_.panels_hidden;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/render/analysis_cache.h"
+#include "app/cache/analysis_cache.h"
 #include "app/shot/shot.h"
 #include "engine/core/cancel.h"
 #include "engine/core/image.h"

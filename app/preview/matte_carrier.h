@@ -8,8 +8,8 @@
 #include <string>
 
 #include "app/base/latest_worker.h"
+#include "app/cache/analysis_cache.h"
 #include "app/project/project.h"
-#include "app/render/analysis_cache.h"
 #include "app/shot/painted_mattes.h"
 #include "app/shot/shot.h"
 

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "app/base/picture.h"
+#include "app/cache/analysis_cache.h"
 #include "app/mattes/matte_shelf.h"
 #include "app/preview/preview_flicker.h"
 #include "app/preview/surface_places.h"
 #include "app/project/project.h"
-#include "app/render/analysis_cache.h"
 #include "app/textures/provenance.h"
 #include "engine/core/cancel.h"
 #include "engine/core/quad.h"

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "app/render/stage_cache.h"
+#include "app/cache/stage_cache.h"
 #include "engine/core/setting.h"
 #include "engine/pipeline/analyse.h"
 #include "engine/pipeline/partial_plan.h"

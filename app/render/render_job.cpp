@@ -11,12 +11,12 @@
 #include <map>
 #include <opencv2/core/utility.hpp>
 
+#include "app/cache/stage_cache.h"
 #include "app/render/job_frames.h"
 #include "app/render/job_setup.h"
 #include "app/render/job_warnings.h"
 #include "app/render/plane_file.h"
 #include "app/render/planes_ahead.h"
-#include "app/render/stage_cache.h"
 #include "app/render/unreadable_evidence.h"
 #include "app/shot/frame_plan.h"
 #include "engine/core/parallel.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cache/analysis_cache.h"
 #include "app/exchange/input_files.h"
-#include "app/render/analysis_cache.h"
 #include "app/render/form_report.h"
 #include "app/render/light_report.h"
 #include "app/shot/shot.h"

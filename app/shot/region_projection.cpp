@@ -1,10 +1,12 @@
 #include "app/shot/region_projection.h"
-#include "app/shot/form_files.h"
-#include "engine/core/setting.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+
+#include "app/shot/form_files.h"
+#include "engine/core/setting.h"
+#include "engine/media/sequence_pattern.h"
 
 namespace weft {
 namespace {
@@ -78,6 +80,21 @@ MatteEdgePlan project_edge(const MatteEdgeParams& edge) {
     plan.feather_keys = edge.feather_keys;
     plan.blur_keys = edge.blur_keys;
     return plan;
+}
+
+Status add_frozen_mattes(Region& region) {
+    if (region.matte->frozen.empty()) return {};
+    if (region.matte->frozen_files.empty() || region.matte->by_frame()) {
+        return fail(ErrorCode::kUsage,
+                    "Frozen mattes need their files and painted keyframes. Set both" +
+                        by({{setting::kMatteFrozenFiles}, {setting::kMatte}}) + ".");
+    }
+    WEFT_TRY(pattern, SequencePattern::parse(region.matte->frozen_files));
+    region.matte = region.matte.with([&](MatteSource& matte) {
+        for (const int frame : matte.frozen)
+            matte.keyframes.try_emplace(frame, MatteKeyframe{pattern.path_for(frame), {}});
+    });
+    return {};
 }
 
 Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& holdouts,

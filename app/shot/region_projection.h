@@ -8,6 +8,9 @@
 namespace weft {
 
 [[nodiscard]] MatteEdgePlan project_edge(const MatteEdgeParams& edge);
+/// Frozen frames become keyframes with files, except where one is painted. Errors: Usage without
+/// their files, or where the matte is not painted.
+[[nodiscard]] Status add_frozen_mattes(Region& region);
 /// Errors: Usage when the region or a holdout has no matte.
 [[nodiscard]] Status project_mattes(const MatteSource& matte,
                                     const std::vector<MatteSource>& holdouts, RegionPlan& plan);

@@ -154,22 +154,6 @@ class ShotOpener {
         return luma_709(grey.data());
     }
 
-    // Frozen frames become keyframes with files, except where one is painted.
-    static Status add_frozen_mattes(Region& region) {
-        if (region.matte->frozen.empty()) return {};
-        if (region.matte->frozen_files.empty() || region.matte->by_frame()) {
-            return fail(ErrorCode::kUsage,
-                        "Frozen mattes need their files and painted keyframes. Set both" +
-                            by({{setting::kMatteFrozenFiles}, {setting::kMatte}}) + ".");
-        }
-        WEFT_TRY(pattern, SequencePattern::parse(region.matte->frozen_files));
-        region.matte = region.matte.with([&](MatteSource& matte) {
-            for (const int frame : matte.frozen)
-                matte.keyframes.try_emplace(frame, MatteKeyframe{pattern.path_for(frame), {}});
-        });
-        return {};
-    }
-
     Status add_regions() {
         std::vector<Leaf<Region>> planned;
         for (std::size_t k = 0; k < shot_.project.regions.size(); ++k) {

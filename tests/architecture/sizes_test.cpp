@@ -115,6 +115,7 @@ struct LongFile {
 };
 
 const std::vector<LongFile> kLongFiles{
+    {"app/project/project.h", "the document, one struct for each group of settings", 405},
     {"app/project/parameter_values.cpp", "each kind of value: its check, its text, its JSON"},
     {"bench/study/study_html.cpp", "one page, section by section"},
     {"engine/motion/surface_fit.cpp", "one solver, whose equations share their sums"},

@@ -35,7 +35,7 @@ const std::vector<Exception> kAllowed{
      "the streams of a child process, to files that its caller names"},
     {"app/base/detached_process.cpp", "open for writing",
      "the streams of a child process, in Weft's own folder"},
-    {"app/render/analysis_cache.cpp", "rename",
+    {"app/cache/analysis_cache.cpp", "rename",
      "a whole folder of the cache, to a name that is free"},
 };
 

@@ -1,4 +1,4 @@
-#include "app/render/analysis_key.h"
+#include "app/cache/analysis_key.h"
 
 #include <functional>
 

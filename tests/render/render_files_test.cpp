@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/render/analysis_cache.h"
-#include "app/render/blob_file.h"
+#include "app/cache/analysis_cache.h"
+#include "app/cache/blob_file.h"
+#include "app/cache/stage_cache.h"
 #include "app/render/burn_in.h"
 #include "app/render/existing_frames.h"
 #include "app/render/farm.h"
@@ -13,7 +14,6 @@
 #include "app/render/layer_files.h"
 #include "app/render/recipe.h"
 #include "app/render/report.h"
-#include "app/render/stage_cache.h"
 #include "app/render/version_up.h"
 #include "tests/render/shot_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "app/render/analysis_cache.h"
+#include "app/cache/analysis_cache.h"
 
 #include <unistd.h>
 
@@ -10,8 +10,8 @@
 #include <set>
 #include <shared_mutex>
 
-#include "app/render/analysis_key.h"
-#include "app/render/blob_file.h"
+#include "app/cache/analysis_key.h"
+#include "app/cache/blob_file.h"
 #include "engine/core/setting.h"
 #include "engine/media/atomic_file.h"
 

@@ -1,4 +1,4 @@
-#include "app/render/blob_file.h"
+#include "app/cache/blob_file.h"
 
 #include <zlib.h>
 

@@ -1,10 +1,10 @@
-#include "app/render/analysis_key.h"
+#include "app/cache/analysis_key.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
 
-#include "app/render/stage_cache.h"
+#include "app/cache/stage_cache.h"
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/core/hash.h"

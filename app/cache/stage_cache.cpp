@@ -1,8 +1,8 @@
-#include "app/render/stage_cache.h"
+#include "app/cache/stage_cache.h"
 
 #include <filesystem>
 
-#include "app/render/blob_file.h"
+#include "app/cache/blob_file.h"
 #include "engine/core/byte_stream.h"
 
 namespace weft {
