@@ -24,7 +24,7 @@ constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kPar
 // What was found, once the analysis is there.
 void finding(Ctx& c, const Region& region) {
     const auto found = c.view.preview.forms.find(region.id);
-    const auto& pinned = c.state.transform.pinned_on;
+    const auto& pinned = c.state.form.pinned_on;
     const bool off = region.form.source == FormSource::kFlat || most_amount(region) <= 0;
     if (off)
         wrapped(c, "Flat", c.theme.quiet);

@@ -97,7 +97,7 @@ std::vector<double> first_corners(Ctx& c, RegionId region) {
 // Pins begin on the plane that was found, and say so.
 void add_pins(Ctx& c, const Region& region) {
     const auto& view = c.view.preview;
-    auto& said = c.state.transform.pinned_on;
+    auto& said = c.state.form.pinned_on;
     said.erase(region.id);
     if (const auto text = view.forms.find(region.id);
         text != view.forms.end() && view.planes.contains(region.id))

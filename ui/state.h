@@ -172,6 +172,8 @@ struct FormToolState {
     RegionId region = 0;                    ///< Which `parallel` belongs to.
     /// The first parallel stroke, which shows a plane only with a second one.
     std::optional<FormGuide> parallel;
+    /// The form on which a region's corner pin began, in words.
+    std::map<RegionId, std::string> pinned_on;
 };
 
 /// The transform box of the selected region.
@@ -188,8 +190,6 @@ struct TransformState {
     double box_angle = 0;            ///< with this rotation.
     /// Where the placement acts, as last known: a picture in progress says nothing.
     std::shared_ptr<const SurfacePlaces> places;
-    /// The form on which a region's corner pin began, in words.
-    std::map<RegionId, std::string> pinned_on;
 };
 
 /// The box around a roto shape.

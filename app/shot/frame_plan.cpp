@@ -30,13 +30,6 @@ std::vector<int> frames_between(int first, int last) {
     return out;
 }
 
-// "4-9,12"; long lists are shortened.
-std::string frames_list(const std::vector<int>& frames) {
-    const std::string list = format_frame_list(frames);
-    constexpr std::size_t kLongest = 80;
-    return list.size() <= kLongest ? list : list.substr(0, list.rfind(',', kLongest)) + ",…";
-}
-
 // Advice if the surface cannot be tracked from the reference to all frames. `usable`: the frames
 // with all files.
 std::string around_gap(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
@@ -138,6 +131,10 @@ Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> 
     std::vector<int> both;
     std::set_intersection(frames.begin(), frames.end(), present.begin(), present.end(),
                           std::back_inserter(both));
+    std::erase_if(both, [&](int frame) {
+        std::error_code ignored;  // a link may lead nowhere
+        return !std::filesystem::exists(pattern.path_for(frame), ignored);
+    });
     return both;
 }
 
@@ -207,8 +204,10 @@ Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& 
         run = around;
     }
     std::erase_if(frames, [&](int frame) {
+        std::error_code ignored;  // a link may lead nowhere
         return frame < run.first || frame > run.last ||
-               std::find(leave_out.begin(), leave_out.end(), frame) != leave_out.end();
+               std::find(leave_out.begin(), leave_out.end(), frame) != leave_out.end() ||
+               !std::filesystem::exists(plate.path_of(frame), ignored);
     });
     return frames;
 }
@@ -294,6 +293,12 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
         if (frame != reference) chosen.push_back(frame);
     }
     return chosen;
+}
+
+std::string frames_list(const std::vector<int>& frames) {
+    const std::string list = format_frame_list(frames);
+    constexpr std::size_t kLongest = 80;
+    return list.size() <= kLongest ? list : list.substr(0, list.rfind(',', kLongest)) + ",…";
 }
 
 std::string frames_text(const std::vector<int>& frames) {

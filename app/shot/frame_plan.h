@@ -67,6 +67,8 @@ namespace weft {
                                                       const FrameReader& plate,
                                                       const std::vector<int>& leave_out);
 
+/// "4-9,12"; long lists are shortened.
+[[nodiscard]] std::string frames_list(const std::vector<int>& frames);
 /// "frames 4-9 and 12"; long lists are shortened.
 [[nodiscard]] std::string frames_text(const std::vector<int>& frames);
 

@@ -118,10 +118,26 @@ for _name, _words, _file in (
         ("layers", (*RENDER, "--layers", "all", "--layers-output", "out/l.####.exr"), "out/l.0002.exr"),
         ("synth", ("synth", "sample.png", "-o", "out/p.png", "--size", "64x64"), "out/p.png"),
         ("source_map", ("synth", "sample.png", "-o", "out/p.png", "--size", "64x64", "--source-map", "out/m.exr"), "out/m.exr"),
-        ("new", ("new", "out/n.weft", "--plate", "frames/####.png", "-o", "x/####.png"), "out/n.weft"),
         ("look", ("look", "save", "shot.weft", "out/l.json", "--region", "wall"), "out/l.json"),
         ("matte", ("matte", "--plate", "frames/####.png", "--matte", "1=masks/0001.png", "-o", "out/####.png"), "out/0002.png")):
     add("existing/" + _name, onto_existing(_words, _file))
+
+
+def new_onto_notes(shot):
+    """--overwrite replaces a project, and nothing that only has its name."""
+    prepared(shot)
+    shot.put("n.weft", "precious")
+    words = ["new", "n.weft", "--plate", "frames/####.png", "-o", "x/####.png"]
+    for more in ([], ["--overwrite"]):
+        yield Step([*words, *more], exits=(USAGE,))
+    assert shot.get("n.weft") == b"precious"
+    os.remove(shot.path("n.weft"))
+    yield Step(words, may_write=("n.weft",), outputs=[Output("n.weft")])
+    yield Step(words, exits=(USAGE,))
+    yield Step([*words, "--overwrite"], may_write=("n.weft",), outputs=[Output("n.weft")])
+
+
+add("existing/new", new_onto_notes)
 
 
 def two_sequences(shot):

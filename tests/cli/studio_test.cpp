@@ -76,7 +76,7 @@ TEST_F(Studio, LayersReproduceTheOutput) {
 TEST_F(Studio, LayersNeedAnExr) {
     make_shot(2);
     expect_failure(run_replace({"--layers", "patch"}), 2, {"--layers-output"});
-    expect_failure(run_replace({"--layers", "depth", "-o", "o/####.exr"}), 2, {"depth", "patch"});
+    expect_failure(run_replace({"--layers", "beauty", "-o", "o/####.exr"}), 2, {"beauty", "patch"});
     expect_success(run_replace({"--layers", "patch,matte", "--layers-output", "layers/####.exr"}));
     EXPECT_EQ(names("layers").size(), 2u);
     EXPECT_FALSE(alpha("layers/0001.exr", "patch").empty());

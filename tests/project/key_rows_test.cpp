@@ -86,7 +86,9 @@ TEST(KeyRows, ShowEverythingThatIsKeyedAndNothingElse) {
 TEST(KeyRows, EveryKeyedParameterHasARow) {
     for (const Parameter<Region>& entry : region_parameters()) {
         if (entry.kind != ParameterKind::kKeys) continue;
-        const KeyRowId id{KeyRowKind::kNumbers, 0, entry.full_key()};
+        const bool edge = entry.full_key().starts_with("matte.");
+        const KeyRowId id{edge ? KeyRowKind::kMatteEdge : KeyRowKind::kNumbers, 0,
+                          entry.full_key()};
         EXPECT_NE(numbers_of(Region{}, id), nullptr) << id.key;
         EXPECT_LT(range_of(id).min, range_of(id).max);
     }

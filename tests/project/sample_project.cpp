@@ -71,6 +71,7 @@ Region full_region() {
     r.form.source = FormSource::kShape;
     r.form.depth_kind = DepthKind::kRay;
     r.form.fov_deg = 47.5;
+    r.form.roundness = 1.5;
     r.form.amount = 0.75;
     r.form.amount_keys = {{{1, {0}, KeyInterpolation::kSmooth}, {24, {1}}}};
     r.form.shape = {{FormGuideKind::kCylinder, {100, 40, 104, 300, 50, 52.5, -10}}};

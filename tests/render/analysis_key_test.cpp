@@ -90,7 +90,7 @@ TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
     EXPECT_EQ(same(more), (std::vector<int>{1, 2, 5, 6}));
     EXPECT_NE(stroke.surface, before.surface) << "its motion depends on all of them";
     EXPECT_EQ(before.of({0, 3, AnalysisKind::kCoords}), before.surface);
-    EXPECT_EQ(before.all().size(), 2u + 4u) << "surface, form and mattes";
+    EXPECT_EQ(before.all().size(), 3u + 4u) << "surface, form, focus and mattes";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "app/shot/project_source.h"
 #include "app/shot/shot.h"
 #include "engine/media/frame_writer.h"
+#include "engine/media/image_files.h"
 #include "tests/render/shot_fixture.h"
 
 namespace weft::test {
@@ -86,8 +87,7 @@ TEST_F(Drawn, AProjectWithOneRendersWithoutTheEditor) {
     job.project.output = spec("out").project.output;
     const auto done = run_job(job, {}, {});
     ASSERT_TRUE(done) << done.error().text();
-    EXPECT_EQ(contents("out").size(), static_cast<std::size_t>(kFrames));
-    // The same mattes from files give the same bytes.
+    // The same mattes from files give the same pixels; the recipes in the headers differ.
     const DrawnMattes drawn((*open_shot(project()))->plate->size(), 1);
     JobSpec files = spec("files");
     for (int frame = 1; frame <= kFrames; ++frame) {
@@ -104,7 +104,12 @@ TEST_F(Drawn, AProjectWithOneRendersWithoutTheEditor) {
         region.reference_frames = {1};
     });
     ASSERT_TRUE(run_job(files, {}, {}));
-    EXPECT_EQ(contents("out"), contents("files"));
+    for (int frame = 1; frame <= kFrames; ++frame) {
+        const std::string name = "/000" + std::to_string(frame) + ".png";
+        const auto here = read_image(in("out" + name)), there = read_image(in("files" + name));
+        ASSERT_TRUE(here && there) << frame;
+        EXPECT_TRUE(here->rgb == there->rgb) << frame;
+    }
 }
 
 TEST_F(Drawn, ATrackThatIsMissingOrWrongIsSaidBeforeAnyWork) {

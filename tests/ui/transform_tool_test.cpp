@@ -148,7 +148,7 @@ TEST_F(TransformTool, CornerPinsBeginOnThePlaneThatWasFoundAndSaySo) {
     ASSERT_THAT(set, SizeIs(1));
     EXPECT_THAT(std::get<std::vector<double>>(set[0].value),
                 ElementsAre(50, 60, 150, 60, 180, 120, 30, 120));
-    EXPECT_EQ(shell->state().transform.pinned_on.at(1), view.preview.forms[1]);
+    EXPECT_EQ(shell->state().form.pinned_on.at(1), view.preview.forms[1]);
 }
 
 TEST(TransformBox, FollowsTheTexturesAxes) {
