@@ -224,7 +224,7 @@ Expected<LatticeField> read_lattice(ByteReader& reader, const char* what) {
     Size full;
     int spacing = 0;
     reader.value(full).value(spacing);
-    if (!reader.ok() || !sane(full) || spacing < 1 || spacing > 4096) return damaged(what);
+    if (!reader.ok() || !sane(full) || spacing < 1 || spacing > kLargestSide) return damaged(what);
     const double cells = area({full.width / spacing, full.height / spacing});
     if (!reader.holds(cells, 2 * sizeof(float))) return damaged(what);
     LatticeField out(full, spacing);
