@@ -71,7 +71,9 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
 
 Status take_exposure(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
                      int index, int frame, RegionScene& scene) {
-    if (!(plan.regions[static_cast<std::size_t>(index)].match > 0)) return {};
+    const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
+    // A light that is used unchanged has the plate's exposure in it.
+    if (!(region.match > 0) || region.exact_light) return {};
     WEFT_TRY(plate, source.plate(frame));
     const ImageF3 working = transformed(*plate, *plan.working_from_plate);
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));

@@ -92,6 +92,17 @@ ssize_t read(int file, void* data, size_t size) {
     return real(file, data, std::strcmp(kind(), "short") == 0 && size > 1 ? size / 2 : size);
 }
 
+ssize_t pread64(int file, void* data, size_t size, off64_t at) {
+    static const auto real = next<ssize_t (*)(int, void*, size_t, off64_t)>("pread64");
+    if (!strikes("read", file)) return real(file, data, size, at);
+    if (fail_or_wait()) return -1;
+    return real(file, data, std::strcmp(kind(), "short") == 0 && size > 1 ? size / 2 : size, at);
+}
+
+ssize_t pread(int file, void* data, size_t size, off_t at) {
+    return pread64(file, data, size, at);
+}
+
 size_t fread(void* data, size_t size, size_t count, FILE* stream) {
     static const auto real = next<size_t (*)(void*, size_t, size_t, FILE*)>("fread");
     if (!strikes("read", fileno(stream))) return real(data, size, count, stream);
