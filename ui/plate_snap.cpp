@@ -280,6 +280,7 @@ std::optional<std::pair<Vec2, Vec2>> snapped_to_line(const Picture& picture, Vec
     const int places = std::min(kMostPlaces, static_cast<int>(long_px / 2));
     const float step = long_px / static_cast<float>(places);
     std::vector<std::vector<float>> edges;
+    edges.reserve(static_cast<std::size_t>(places));
     for (int k = 0; k < places; ++k)
         edges.push_back(edges_across(picture, from + unit * ((static_cast<float>(k) + 0.5f) * step),
                                      unit, static_cast<int>(std::ceil(reach))));

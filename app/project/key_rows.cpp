@@ -268,7 +268,8 @@ Region without_keys(const Region& region, const KeySet& keys) {
     Region out = region;
     for (const auto& [row, frames] : by_row(keys)) {
         Contents contents = contents_of(out, row);
-        std::erase_if(contents, [&](const auto& key) { return frames.contains(key.first); });
+        for (const int frame : frames)
+            contents.erase(frame);
         set_contents(out, row, contents);
     }
     drop_empty_layers(out);

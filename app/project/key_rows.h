@@ -31,7 +31,7 @@ struct KeyRowId {
     KeyRowKind kind = KeyRowKind::kNumbers;
     int layer = 0;
     std::string key = {};  ///< Of region_parameters(): "placement.scale_keys", "matte.choke_keys".
-    auto operator<=>(const KeyRowId&) const = default;
+    auto operator<=>(const KeyRowId&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct KeyMark {
@@ -52,7 +52,7 @@ struct KeyRow {
 struct KeyRef {
     KeyRowId row;
     int frame = 0;
-    auto operator<=>(const KeyRef&) const = default;
+    auto operator<=>(const KeyRef&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 using KeySet = std::set<KeyRef>;
 

@@ -247,8 +247,9 @@ std::vector<std::pair<dvec2, dvec2>> WarpNet::samples() const {
     } else {
         const double side = std::max(glm::distance(corners_[1], corners_[0]),
                                      glm::distance(corners_[3], corners_[0]));
-        for (double reach = 2 * side; reach > 0.01 * side; reach /= 2)
-            reaches.push_back(reach);
+        constexpr int kHalvings = 8;
+        for (int k = 0; k < kHalvings; ++k)
+            reaches.push_back(std::ldexp(2 * side, -k));
     }
     const dvec2 middle = 0.25 * (corners_[0] + corners_[1] + corners_[2] + corners_[3]);
     const auto beyond = [&](dvec2 grid, dvec2 away) {

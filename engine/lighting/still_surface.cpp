@@ -207,7 +207,7 @@ Changes darkest(const std::vector<Part>& parts, StillSurface& out, ImageF1& midd
                 const std::size_t n = shown.size();
                 if (static_cast<int>(n) < kFewestFrames) continue;
                 const auto few = std::max<std::size_t>(
-                    1, static_cast<std::size_t>(kDarkest * static_cast<float>(n) + 0.5f));
+                    1, static_cast<std::size_t>(std::lround(kDarkest * static_cast<float>(n))));
                 float* colour = out.colour.pixel(x, y);
                 for (std::size_t k = 0; k < few; ++k) {
                     const Part& part = parts[static_cast<std::size_t>(shown[k].second)];
@@ -371,7 +371,7 @@ StillSurface StillSurfaceGatherer::finish(float daylight) {
 ImageF1 moving_gloss(Vec2i origin, ViewF3 plate, ViewU8x1 matte, const StillSurface& still,
                      const LatticeField& ref_from_cur) {
     if (still.box.empty()) return ImageF1(matte.size());
-    const int d = std::max(1, static_cast<int>(still.pixel_px + 0.5f));
+    const int d = std::max(1, static_cast<int>(std::lround(still.pixel_px)));
     Reduced frame = reduced(origin, plate, matte, d);
     const ImageF2 at = places(frame, d, still.pixel_px, ref_from_cur);
     ImageF1 gloss(frame.box.size()), paint(frame.box.size());

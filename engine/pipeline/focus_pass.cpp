@@ -125,7 +125,7 @@ Expected<Matte> visible_matte(const ShotSource& source, const ShotPlan& plan,
 // The frames that are still to be read, with their regions.
 struct Reading {
     int frame = 0, region = 0;
-    auto operator<=>(const Reading&) const = default;
+    auto operator<=>(const Reading&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 std::vector<Reading> missing_readings(const ShotPlan& plan, const AnalysisStore& store) {

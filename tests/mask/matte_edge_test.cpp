@@ -75,7 +75,7 @@ Matte codes(const ImageF1& alpha) {
     Matte out(alpha.size());
     for (int y = 0; y < out.height(); ++y)
         for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = static_cast<std::uint8_t>(alpha.at(x, y) * 255 + 0.5f);
+            out.at(x, y) = static_cast<std::uint8_t>(std::lround(alpha.at(x, y) * 255));
     return out;
 }
 
