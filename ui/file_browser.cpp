@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "ui/floating_window.h"
 #include "ui/icons.h"
@@ -306,8 +307,8 @@ void file_browser(Ctx& c) {
                    : !c.settings.recent.empty() ? parent_of(c.settings.recent.front())
                                                 : home();
     }
-    if (b.just_opened) {
-        b.just_opened = false;
+    const bool opened = std::exchange(b.just_opened, false);
+    if (opened) {
         b.selected = -1;
         c.folders.refresh();
         if (b.purpose == Purpose::kSaveProject) {
@@ -362,8 +363,11 @@ void file_browser(Ctx& c) {
     }
     ImGui::SetCursorPos({t.px(16), size.y - t.px(42)});
     const bool folder = wants_folder(b.purpose);
-    if (b.purpose == Purpose::kSaveProject)
+    if (b.purpose == Purpose::kSaveProject) {
+        // What is typed at once replaces the proposed name, as in every save dialog.
+        if (opened) ImGui::SetKeyboardFocusHere();
         input(c, "Name", b.name, "name.weft, or a path", size.x - t.px(260));
+    }
     // Enter in the name saves; in the folder's field it only goes there.
     const bool named = b.purpose == Purpose::kSaveProject && ImGui::IsItemDeactivated();
     ImGui::SetCursorPos({size.x - t.px(226), size.y - t.px(42)});

@@ -246,6 +246,7 @@ State state_of_picture(const Ctx& c) {
     const SessionView& v = c.view;
     const Theme& t = c.theme;
     if (!v.frame_error.empty()) return {v.frame_error, t.bad, icons::kAlert};
+    if (v.matte_busy) return {"Updating matte…", t.warn, icons::kTimer};
     if (c.state.viewer.hold_original) return {"Plate", t.text};
     if (c.state.viewer.compare == Compare::kPlate) return {compared_name(c), t.text};
     if (!v.result_wanted) {

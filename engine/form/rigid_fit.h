@@ -46,8 +46,8 @@ struct RigidFit {
 /// poses, from many starts, since a plane's homographies have two solutions (Malis & Vargas 2007).
 /// The noise is what is left, and at least what tracks are known to be off. Competing solutions and
 /// the covariance make up the error. `tangent`: long side over focal length, where it is known;
-/// else it is found, from fields of view as they are common. Empty if the matches are too few, or
-/// are not those of a rigid thing. Bit-identical everywhere; thread-safe.
+/// else it is found, from fields of view as they are common. Empty if the matches are too few, are
+/// not those of a rigid thing, or are what a camera at one place shows, which turns and zooms. Bit-identical everywhere; thread-safe.
 [[nodiscard]] std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames,
                                                         Size picture,
                                                         std::optional<double> tangent);
