@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "ui/icons.h"
+#include "ui/wrap.h"
 
 namespace weft::ui {
 namespace {
@@ -254,9 +255,13 @@ void quiet(Ctx& c, const char* text) {
 }
 
 void wrapped(Ctx& c, const std::string& text, ImU32 color) {
+    const std::string lines =
+        wrapped_at_words(text, ImGui::GetContentRegionAvail().x, [](std::string_view part) {
+            return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
+        });
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
+    ImGui::PushTextWrapPos(0);  // for a path, which is wider than a line
+    ImGui::TextUnformatted(lines.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     static_cast<void>(c);
@@ -267,18 +272,26 @@ void empty_state(Ctx& c, const char* icon, const char* title, const char* what_t
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float wrap = std::min(room.x - t.px(16), t.px(380));
     const ImVec2 text_size = ImGui::CalcTextSize(what_to_do, nullptr, false, wrap);
-    const float height = t.px(34) + t.px(28) + text_size.y;
+    // In a low panel the words matter, not the icon.
+    const float words = t.px(26) + text_size.y;
+    const float above = room.y < t.px(36) + words + t.px(8) ? 0 : t.px(36);
+    const float height = above + words;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float top = at.y + std::max(t.px(8), (room.y - height) * 0.42f);
+    const float top = at.y + std::max(above > 0 ? t.px(8) : 0, (room.y - height) * 0.42f);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float middle = at.x + room.x * 0.5f;
-    ImFont* font = t.display;
-    const ImVec2 icon_size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, icon);
-    list.AddText(font, font->FontSize, {middle - icon_size.x * 0.5f, top - t.px(6)}, t.off, icon);
-    text_in(list, t.strong, {at.x, top + t.px(36)}, {at.x + room.x, top + t.px(56)}, t.text, title);
+    if (above > 0) {
+        ImFont* font = t.display;
+        const ImVec2 icon_size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, icon);
+        list.AddText(font, font->FontSize, {middle - icon_size.x * 0.5f, top - t.px(6)}, t.off,
+                     icon);
+    }
+    const float heading_top = top + above;
+    text_in(list, t.strong, {at.x, heading_top}, {at.x + room.x, heading_top + t.px(20)}, t.text,
+            title);
     const float left = std::floor(middle - std::min(wrap, text_size.x) * 0.5f);
-    list.AddText(t.regular, t.regular->FontSize, {left, top + t.px(62)}, t.quiet, what_to_do,
-                 nullptr, wrap);
+    list.AddText(t.regular, t.regular->FontSize, {left, heading_top + t.px(26)}, t.quiet,
+                 what_to_do, nullptr, wrap);
     ImGui::Dummy({room.x, std::min(room.y, height + t.px(40))});
 }
 

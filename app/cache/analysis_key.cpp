@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 23;
-constexpr int kFormVersion = 4;   // of the form alone
+constexpr int kFormVersion = 5;   // of the form alone
 constexpr int kFocusVersion = 1;  // of the focus alone
 
 void add_file(Hasher& hasher, const std::string& path) {

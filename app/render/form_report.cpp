@@ -60,6 +60,8 @@ Reason reason_of(const FormReport& form) {
     }
     if (form.finding.frames < kLeastFrames)
         return {"few_frames", "because too few frames show it for motion to tell its form"};
+    if (form.finding.no_parallax)
+        return {"no_parallax", "because the camera only turns or zooms; draw its form by hand"};
     if (!(form.finding.fov_deg > 0))
         return {"not_rigid", "because its motion is not that of a rigid thing"};
     return {"unsure", "because motion does not tell its form well enough"};

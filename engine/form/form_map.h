@@ -22,6 +22,7 @@ struct FormFinding {
     float fov_deg = 0;                       ///< Horizontal; of motion or a shape.
     float fov_error_deg = 0;                 ///< 0: not known, or not asked.
     std::uint8_t fov_regions = 0;  ///< Of the shot, whose motion decided it together; 0: its own.
+    bool no_parallax = false;      ///< The camera only turns or zooms, so motion tells no form.
     bool operator==(const FormFinding&) const = default;
 };
 

@@ -19,9 +19,6 @@ namespace {
 constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
 constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the long side
 constexpr double kNotRigid = 0.3;          // of the motion beyond a similarity that may be left
-// From what a camera at one place explains, in what tracks and lenses are off by. Cameras that pan
-// and zoom leave 0.4 to 1.2, surfaces whose form was found rightly 6 to 53.
-constexpr double kParallax = 2;
 constexpr int kFirstSteps = 4, kMoreSteps = 30;
 constexpr std::size_t kKept = 6;
 constexpr double kKnown = 1e-3;    // deviation of a tangent that is given
@@ -331,7 +328,7 @@ std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frame
 std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,
                                           const TangentBelief& tangent) {
     const auto problem = problem_of(frames, picture, tangent);
-    if (!problem || beyond_still_camera(frames, picture) < kParallax) return std::nullopt;
+    if (!problem || !shows_parallax(frames, picture)) return std::nullopt;
     double sigma = problem->least_sigma;
     std::vector<RigidBundle> solutions = planes(*problem, sigma);
     if (solutions.empty()) return std::nullopt;

@@ -98,6 +98,7 @@ Bytes encode(const FormMap& form) {
         .value(f.fov_deg)
         .value(f.fov_error_deg)
         .value(f.fov_regions)
+        .value(static_cast<std::uint8_t>(f.no_parallax))
         .value(form.relief_fov_deg);
     if (!form.relief.empty()) write(out, form.relief);
     return out.take();
@@ -247,11 +248,12 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
     WEFT_TRY(displacement, read_lattice(reader, "form"));
     out.displacement = std::move(displacement);
     FormFinding& f = out.finding;
-    std::uint8_t plane = 0;
+    std::uint8_t plane = 0, no_parallax = 0;
     reader.value(out.origin).value(f.source).value(plane).value(f.frames).value(f.belief);
     reader.value(f.tilt_deg).value(f.tilt_error_deg).value(f.fov_deg);
-    reader.value(f.fov_error_deg).value(f.fov_regions).value(out.relief_fov_deg);
+    reader.value(f.fov_error_deg).value(f.fov_regions).value(no_parallax).value(out.relief_fov_deg);
     f.plane = plane != 0;
+    f.no_parallax = no_parallax != 0;
     if (out.relief_fov_deg != 0) {
         if (!(out.relief_fov_deg > 0 && out.relief_fov_deg < 180)) return damaged("form");
         WEFT_TRY(relief, read_lattice(reader, "form"));

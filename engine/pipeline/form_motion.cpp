@@ -9,6 +9,7 @@
 #include "engine/form/form_relief.h"
 #include "engine/form/pulled_back.h"
 #include "engine/form/rigid_fit.h"
+#include "engine/form/still_camera.h"
 #include "engine/form/view_camera.h"
 
 namespace weft {
@@ -146,7 +147,10 @@ FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
     FormFinding flat;
     flat.frames = static_cast<int>(matches.size());
     flat.belief = 0;
-    if (!fit) return flat_over(plate, flat);
+    if (!fit) {
+        flat.no_parallax = !shows_parallax(matches, plate);
+        return flat_over(plate, flat);
+    }
     flat = finding_of(*fit, FormFinding::Source::kNone, lens);
     if (!believable(*fit, plate)) return flat_over(plate, flat);
     const RigidSurface& surface = fit->surface;

@@ -58,6 +58,10 @@ TEST(FormText, SaysWhyASurfaceIsFlat) {
     EXPECT_EQ(form_text(form), "flat, because too few frames show it for motion to tell its form");
     form = found(Source::kNone, true, 11, 0, 0, 0, 0);
     EXPECT_EQ(form_text(form), "flat, because its motion is not that of a rigid thing");
+    form.finding.no_parallax = true;
+    EXPECT_EQ(form_text(form),
+              "flat, because the camera only turns or zooms; draw its form by hand");
+    EXPECT_EQ(form_json(form)["reason"], "no_parallax");
     form = found(Source::kNone, true, 11, 0.4f, 30, 24, 47);
     EXPECT_EQ(form_text(form), "flat, because motion does not tell its form well enough");
     form.not_sought = FormReport::NotSought::kCorners;
