@@ -296,6 +296,15 @@ const FolderEntry* entries(Ctx& c, const std::vector<FolderEntry>& all, ImVec2 s
     return chosen;
 }
 
+// The name to save under. Returns true as it is left: Enter there saves, and in the folder's field
+// only goes to the folder.
+bool name_field(Ctx& c, float width, bool opened) {
+    // What is typed at once replaces the proposed name, as in every save dialog.
+    if (opened) ImGui::SetKeyboardFocusHere();
+    input(c, "Name", c.state.browser.name, "name.weft, or a path", width);
+    return ImGui::IsItemDeactivated();
+}
+
 }  // namespace
 
 void file_browser(Ctx& c) {
@@ -363,13 +372,8 @@ void file_browser(Ctx& c) {
     }
     ImGui::SetCursorPos({t.px(16), size.y - t.px(42)});
     const bool folder = wants_folder(b.purpose);
-    if (b.purpose == Purpose::kSaveProject) {
-        // What is typed at once replaces the proposed name, as in every save dialog.
-        if (opened) ImGui::SetKeyboardFocusHere();
-        input(c, "Name", b.name, "name.weft, or a path", size.x - t.px(260));
-    }
-    // Enter in the name saves; in the folder's field it only goes there.
-    const bool named = b.purpose == Purpose::kSaveProject && ImGui::IsItemDeactivated();
+    const bool named =
+        b.purpose == Purpose::kSaveProject && name_field(c, size.x - t.px(260), opened);
     ImGui::SetCursorPos({size.x - t.px(226), size.y - t.px(42)});
     bool cancel = button(c, "Cancel", {.width = t.px(96)});
     ImGui::SameLine();

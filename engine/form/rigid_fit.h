@@ -47,7 +47,8 @@ struct RigidFit {
 /// The noise is what is left, and at least what tracks are known to be off. Competing solutions and
 /// the covariance make up the error. `tangent`: long side over focal length, where it is known;
 /// else it is found, from fields of view as they are common. Empty if the matches are too few, are
-/// not those of a rigid thing, or are what a camera at one place shows, which turns and zooms. Bit-identical everywhere; thread-safe.
+/// not those of a rigid thing, or are what a camera at one place shows, which turns and zooms.
+/// Bit-identical everywhere; thread-safe.
 [[nodiscard]] std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames,
                                                         Size picture,
                                                         std::optional<double> tangent);
