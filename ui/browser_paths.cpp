@@ -24,6 +24,7 @@ std::string typed_path(const std::string& folder, const std::string& name) {
 }  // namespace
 
 std::string home() {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing in the program sets a variable.
     const char* path = std::getenv("HOME");
     return path && *path ? path : "/";
 }

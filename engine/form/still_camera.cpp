@@ -19,7 +19,9 @@ constexpr double kLensError = 0.01;
 constexpr double kParallax = 2;
 constexpr std::size_t kLeastPairs = 6;
 constexpr int kSteps = 12;
-constexpr double kLeastTangent = 0.3, kMostTangent = 1.7, kTangentStep = 0.1;
+// Horizontal fields of view of 17° to 77°.
+constexpr double kLeastTangent = 0.3, kTangentStep = 0.1;
+constexpr int kTangents = 14;
 
 using Vector3 = Eigen::Vector3d;
 using Vector4 = Eigen::Vector4d;
@@ -105,7 +107,8 @@ double beyond_still_camera(const std::vector<FrameMatches>& frames, Size picture
         if (matches.reference.size() >= kLeastPairs) all.push_back(pairs_of(matches, picture));
     double least = std::numeric_limits<double>::infinity();
     if (all.empty()) return least;
-    for (double tangent = kLeastTangent; tangent < kMostTangent; tangent += kTangentStep) {
+    for (int k = 0; k < kTangents; ++k) {
+        const double tangent = kLeastTangent + k * kTangentStep;
         double squares = 0;
         for (const Pairs& pairs : all) {
             const double off = residual(pairs, tangent) / (kTrackError + kLensError * pairs.moved);
