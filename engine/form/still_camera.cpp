@@ -15,8 +15,8 @@ constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the 
 // Of how far the picture moves: what distortion and a rolling shutter leave of a turn.
 constexpr double kLensError = 0.01;
 // From what it explains. Cameras that pan and zoom leave 0.4 to 1.2, surfaces whose form was found
-// rightly 6 to 53.
-constexpr double kParallax = 2;
+// rightly 7 to 53.
+constexpr double kParallax = 1.5;
 constexpr std::size_t kLeastPairs = 6;
 constexpr int kSteps = 12;
 // Horizontal fields of view of 17° to 77°.

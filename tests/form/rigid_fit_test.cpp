@@ -110,7 +110,7 @@ TEST(RigidFit, AFloorIsFoundWithTheFieldOfView) {
 }
 
 TEST(RigidFit, AColumnIsCurved) {
-    const auto found = fit(column, round_about(4, 0.3f));
+    const auto found = fit(column, round_about(4, 0.2f));
     ASSERT_TRUE(found);
     EXPECT_FALSE(found->plane);
     EXPECT_GT(found->belief(), 0.95);
