@@ -66,13 +66,18 @@ struct PlanarRegistration {
                                             const RegistrationPicture& cur,
                                             const LatticeField& anchor_from_cur);
 
-/// How much better one map explains the picture than another: the correlations of the two pictures
-/// under either, compared in pairs in cells of 24 px; the mean of their differences in units of its
-/// standard error, positive for `a`. A Student's t: beyond ±2 it is hardly chance, in noise it is
-/// about ±1, however faint the surface or strong the grain. 0 if too few cells can be compared.
-/// Pure; deterministic.
-[[nodiscard]] double registration_lead(const RegistrationPicture& anchor,
-                                       const RegistrationPicture& cur, const LatticeField& a,
-                                       const LatticeField& b);
+/// How much better one map explains the picture than another.
+struct RegistrationLead {
+    double gain = 0;    ///< In correlation, −2 to 2; positive for the first map.
+    double errors = 0;  ///< The same in its standard errors.
+};
+
+/// The correlations of the two pictures under either map, compared in pairs in cells of 24 px; the
+/// mean of their differences, and in units of its standard error. A Student's t: beyond ±2 it is
+/// hardly chance, in noise it is about ±1, however faint the surface or strong the grain. 0 if too
+/// few cells can be compared. Pure; deterministic.
+[[nodiscard]] RegistrationLead registration_lead(const RegistrationPicture& anchor,
+                                                 const RegistrationPicture& cur,
+                                                 const LatticeField& a, const LatticeField& b);
 
 }  // namespace weft

@@ -311,13 +311,14 @@ double registration_agreement(const RegistrationPicture& anchor, const Registrat
     return cells.empty() ? 0 : sum / static_cast<double>(cells.size());
 }
 
-double registration_lead(const RegistrationPicture& anchor, const RegistrationPicture& cur,
-                         const LatticeField& a, const LatticeField& b) {
+RegistrationLead registration_lead(const RegistrationPicture& anchor,
+                                   const RegistrationPicture& cur, const LatticeField& a,
+                                   const LatticeField& b) {
     constexpr int kSamples = 40000;
     constexpr std::size_t kFewest = 3;
     constexpr double kLeast = 1e-4;  // standard error: two maps may be the same
     const auto cells = correlations<2>(anchor, cur, {&a, &b}, kSamples);
-    if (cells.size() < kFewest) return 0;
+    if (cells.size() < kFewest) return {};
     const double n = static_cast<double>(cells.size());
     double sum = 0, squares = 0;
     for (const auto& cell : cells) {
@@ -326,7 +327,7 @@ double registration_lead(const RegistrationPicture& anchor, const RegistrationPi
         squares += lead * lead;
     }
     const double mean = sum / n, variance = std::max(0.0, squares / n - mean * mean);
-    return mean / std::max(kLeast, std::sqrt(variance / (n - 1)));
+    return {mean, mean / std::max(kLeast, std::sqrt(variance / (n - 1)))};
 }
 
 }  // namespace weft

@@ -38,7 +38,9 @@ struct StepEvidence {
     std::optional<LatticeField> by_freed;
     std::optional<double> freed_lead;  ///< Before by_picture, standard errors; where searched.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
-    double lead = 0;  ///< then registration_lead() of the picture's motion before the outline's.
+    /// then how far the picture's motion leads before the outline's by registration_lead(), in
+    /// standard errors beyond what motion gains by being fitted to the pictures.
+    double lead = 0;
 };
 
 /// Gathers it. Pictures that are freed of light (estimate_surface_flow()) are searched where the
@@ -56,7 +58,7 @@ struct StepEvidence {
 /// the other one leads clearly. Not thread-safe.
 class MotionChoice {
   public:
-    /// How far the picture's motion leads before the outline's in one step (registration_lead()).
+    /// How far the picture's motion leads before the outline's in one step (StepEvidence::lead).
     void note(double lead);
     /// How far that of pictures freed of light leads before the plate's (StepEvidence::freed_lead).
     void note_freed(double lead);
@@ -69,7 +71,7 @@ class MotionChoice {
         int noted = 0;    // of them
         bool leads = false;
 
-        void note(double lead, double above, double below);
+        void note(double lead, int frames, double above, double below);
     };
     Lead picture_, freed_;
 };

@@ -152,10 +152,10 @@ TEST(RegistrationLead, IsPositiveForTheMapThatExplainsMore) {
     const RegistrationPicture anchor = registration_picture(p.anchor, p.visible);
     const RegistrationPicture frame = registration_picture(p.frame, p.visible);
     const LatticeField truth = exactly(plane), rough = roughly(plane);
-    EXPECT_GT(registration_lead(anchor, frame, truth, rough), 5);
-    EXPECT_LT(registration_lead(anchor, frame, rough, truth), -5);
-    EXPECT_EQ(registration_lead(anchor, frame, truth, truth), 0);
-    EXPECT_EQ(registration_lead({}, {}, truth, rough), 0);
+    EXPECT_GT(registration_lead(anchor, frame, truth, rough).errors, 5);
+    EXPECT_LT(registration_lead(anchor, frame, rough, truth).errors, -5);
+    EXPECT_EQ(registration_lead(anchor, frame, truth, truth).errors, 0);
+    EXPECT_EQ(registration_lead({}, {}, truth, rough).errors, 0);
 }
 
 }  // namespace
