@@ -16,7 +16,7 @@ namespace {
 constexpr float kBrightShare = 0.99f;
 constexpr int kEvery = 2;  // pixels of the plate, in both directions
 constexpr float kLeastCeiling = 1.5f;
-constexpr float kKnee = 0.5f;  // of the ceiling
+constexpr float kKnee = 0.5f;    // of the ceiling
 constexpr float kSureTimes = 4;  // light that is sure may be so much above it
 
 // 1 for 1, its slope 1 up to the knee, below `ceiling` everywhere.

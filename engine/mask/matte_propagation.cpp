@@ -11,6 +11,7 @@
 #include "engine/mask/boundary_refiner.h"
 #include "engine/mask/growth_evidence.h"
 #include "engine/mask/match_evidence.h"
+#include "engine/mask/motion_sides.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
@@ -23,6 +24,7 @@ constexpr float kClearancePx = 1.5f;  // nearer to a boundary, colours are mixed
 // Of the new frame, only what lies well outside the expected boundary counts: new background.
 constexpr float kUnsureClearancePx = 6;
 constexpr float kFarBands = 0.8f;      // motion that leads so far outside is believed
+constexpr float kBandUnits = 10;       // pixels of 854×480 in a band
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
 template <class T, int C>
@@ -80,6 +82,19 @@ Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     return bounds.grown(margin).intersected(rect_of(frame));
 }
 
+// Adds which motion the pixels have followed: to the evidence near the boundary, and deeper inside,
+// where it clearly says outside, to what reopens a decided part.
+void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1& wide) {
+    constexpr float kWeight = 0.5f, kClearly = -1;
+    for (int y = 0; y < sides.height(); ++y) {
+        for (int x = 0; x < sides.width(); ++x) {
+            const float side = sides.at(x, y);
+            near.at(x, y) += kWeight * side;
+            if (phi.at(x, y) > 0) wide.at(x, y) += kWeight * std::min(0.0f, side - kClearly);
+        }
+    }
+}
+
 // Nearer to the boundary than half of its usual softness, colours are mixed.
 float clearance_of(const ImageF1& phi, const ImageF1& softness) {
     double sum = 0, n = 0;
@@ -111,7 +126,8 @@ struct MatteWalker::State {
     ImageF1 key_softness;               ///< Half the width of the keyframe's edge, pixels.
     float clearance_px = kClearancePx;  ///< Nearer to the boundary, colours are not used.
     Matte last;                         ///< The matte of the walk's last frame.
-    bool soft_edges = false;            ///< Whether key_softness is anything but 0.
+    MotionSides sides;
+    bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
@@ -134,7 +150,8 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            1.0f,
                                            {},
                                            kClearancePx,
-                                           copy_of(key)});
+                                           copy_of(key),
+                                           MotionSides(frame.size())});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -202,12 +219,13 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     s.plate.move(background_motion(s.phi, prev_from_cur, s.scale.band_px));
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
+        s.sides = MotionSides(frame.size());
     } else {
         const TransportedShape shape = transport_shape(s.phi, prev_from_cur, area, s.scale);
         const ViewU8x3 part = frame.crop(area);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
         const LocalColorField colors = s.fit_colors(part, shape, key_from_cur, area);
-        const ImageF1 matched =
+        ImageF1 matched =
             match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
                             Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
                            s.scale.band_px);
@@ -216,6 +234,9 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         ImageF1 wide = s.plate.odds(part, shape.phi,
                                     surface_difference(growth, s.palette, s.scale.band_px), area);
         limit_growth(wide, growth, s.palette, kFarBands * s.scale.band_px);
+        add_sides(s.sides.advance({s.phi, prev_from_cur, shape.outside_motion, area,
+                                   s.scale.band_px / kBandUnits}),
+                  shape.phi, matched, wide);
         const RefinedBoundary found =
             refine_boundary(part, shape.phi, colors, matched, wide, s.scale, s.options.steadiness);
         // Confidence falls with each frame whose boundary had to be guessed. It ranks frames by

@@ -82,18 +82,19 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
 }
 
 // StepEvidence::lead. The picture's motion was fitted to these pictures and the outline's was not,
-// so it leads a little whatever is true: on a shining car it follows the light. If the picture shows paint, going as far to the other side of
-// its motion finds as little as the outline's motion does; if it shows more on the outline's side,
-// that counts against the picture, unless its motion finds very much more than the outline's.
+// so it leads a little whatever is true: on a shining car it follows the light. If the picture
+// shows paint, going as far to the other side of its motion finds as little as the outline's motion
+// does; if it shows more on the outline's side, that counts against the picture, unless its motion
+// finds very much more than the outline's.
 double picture_lead(const RegistrationPicture& before, const RegistrationPicture& now,
                     const LatticeField& picture, const LatticeField& outline) {
     constexpr double kMostBias = 2;
     constexpr float kOtherSide = -1;  // picture + (picture - outline)
     // Cars of plain paint gain 0.03 at most, plaster and tiles 0.06 to 0.3.
     constexpr float kLittle = 0.04f, kMuch = 0.1f;
-    // By which picture and outline are told apart, in the mean over a shot: plaster, tiles and faint
-    // cloths have 3.5 to 14, cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox, whose
-    // speckle is new in each frame, has -2.9 to 0.6, flat drawn fills -5 to 0.4.)
+    // By which picture and outline are told apart, in the mean over a shot: plaster, tiles and
+    // faint cloths have 3.5 to 14, cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox,
+    // whose speckle is new in each frame, has -2.9 to 0.6, flat drawn fills -5 to 0.4.)
     constexpr double kOfTheFit = 2.6;
     const RegistrationLead lead = registration_lead(before, now, picture, outline);
     if (lead.errors == 0) return 0;  // too little can be compared
@@ -115,7 +116,8 @@ void MotionChoice::Lead::note(double lead, int frames, double above, double belo
 
 void MotionChoice::note(double lead) {
     constexpr int kFrames = 8;
-    constexpr double kPicture = 0.2, kOutline = -0.2;
+    constexpr double kPicture = 0.4, kOutline = 0.2;
+    if (lead == 0) return;  // nothing could be compared
     picture_.note(lead, kFrames, kPicture, kOutline);
 }
 

@@ -73,7 +73,9 @@ class MotionChoice {
 
         void note(double lead, int frames, double above, double below);
     };
-    Lead picture_, freed_;
+    // As after three frames of indifference: a walk begins by the outline unless the picture leads
+    // clearly.
+    Lead picture_{0, 3, false}, freed_;
 };
 
 struct StepMotion {

@@ -158,6 +158,7 @@ TEST(MotionChoice, TakesThePictureWhereItClearlyLeads) {
 TEST(MotionChoice, ChangesOnlyWhenTheOtherLeadsForAWhile) {
     MotionChoice choice;
     choice.note(4);
+    choice.note(4);
     ASSERT_FALSE(choice.by_outline());
     choice.note(-30);
     EXPECT_FALSE(choice.by_outline()) << "one frame is no reason";

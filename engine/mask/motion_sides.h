@@ -1,0 +1,37 @@
+#pragma once
+// Which of two motions each pixel has followed so far: the surface's or that of what surrounds it.
+
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// Input of MotionSides::advance(). `outside_motion` (of the area's size) is the motion of what
+/// surrounds the surface, extended inwards; the others are of the frame's size.
+struct SidesInput {
+    ViewF1 prev_phi;  ///< Signed distance of the matte's boundary in the frame before, pixels.
+    const FlowField& flow;  ///< prev_from_cur as measured.
+    ViewF2 outside_motion;  ///< prev_from_cur.
+    Recti area;             ///< Where it lies in the frame.
+    float unit_px;          ///< A pixel of 854×480.
+};
+
+/// Evidence that adds up from frame to frame. A strip of the background that a loosely painted
+/// outline takes in looks like the surface in every single frame, but keeps moving with the
+/// background. Only where the surface moves as one stiff piece (most of it within a robust affine
+/// motion) and its surroundings move otherwise does motion tell the sides apart; elsewhere nothing
+/// is added. (Cf. the layers of Wang & Adelson 1994.) Not thread-safe.
+class MotionSides {
+  public:
+    explicit MotionSides(Size frame) : odds_(frame) {}
+    /// Goes on by a frame. Log odds for inside over the area, −kMost to kMost, 0 where nothing is
+    /// known. Parallel over rows; deterministic.
+    ImageF1 advance(const SidesInput& input);
+
+    static constexpr float kMost = 4;
+
+  private:
+    ImageF1 odds_;  ///< Of the last frame.
+};
+
+}  // namespace weft
