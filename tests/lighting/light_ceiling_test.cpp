@@ -67,7 +67,8 @@ TEST(LightCeiling, BelievesMoreWhereLightIsSure) {
 
 TEST(LightCeiling, GrowsSteadilyWithTheLight) {
     float before = 0;
-    for (float gain = 0.5f; gain < 20; gain *= 1.1f) {
+    for (int k = 0; k < 40; ++k) {
+        const float gain = 0.5f * std::pow(1.1f, static_cast<float>(k));
         const float now = gain_of_peak(surface_with(gain * kReference, 60), 2.5f);
         EXPECT_GE(now, before);
         before = now;

@@ -42,8 +42,10 @@ Matte with_hole(Matte matte) {
 class AnyShot : public Waits {
   protected:
     void SetUp() override {
+        // No thread runs yet. NOLINTBEGIN(concurrency-mt-unsafe)
         const char* project = std::getenv("WEFT_WAITS");
         const char* frames = std::getenv("WEFT_WAITS_FRAMES");
+        // NOLINTEND(concurrency-mt-unsafe)
         int first = 0, last = 0;
         if (!project || !frames || std::sscanf(frames, "%d-%d", &first, &last) != 2)
             GTEST_SKIP() << "WEFT_WAITS and WEFT_WAITS_FRAMES name no shot";
