@@ -86,13 +86,15 @@ Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
 // where it clearly says outside, to what reopens a decided part.
 void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1& wide) {
     constexpr float kWeight = 0.5f, kClearly = -1;
-    for (int y = 0; y < sides.height(); ++y) {
-        for (int x = 0; x < sides.width(); ++x) {
-            const float side = sides.at(x, y);
-            near.at(x, y) += kWeight * side;
-            if (phi.at(x, y) > 0) wide.at(x, y) += kWeight * std::min(0.0f, side - kClearly);
+    parallel_rows(sides.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < sides.width(); ++x) {
+                const float side = sides.at(x, y);
+                near.at(x, y) += kWeight * side;
+                if (phi.at(x, y) > 0) wide.at(x, y) += kWeight * std::min(0.0f, side - kClearly);
+            }
         }
-    }
+    });
 }
 
 // Nearer to the boundary than half of its usual softness, colours are mixed.
@@ -126,7 +128,7 @@ struct MatteWalker::State {
     ImageF1 key_softness;               ///< Half the width of the keyframe's edge, pixels.
     float clearance_px = kClearancePx;  ///< Nearer to the boundary, colours are not used.
     Matte last;                         ///< The matte of the walk's last frame.
-    MotionSides sides;
+    MotionSides sides = {};
     bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
@@ -150,8 +152,7 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            1.0f,
                                            {},
                                            kClearancePx,
-                                           copy_of(key),
-                                           MotionSides(frame.size())});
+                                           copy_of(key)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -219,7 +220,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     s.plate.move(background_motion(s.phi, prev_from_cur, s.scale.band_px));
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
-        s.sides = MotionSides(frame.size());
+        s.sides = {};
     } else {
         const TransportedShape shape = transport_shape(s.phi, prev_from_cur, area, s.scale);
         const ViewU8x3 part = frame.crop(area);

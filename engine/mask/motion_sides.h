@@ -18,12 +18,11 @@ struct SidesInput {
 
 /// Evidence that adds up from frame to frame. A strip of the background that a loosely painted
 /// outline takes in looks like the surface in every single frame, but keeps moving with the
-/// background. Only where the surface moves as one stiff piece (most of it within a robust affine
-/// motion) and its surroundings move otherwise does motion tell the sides apart; elsewhere nothing
+/// background. Only where the surface moves as one stiff piece (most of it within the motion of one
+/// plane) and its surroundings move otherwise does motion tell the sides apart; elsewhere nothing
 /// is added. (Cf. the layers of Wang & Adelson 1994.) Not thread-safe.
 class MotionSides {
   public:
-    explicit MotionSides(Size frame) : odds_(frame) {}
     /// Goes on by a frame. Log odds for inside over the area, −kMost to kMost, 0 where nothing is
     /// known. Parallel over rows; deterministic.
     ImageF1 advance(const SidesInput& input);
@@ -31,7 +30,10 @@ class MotionSides {
     static constexpr float kMost = 4;
 
   private:
-    ImageF1 odds_;  ///< Of the last frame.
+    [[nodiscard]] float last(float x, float y) const;
+
+    ImageF1 odds_;  ///< Of the last frame …
+    Recti area_;    ///< … over this part of it.
 };
 
 }  // namespace weft

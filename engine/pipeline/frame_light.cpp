@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/lighting/exact_light.h"
-#include "engine/lighting/light_ceiling.h"
 #include "engine/lighting/plate_detail.h"
 #include "engine/lighting/plate_tint.h"
 #include "engine/lighting/plate_transfer.h"
@@ -54,9 +53,6 @@ Matte FrameLight::on_surface(ViewU8x1 inside) const {
 
 Status FrameLight::change() {
     const RegionPlan& plan = region();
-    if (in_.scene.ceiling > 0)
-        limit_light(*shading_, in_.scene.reference_shading, in_.scene.reference_mean,
-                    in_.scene.ceiling);
     if (plan.light_source == LightSource::kPlate) {
         WEFT_TRY(detail, light_detail(in_.source, in_.plan, in_.store, in_.index, in_.frame));
         if (!detail.empty())

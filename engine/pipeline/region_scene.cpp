@@ -5,7 +5,6 @@
 
 #include "engine/core/parallel.h"
 #include "engine/lighting/daylight.h"
-#include "engine/lighting/light_ceiling.h"
 #include "engine/lighting/plate_exposure.h"
 #include "engine/lighting/plate_tint.h"
 #include "engine/pipeline/frame_focus.h"
@@ -57,11 +56,6 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
-    if (!shading->sure.empty()) {
-        scene.reference_mean = mean_light(*shading);
-        scene.ceiling = light_ceiling(
-            working, plate_exposure(working, visible, plan.exposure_greys), plan.exposure_greys);
-    }
     if (region.tints()) {
         scene.reference_colour = region.cast ? light_colour(working, visible, *shading)
                                              : daylight_colour(find_daylight(working));

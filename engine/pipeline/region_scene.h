@@ -30,8 +30,6 @@ struct RegionScene {
     float reference_shading = 1;  ///< S₀
     std::optional<Shading> picture_light;
     float exposure = 1;            ///< plate_exposure() of the reference frame.
-    float ceiling = 0;             ///< light_ceiling() there; 0: the light is not estimated.
-    float reference_mean = 0;      ///< mean_light() there.
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
     std::array<float, 3> tint{};   ///< plate_tint() or likely_tint() of the reference frame.
     SurfaceColours colours;        ///< Of the old surface there, where its highlights are kept.

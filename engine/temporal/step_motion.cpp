@@ -81,20 +81,21 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
                               -kMostErrors, kMostErrors);
 }
 
-// StepEvidence::lead. The picture's motion was fitted to these pictures and the outline's was not,
-// so it leads a little whatever is true: on a shining car it follows the light. If the picture
-// shows paint, going as far to the other side of its motion finds as little as the outline's motion
-// does; if it shows more on the outline's side, that counts against the picture, unless its motion
-// finds very much more than the outline's.
+}  // namespace
+
+// If the picture shows paint, going as far to the other side of its motion finds as little as the
+// outline's motion does; if it shows more on the outline's side, that counts against the picture,
+// unless its motion finds very much more than the outline's.
 double picture_lead(const RegistrationPicture& before, const RegistrationPicture& now,
                     const LatticeField& picture, const LatticeField& outline) {
     constexpr double kMostBias = 2;
     constexpr float kOtherSide = -1;  // picture + (picture - outline)
-    // Cars of plain paint gain 0.03 at most, plaster and tiles 0.06 to 0.3.
+    // In correlation, in the mean over a shot: cars of plain paint gain 0.03 at most, walls, coats
+    // and a torso 0.05 to 0.4.
     constexpr float kLittle = 0.04f, kMuch = 0.1f;
-    // By which picture and outline are told apart, in the mean over a shot: plaster, tiles and
-    // faint cloths have 3.5 to 14, cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox,
-    // whose speckle is new in each frame, has -2.9 to 0.6, flat drawn fills -5 to 0.4.)
+    // By the median over a shot of the lead less the bias: walls, coats and a torso have 3.5 to 16,
+    // cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox, whose speckle is new in each
+    // frame, leads by -2.9 to 0.6, flat drawn fills by -5 to 0.4.)
     constexpr double kOfTheFit = 2.6;
     const RegistrationLead lead = registration_lead(before, now, picture, outline);
     if (lead.errors == 0) return 0;  // too little can be compared
@@ -105,8 +106,6 @@ double picture_lead(const RegistrationPicture& before, const RegistrationPicture
     return lead.errors - kOfTheFit -
            static_cast<double>(doubtful) * std::clamp(bias, 0.0, kMostBias);
 }
-
-}  // namespace
 
 void MotionChoice::Lead::note(double lead, int frames, double above, double below) {
     noted = std::min(noted + 1, frames);

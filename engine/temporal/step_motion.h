@@ -38,10 +38,14 @@ struct StepEvidence {
     std::optional<LatticeField> by_freed;
     std::optional<double> freed_lead;  ///< Before by_picture, standard errors; where searched.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
-    /// then how far the picture's motion leads before the outline's by registration_lead(), in
-    /// standard errors beyond what motion gains by being fitted to the pictures.
-    double lead = 0;
+    double lead = 0;                         ///< then picture_lead().
 };
+
+/// How far motion that was fitted to two pictures leads before the outline's, in standard errors
+/// (registration_lead()) beyond what it gains by being fitted to the very pictures that judge it:
+/// on a shining car it follows the light. 0 if too little can be compared. Pure.
+[[nodiscard]] double picture_lead(const RegistrationPicture& before, const RegistrationPicture& now,
+                                  const LatticeField& picture, const LatticeField& outline);
 
 /// Gathers it. Pictures that are freed of light (estimate_surface_flow()) are searched where the
 /// plate's raw motion `prev_from_cur` does not find the surface again almost everywhere; how far
@@ -58,7 +62,7 @@ struct StepEvidence {
 /// the other one leads clearly. Not thread-safe.
 class MotionChoice {
   public:
-    /// How far the picture's motion leads before the outline's in one step (StepEvidence::lead).
+    /// How far the picture's motion leads before the outline's in one step (picture_lead()).
     void note(double lead);
     /// How far that of pictures freed of light leads before the plate's (StepEvidence::freed_lead).
     void note_freed(double lead);

@@ -38,7 +38,7 @@ ImageF1 after(int frames, const std::function<Vec2(int, int)>& motion, Vec2 arou
             outside.pixel(x, y)[0] = around.x, outside.pixel(x, y)[1] = around.y;
         }
     }
-    MotionSides sides(kFrame);
+    MotionSides sides;
     ImageF1 odds;
     for (int k = 0; k < frames; ++k)
         odds = sides.advance({phi, flow, outside, kAll, 1.0f});

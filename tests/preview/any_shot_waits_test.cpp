@@ -2,7 +2,9 @@
 // region has a propagated matte and a texture. Disabled: a measurement, not a test.
 //   WEFT_WAITS=PROJECT WEFT_WAITS_FRAMES=0-49 test_preview --gtest_also_run_disabled_tests
 //       --gtest_filter='*AnyShot*'
+#include <algorithm>
 #include <cstdlib>
+#include <vector>
 
 #include "engine/media/frame_writer.h"
 #include "tests/preview/waits.h"
@@ -15,17 +17,22 @@ std::string knit() {
     return test::source_folder() + "/assets/demo/textures/knit.png";
 }
 
-// The middle of a matte; the frame's where it is empty.
+// The pixel of a matte, whose holes may be in its middle, that is nearest to its middle.
 Vec2i middle_of(const Matte& matte) {
-    double x_sum = 0, y_sum = 0, n = 0;
+    std::vector<Vec2i> inside;
+    Vec2 sum(0);
     for (int y = 0; y < matte.height(); ++y) {
         for (int x = 0; x < matte.width(); ++x) {
             if (matte.at(x, y) < 128) continue;
-            x_sum += x, y_sum += y, n += 1;
+            inside.emplace_back(x, y);
+            sum += Vec2(x, y);
         }
     }
-    if (n == 0) return {matte.width() / 2, matte.height() / 2};
-    return {static_cast<int>(x_sum / n), static_cast<int>(y_sum / n)};
+    if (inside.empty()) return {matte.width() / 2, matte.height() / 2};
+    const Vec2 middle = sum / static_cast<float>(inside.size());
+    const auto far = [&](Vec2i p) { return glm::length(Vec2(p) - middle); };
+    return *std::min_element(inside.begin(), inside.end(),
+                             [&](Vec2i a, Vec2i b) { return far(a) < far(b); });
 }
 
 // As a stroke leaves it: with a hole of a tenth of the height in its middle.

@@ -126,8 +126,14 @@ class Waits : public testing::Test {
             before.push_back(matte_on(frame));
         const auto start = send();
         for (std::size_t k = 0; k < frames.size(); ++k) {
-            for (Matte now; now.empty() || now == before[k]; now = matte_on(frames[k]))
+            for (Matte now; now.empty() || now == before[k]; now = matte_on(frames[k])) {
+                PreviewReading reading;
+                if (preview_->try_read(request_.frame, 0, 0, reading)) {
+                    ASSERT_NE(reading.view.state, PreviewView::State::kFailed)
+                        << reading.view.error;
+                }
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
             std::printf("matte on %d after %.2f s\n", frames[k], seconds_since(start));
         }
     }

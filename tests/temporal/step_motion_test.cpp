@@ -9,6 +9,7 @@
 
 #include "engine/core/rng.h"
 #include "engine/motion/contour_flow.h"
+#include "engine/motion/photometric_register.h"
 #include "engine/temporal/surface_walker.h"
 #include "tests/motion/pictures.h"
 
@@ -104,32 +105,49 @@ TEST(StepMotion, FollowsAFaintClothUnderAMovingShade) {
     }
 }
 
-// A plain body with a window in it that moves to the right under lights that stand still.
-TEST(StepMotion, FollowsAPlainBodyByItsOutlineAndNotByItsLight) {
-    const auto body = [](int t) {
-        return draw(kFrame, [&](Vec2 p) {
-            const Vec2 q = p - Vec2(kStep_px * static_cast<float>(t), 0);
-            const bool opening = q.x > 90 && q.x < 140 && q.y > 50 && q.y < 80;
-            const bool inside = q.x > 30 && q.x < 200 && q.y > 25 && q.y < 150;
-            return inside && !opening ? 1.0f : 0.0f;
-        });
-    };
-    const auto lit = [](int t) {
-        Rng rng(100 + static_cast<std::uint64_t>(t));
-        return draw(kFrame, [&](Vec2 p) {
-            const float light = std::sin(p.x / 9) * std::sin(p.y / 7);
-            return 0.5f + 0.02f * light + 2.0f / 255 * normal(rng);
-        });
-    };
-    const Matte before = body(0), now = body(1), last = lit(0), luma = lit(1);
-    const StepEvidence found =
-        gather_evidence(StepFrame(last, before, before), StepFrame(luma, now, now),
-                        flow_between(luma, last), FlowQuality::kFinal, 8);
-    ASSERT_TRUE(found.by_outline) << "its structure is faint";
-    MotionChoice choice;
-    const StepMotion step = choose_motion(found, choice);
-    EXPECT_TRUE(step.by_outline) << found.lead;
-    EXPECT_NEAR(step.prev_from_cur.at(Vec2(60, 100)).x, -kStep_px, 0.3f);
+LatticeField moved_by(float x) {
+    LatticeField field(kFrame, 8);
+    for (int j = 0; j < field.nodes().height(); ++j)
+        for (int i = 0; i < field.nodes().width(); ++i)
+            field.set_node(i, j, {x, 0});
+    return field;
+}
+
+// Paint with a little detail that moves to the right, and light with some that stands still.
+Matte painted_and_lit(int t, float paint, float light) {
+    const WaveTexture detail(11);
+    Rng rng(100 + static_cast<std::uint64_t>(t));
+    return draw(kFrame, [&](Vec2 p) {
+        const float moving = detail(p - Vec2(kStep_px * static_cast<float>(t), 0)) - 0.5f;
+        const float still = std::sin(p.x / 2.3f) * std::sin(p.y / 1.9f);
+        return 0.5f + paint * moving + light * still + 4.0f / 255 * normal(rng);
+    });
+}
+
+struct Leads {
+    double as_fitted, corrected;
+};
+Leads leads_of(float paint, float light, const LatticeField& picture, const LatticeField& outline) {
+    const Matte matte = window();
+    const RegistrationPicture before =
+        registration_picture(painted_and_lit(0, paint, light), matte);
+    const RegistrationPicture now = registration_picture(painted_and_lit(1, paint, light), matte);
+    return {registration_lead(before, now, picture, outline).errors,
+            picture_lead(before, now, picture, outline)};
+}
+
+TEST(PictureLead, IsNoneOfMotionThatFollowsTheLight) {
+    const Leads leads = leads_of(0.03f, 0.016f, moved_by(0), moved_by(-kStep_px));
+    EXPECT_GT(leads.as_fitted, 1.5) << "by itself it leads";
+    EXPECT_LT(leads.corrected, 0);
+}
+
+TEST(PictureLead, IsClearWherePaintMoves) {
+    EXPECT_GT(leads_of(0.06f, 0, moved_by(-kStep_px), moved_by(0)).corrected, 1);
+}
+
+TEST(PictureLead, IsNothingWhereNothingCanBeCompared) {
+    EXPECT_EQ(picture_lead({}, {}, moved_by(0), moved_by(-kStep_px)), 0);
 }
 
 TEST(StepMotion, WhatIsFoundAgainEverywhereIsNotSearchedTwice) {

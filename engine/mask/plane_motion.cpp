@@ -1,0 +1,74 @@
+#include "engine/mask/plane_motion.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <opencv2/core.hpp>
+
+namespace weft {
+namespace {
+
+constexpr int kRounds = 6;
+constexpr float kLeastScalePx = 0.1f;
+
+}  // namespace
+
+PlaneMotion::PlaneMotion(Size frame)
+    : centre_x_(0.5 * frame.width), centre_y_(0.5 * frame.height), unit_(1.0 / frame.width) {}
+
+PlaneMotion::PlaneMotion(std::vector<MotionSample> samples, Size frame) : PlaneMotion(frame) {
+    constexpr std::size_t kFewest = 4 * kTerms;
+    if (samples.size() < kFewest) return;
+    std::vector<float> misses(samples.size());
+    for (int round = 0; round < kRounds; ++round) {
+        fit(samples);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            misses[i] = glm::length(samples[i].d - at(samples[i].x, samples[i].y));
+        std::vector<float> sorted = misses;
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        std::nth_element(sorted.begin(), middle, sorted.end());
+        const float scale = 1.5f * std::max(*middle / 1.177f, kLeastScalePx);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const float r = misses[i] / scale;
+            samples[i].weight = 1 / (1 + r * r);
+        }
+    }
+}
+
+std::array<PlaneMotion::Terms, 2> PlaneMotion::rows(double px, double py) const {
+    const double x = (px - centre_x_) * unit_, y = (py - centre_y_) * unit_;
+    return {{{1, x, y, 0, 0, 0, x * x, x * y}, {0, 0, 0, 1, x, y, x * y, y * y}}};
+}
+
+Vec2 PlaneMotion::at(double x, double y) const {
+    const auto r = rows(x, y);
+    double u = 0, v = 0;
+    for (std::size_t i = 0; i < kTerms; ++i) {
+        u += p_[i] * r[0][i];
+        v += p_[i] * r[1][i];
+    }
+    return {static_cast<float>(u), static_cast<float>(v)};
+}
+
+void PlaneMotion::fit(const std::vector<MotionSample>& samples) {
+    cv::Matx<double, kTerms, kTerms> a = cv::Matx<double, kTerms, kTerms>::eye() * 1e-3;
+    cv::Vec<double, kTerms> b;
+    for (const MotionSample& s : samples) {
+        const auto of_sample = rows(s.x, s.y);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double d = static_cast<double>(k == 0 ? s.d.x : s.d.y);
+            for (std::size_t i = 0; i < kTerms; ++i) {
+                const double w = static_cast<double>(s.weight) * of_sample[k][i];
+                b[static_cast<int>(i)] += w * d;
+                for (std::size_t j = 0; j < kTerms; ++j) {
+                    a(static_cast<int>(i), static_cast<int>(j)) += w * of_sample[k][j];
+                }
+            }
+        }
+    }
+    cv::Vec<double, kTerms> p;
+    if (!cv::solve(a, b, p, cv::DECOMP_CHOLESKY)) return;
+    for (std::size_t i = 0; i < kTerms; ++i)
+        p_[i] = p[static_cast<int>(i)];
+}
+
+}  // namespace weft
