@@ -3,41 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/parallel.h"
+#include "engine/core/block_means.h"
 
 namespace weft {
 namespace {
-
-int part(int length, int factor) {
-    return (length + factor - 1) / factor;
-}
-
-Size part(Size size, int factor) {
-    return {part(size.width, factor), part(size.height, factor)};
-}
-
-// Mean of each block, channel by channel.
-template <class T, int C, class Sum>
-void mean_of_blocks(const Image<T, C>& from, int factor, Image<T, C>& to) {
-    parallel_rows(to.height(), 16, [&](int first, int last) {
-        for (int y = first; y < last; ++y) {
-            const int y0 = y * factor, y1 = std::min(y0 + factor, from.height());
-            for (int x = 0; x < to.width(); ++x) {
-                const int x0 = x * factor, x1 = std::min(x0 + factor, from.width());
-                Sum sum[C] = {};
-                for (int v = y0; v < y1; ++v) {
-                    const T* p = from.pixel(x0, v);
-                    for (int u = x0; u < x1; ++u, p += C)
-                        for (int c = 0; c < C; ++c)
-                            sum[c] += static_cast<Sum>(p[c]);
-                }
-                const auto count = static_cast<Sum>((y1 - y0) * (x1 - x0));
-                for (int c = 0; c < C; ++c)
-                    to.pixel(x, y)[c] = static_cast<T>(sum[c] / count);
-            }
-        }
-    });
-}
 
 KeyedNumbers divided(KeyedNumbers keys, double factor) {
     for (auto& [frame, values, after] : keys.keys)
@@ -102,7 +71,7 @@ class ProxySource final : public ShotSource {
     ProxySource(const Shot& shot, const AnalysisStore& store, ProxyPlates& plates, int factor)
         : shot_(shot), store_(store), plates_(plates), factor_(factor) {}
 
-    [[nodiscard]] Size size() const override { return part(shot_.source->size(), factor_); }
+    [[nodiscard]] Size size() const override { return blocks_of(shot_.source->size(), factor_); }
     [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override {
         return plates_.plate(*shot_.source, frame, factor_);
     }
@@ -237,21 +206,17 @@ int proxy_factor(Size plate, std::int64_t pixels) {
 }
 
 ImageF3 shrunk(const ImageF3& picture, int factor) {
-    ImageF3 out(part(picture.size(), factor));
-    mean_of_blocks<float, 3, float>(picture, factor, out);
-    return out;
+    return block_means(picture, factor);
 }
 
 Matte shrunk(const Matte& matte, int factor) {
-    Matte out(part(matte.size(), factor));
-    mean_of_blocks<std::uint8_t, 1, int>(matte, factor, out);
-    return out;
+    return block_means(matte, factor);
 }
 
 LatticeField shrunk(const LatticeField& field, int factor) {
     const LatticeField from =
         field.spacing() % factor == 0 ? field : field.resampled(field.spacing() * factor);
-    LatticeField out(part(from.full_size(), factor), from.spacing() / factor);
+    LatticeField out(blocks_of(from.full_size(), factor), from.spacing() / factor);
     for (int j = 0; j < out.nodes().height(); ++j)
         for (int i = 0; i < out.nodes().width(); ++i)
             out.set_node(i, j, from.node(i, j) / static_cast<float>(factor));
@@ -260,7 +225,7 @@ LatticeField shrunk(const LatticeField& field, int factor) {
 
 Shading shrunk(const Shading& shading, int factor) {
     Shading out;
-    out.full = part(shading.full, factor);
+    out.full = blocks_of(shading.full, factor);
     if (shading.downscale % factor == 0) {
         out.value = shading.value;
         out.inside = shading.inside;
@@ -270,8 +235,7 @@ Shading shrunk(const Shading& shading, int factor) {
     }
     const int further = factor / shading.downscale;
     out.downscale = 1;
-    out.value = ImageF1(out.full);
-    mean_of_blocks<float, 1, float>(shading.value, further, out.value);
+    out.value = block_means(shading.value, further);
     if (!shading.inside.empty()) out.inside = shrunk(shading.inside, further);
     if (!shading.sure.empty()) out.sure = shrunk(shading.sure, further);
     return out;

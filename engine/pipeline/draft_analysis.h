@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// Mattes and motion of some regions from the reference frame to one other, in draft quality;
-/// neither light nor grain.
+/// Mattes and motion of some regions on one frame and those beside it, found in draft quality on
+/// plates of a fraction of the size (draft_factor()); neither light nor grain.
 struct DraftAnalysis {
     ShotPlan plan;  ///< Of all regions; the others have nothing to analyse.
     MemoryAnalysisStore store;
@@ -20,7 +20,8 @@ struct DraftAnalysis {
 
 /// Propagates the mattes of the `wanted` regions (one flag a region) from the nearest keyframes and
 /// follows their surfaces from the reference frame with the placement to `frame`. Reads the frames
-/// in between. Errors: those of the source; cancellation, which is checked between frames.
+/// in between. What is found is of the plate's size. Errors: those of the source; cancellation,
+/// which is checked between frames.
 [[nodiscard]] Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(
     const ShotSource& source, const ShotPlan& plan, int frame, const std::vector<bool>& wanted,
     const CancelToken& cancel = {});

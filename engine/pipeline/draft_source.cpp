@@ -1,0 +1,92 @@
+#include "engine/pipeline/draft_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/block_means.h"
+
+namespace weft {
+
+int draft_factor(const ShotPlan& plan, Size plate) {
+    constexpr std::int64_t kPixels = 240'000;
+    constexpr int kMost = 8;
+    const bool given = std::any_of(
+        plan.regions.begin(), plan.regions.end(),
+        [](const RegionPlan& region) { return region.true_motion || !region.track.empty(); });
+    if (given) return 1;
+    int factor = 1;
+    while (factor < kMost && std::int64_t{plate.width} * plate.height > kPixels * factor * factor)
+        factor *= 2;
+    return factor;
+}
+
+Size DraftSource::size() const {
+    return blocks_of(source_.size(), factor_);
+}
+
+Expected<std::shared_ptr<const ImageF3>> DraftSource::plate(int frame) const {
+    WEFT_TRY(full, source_.plate(frame));
+    return std::make_shared<const ImageF3>(block_means(*full, factor_));
+}
+
+Expected<Matte> DraftSource::reduced(Expected<Matte> full) const {
+    if (!full) return full;
+    return block_means(*full, factor_);
+}
+
+Expected<Matte> DraftSource::matte(int region, int frame) const {
+    return reduced(source_.matte(region, frame));
+}
+
+Expected<Matte> DraftSource::matte_key(int region, int frame) const {
+    return reduced(source_.matte_key(region, frame));
+}
+
+Expected<Matte> DraftSource::holdout_key(int region, int painted, int frame) const {
+    return reduced(source_.holdout_key(region, painted, frame));
+}
+
+Expected<std::optional<Matte>> DraftSource::holdout(int region, int frame) const {
+    WEFT_TRY(full, source_.holdout(region, frame));
+    if (!full) return std::optional<Matte>();
+    return std::optional<Matte>(block_means(*full, factor_));
+}
+
+// Only where nothing is reduced (draft_factor()).
+Expected<FlowField> DraftSource::motion(int region, int frame) const {
+    return source_.motion(region, frame);
+}
+
+Matte enlarged(const Matte& matte, int factor, Size to) {
+    if (factor == 1) return matte;
+    Matte out(to);
+    const float step = 1 / static_cast<float>(factor);
+    // The place between two pixels' centres, and how far it is from the first.
+    const auto place = [&](int at, int length) {
+        const float p = std::clamp((static_cast<float>(at) + 0.5f) * step - 0.5f, 0.0f,
+                                   static_cast<float>(length - 1));
+        const int first = std::min(static_cast<int>(p), std::max(0, length - 2));
+        return std::pair(first, p - static_cast<float>(first));
+    };
+    parallel_rows(to.height, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            const auto [j, v] = place(y, matte.height());
+            const std::uint8_t *a = matte.row(j),
+                               *b = matte.row(std::min(j + 1, matte.height() - 1));
+            for (int x = 0; x < to.width; ++x) {
+                const auto [i, u] = place(x, matte.width());
+                const int k = std::min(i + 1, matte.width() - 1);
+                const auto mean = [&, i = i, u = u](const std::uint8_t* row) {
+                    return (1 - u) * static_cast<float>(row[i]) + u * static_cast<float>(row[k]);
+                };
+                const float code = (1 - v) * mean(a) + v * mean(b);
+                const float steep = 127.5f + static_cast<float>(factor) * (code - 127.5f);
+                out.at(x, y) = static_cast<std::uint8_t>(std::clamp(steep, 0.0f, 255.0f) + 0.5f);
+            }
+        }
+    });
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,37 @@
+#pragma once
+// Internal to draft_analysis(): a shot's plates and mattes at a fraction of their size.
+
+#include "engine/pipeline/region_plan.h"
+#include "engine/pipeline/shot_source.h"
+
+namespace weft {
+
+/// By how much the plate is reduced for a draft (1, 2, 4 or 8): to at most 240,000 pixels, so 2 at
+/// 854×480 and 4 at 1920×1080. 1 where a region's motion is given in pixels of the plate.
+[[nodiscard]] int draft_factor(const ShotPlan& plan, Size plate);
+
+/// Refers to `source`. Has what mattes and motion are found from, and nothing else.
+class DraftSource final : public ShotSource {
+  public:
+    DraftSource(const ShotSource& source, int factor) : source_(source), factor_(factor) {}
+
+    [[nodiscard]] Size size() const override;
+    [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override;
+    [[nodiscard]] Expected<Matte> matte(int region, int frame) const override;
+    [[nodiscard]] Expected<Matte> matte_key(int region, int frame) const override;
+    [[nodiscard]] Expected<Matte> holdout_key(int region, int painted, int frame) const override;
+    [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override;
+    [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override;
+
+  private:
+    [[nodiscard]] Expected<Matte> reduced(Expected<Matte> full) const;
+
+    const ShotSource& source_;
+    int factor_;
+};
+
+/// A matte of the reduced plate at the plate's size `to`: bilinear, with its edge as steep in
+/// pixels as it was.
+[[nodiscard]] Matte enlarged(const Matte& matte, int factor, Size to);
+
+}  // namespace weft
