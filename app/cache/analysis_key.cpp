@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 25;
+constexpr int kAnalysisVersion = 26;
 constexpr int kFormVersion = 5;   // of the form alone
 constexpr int kFocusVersion = 1;  // of the focus alone
 
@@ -184,6 +184,23 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index,
     return hasher.finish().hex();
 }
 
+// Of what is followed around zones: apart from the surface, which does not depend on it.
+Expected<std::map<int, std::string>> around_keys(const Shot& shot, const Region& region,
+                                                 const std::string& surface,
+                                                 const PaintedMattes& painted) {
+    std::map<int, std::string> out;
+    for (int zone = 0; zone < static_cast<int>(region.zones->size()); ++zone) {
+        const Zone& of = (*region.zones)[static_cast<std::size_t>(zone)];
+        if (of.kind != ZoneKind::kSurroundings) continue;
+        Hasher hasher;
+        add_plate(hasher, shot);
+        hasher.text("around").text(surface);
+        WEFT_CHECK_OK(add_matte(hasher, of.matte, painted));
+        out[zone_layer(zone)] = hasher.finish().hex();
+    }
+    return out;
+}
+
 // Apart from the rest, so that another form does not make the surface be followed again.
 Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::string& surface,
                                const PaintedMattes& painted) {
@@ -247,6 +264,7 @@ const std::string& RegionKeys::Layer::at(int frame) const {
 const std::string& RegionKeys::of(const AnalysisKey& key) const {
     if (key.kind == AnalysisKind::kForm) return form;
     if (key.kind == AnalysisKind::kFocus) return focus;
+    if (key.kind == AnalysisKind::kCoords && is_zone_layer(key.layer)) return around.at(key.layer);
     const bool matte = key.kind == AnalysisKind::kMatte || key.kind == AnalysisKind::kMatteForward;
     const auto layer = matte ? mattes.find(key.layer) : mattes.end();
     return layer == mattes.end() ? surface : layer->second.at(key.frame);
@@ -254,6 +272,8 @@ const std::string& RegionKeys::of(const AnalysisKey& key) const {
 
 std::vector<std::string> RegionKeys::all() const {
     std::vector<std::string> out{surface, form, focus};
+    for (const auto& [layer, key] : around)
+        out.push_back(key);
     for (const auto& [layer, keys] : mattes)
         out.insert(out.end(), keys.stretches.begin(), keys.stretches.end());
     return out;
@@ -268,6 +288,9 @@ void RegionKeys::adopt(
     take(surface, now.surface);
     take(form, now.form);
     take(focus, now.focus);
+    for (auto& [layer, key] : around)
+        if (const auto other = now.around.find(layer); other != now.around.end())
+            take(key, other->second);
     for (auto& [layer, keys] : mattes) {
         const auto other = now.mattes.find(layer);
         if (other == now.mattes.end() || other->second.keyframes != keys.keyframes) continue;
@@ -282,8 +305,9 @@ Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
     const Region& region = *shot.project.regions[shot.region_index[index]];
     WEFT_TRY(form, form_key(shot, index, surface, painted));
     WEFT_TRY(focus, focus_key(shot, index, painted));
+    WEFT_TRY(around, around_keys(shot, region, surface, painted));
     return RegionKeys{std::move(surface), std::move(form), std::move(focus),
-                      all_matte_keys(shot, region, painted)};
+                      all_matte_keys(shot, region, painted), std::move(around)};
 }
 
 }  // namespace weft

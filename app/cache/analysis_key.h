@@ -21,10 +21,11 @@ struct RegionKeys {
         bool operator==(const Layer&) const = default;
     };
 
-    std::string surface;          ///< Of all but mattes, the form and the focus.
-    std::string form;             ///< As `surface` without a form.
-    std::string focus;            ///< Of the plate's focus.
-    std::map<int, Layer> mattes;  ///< By the layers of AnalysisKey; painted ones only.
+    std::string surface;                ///< Of all but mattes, the form and the focus.
+    std::string form;                   ///< As `surface` without a form.
+    std::string focus;                  ///< Of the plate's focus.
+    std::map<int, Layer> mattes;        ///< By the layers of AnalysisKey; painted ones only.
+    std::map<int, std::string> around;  ///< Of the motion around zones, by their layers.
     bool operator==(const RegionKeys&) const = default;
 
     /// The key of one result.

@@ -16,6 +16,7 @@
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
 #include "engine/mask/surface_palette.h"
+#include "engine/mask/surface_return.h"
 
 namespace weft {
 namespace {
@@ -128,11 +129,13 @@ struct MatteWalker::State {
     ImageF1 key_softness;               ///< Half the width of the keyframe's edge, pixels.
     float clearance_px = kClearancePx;  ///< Nearer to the boundary, colours are not used.
     Matte last;                         ///< The matte of the walk's last frame.
+    SurfaceReturn hidden;
     MotionSides sides = {};
     bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
+    void take_back(ViewU8x3 now, ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                const Recti& area) const;
 };
@@ -152,7 +155,8 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            1.0f,
                                            {},
                                            kClearancePx,
-                                           copy_of(key)});
+                                           copy_of(key),
+                                           SurfaceReturn(frame, phi)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -207,6 +211,32 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
     return with_soft_edges(part, found.phi, softness, found.matte, expected, options.steadiness);
 }
 
+// Adds what was hidden and is seen again.
+void MatteWalker::State::take_back(ViewU8x3 now, ImageF1& distance, Matte& matte) {
+    const Matte returned = hidden.returned(now, distance);
+    if (returned.empty()) return;
+    constexpr float kOfFound = 0.25f;  // after it had been lost altogether
+    confidence = std::max(confidence, kOfFound);
+    const ImageF1 inside = smooth_distance(signed_distance(returned, scale.limit_px), 1);
+    for (int y = 0; y < matte.height(); ++y) {
+        for (int x = 0; x < matte.width(); ++x) {
+            const float depth = inside.at(x, y);
+            if (depth > -1) {
+                const float code = 255 * std::clamp(0.5f + depth, 0.0f, 1.0f);
+                matte.at(x, y) =
+                    std::max(matte.at(x, y), static_cast<std::uint8_t>(std::lround(code)));
+            }
+            const bool known = distance.at(x, y) > 0;
+            distance.at(x, y) = std::max(distance.at(x, y), depth);
+            if (known) continue;
+            // Also where it may grow to next.
+            const Vec2 place = hidden.key_place(x, y);
+            key_from_prev.pixel(x, y)[0] = place.x;
+            key_from_prev.pixel(x, y)[1] = place.y;
+        }
+    }
+}
+
 bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
@@ -217,7 +247,9 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     const Recti area =
         working_area(transported_bounds(s.phi, prev_from_cur), s.scale, frame.size());
     ImageF1 phi(frame.size(), -s.scale.limit_px);
-    s.plate.move(background_motion(s.phi, prev_from_cur, s.scale.band_px));
+    const ImageF2 background = background_motion(s.phi, prev_from_cur, s.scale.band_px);
+    s.plate.move(background);
+    s.hidden.move(background);
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
         s.sides = {};
@@ -249,7 +281,9 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         paste(estimate.matte, s.soften(part, found, key_from_cur, shape.prev_from_cur, area), area);
         paste(phi, found.phi, area);
         paste(s.key_from_prev, key_from_cur, area);
+        s.hidden.follow(found.phi, key_from_cur, area);
     }
+    s.take_back(frame, phi, estimate.matte);
     estimate.confidence = s.confidence;
     s.plate.update(frame, phi);
     s.palette.follow(frame, phi, s.scale.band_px);
