@@ -222,6 +222,30 @@ void painted_edge_section(Ctx& c, const MatteSource& matte) {
 
 }  // namespace
 
+void brush_rows(Ctx& c) {
+    Brush& b = c.state.brush.brush;
+    const auto row = [&](SliderSpec spec, float& value) {
+        double v = static_cast<double>(value);
+        if (slider(c, spec, v) != Change::kNone) value = static_cast<float>(v);
+    };
+    row({.label = "Size",
+         .unit = "px",
+         .tip = "Brush radius. [ and ]",
+         .min = 1,
+         .max = 400,
+         .standard = 24,
+         .decimals = 0,
+         .logarithmic = true,
+         .typed_min = 0.5,
+         .typed_max = 2000},
+        b.radius_px);
+    row({.label = "Hardness", .tip = "1 is a hard edge. Shift+[ and Shift+]", .standard = 0.8},
+        b.hardness);
+    row({.label = "Opacity", .tip = "Opacity of the whole stroke", .standard = 1}, b.opacity);
+    pressure_row(c, b);
+    quiet(c, "Ctrl subtracts, Shift draws a line");
+}
+
 void mask_inspector(Ctx& c) {
     const Region* region = c.view.selected_region();
     if (!region) return no_region(c);
@@ -232,31 +256,8 @@ void mask_inspector(Ctx& c) {
                    : c.state.tool == Tool::kShape ? "Shape"
                                                   : "Tool")) {
         const PanelName panel(c, "Brush");
-        Brush& b = c.state.brush.brush;
-        const auto row = [&](SliderSpec spec, float& value) {
-            double v = static_cast<double>(value);
-            if (slider(c, spec, v) != Change::kNone) value = static_cast<float>(v);
-        };
         if (painting) {
-            row({.label = "Size",
-                 .unit = "px",
-                 .tip = "Brush radius. [ and ]",
-                 .min = 1,
-                 .max = 400,
-                 .standard = 24,
-                 .decimals = 0,
-                 .logarithmic = true,
-                 .typed_min = 0.5,
-                 .typed_max = 2000},
-                b.radius_px);
-            row({.label = "Hardness",
-                 .tip = "1 is a hard edge. Shift+[ and Shift+]",
-                 .standard = 0.8},
-                b.hardness);
-            row({.label = "Opacity", .tip = "Opacity of the whole stroke", .standard = 1},
-                b.opacity);
-            pressure_row(c, b);
-            quiet(c, "Ctrl subtracts, Shift draws a line");
+            brush_rows(c);
         } else if (c.state.tool == Tool::kFlood) {
             double tolerance = c.state.brush.tolerance;
             if (slider(c,
@@ -304,7 +305,7 @@ void mask_inspector(Ctx& c) {
     edge_section(c, *region, painted);
     clean_up_section(c, *region, painted);
     holdouts_section(c, *region);
-    zones_section(c, *region);
+    light_zones_section(c, *region);
     propagation_section(c, *region);
     painted_edge_section(c, painted);
     if (!painted.keyframes.empty()) hints_section(c, true);

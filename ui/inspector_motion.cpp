@@ -104,6 +104,7 @@ void motion_inspector(Ctx& c) {
         }
         section_gap(c);
     }
+    motion_zones_section(c, *region);
     if (section(c, "Overlays")) {
         const PanelName panel(c, "Overlays");
         for (const char* id : {"view.grid", "view.stretch", "view.arrows", "view.trust"}) {

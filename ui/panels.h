@@ -41,7 +41,10 @@ void keep_section(Ctx& c, const Region& region);
 /// Suggested keyframes; `mattes_only`: those of the matte only.
 void hints_section(Ctx& c, bool mattes_only);
 void holdouts_section(Ctx& c, const Region& region);
-void zones_section(Ctx& c, const Region& region);
+void light_zones_section(Ctx& c, const Region& region);
+void motion_zones_section(Ctx& c, const Region& region);
+/// Size, hardness and opacity of the brush.
+void brush_rows(Ctx& c);
 void propagation_section(Ctx& c, const Region& region);
 void shape_controls(Ctx& c);
 void corrections_section(Ctx& c, const Region& region);

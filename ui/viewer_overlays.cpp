@@ -69,6 +69,11 @@ static void draw_onion(Ctx& c, ImDrawList& list, const ViewMap& map) {
     }
 }
 
+// In the Motion workspace zones show while one is painted.
+static bool paints_motion_zone(const Ctx& c) {
+    return c.state.workspace == Workspace::kMotion && is_zone_layer(c.view.matte_layer);
+}
+
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const SessionView& v = c.view;
     // No outline in Review, where it would disturb judging the edge.
@@ -101,10 +106,10 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
         draw.outline = selected;
         c.pictures.draw(list, draw);
     }
-    if (!in_mask) return;
     // Holdouts are red, because they are cut out; zones are white, unlike any region.
+    if (in_mask || paints_motion_zone(c)) draw_layers(c, list, map, v.zones, IM_COL32_WHITE);
+    if (!in_mask) return;
     draw_layers(c, list, map, v.holdouts, c.theme.bad);
-    draw_layers(c, list, map, v.zones, IM_COL32_WHITE);
     draw_onion(c, list, map);
 }
 

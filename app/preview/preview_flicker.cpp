@@ -11,6 +11,7 @@
 #include "engine/metrics/region.h"
 #include "engine/metrics/sequence_measure.h"
 #include "engine/metrics/tde.h"
+#include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/render_frame.h"
@@ -127,9 +128,9 @@ FlowField dense_flow(const LatticeField& field) {
 
 Expected<LatticeField> track_between(const OpenedShot& opened, std::size_t region, int before,
                                      int now) {
+    const ZonedAnalysis placed(*opened.shot->source, opened.shot->plan, *opened.store);
     const auto ref_from = [&](int frame) -> Expected<LatticeField> {
-        WEFT_TRY(bytes,
-                 opened.store->get({static_cast<int>(region), frame, AnalysisKind::kCoords}));
+        WEFT_TRY(bytes, placed.get({static_cast<int>(region), frame, AnalysisKind::kCoords}));
         return decode_lattice(bytes);
     };
     WEFT_TRY(ref_from_before, ref_from(before));

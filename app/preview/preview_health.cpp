@@ -6,6 +6,7 @@
 
 #include "app/preview/preview_impl.h"
 #include "engine/core/luma.h"
+#include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -116,6 +117,7 @@ void Preview::Impl::collect_health(const OpenedShot& work, const CancelToken& to
     const std::size_t stride =
         std::max<std::size_t>(1, (all.size() + kMostFrames - 1) / kMostFrames);
     const int factor = std::max(1, shot.source->size().width / 480);
+    const ZonedAnalysis placed(*shot.source, shot.plan, *work.store);
     for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
         const RegionPlan& plan = shot.plan.regions[k];
         const RegionId id = shot.project.regions[shot.region_index[k]]->id;
@@ -127,7 +129,7 @@ void Preview::Impl::collect_health(const OpenedShot& work, const CancelToken& to
             const AnalysisKey key{index, all[i], AnalysisKind::kCoords};
             if (!work.store->has(key)) continue;
             if (token.cancelled()) return;
-            const auto bytes = work.store->get(key);
+            const auto bytes = placed.get(key);
             const auto field =
                 bytes ? decode_lattice(*bytes) : tl::unexpected<Error>(bytes.error());
             auto matte = extent_matte(*shot.source, shot.plan, *work.store, index, all[i]);

@@ -13,6 +13,7 @@
 #include "app/textures/patch_pick.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
@@ -249,7 +250,8 @@ Expected<Provenance> provenance_of(const Shot& shot, const AnalysisStore& store,
     const RegionPlan& plan = shot.plan.regions[static_cast<std::size_t>(region)];
     const ShotTexture& texture = shot.textures[static_cast<std::size_t>(region)];
     Provenance out;
-    WEFT_TRY(coords, store.get({region, frame, AnalysisKind::kCoords}));
+    const ZonedAnalysis placed(*shot.source, shot.plan, store);
+    WEFT_TRY(coords, placed.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(coords));
     out.ref_from_cur = std::move(ref_from_cur);
     WEFT_TRY(mapping, mapping_on(plan, scene, frame));
@@ -334,7 +336,8 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
         WEFT_CHECK_OK(draw_light(store, region, frame, scene.reference_shading, out));
         return out;
     }
-    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
+    const ZonedAnalysis placed(*shot.source, shot.plan, store);
+    WEFT_TRY(bytes, placed.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(ref_from_cur, decode_lattice(bytes));
     WEFT_TRY(mapping, mapping_on(plan, scene, frame));
     const TextureCoords coords = texture_coords(ref_from_cur, mapping, rect_of(size));

@@ -5,6 +5,7 @@
 #include "app/render/form_report.h"
 #include "app/render/light_report.h"
 #include "engine/form/plane_corners.h"
+#include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -78,10 +79,11 @@ std::map<RegionId, Quad<float>> Preview::Impl::found_planes() const {
 std::map<RegionId, std::shared_ptr<const SurfacePlaces>> Preview::Impl::places_on(int frame) {
     std::map<RegionId, std::shared_ptr<const SurfacePlaces>> out;
     const Shot& shot = *current->shot;
+    const ZonedAnalysis placed(*shot.source, shot.plan, *current->store);
     for (std::size_t k = 0; k < scenes.scenes().size(); ++k) {
         const RegionPlan& plan = shot.plan.regions[k];
         if (plan.temporal != TemporalMode::kLocked || plan.has_uv) continue;
-        const auto bytes = current->store->get({static_cast<int>(k), frame, AnalysisKind::kCoords});
+        const auto bytes = placed.get({static_cast<int>(k), frame, AnalysisKind::kCoords});
         if (!bytes) continue;
         auto ref_from_cur = decode_lattice(*bytes);
         PlanePlacement bare = plan.placement_at(frame);

@@ -47,8 +47,13 @@ struct Choices<PropagationDirection> {
 };
 template <>
 struct Choices<ZoneKind> {
-    static constexpr std::array<std::pair<ZoneKind, std::string_view>, 2> kNames{
-        {{ZoneKind::kLight, "light"}, {ZoneKind::kDetail, "detail"}}};
+    static constexpr std::array<std::pair<ZoneKind, std::string_view>, 6> kNames{
+        {{ZoneKind::kLight, "light"},
+         {ZoneKind::kDetail, "detail"},
+         {ZoneKind::kIgnore, "ignore"},
+         {ZoneKind::kStiffer, "stiffer"},
+         {ZoneKind::kCalmer, "calmer"},
+         {ZoneKind::kSurroundings, "surroundings"}}};
 };
 template <>
 struct Choices<MissingFrames> {

@@ -150,10 +150,14 @@ void check_zone(Finder& find, const std::string& key, const Zone& zone) {
     double most = zone.value;
     for (const NumberKey& keyed : zone.value_keys.keys)
         most = std::max(most, keyed.numbers.front());
-    if (zone.kind == ZoneKind::kDetail && most > 1)
+    if (most <= 1 || zone.kind == ZoneKind::kLight) return;
+    if (zone.kind == ZoneKind::kDetail)
         find.warning(
             key, fmt::format("Its light detail is {:g}, and 1 is all that the plate shows", most),
             "Set it to a value from 0 (paint) to 1 (light)");
+    else
+        find.warning(key, fmt::format("Its amount is {:g}, and 1 is in full", most),
+                     "Set it to a value from 0 (as tracked) to 1");
 }
 
 void check_region(std::vector<Issue>& issues, const Region& region, std::size_t index) {

@@ -11,7 +11,7 @@ std::span<const Parameter<Zone>> zone_parameters() {
             {.key = "value",
              .help =
                  "Inside the zone; of light: how much of it the texture takes; of detail: 0 paint "
-                 "to 1 light",
+                 "to 1 light; of motion: how far, 0 to 1",
              .min = 0,
              .max = 2}),
         entry<Zone, &Zone::value_keys>({.key = "value_keys",

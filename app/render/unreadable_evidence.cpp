@@ -18,6 +18,7 @@ std::vector<int> unreadable_evidence(const Shot& shot) {
         needed.shutter_evidence.clear();
         needed.form_evidence.clear();
         needed.focus_frames.clear();
+        needed.calm_span = {};
         const FrameSpan without = analysed_span(shot.plan, needed);
         const FrameSpan with = analysed_span(shot.plan, region);
         const auto look = [&](int frame) {

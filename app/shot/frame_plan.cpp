@@ -236,6 +236,17 @@ Expected<std::vector<int>> shutter_frames(const Region& region, const RegionPlan
     return frames_between(reference, run.last);
 }
 
+Expected<FrameRange> calm_span(const Region& region, const RegionPlan& plan,
+                               const FrameReader& plate, const std::vector<int>& leave_out) {
+    const bool calms = std::any_of(plan.zones.begin(), plan.zones.end(), [](const ZonePlan& zone) {
+        return zone.kind == ZoneKind::kCalmer;
+    });
+    if (!calms || plan.temporal != TemporalMode::kLocked) return FrameRange{};
+    const int all = plate.frames().back() - plate.frames().front() + 1;
+    WEFT_TRY(run, run_around(region, plate, plan.reference_frames.front(), all, leave_out));
+    return FrameRange{run.first, run.last + 1};
+}
+
 namespace {
 
 // At most so many frames, evenly spread about the reference frame.
@@ -337,8 +348,11 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
         if (!holdout.files.empty()) WEFT_CHECK_OK(followed.check(holdout.files, "The holdout"));
     }
     for (const Zone& zone : *region.zones) {
-        if (!zone.matte.files.empty())
-            WEFT_CHECK_OK(check_pattern(zone.matte.files, "The zone", shot.frames, plate));
+        if (zone.matte.files.empty()) continue;
+        // Its surroundings are followed from the reference frame on, as the surface is.
+        WEFT_CHECK_OK(zone.kind == ZoneKind::kSurroundings
+                          ? followed.check(zone.matte.files, "The zone")
+                          : check_pattern(zone.matte.files, "The zone", shot.frames, plate));
     }
     for (const std::string& pass : {region.light.albedo, region.light.lighting}) {
         if (!pass.empty()) WEFT_CHECK_OK(followed.check(pass, "The lighting pass"));

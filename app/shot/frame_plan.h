@@ -56,6 +56,12 @@ namespace weft {
                                                        const FrameReader& plate,
                                                        const std::vector<int>& leave_out);
 
+/// The run of frames with all files around a region's reference frame, over which zones may calm
+/// its motion; empty without such zones. It does not depend on the frames to render.
+[[nodiscard]] Expected<FrameRange> calm_span(const Region& region, const RegionPlan& plan,
+                                             const FrameReader& plate,
+                                             const std::vector<int>& leave_out);
+
 /// The frames on which focus can be read: those of the plate with all files, for a region with
 /// painted mattes up to the first gap. They do not depend on the frames to render.
 [[nodiscard]] Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& plan,

@@ -218,6 +218,8 @@ class ShotOpener {
         plan.gloss_evidence = std::move(gloss);
         WEFT_TRY(form, form_evidence(region, plan, *shot_.plate, without));
         plan.form_evidence = std::move(form);
+        WEFT_TRY(calm, calm_span(region, plan, *shot_.plate, without));
+        plan.calm_span = calm;
         WEFT_TRY(focus, focus_frames(region, plan, *shot_.plate, without));
         plan.focus_frames = std::move(focus);
         return {};

@@ -4,6 +4,7 @@
 
 #include "engine/pipeline/focus_frames.h"
 #include "engine/pipeline/plate_views.h"
+#include "engine/temporal/zone_motion.h"
 
 namespace weft {
 namespace {
@@ -107,6 +108,11 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
         span.first = std::min(span.first, frame);
         span.last = std::max(span.last, frame);
     };
+    if (!region.calm_span.empty()) {
+        const FrameRange& run = region.calm_span;
+        add(std::max(span.first - kCalm_frames, std::min(run.begin, span.first)));
+        add(std::min(span.last + kCalm_frames, std::max(run.end - 1, span.last)));
+    }
     std::for_each(region.reference_frames.begin(), region.reference_frames.end(), add);
     std::for_each(region.matte_keys.begin(), region.matte_keys.end(), add);
     for (const PaintedMatte& holdout : region.painted_holdouts)

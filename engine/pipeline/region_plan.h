@@ -12,6 +12,7 @@
 #include "engine/color/grade.h"
 #include "engine/composite/blend_mode.h"
 #include "engine/compute/backend.h"
+#include "engine/core/frame_range.h"
 #include "engine/core/grid_warp.h"
 #include "engine/core/image.h"
 #include "engine/core/keyed_numbers.h"
@@ -85,6 +86,9 @@ struct RegionPlan {
     // Motion and placement.
     std::vector<int> reference_frames;  ///< The first holds the placement; at least one.
     std::map<int, std::vector<SurfacePin>> corrections;  ///< All on reference frames.
+    /// The run of frames with all files around the reference frame, over which motion is calmed;
+    /// empty without zones that calm it.
+    FrameRange calm_span;
     bool true_motion = false;
     /// True-motion files point to the next frame; false: to the previous one.
     bool motion_forward = true;

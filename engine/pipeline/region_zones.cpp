@@ -23,16 +23,20 @@ Expected<Matte> ShotSource::zone_key(int region, int zone, int frame) const {
     return ShotSource::zone(region, zone, frame);
 }
 
+Expected<Matte> bare_zone_matte(const ShotSource& source, const ShotPlan& plan,
+                                const AnalysisStore& store, int region, int zone, int frame) {
+    const ZonePlan& of = region_of(plan, region).zones[static_cast<std::size_t>(zone)];
+    if (!of.propagated()) return source.zone(region, zone, frame);
+    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kMatte, zone_layer(zone)}));
+    WEFT_TRY(stored, decode_matte(bytes));
+    return std::move(stored.matte);
+}
+
 Expected<Matte> zone_matte(const ShotSource& source, const ShotPlan& plan,
                            const AnalysisStore& store, int region, int zone, int frame) {
     const ZonePlan& of = region_of(plan, region).zones[static_cast<std::size_t>(zone)];
-    if (!of.propagated()) {
-        WEFT_TRY(given, source.zone(region, zone, frame));
-        return with_edge(std::move(given), of.edge.at(frame));
-    }
-    WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kMatte, zone_layer(zone)}));
-    WEFT_TRY(stored, decode_matte(bytes));
-    return with_edge(std::move(stored.matte), of.edge.at(frame));
+    WEFT_TRY(bare, bare_zone_matte(source, plan, store, region, zone, frame));
+    return with_edge(std::move(bare), of.edge.at(frame));
 }
 
 Expected<ImageF1> zone_factor(const ShotSource& source, const ShotPlan& plan,

@@ -15,6 +15,11 @@ namespace weft {
                                          const AnalysisStore& store, int region, int zone,
                                          int frame);
 
+/// The same without its edge tools, as the analysis follows it.
+[[nodiscard]] Expected<Matte> bare_zone_matte(const ShotSource& source, const ShotPlan& plan,
+                                              const AnalysisStore& store, int region, int zone,
+                                              int frame);
+
 /// The factor that a region's zones of one kind put on a setting, for each pixel of the plate: the
 /// product over the zones of 1 + m (v − 1), m the zone's matte (0 to 1) and v its value on this
 /// frame. Empty where the region has no such zone. Errors: those of zone_matte().

@@ -13,6 +13,7 @@
 #include "engine/mask/edge_softening.h"
 #include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_light.h"
+#include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
@@ -357,9 +358,10 @@ Expected<RenderedFrame> FrameRenderer::finish() {
 
 Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& plan,
                                      const std::vector<RegionScene>& scenes,
-                                     const AnalysisStore& store, const Backend& backend,
+                                     const AnalysisStore& analysis, const Backend& backend,
                                      int frame) {
     WEFT_TRY(plate, source.plate(frame));
+    const ZonedAnalysis store(source, plan, analysis);
     const auto on = [&](Place place, bool& again) -> Expected<RenderedFrame> {
         FrameRenderer renderer(source, plan, store, backend, frame, plate, place);
         const auto draw = [&]() -> Expected<RenderedFrame> {

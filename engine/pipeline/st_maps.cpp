@@ -5,6 +5,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -97,8 +98,9 @@ void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& vi
 
 }  // namespace
 
-Expected<StMaps> st_maps(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
-                         int frame) {
+Expected<StMaps> st_maps(const ShotSource& source, const ShotPlan& plan,
+                         const AnalysisStore& analysis, int frame) {
+    const ZonedAnalysis store(source, plan, analysis);
     const Size size = source.size();
     StMaps out{{ImageF2(size), ImageF1(size)}, {ImageF2(size), ImageF1(size)}};
     for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {

@@ -6,6 +6,23 @@
 
 namespace weft {
 
+namespace {
+
+// What lies around a zone is followed as a surface of its own.
+SurfaceJob surroundings_of(const SurfaceJob& surface, int zone) {
+    SurfaceJob job;
+    job.region = surface.region;
+    job.layer = zone_layer(zone);
+    job.plan = surface.plan;
+    job.span = surface.span;
+    job.primary = surface.primary;
+    job.references = {surface.primary};
+    job.coords = true;
+    return job;
+}
+
+}  // namespace
+
 std::vector<SurfaceJob> surface_jobs(const ShotPlan& plan, const AnalysisStore& store) {
     std::vector<SurfaceJob> jobs;
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
@@ -24,6 +41,12 @@ std::vector<SurfaceJob> surface_jobs(const ShotPlan& plan, const AnalysisStore& 
         job.shading = region.estimates_light();
         job.grain = region.grain > 0 && !region.grain_frames.empty();
         job.shutter = region.estimates_shutter();
+        for (int zone = 0; job.coords && zone < static_cast<int>(region.zones.size()); ++zone) {
+            if (region.zones[static_cast<std::size_t>(zone)].kind != ZoneKind::kSurroundings)
+                continue;
+            SurfaceJob around = surroundings_of(job, zone);
+            if (!around.complete(store)) jobs.push_back(std::move(around));
+        }
         if ((job.coords || job.paper || job.shading || job.grain || job.shutter) &&
             !job.complete(store)) {
             jobs.push_back(std::move(job));

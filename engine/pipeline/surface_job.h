@@ -25,6 +25,7 @@ namespace weft {
 /// One region on its way through the sweeps. Belongs to one thread.
 struct SurfaceJob {
     int region = 0;
+    int layer = 0;  // 0: the surface; a zone's zone_layer(): its surroundings
     const RegionPlan* plan = nullptr;
     FrameSpan span;
     std::vector<int> references;  // ascending
@@ -56,7 +57,7 @@ struct SurfaceJob {
     }
     [[nodiscard]] bool complete(const AnalysisStore& store) const {
         for (int f = span.first; f <= span.last; ++f) {
-            if (coords && !store.has({region, f, AnalysisKind::kCoords})) return false;
+            if (coords && !store.has({region, f, AnalysisKind::kCoords, layer})) return false;
             if (shading && !store.has({region, f, AnalysisKind::kShading})) return false;
             if (paper && !store.has({region, f, AnalysisKind::kPaperTexture})) return false;
         }

@@ -152,7 +152,8 @@ class Follower {
     // The artist's pins on this frame, or null.
     [[nodiscard]] static const std::vector<SurfacePin>* pins_at(const SurfaceJob& job, int frame) {
         const auto pins = job.plan->corrections.find(frame);
-        return job.coords && pins != job.plan->corrections.end() ? &pins->second : nullptr;
+        const bool surface = job.coords && job.layer == 0;
+        return surface && pins != job.plan->corrections.end() ? &pins->second : nullptr;
     }
 
     // At a reference frame whose coordinates an earlier leg has found.
@@ -175,7 +176,7 @@ class Follower {
         } else {
             const bool between =
                 at.frame > job.references.front() && at.frame < job.references.back();
-            job.track->hide_reanchoring(job.coords && !between);
+            job.track->hide_reanchoring(job.coords && job.layer == 0 && !between);
             job.track->advance(*stop.step);
         }
         job.last_visible = visible;
@@ -350,7 +351,7 @@ class Follower {
     }
 
     Status keep(const SurfaceJob& job, int frame, AnalysisKind kind, const Bytes& bytes) {
-        return store_.put({job.region, frame, kind}, bytes);
+        return store_.put({job.region, frame, kind, job.layer}, bytes);
     }
 
     const PassContext& context_;

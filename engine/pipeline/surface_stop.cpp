@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/pipeline/motion_zones.h"
 
 namespace weft {
 
@@ -34,10 +35,17 @@ SurfaceStops::SurfaceStops(const PassContext& context, const AnalysisStore& stor
                            const std::vector<SurfaceJob>& jobs, SurfaceLeg leg)
     : context_(context), store_(store), jobs_(jobs), leg_(leg), before_(jobs.size()) {}
 
+Expected<Matte> SurfaceStops::extent_of(const SurfaceJob& job, int frame) const {
+    if (is_zone_layer(job.layer))
+        return zone_surroundings(context_.source, context_.plan, store_, job.region,
+                                 zone_of_layer(job.layer), frame);
+    return extent_matte(context_.source, context_.plan, store_, job.region, frame);
+}
+
 Expected<SurfaceStop> SurfaceStops::stop_at(const SurfaceJob& job, Before& before,
                                             const SweepFrame& at) const {
     SurfaceStop out;
-    WEFT_TRY(extent, extent_matte(context_.source, context_.plan, store_, job.region, at.frame));
+    WEFT_TRY(extent, extent_of(job, at.frame));
     WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
     out.held = before.held.advance({at.views->display, extent, holdout});
     out.visible = without_holdout(extent, holdout);

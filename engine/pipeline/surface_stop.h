@@ -48,6 +48,7 @@ class SurfaceStops {
         HeldFrames held;
         std::shared_ptr<const StepFrame> frame;  // the last one that was not held
     };
+    [[nodiscard]] Expected<Matte> extent_of(const SurfaceJob& job, int frame) const;
     [[nodiscard]] Expected<SurfaceStop> stop_at(const SurfaceJob& job, Before& before,
                                                 const SweepFrame& at) const;
 

@@ -235,6 +235,29 @@ TEST_F(CliTest, InsideALightZoneTheTextureTakesAnotherShareOfTheLight) {
     expect_failure(run_replace({"--zone", "light=1@gone.png"}), 4, {"gone.png"});
 }
 
+TEST_F(CliTest, MotionZonesChangeNoByteFurtherThan24PxOutside) {
+    make_shot(4);
+    Matte zone(Card::kPlate);
+    const Recti box{60, 50, 84, 70};
+    for (int y = box.y0; y < box.y1; ++y)
+        std::fill(zone.row(y) + box.x0, zone.row(y) + box.x1, 255);
+    put_matte("zone.png", zone);
+    expect_success(run_replace({"-o", "tracked/####.png"}));
+    const ImageF3 tracked = picture("tracked/0004.png").rgb;
+    for (const std::string kind : {"ignore", "stiffer", "calmer", "surroundings"}) {
+        expect_success(run_replace({"-o", kind + "/####.png", "--zone", kind + "=1@zone.png"}));
+        const ImageF3 zoned = picture(kind + "/0004.png").rgb;
+        EXPECT_LT(largest_difference(zoned, tracked, box), 0.5f) << kind << ": a rigid card";
+        for (const Recti far : {Recti{0, 0, 160, 26}, Recti{0, 94, 160, 120}, Recti{0, 0, 36, 120},
+                                Recti{108, 0, 160, 120}})
+            EXPECT_EQ(largest_difference(zoned, tracked, far), 0.0f) << kind;
+        expect_success(run_replace({"-o", kind + "0/####.png", "--zone", kind + "=0@zone.png"}));
+        EXPECT_EQ(largest_difference(picture(kind + "0/0004.png").rgb, tracked, {0, 0, 160, 120}),
+                  0.0f)
+            << kind;
+    }
+}
+
 TEST_F(CliTest, SeveralReferenceFramesAnchorTheTexture) {
     make_shot(5);
     expect_success(run_replace({"--light", "none"}));

@@ -45,7 +45,7 @@ TEST(ProjectJson, EverythingSurvivesARoundTrip) {
 TEST(ProjectJson, TheSameProjectGivesTheSameBytes) {
     const std::string once = write(full_project());
     EXPECT_EQ(write(read(once)), once);
-    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/5\",\n")) << once.substr(0, 60);
+    EXPECT_TRUE(once.starts_with("{\n  \"schema\": \"weft.project/6\",\n")) << once.substr(0, 60);
     EXPECT_TRUE(once.ends_with("}\n"));
     EXPECT_THAT(once, HasSubstr("\"scale\": 0.1,"));
     EXPECT_THAT(once, HasSubstr("\"seed\": 9007199254740991"));
@@ -74,7 +74,7 @@ TEST(ProjectJson, UnknownKeysSurviveAtEveryLevel) {
 
 TEST(ProjectJson, MissingKeysHaveTheirDefaults) {
     const Project project =
-        read(R"({"schema": "weft.project/5", "regions": [{"name": "a"}, {"id": 5}, {}]})");
+        read(R"({"schema": "weft.project/6", "regions": [{"name": "a"}, {"id": 5}, {}]})");
     ASSERT_EQ(project.regions.size(), 3u);
     Region expected;
     expected.id = 6;  // after the largest that is given
@@ -137,7 +137,7 @@ TEST(ProjectJson, UpgradesThePreReleaseForm) {
     expected.regions = {Leaf(wall), Leaf(second)};
     expected.next_region_id = 3;
     EXPECT_EQ(project, expected);
-    EXPECT_THAT(write(project), HasSubstr("\"weft.project/5\""));
+    EXPECT_THAT(write(project), HasSubstr("\"weft.project/6\""));
 }
 
 // A new region lays a periodic sample on one lattice; one that was saved before keeps its plane.
@@ -147,7 +147,7 @@ TEST(ProjectJson, ThePlaneOfVersion3Stays) {
     EXPECT_EQ(saved.regions[0]->texture.mode, PlaneMode::kSynthesize);
     EXPECT_EQ(saved.regions[0]->texture.sample, "a.png");
     EXPECT_EQ(saved.regions[1]->texture.mode, PlaneMode::kSynthesize);
-    const Project fresh = read(R"({"schema": "weft.project/5", "regions": [
+    const Project fresh = read(R"({"schema": "weft.project/6", "regions": [
         {"id": 1, "texture": {"sample": "a.png"}}]})");
     EXPECT_EQ(fresh.regions[0]->texture.mode, PlaneMode::kAuto);
 }
@@ -202,7 +202,7 @@ TEST(ProjectJson, KeysHaveTheirInterpolation) {
     const auto keys = [](const char* key) {
         return project_from_json(
             std::string(
-                R"({"schema": "weft.project/5", "regions": [{"id": 1, "form": {"amount_keys": [)") +
+                R"({"schema": "weft.project/6", "regions": [{"id": 1, "form": {"amount_keys": [)") +
             key + R"(]}}]})");
     };
     const Project project = keys(R"({"frame": 1, "value": 0, "interpolation": "smooth"},
@@ -224,7 +224,7 @@ TEST(ProjectJson, KeysHaveTheirInterpolation) {
 }
 
 TEST(ProjectJson, AShapeOverTimeIsReadBack) {
-    const char* text = R"({"schema": "weft.project/5", "regions": [{"id": 1, "matte": {"shape":
+    const char* text = R"({"schema": "weft.project/6", "regions": [{"id": 1, "matte": {"shape":
         {"follow": "planar", "track": "t.json", "keys": [
             {"frame": 3, "points": [[1, 2, 0, 0, 0, 0, 4], [9, 2, 0, 0, 1, 0, 4], [5, 8, 0, 0, 0, 0, 0]]}]}}}]})";
     const Project project = read(text);
@@ -260,11 +260,11 @@ TEST(ProjectJson, WhatVersion1CouldNotRenderIsAnErrorWithItsPlace) {
 }
 
 TEST(ProjectJson, ANewerVersionIsRefusedWithWhatToDo) {
-    const auto project = project_from_json(R"({"schema": "weft.project/6"})");
+    const auto project = project_from_json(R"({"schema": "weft.project/7"})");
     ASSERT_FALSE(project);
     EXPECT_EQ(project.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(project.error().text(), HasSubstr("version 6"));
-    EXPECT_THAT(project.error().text(), HasSubstr("up to version 5"));
+    EXPECT_THAT(project.error().text(), HasSubstr("version 7"));
+    EXPECT_THAT(project.error().text(), HasSubstr("up to version 6"));
     EXPECT_THAT(project.error().text(), HasSubstr("update Weft"));
 }
 

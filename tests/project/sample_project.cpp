@@ -145,7 +145,7 @@ Project full_project() {
 
 std::string json_with_unknown_keys() {
     return R"({
-  "schema": "weft.project/5",
+  "schema": "weft.project/6",
   "future_top": {"deep": [1, {"x": null}], "big": 1e300},
   "plate": {"path": "frames/####.png", "future_plate": "p"},
   "color": {"future_color": 0.1},

@@ -93,6 +93,14 @@ TEST(Validate, FindsContradictions) {
                    r.zones = std::vector<Zone>{zone};
                }),
                "W regions[0] 'wall': zones[0]", "1 is all");
+    expect_one(good_project([](Region& r) {
+                   Zone zone;
+                   zone.kind = ZoneKind::kCalmer;
+                   zone.value = 1.5;
+                   zone.matte.files = "zone/####.png";
+                   r.zones = std::vector<Zone>{zone};
+               }),
+               "W regions[0] 'wall': zones[0]", "1 is in full");
     Project overwriting = good_project();
     overwriting.output.path = overwriting.plate.path;
     expect_one(overwriting, "E output", "overwrite");

@@ -18,6 +18,18 @@ TEST_F(Habits, APressOutsideOfAMenuClosesItAndActs) {
     EXPECT_EQ(robot->find("Menu/Save"), nullptr);
 }
 
+TEST_F(Habits, WhatIsTypedInTheSaveDialogReplacesTheProposedName) {
+    robot->frames(2);
+    robot->key("Ctrl+Shift+S");
+    robot->frames(3);
+    const BrowserState& browser = shell->state().browser;
+    ASSERT_EQ(browser.purpose, BrowserState::Purpose::kSaveProject);
+    ASSERT_TRUE(browser.name.ends_with(".weft")) << browser.name;
+    robot->type("arch");
+    robot->frames(2);
+    EXPECT_EQ(browser.name, "arch") << "without a click into the field";
+}
+
 TEST_F(Habits, AMenuIsClosedByItsNameAndByEsc) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/File"));

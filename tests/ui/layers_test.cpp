@@ -161,6 +161,30 @@ TEST_F(PaintedLayers, WhatIsLightAndWhatIsPaintIsPainted) {
     EXPECT_EQ(region().zones->back().value, 0.0);
 }
 
+TEST_F(PaintedLayers, MotionZonesArePaintedInTheMotionWorkspace) {
+    open();
+    shell->state().workspace = Workspace::kMotion;
+    robot->frames(3);
+    ASSERT_TRUE(robot->click("Motion zones"));
+    robot->wheel(-30);
+    robot->frames(3);
+    ASSERT_TRUE(robot->click("Motion zones/Paint: stiffer"));
+    robot->frames(3);
+    EXPECT_EQ(session->view().matte_layer, zone_layer(0));
+    robot->stroke({at(40, 25), at(60, 40)});
+    robot->frames(3);
+    ASSERT_THAT(*region().zones, SizeIs(1));
+    EXPECT_EQ(region().zones->front().kind, ZoneKind::kStiffer);
+    EXPECT_EQ(region().zones->front().value, 1.0);
+    ASSERT_TRUE(robot->drag("Motion zones/Stiffer", {-40, 0}));
+    robot->frames(3);
+    EXPECT_LT(region().zones->front().value, 1.0);
+    // It belongs to the motion only.
+    shell->state().workspace = Workspace::kMask;
+    robot->frames(3);
+    EXPECT_EQ(robot->find("Light zones/Light"), nullptr);
+}
+
 TEST(MatteLayer, ZonesHaveNumbersBelowZero) {
     Region region;
     region.id = 4;

@@ -12,7 +12,7 @@
 namespace weft {
 
 inline constexpr std::string_view kProjectSchemaName = "weft.project";
-inline constexpr int kProjectSchemaVersion = 5;
+inline constexpr int kProjectSchemaVersion = 6;
 
 /// Reads a project from JSON text. Hostile input (wrong types, numbers out of range, deep nesting,
 /// repeated keys or ids, 100 MB) gives an error, never a crash. Errors: Unreadable; the message

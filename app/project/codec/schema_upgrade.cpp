@@ -210,10 +210,15 @@ Status upgrade_from_4(Json& /*document*/) {
     return {};
 }
 
+/// 5 → 6. Likewise: version 6 adds zones that change the motion.
+Status upgrade_from_5(Json& /*document*/) {
+    return {};
+}
+
 using Upgrade = Status (*)(Json&);
 /// kUpgrades[n] upgrades version n to n + 1.
 constexpr std::array<Upgrade, kProjectSchemaVersion> kUpgrades{
-    upgrade_from_0, upgrade_from_1, upgrade_from_2, upgrade_from_3, upgrade_from_4};
+    upgrade_from_0, upgrade_from_1, upgrade_from_2, upgrade_from_3, upgrade_from_4, upgrade_from_5};
 
 /// The n of "weft.project/n".
 std::optional<int> version_of(std::string_view schema) {
