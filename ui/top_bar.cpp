@@ -275,7 +275,10 @@ void tool_strip(Ctx& c, ImVec2 size) {
         {"tool.pan"},
         {}};
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(4)});
-    for (const char* id : kTools[static_cast<int>(c.state.workspace)]) {
+    std::vector<const char*> tools = kTools[static_cast<int>(c.state.workspace)];
+    if (c.state.workspace == Workspace::kMotion && is_zone_layer(c.view.matte_layer))
+        tools.insert(tools.end(), {"tool.brush", "tool.eraser", "tool.lasso"});
+    for (const char* id : tools) {
         const Command* command = c.commands.find(id);
         if (icon_button(c, command->icon, command->name.c_str(), command->checked(c), id, true,
                         t.px(32)))

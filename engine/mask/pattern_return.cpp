@@ -13,6 +13,8 @@ namespace {
 
 constexpr float kAgrees = 0.65f;  // correlation
 constexpr float kPattern_levels = 2.0f;
+constexpr double kLead = 1.5;
+constexpr float kMost = 0.4f;  // of the places around
 
 // The same at half the size; known and wanted where all of a block is.
 PatternPair halved(const PatternPair& pair) {
@@ -111,6 +113,7 @@ int agreeing(const PatternPair& pair, int radius, int dx, int dy) {
 
 struct Shift {
     int x = 0, y = 0, agree = 0;
+    double lead = 0;  // how many times as much agrees as under any shift further than 2 px away
 };
 
 // The shift within `reach` of `about` under which most agrees; the smallest of several.
@@ -118,13 +121,20 @@ Shift best_shift(const PatternPair& pair, int radius, Shift about, int reach) {
     std::vector<Shift> all;
     for (int dy = -reach; dy <= reach; ++dy)
         for (int dx = -reach; dx <= reach; ++dx)
-            all.push_back({about.x + dx, about.y + dy, 0});
+            all.push_back({about.x + dx, about.y + dy});
     parallel_for(all.size(),
                  [&](std::size_t k) { all[k].agree = agreeing(pair, radius, all[k].x, all[k].y); });
-    return *std::max_element(all.begin(), all.end(), [](const Shift& a, const Shift& b) {
-        if (a.agree != b.agree) return a.agree < b.agree;
-        return a.x * a.x + a.y * a.y > b.x * b.x + b.y * b.y;
-    });
+    Shift best =
+        *std::max_element(all.begin(), all.end(), [](const Shift& one, const Shift& other) {
+            if (one.agree != other.agree) return one.agree < other.agree;
+            return one.x * one.x + one.y * one.y > other.x * other.x + other.y * other.y;
+        });
+    int second = 1;
+    for (const Shift& other : all)
+        if (std::max(std::abs(other.x - best.x), std::abs(other.y - best.y)) > 2)
+            second = std::max(second, other.agree);
+    best.lead = static_cast<double>(best.agree) / second;
+    return best;
 }
 
 // Sums over one piece of what is compared.
@@ -170,12 +180,13 @@ Matte agreeing_places(const ImageF1& found, const ImageF1& wanted, int radius) {
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
             agrees.at(x, y) = wanted.at(x, y) > 0 && found.at(x, y) > kAgrees ? 1.0f : 0.0f;
-    const cv::Mat share = window_sum(mat_of(agrees), radius),
-                  among = window_sum(mat_of(wanted), radius);
+    const int around = 2 * radius;
+    const cv::Mat share = window_sum(mat_of(agrees), around),
+                  among = window_sum(mat_of(wanted), around);
     Matte out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
-            if (wanted.at(x, y) > 0 && share.at<float>(y, x) > 0.5f * among.at<float>(y, x))
+            if (wanted.at(x, y) > 0 && share.at<float>(y, x) > kMost * among.at<float>(y, x))
                 out.at(x, y) = 255;
     return out;
 }
@@ -259,8 +270,10 @@ std::optional<Vec2i> find_shift(PatternPair pair, int radius, int halvings, doub
     Shift shift;
     for (std::size_t level = levels.size(); level-- > 0;) {
         const bool first = level + 1 == levels.size();
-        shift = best_shift(levels[level], std::max(2, radius >> level),
-                           {2 * shift.x, 2 * shift.y, 0}, first ? 4 : 1);
+        shift = best_shift(levels[level], std::max(2, radius >> level), {2 * shift.x, 2 * shift.y},
+                           first ? 4 : 1);
+        // Lines agree along themselves, and by chance anything does a little.
+        if (first && shift.lead < kLead) return std::nullopt;
         if (std::ldexp(shift.agree, 2 * static_cast<int>(level)) < least_px) return std::nullopt;
     }
     return Vec2i(shift.x, shift.y);

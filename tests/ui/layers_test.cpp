@@ -168,8 +168,10 @@ TEST_F(PaintedLayers, MotionZonesArePaintedInTheMotionWorkspace) {
     ASSERT_TRUE(robot->click("Motion zones"));
     robot->wheel(-30);
     robot->frames(3);
+    EXPECT_EQ(robot->find("Tools/Eraser"), nullptr);
     ASSERT_TRUE(robot->click("Motion zones/Paint: stiffer"));
     robot->frames(3);
+    EXPECT_NE(robot->find("Tools/Eraser"), nullptr) << "while a zone is painted";
     EXPECT_EQ(session->view().matte_layer, zone_layer(0));
     robot->stroke({at(40, 25), at(60, 40)});
     robot->frames(3);
