@@ -9,7 +9,7 @@ from film import FilmSurface
 from rendered import RenderedSurface
 from runs import RunFailed, Runs
 
-VERSION = 2  # of the measures: a surface measured by another one is measured again
+VERSION = 3  # of the measures: a surface measured by another one is measured again
 
 
 def surface_folder(work, scene, name):

@@ -8,6 +8,7 @@ import images
 import light
 import mattes
 import motion
+import points
 import textures
 import tiled
 from runs import frame_file
@@ -24,7 +25,7 @@ class RenderedSurface:
     `delivered` comes first, so that its seconds are those of a whole run without a cache."""
 
     measures = {"deliver": (None,), "light": ("draft", "final", "multiply", "constant"), "motion": ("draft", "final"),
-                "form": (None,), "tiled": (None,), "matte": mattes.PAINTED}
+                "points": ("draft", "final", *points.BASELINES), "form": (None,), "tiled": (None,), "matte": mattes.PAINTED}
 
     def __init__(self, scene, part, runs):
         self.scene, self.runs, self.truth = scene, runs, SurfaceTruth(scene, part)
@@ -72,6 +73,20 @@ class RenderedSurface:
     def flicker(self, frames, reference):
         options = (*self.matte_options, "--plane", self.texture, *self.true_motion)
         return motion.measure(self.runs, self.plate, options, frames, reference, self.last)
+
+    def points(self, candidate):
+        if candidate in points.BASELINES:
+            return points.baseline(self.truth, self.points_known, self.plate_file, candidate == "dis_direct")
+        if candidate not in self.followed:
+            return None
+        return points.ours(self.truth, self.points_known, self.followed[candidate][1])
+
+    def plate_file(self, frame):
+        return self.scene.file(frame, "plate", ending="png")
+
+    @cached_property
+    def points_known(self):
+        return points.truth_of(self.truth)
 
     @cached_property
     def matches(self):
