@@ -6,6 +6,7 @@
 #include "engine/core/smooth_step.h"
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/photometric_register.h"
+#include "engine/motion/stripes.h"
 #include "engine/motion/surface_fit.h"
 #include "engine/motion/surface_flow.h"
 
@@ -107,6 +108,21 @@ double picture_lead(const RegistrationPicture& before, const RegistrationPicture
            static_cast<double>(doubtful) * std::clamp(bias, 0.0, kMostBias);
 }
 
+namespace {
+
+// Along stripes raw motion says nothing, but follows noise, or stands still.
+void add_lines(const StepFrame& prev, const StepFrame& cur, int spacing_px, StepEvidence& out) {
+    const Stripes stripes = stripes_of(cur.view().luma, cur.view().visible);
+    if (!(stripes.share > 0)) return;
+    const bool freed = out.by_freed && *out.freed_lead > 0;
+    const LatticeField& picture = freed ? *out.by_freed : out.by_picture;
+    out.by_lines =
+        along_stripes(picture, by_outline(prev, cur, spacing_px), cur.view().extent, stripes);
+    out.lines_lead = picture_lead(prev.picture(), cur.picture(), picture, *out.by_lines);
+}
+
+}  // namespace
+
 void MotionChoice::Lead::note(double lead, int frames, double above, double below) {
     noted = std::min(noted + 1, frames);
     mean += (std::clamp(lead, -kMostLead, kMostLead) - mean) / noted;
@@ -124,6 +140,13 @@ void MotionChoice::note_freed(double lead) {
     constexpr int kFrames = 5;
     constexpr double kFreed = 1.25, kPlate = 0.75;
     freed_.note(lead, kFrames, kFreed, kPlate);
+}
+
+void MotionChoice::note_lines(double lead) {
+    constexpr int kFrames = 8;
+    constexpr double kLines = 0.6, kPicture = -0.5;
+    if (lead == 0) return;  // nothing could be compared
+    lines_.note(-lead, kFrames, kLines, kPicture);
 }
 
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
@@ -148,6 +171,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
+        add_lines(prev, cur, spacing_px, out);
         return out;
     }
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
@@ -167,6 +191,10 @@ StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
     choice.note(evidence.by_outline ? evidence.lead : kMostLead);
     if (evidence.freed_lead) choice.note_freed(*evidence.freed_lead);
     if (evidence.by_outline && choice.by_outline()) return {*evidence.by_outline, true};
+    if (evidence.by_lines) {
+        choice.note_lines(evidence.lines_lead);
+        if (choice.by_lines()) return {*evidence.by_lines, false};
+    }
     return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture, false};
 }
 

@@ -39,6 +39,10 @@ struct StepEvidence {
     std::optional<double> freed_lead;  ///< Before by_picture, standard errors; where searched.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
     double lead = 0;                         ///< then picture_lead().
+    /// Where the picture shows lines of one direction (stripes_of()): the picture's motion across
+    /// them and the outline's along them, then how far the picture's own leads (picture_lead()).
+    std::optional<LatticeField> by_lines = {};
+    double lines_lead = 0;
 };
 
 /// How far motion that was fitted to two pictures leads before the outline's, in standard errors
@@ -51,8 +55,8 @@ struct StepEvidence {
 /// plate's raw motion `prev_from_cur` does not find the surface again almost everywhere; how far
 /// they lead is registration_lead(), and what their motion gains in places that are consistent
 /// there and back. The outline's motion is measured where structure is faint
-/// (structure_to_noise()). Pure, but for the caches of the frames: outlines are compared, so one
-/// thread at a time may use a frame.
+/// (structure_to_noise()) or runs in one direction. Pure, but for the caches of the frames:
+/// outlines are compared, so one thread at a time may use a frame.
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
                                            const FlowField& prev_from_cur, FlowQuality quality,
                                            int spacing_px);
@@ -66,6 +70,9 @@ class MotionChoice {
     void note(double lead);
     /// How far that of pictures freed of light leads before the plate's (StepEvidence::freed_lead).
     void note_freed(double lead);
+    /// How far the picture's motion along its lines leads before the outline's.
+    void note_lines(double lead);
+    [[nodiscard]] bool by_lines() const { return lines_.leads; }
     [[nodiscard]] bool by_outline() const { return !picture_.leads; }
     [[nodiscard]] bool freed() const { return freed_.leads; }
 
@@ -79,7 +86,7 @@ class MotionChoice {
     };
     // As after three frames of indifference: a walk begins by the outline unless the picture leads
     // clearly.
-    Lead picture_{0, 3, false}, freed_;
+    Lead picture_{0, 3, false}, freed_, lines_{0, 3, false};
 };
 
 struct StepMotion {

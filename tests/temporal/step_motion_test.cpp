@@ -231,5 +231,48 @@ TEST(MotionChoice, FramesWithoutEvidenceChangeNothing) {
     }
 }
 
+// A wall of upright stripes whose lower edge shows: raw motion does not see that it moves down.
+TEST(StepMotion, FollowsTheOutlineAlongStripesOfOneDirection) {
+    constexpr float kDown_px = 2;
+    const auto wall = [&](int t) {
+        return draw(kFrame, [&](Vec2 p) {
+            return p.y < 110 + kDown_px * static_cast<float>(t) ? 1.0f : 0.0f;
+        });
+    };
+    const auto striped = [&](int t) {
+        Rng rng(60 + static_cast<std::uint64_t>(t));
+        return draw(kFrame, [&](Vec2 p) {
+            const float x = p.x - kStep_px * static_cast<float>(t);
+            return 0.5f + 0.2f * std::sin(x / 4) + 0.1f * std::sin(x / 7) +
+                   2.0f / 255 * normal(rng);
+        });
+    };
+    FlowField flow(kFrame);
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x) {
+            flow.d.pixel(x, y)[0] = -kStep_px;
+            flow.valid.at(x, y) = 255;
+        }
+    }
+    MotionChoice choice;
+    for (int t = 1; t <= 3; ++t) {
+        const Matte before = wall(t - 1), now = wall(t), last = striped(t - 1), luma = striped(t);
+        const StepEvidence found =
+            gather_evidence(StepFrame(last, before, before), StepFrame(luma, now, now), flow,
+                            FlowQuality::kFinal, 8);
+        ASSERT_TRUE(found.by_lines);
+        const Vec2 step = choose_motion(found, choice).prev_from_cur.at({120, 60});
+        // One step alone may be chance.
+        EXPECT_TRUE(t == 1 || distance(step, {-kStep_px, -kDown_px}) < 0.3f) << t;
+    }
+    // What the picture shows along its lines goes before.
+    MotionChoice seen;
+    StepEvidence clear;
+    clear.by_picture = moved_by(-1);
+    clear.by_lines = moved_by(-5);
+    clear.lines_lead = 3;
+    EXPECT_EQ(choose_motion(clear, seen).prev_from_cur.at({120, 60}).x, -1);
+}
+
 }  // namespace
 }  // namespace weft

@@ -1,0 +1,81 @@
+#include "engine/motion/stripes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/motion/pictures.h"
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{200, 140};
+
+Matte whole() {
+    Matte out(kFrame);
+    std::fill(out.data(), out.data() + out.size_bytes(), std::uint8_t{255});
+    return out;
+}
+
+Matte lines(float angle_rad, float second = 0) {
+    Rng rng(4);
+    const Vec2 across(std::cos(angle_rad), std::sin(angle_rad)), along(-across.y, across.x);
+    return draw(kFrame, [&](Vec2 p) {
+        const float noise = static_cast<float>(rng.uniform() - 0.5) * 4 / 255;
+        return 0.5f + 0.2f * std::sin((p.x * across.x + p.y * across.y) / 3) +
+               second * std::sin((p.x * along.x + p.y * along.y) / 3) + noise;
+    });
+}
+
+TEST(Stripes, TheirDirectionIsFound) {
+    for (const float angle : {0.0f, 0.4f, 1.57f, 2.5f}) {
+        const Stripes found = stripes_of(lines(angle), whole());
+        EXPECT_EQ(found.share, 1) << angle;
+        const Vec2 across(std::cos(angle), std::sin(angle));
+        EXPECT_LT(std::abs(found.along.x * across.x + found.along.y * across.y), 0.03f) << angle;
+    }
+}
+
+TEST(Stripes, StructureInTwoDirectionsIsNone) {
+    EXPECT_EQ(stripes_of(lines(0.3f, 0.15f), whole()).share, 0);
+    const WaveTexture texture(3);
+    EXPECT_EQ(stripes_of(draw(kFrame, texture), whole()).share, 0);
+    EXPECT_EQ(stripes_of(Matte(kFrame), whole()).share, 0) << "a flat fill";
+}
+
+TEST(Stripes, AMattesEdgeIsNoStructure) {
+    Matte matte(kFrame);
+    for (int y = 30; y < 90; ++y)
+        for (int x = 40; x < 160; ++x)
+            matte.at(x, y) = 255;
+    Matte luma = lines(0);
+    for (int y = 0; y < kFrame.height; ++y)
+        for (int x = 0; x < kFrame.width; ++x)
+            if (matte.at(x, y) == 0) luma.at(x, y) = 255;
+    EXPECT_EQ(stripes_of(luma, matte).share, 1);
+}
+
+TEST(Stripes, OnlyTheMotionAlongThemIsTakenFromTheOutline) {
+    LatticeField field(kFrame, 8), outline(kFrame, 8);
+    Matte above(kFrame);
+    for (int y = 0; y < 90; ++y)
+        std::fill(above.row(y), above.row(y) + kFrame.width, std::uint8_t{255});
+    for (int j = 0; j < field.nodes().height(); ++j) {
+        for (int i = 0; i < field.nodes().width(); ++i) {
+            field.set_node(i, j, {3, 0});
+            // Right at the edge only.
+            const float off = std::abs(field.node_position(i, j).y - 90) > 12 ? 9.0f : 0.0f;
+            outline.set_node(i, j, {7, 2 + off});
+        }
+    }
+    const Stripes upright{{0, 1}, 1}, half{{0, 1}, 0.5f}, level{{1, 0}, 1};
+    EXPECT_LT(distance(along_stripes(field, outline, above, upright).at({90, 30}), {3, 2}), 0.3f);
+    EXPECT_LT(distance(along_stripes(field, outline, above, half).at({90, 30}), {3, 1}), 0.2f);
+    EXPECT_EQ(along_stripes(field, outline, above, level).nodes(), field.nodes())
+        << "the edge runs along them";
+    EXPECT_EQ(along_stripes(field, outline, whole(), upright).nodes(), field.nodes())
+        << "the frame's border is no edge";
+}
+
+}  // namespace
+}  // namespace weft
