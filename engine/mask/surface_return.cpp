@@ -227,7 +227,7 @@ Matte SurfaceReturn::returned(ViewU8x3 frame, ViewF1 phi) {
     const int radius = std::max(4, static_cast<int>(std::lround(8 * unit)));
     const Recti box = where.grown(4 * radius * step_).intersected(rect_of(phi.size()));
     int halvings = 0;  // so that ± 4 px there are ± 16 px of a frame 854 wide
-    for (float px = 4 * unit; px >= 1.5f; px /= 2)
+    while (std::ldexp(4 * unit, -halvings) >= 1.5f)
         ++halvings;
     const double least_here = least / (step_ * step_);
     const auto shift = find_shift(pair_in(box, frame, phi), radius, halvings, least_here);

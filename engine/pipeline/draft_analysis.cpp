@@ -4,12 +4,9 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "engine/motion/follow_size.h"
 #include "engine/pipeline/analyse.h"
-#include "engine/pipeline/draft_source.h"
 #include "engine/pipeline/partial_plan.h"
 #include "engine/pipeline/region_mattes.h"
-#include "engine/pipeline/surface_job.h"
 
 namespace weft {
 namespace {
@@ -56,25 +53,6 @@ void reduce(RegionPlan& region, int factor) {
     }
 }
 
-// A region's results on a frame, at the plate's size.
-Status enlarge(const AnalysisStore& from, const RegionPlan& region, int index, int frame,
-               int factor, Size plate, AnalysisStore& to) {
-    for (int layer = 0; layer <= static_cast<int>(region.painted_holdouts.size()); ++layer) {
-        const AnalysisKey key{index, frame, AnalysisKind::kMatte, layer};
-        if (!from.has(key)) continue;
-        WEFT_TRY(bytes, from.get(key));
-        WEFT_TRY(matte, decode_matte(bytes));
-        WEFT_CHECK_OK(to.put(
-            key, encode(StoredMatte{enlarged(matte.matte, factor, plate), matte.confidence})));
-    }
-    const AnalysisKey key{index, frame, AnalysisKind::kCoords};
-    if (!from.has(key)) return {};
-    WEFT_TRY(bytes, from.get(key));
-    WEFT_TRY(field, decode_lattice(bytes));
-    return to.put(
-        key, encode(resized(field, plate, SurfaceTrack::spacing_for(plate, motion_of(region)))));
-}
-
 }  // namespace
 
 EarlierAnalysis DraftAnalysis::as_earlier() const {
@@ -87,8 +65,8 @@ Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(const ShotSource& source
                                                         const ShotPlan& plan, int frame,
                                                         const std::vector<bool>& wanted,
                                                         const CancelToken& cancel) {
-    auto out = std::make_unique<DraftAnalysis>();
-    out->plan = plan;
+    const int factor = draft_factor(plan, source.size());
+    auto out = std::make_unique<DraftAnalysis>(plan, factor, source.size());
     out->plan.frames = {frame};
     out->plan.quality = FlowQuality::kDraft;
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
@@ -99,19 +77,10 @@ Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(const ShotSource& source
         else
             leave_region_out(region);
     }
-    const int factor = draft_factor(out->plan, source.size());
     ShotPlan small = out->plan;
     for (RegionPlan& region : small.regions)
         reduce(region, factor);
-    MemoryAnalysisStore found;
-    WEFT_CHECK_OK(analyse_shot(DraftSource(source, factor), small, found, cancel, {}));
-    for (std::size_t k = 0; k < plan.regions.size(); ++k) {
-        const RegionPlan& region = out->plan.regions[k];
-        // Light refers to the reference frame, and a frame beside this one shows how it moves.
-        for (const int shown : {region.reference_frames.front(), frame - 1, frame, frame + 1})
-            WEFT_CHECK_OK(enlarge(found, region, static_cast<int>(k), shown, factor, source.size(),
-                                  out->store));
-    }
+    WEFT_CHECK_OK(analyse_shot(DraftSource(source, factor), small, out->store.small(), cancel, {}));
     return out;
 }
 

@@ -2,18 +2,23 @@
 // The shortest way to regions of which nothing is known on a frame yet.
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/core/cancel.h"
+#include "engine/pipeline/draft_source.h"
 #include "engine/pipeline/provisional.h"
 
 namespace weft {
 
-/// Mattes and motion of some regions on one frame and those beside it, found in draft quality on
-/// plates of a fraction of the size (draft_factor()); neither light nor grain.
+/// Mattes and motion of some regions from the reference frame to one other, found in draft quality
+/// on plates of a fraction of the size (draft_factor()); neither light nor grain.
 struct DraftAnalysis {
+    DraftAnalysis(ShotPlan of, int factor, Size plate)
+        : plan(std::move(of)), store(factor, plate) {}
+
     ShotPlan plan;  ///< Of all regions; the others have nothing to analyse.
-    MemoryAnalysisStore store;
+    DraftStore store;
     /// Refers to this.
     [[nodiscard]] EarlierAnalysis as_earlier() const;
 };

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "engine/core/block_means.h"
+#include "engine/motion/follow_size.h"
+#include "engine/pipeline/surface_track.h"
 
 namespace weft {
 
@@ -58,6 +60,26 @@ Expected<FlowField> DraftSource::motion(int region, int frame) const {
     return source_.motion(region, frame);
 }
 
+Expected<Bytes> DraftStore::get(const AnalysisKey& key) const {
+    WEFT_TRY(bytes, small_.get(key));
+    if (factor_ == 1) return bytes;
+    switch (key.kind) {
+        case AnalysisKind::kMatte:
+        case AnalysisKind::kMatteForward: {
+            WEFT_TRY(found, decode_matte(bytes));
+            return encode(StoredMatte{enlarged(found.matte, factor_, plate_), found.confidence});
+        }
+        case AnalysisKind::kCoords:
+        case AnalysisKind::kCoordsOneWay: {
+            WEFT_TRY(field, decode_lattice(bytes));
+            const int spacing = SurfaceTrack::spacing_for(plate_, SurfaceTrack::Motion::kEstimated);
+            return encode(resized(field, plate_, spacing));
+        }
+        default:
+            return bytes;
+    }
+}
+
 Matte enlarged(const Matte& matte, int factor, Size to) {
     if (factor == 1) return matte;
     Matte out(to);
@@ -82,7 +104,8 @@ Matte enlarged(const Matte& matte, int factor, Size to) {
                 };
                 const float code = (1 - v) * mean(a) + v * mean(b);
                 const float steep = 127.5f + static_cast<float>(factor) * (code - 127.5f);
-                out.at(x, y) = static_cast<std::uint8_t>(std::clamp(steep, 0.0f, 255.0f) + 0.5f);
+                out.at(x, y) =
+                    static_cast<std::uint8_t>(std::lround(std::clamp(steep, 0.0f, 255.0f)));
             }
         }
     });

@@ -1,6 +1,7 @@
 #pragma once
-// Internal to draft_analysis(): a shot's plates and mattes at a fraction of their size.
+// A draft's plates and mattes at a fraction of their size, and what is found on them.
 
+#include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
 
@@ -28,6 +29,27 @@ class DraftSource final : public ShotSource {
 
     const ShotSource& source_;
     int factor_;
+};
+
+/// What was found on the reduced plates, at the plate's size: mattes and lattices are enlarged when
+/// they are asked for. Thread-safe.
+class DraftStore final : public AnalysisStore {
+  public:
+    DraftStore(int factor, Size plate) : factor_(factor), plate_(plate) {}
+
+    [[nodiscard]] bool has(const AnalysisKey& key) const override { return small_.has(key); }
+    /// Of the reduced size.
+    [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
+        return small_.put(key, bytes);
+    }
+    [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override;
+    /// As it was found; for the analysis itself.
+    [[nodiscard]] MemoryAnalysisStore& small() { return small_; }
+
+  private:
+    int factor_;
+    Size plate_;
+    MemoryAnalysisStore small_;
 };
 
 /// A matte of the reduced plate at the plate's size `to`: bilinear, with its edge as steep in

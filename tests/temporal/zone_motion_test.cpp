@@ -108,6 +108,7 @@ TEST(PlaneFit, FindsAHomographyUnderOutliers) {
 
 TEST(PlaneFit, PlacesOnALineKeepTheirScaleAcrossIt) {
     std::vector<PlacePair> pairs;
+    pairs.reserve(40);
     for (int k = 0; k < 40; ++k)
         pairs.push_back({Vec2(10 + k, 50), Vec2(10 + k, 50) + Vec2(5, 3)});
     EXPECT_LT(distance(mapped(fit_plane(pairs), {30, 60}), {35, 63}), 0.2f);
@@ -181,6 +182,7 @@ TEST(ZoneMotion, CalmTakesWhatTremblesAndLeavesWhatBends) {
     // At the end of the clip the frames before say it: no lag.
     std::erase_if(others, [](const OtherFrame& other) { return other.distance > 0; });
     std::vector<OtherFrame> steady;
+    steady.reserve(others.size());
     for (const OtherFrame& other : others)
         steady.push_back({field_of(lands(other.distance, false)), other.distance});
     EXPECT_LT(worst(calmed(field_of(lands(0, false)), {zone(), surface(), 1}, steady),
