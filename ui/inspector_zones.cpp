@@ -128,42 +128,38 @@ bool has_zones(const Region& region, bool of_motion) {
                        [&](const Zone& zone) { return changes_motion(zone.kind) == of_motion; });
 }
 
-}  // namespace
-
-void light_zones_section(Ctx& c, const Region& region) {
-    const bool any = has_zones(region, false), painting = paints(c, region, false);
-    if (!section(c, "Light zones", any || painting)) return;
-    const PanelName panel(c, "Light zones");
-    if (!any && !painting)
-        wrapped(c,
-                "Inside a zone you say what is light: where a stain was taken for a shadow, or a "
-                "shadow for paint.",
-                c.theme.quiet);
-    zone_rows(c, region, false);
-    if (painting)
+// The zones of one sort, and how to begin one.
+void zones_section(Ctx& c, const Region& region, bool of_motion, const char* title,
+                   const char* about) {
+    const bool any = has_zones(region, of_motion), painting = paints(c, region, of_motion);
+    if (!section(c, title, any || painting)) return;
+    const PanelName panel(c, title);
+    if (!any && !painting) wrapped(c, about, c.theme.quiet);
+    zone_rows(c, region, of_motion);
+    if (painting) {
+        if (of_motion) brush_rows(c);  // in the Mask workspace they have a section of their own
         back_to_matte(c);
-    else
+    } else if (of_motion) {
+        begin_motion_zones(c, first_layer(region));
+    } else {
         begin_light_zones(c, first_layer(region));
+    }
     section_gap(c);
 }
 
+}  // namespace
+
+void light_zones_section(Ctx& c, const Region& region) {
+    zones_section(c, region, false, "Light zones",
+                  "Inside a zone you say what is light: where a stain was taken for a shadow, or a "
+                  "shadow for paint.");
+}
+
 void motion_zones_section(Ctx& c, const Region& region) {
-    const bool any = has_zones(region, true), painting = paints(c, region, true);
-    if (!section(c, "Motion zones", any || painting)) return;
-    const PanelName panel(c, "Motion zones");
-    if (!any && !painting)
-        wrapped(c,
-                "Inside a zone you say how the surface moves, where the picture misleads. Nothing "
-                "changes outside of it.",
-                c.theme.quiet);
-    zone_rows(c, region, true);
-    if (painting) {
-        brush_rows(c);
-        back_to_matte(c);
-    } else {
-        begin_motion_zones(c, first_layer(region));
-    }
-    section_gap(c);
+    zones_section(
+        c, region, true, "Motion zones",
+        "Inside a zone you say how the surface moves, where the picture misleads. Nothing "
+        "changes outside of it.");
 }
 
 }  // namespace weft::ui

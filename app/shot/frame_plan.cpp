@@ -349,8 +349,9 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
     }
     for (const Zone& zone : *region.zones) {
         if (zone.matte.files.empty()) continue;
-        // Its surroundings are followed from the reference frame on, as the surface is.
-        WEFT_CHECK_OK(zone.kind == ZoneKind::kSurroundings
+        // Motion blur needs a frame beside the rendered ones, and surroundings are followed from
+        // the reference frame on, as the surface is.
+        WEFT_CHECK_OK(changes_motion(zone.kind)
                           ? followed.check(zone.matte.files, "The zone")
                           : check_pattern(zone.matte.files, "The zone", shot.frames, plate));
     }

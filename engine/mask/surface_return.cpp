@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/block_means.h"
+#include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/motion/photometric_register.h"
@@ -28,8 +29,8 @@ ImageF1 luma_of(ViewU8x3 frame, const Recti& area) {
     for (int y = 0; y < out.height(); ++y) {
         const std::uint8_t* p = frame.pixel(area.x0, area.y0 + y);
         for (int x = 0; x < out.width(); ++x, p += 3)
-            out.at(x, y) = 0.2126f * static_cast<float>(p[0]) + 0.7152f * static_cast<float>(p[1]) +
-                           0.0722f * static_cast<float>(p[2]);
+            out.at(x, y) = luma_709(static_cast<float>(p[0]), static_cast<float>(p[1]),
+                                    static_cast<float>(p[2]));
     }
     return out;
 }

@@ -18,8 +18,8 @@ struct MotionZone {
 // All of these take and return ref_from_cur, px. Inside of the zone the field becomes another one,
 // solved for with a fixed boundary: the nodes further than one spacing outside of it keep their
 // values, so that no pixel changes that lies further than three spacings (24 px of a plate up to
-// 1280 px wide) outside. Where the zone reaches the surface's edge, nothing holds it there. Pure;
-// deterministic. Mattes have the frame's size.
+// 960×540, 2.5 % of the width of a larger one) outside. Where the zone reaches the surface's edge,
+// nothing holds it there. Pure; deterministic. Mattes have the frame's size.
 
 /// As if the picture said nothing inside: the plane that the surface around the zone moves by, and
 /// what departs from it along the boundary, continued inside as a membrane. A zone that covers the

@@ -258,6 +258,15 @@ TEST_F(CliTest, MotionZonesChangeNoByteFurtherThan24PxOutside) {
     }
 }
 
+TEST_F(CliTest, MotionZonesFromFilesReachBackToTheReferenceFrame) {
+    make_shot(4);
+    put_matte("zone0004.png", Matte(Card::kPlate));
+    expect_failure(run_replace({"--frames", "4", "--zone", "stiffer=1@zone####.png"}), 4,
+                   {"The zone", "zone####.png"});
+    // Light is of the rendered frames alone.
+    expect_success(run_replace({"--frames", "4", "--zone", "light=0@zone####.png"}));
+}
+
 TEST_F(CliTest, SeveralReferenceFramesAnchorTheTexture) {
     make_shot(5);
     expect_success(run_replace({"--light", "none"}));

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "app/project/edit.h"
 
 namespace weft {
@@ -85,22 +87,15 @@ TEST(Validate, FindsContradictions) {
                "W regions[0] 'wall': light.image", "'plate'");
     expect_one(good_project([](Region& r) { r.synthesis.feather_px = 40; }),
                "W regions[0] 'wall': synthesis.feather_px", "36 px");
-    expect_one(good_project([](Region& r) {
-                   Zone zone;
-                   zone.kind = ZoneKind::kDetail;
-                   zone.value = 1.5;
-                   zone.matte.files = "zone/####.png";
-                   r.zones = std::vector<Zone>{zone};
-               }),
-               "W regions[0] 'wall': zones[0]", "1 is all");
-    expect_one(good_project([](Region& r) {
-                   Zone zone;
-                   zone.kind = ZoneKind::kCalmer;
-                   zone.value = 1.5;
-                   zone.matte.files = "zone/####.png";
-                   r.zones = std::vector<Zone>{zone};
-               }),
-               "W regions[0] 'wall': zones[0]", "1 is in full");
+    for (const auto& [kind, expected] :
+         {std::pair{ZoneKind::kDetail, "1 is all"}, {ZoneKind::kCalmer, "1 is in full"}}) {
+        Zone zone;
+        zone.kind = kind;
+        zone.value = 1.5;
+        zone.matte.files = "zone/####.png";
+        expect_one(good_project([&](Region& r) { r.zones = std::vector<Zone>{zone}; }),
+                   "W regions[0] 'wall': zones[0]", expected);
+    }
     Project overwriting = good_project();
     overwriting.output.path = overwriting.plate.path;
     expect_one(overwriting, "E output", "overwrite");
