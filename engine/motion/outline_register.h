@@ -5,6 +5,7 @@
 
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/motion/outline_curve.h"
 #include "engine/motion/photometric_register.h"
 
 namespace weft {
@@ -28,6 +29,10 @@ class OutlineShape {
 
     [[nodiscard]] bool empty() const;
     [[nodiscard]] Size frame_size() const;
+    /// The extent's centre of area, px of the frame; (0, 0) if it is empty.
+    [[nodiscard]] Vec2 middle() const;
+    [[nodiscard]] float area_px() const;
+    [[nodiscard]] const OutlineCurve& curve() const;
     /// The signed distance within `band_px` of the outline, and inside of it the luma, smoothed by
     /// `sigma_px`, less its surroundings.
     [[nodiscard]] const RegistrationPicture& picture(float band_px, float sigma_px) const;
