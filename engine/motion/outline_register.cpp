@@ -301,16 +301,11 @@ std::optional<LatticeField> by_curve(const OutlineShape& prev, const OutlineShap
     return sum_of(plane, bent.resampled(plane.spacing()));
 }
 
-}  // namespace
-
-LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
-                              const LatticeField& initial) {
-    if (prev.empty() || cur.empty()) return initial;
-    const OutlineMatch match(prev, cur);
-    LatticeField field = initial;
-    match.smooth(field);
-    double with_field = match.residual(field, kNarrow);
-    const std::optional<LatticeField> found = best_plane(match, prev, cur, initial.spacing());
+// From a homography, or from what became of corners; else from `field`, which fits the outline with
+// a residual of `with_field`.
+LatticeField best_of(const OutlineMatch& match, const OutlineShape& prev, const OutlineShape& cur,
+                     LatticeField field, double with_field) {
+    const std::optional<LatticeField> found = best_plane(match, prev, cur, field.spacing());
     // A raw estimate may fit the outline while the surface slips along it. A result that starts
     // from a homography, or from what became of corners, slips less and is preferred unless it
     // fits clearly worse.
@@ -326,13 +321,12 @@ LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
         match.smooth(bent);
         prefer(std::move(bent));
     }
-    // assets/drawn and seven drawn scenes: 0.027 at most where the step is right to 1.5 px, 0.043
-    // to 0.18 on flags that are off by 4 to 35 px.
+    // assets/drawn and four drawn scenes: 0.027 at most where the step is right to 1.5 px, 0.043 to
+    // 0.18 on flags that are off by 4 to 35 px.
     constexpr double kSlips = 0.035;
     const double slip = outline_slip(prev.curve(), cur.curve(), field);
     if (slip > kSlips) {
-        const LatticeField whole =
-            found ? *found : LatticeField(initial.full_size(), initial.spacing());
+        const LatticeField whole = found ? *found : LatticeField(cur.frame_size(), field.spacing());
         if (std::optional<LatticeField> curve = by_curve(prev, cur, whole)) {
             match.smooth(*curve);
             if (outline_slip(prev.curve(), cur.curve(), *curve) < slip) prefer(std::move(*curve));
@@ -342,6 +336,25 @@ LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
     const bool plain =
         found && match.residual(*found, kNarrow) <= kAsWell * with_field + kAlmostNothing;
     return plain ? *found : field;
+}
+
+}  // namespace
+
+LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
+                              const LatticeField& initial) {
+    if (prev.empty() || cur.empty()) return initial;
+    const OutlineMatch match(prev, cur);
+    LatticeField field = initial;
+    match.smooth(field);
+    const double with_field = match.residual(field, kNarrow);
+    return best_of(match, prev, cur, std::move(field), with_field);
+}
+
+LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur, int spacing_px) {
+    const LatticeField still(cur.frame_size(), spacing_px);
+    if (prev.empty() || cur.empty()) return still;
+    const OutlineMatch match(prev, cur);
+    return best_of(match, prev, cur, still, match.residual(still, kNarrow));
 }
 
 }  // namespace weft

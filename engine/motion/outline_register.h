@@ -51,5 +51,8 @@ class OutlineShape {
 /// everywhere; it is the result where there is nothing to register. Deterministic.
 [[nodiscard]] LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
                                             const LatticeField& initial);
+/// The same without an estimate to begin with, on a lattice of `spacing_px`.
+[[nodiscard]] LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
+                                            int spacing_px);
 
 }  // namespace weft

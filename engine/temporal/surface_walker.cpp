@@ -32,6 +32,9 @@ struct SurfaceWalker::State {
 
     AnchorSet anchors;
     LatticeField anchor_from_cur;  // of the present anchor
+    // Against which outlines are registered: the last reference frame, and its position.
+    std::shared_ptr<const StepFrame> drawing;
+    LatticeField ref_from_drawing;
     MotionChoice choice;
     int since_older_tried = 0;  // frames
 
@@ -62,6 +65,10 @@ struct SurfaceWalker::State {
         anchors.add({std::move(picture), ref_from_cur, generation});
         anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
     }
+    void become_drawing() {
+        drawing = last;
+        ref_from_drawing = ref_from_cur;
+    }
     [[nodiscard]] Size frame_size() const { return last->size(); }
 
     // The position of the frame on an anchor, from the positions of both on the reference frame.
@@ -91,6 +98,7 @@ struct SurfaceWalker::State {
     void wait_out_of_view();
     void search(const RegistrationPicture& cur, ViewU8x1 visible, std::int64_t visible_px);
     void register_frame(const RegistrationPicture& cur, ViewU8x1 visible);
+    void register_drawing(const StepFrame& cur);
     bool try_others(const RegistrationPicture& cur, int generation_below, double share_above);
 };
 
@@ -248,6 +256,21 @@ void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8
     }
 }
 
+// What shows little but its outline is laid on the outline of the reference frame, where corners
+// come to lie on corners. A thing that turned away from it has no such motion: cars lose and gain
+// parts of their outline.
+void SurfaceWalker::State::register_drawing(const StepFrame& cur) {
+    constexpr double kLost = 0.075, kSlips = 0.035;
+    constexpr float kGain = 0.5f;
+    const OutlineShape &there = drawing->outline(), &here = cur.outline();
+    const LatticeField chain = compose(ref_from_cur, inverse(ref_from_drawing));
+    if (outline_slip(there.curve(), here.curve(), chain) > kLost) return;
+    const LatticeField found = register_outline(there, here, options.spacing_px);
+    if (outline_slip(there.curve(), here.curve(), found) > kSlips) return;
+    ref_from_cur = compose(mix(chain, found, kGain), ref_from_drawing);
+    anchor_from_cur = predicted(anchors.present());
+}
+
 SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
                              const LatticeField* ref_from_start, ViewU8x1 extent)
     : state_(std::make_unique<State>()) {
@@ -257,6 +280,7 @@ SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalke
     state_->prev_from_cur = still;
     state_->last = std::make_shared<StepFrame>(luma, visible, extent.empty() ? visible : extent);
     state_->become_anchor(state_->last->picture());
+    state_->become_drawing();
 }
 
 SurfaceWalker::~SurfaceWalker() = default;
@@ -302,13 +326,12 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     MotionChoice unchanged = s.choice;
     StepMotion step = choose_motion(to.evidence, was_hidden ? unchanged : s.choice);
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
-    // Without structure inside there is nothing to register: the chain continues alone.
-    if (!step.by_outline) {
-        if (s.lost) {
-            s.search(cur.picture(), visible, visible_px);
-        } else {
-            s.register_frame(cur.picture(), visible);
-        }
+    if (step.by_outline) {
+        s.register_drawing(cur);
+    } else if (s.lost) {
+        s.search(cur.picture(), visible, visible_px);
+    } else {
+        s.register_frame(cur.picture(), visible);
     }
     return noted();
 }
@@ -347,6 +370,7 @@ void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
         state_->anchors.clear();
     }
     state_->become_anchor(registration_picture(luma, visible));
+    state_->become_drawing();
 }
 
 const LatticeField& SurfaceWalker::ref_from_cur() const {
