@@ -1,0 +1,57 @@
+#include "engine/motion/outline_owner.h"
+
+#include <cmath>
+
+namespace weft {
+namespace {
+
+// The outward direction of the edge at (x, y), from the matte around it.
+Vec2 outwards(ViewU8x1 extent, int x, int y) {
+    constexpr int kReach = 4;
+    Vec2 sum(0);
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+        for (int dx = -kReach; dx <= kReach; ++dx) {
+            if (extent.at(x + dx, y + dy) < 128)
+                sum += Vec2(static_cast<float>(dx), static_cast<float>(dy));
+        }
+    }
+    const float length = glm::length(sum);
+    return length > 0 ? sum / length : Vec2(0);
+}
+
+}  // namespace
+
+double occluded_share(ViewU8x1 extent, const LatticeField& outline, const LatticeField& inside,
+                      const FlowField& raw) {
+    // Raw motion is a mixture so near to an edge.
+    constexpr float kAway_px = 7;
+    constexpr int kMargin_px = 8;  // from the frame's border
+    // Slower than that the two sides cannot be told apart.
+    constexpr float kApart_px = 0.5f, kWith = 0.3f;
+    int told = 0, with_outside = 0;
+    for (int y = kMargin_px; y < extent.height() - kMargin_px; ++y) {
+        for (int x = kMargin_px; x < extent.width() - kMargin_px; ++x) {
+            if ((x + y) % 3 != 0 || extent.at(x, y) < 128) continue;
+            if (extent.at(x - 1, y) >= 128 && extent.at(x + 1, y) >= 128 &&
+                extent.at(x, y - 1) >= 128 && extent.at(x, y + 1) >= 128)
+                continue;
+            const Vec2 n = outwards(extent, x, y);
+            const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+            const Vec2 out = p + kAway_px * n;
+            const int ox = static_cast<int>(out.x), oy = static_cast<int>(out.y);
+            if (extent.at(ox, oy) >= 128 || raw.valid.at(ox, oy) == 0) continue;
+            const float* d = raw.d.pixel(ox, oy);
+            // Of an edge's motion only what goes across it can be seen.
+            const float edge = glm::dot(n, outline.at(p)), within = glm::dot(n, inside.at(p));
+            const float without = glm::dot(n, Vec2(d[0], d[1]));
+            const float apart = std::abs(within - without);
+            if (apart < kApart_px) continue;
+            ++told;
+            with_outside += std::abs(edge - without) < kWith * apart;
+        }
+    }
+    constexpr int kEnough = 20;
+    return told < kEnough ? 0 : static_cast<double>(with_outside) / told;
+}
+
+}  // namespace weft
