@@ -11,9 +11,19 @@
 namespace weft {
 namespace {
 
-cv::Mat as_mat(ViewU8x1 v) {
-    return {v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
+template <int C>
+cv::Mat as_mat(ImageView<const std::uint8_t, C> v) {
+    return {v.height(), v.width(), CV_8UC(C), const_cast<std::uint8_t*>(v.data()),
             static_cast<std::size_t>(v.stride())};
+}
+
+template <int C>
+Image<std::uint8_t, C> reduced_picture(ImageView<const std::uint8_t, C> picture, Size to) {
+    assert(to.width <= picture.width() && to.height <= picture.height());
+    Image<std::uint8_t, C> out(to);
+    cv::Mat small(to.height, to.width, CV_8UC(C), out.data());
+    cv::resize(as_mat(picture), small, small.size(), 0, 0, cv::INTER_AREA);
+    return out;
 }
 
 // Where the centre of pixel `at` lies among `count` pixel centres.
@@ -36,11 +46,11 @@ Size follow_size(Size plate) {
 }
 
 Matte reduced(ViewU8x1 picture, Size to) {
-    assert(to.width <= picture.width() && to.height <= picture.height());
-    Matte out(to);
-    cv::Mat small(to.height, to.width, CV_8UC1, out.data());
-    cv::resize(as_mat(picture), small, small.size(), 0, 0, cv::INTER_AREA);
-    return out;
+    return reduced_picture<1>(picture, to);
+}
+
+ImageU8x3 reduced(ViewU8x3 picture, Size to) {
+    return reduced_picture<3>(picture, to);
 }
 
 FlowField resized(const FlowField& motion, Size to) {

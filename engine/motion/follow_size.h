@@ -14,6 +14,7 @@ namespace weft {
 
 /// A smaller picture of 8 bit: means over the area of each pixel. `to`: at most the picture's size.
 [[nodiscard]] Matte reduced(ViewU8x1 picture, Size to);
+[[nodiscard]] ImageU8x3 reduced(ViewU8x3 picture, Size to);
 
 /// Motion in pixels of another size, bilinear between pixel centres; a pixel is valid where the
 /// nearest one is.

@@ -25,7 +25,8 @@ std::uint8_t code(float v) {
 }  // namespace
 
 PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate) {
-    PlateViews views{ImageU8x3(plate.size()), Matte(plate.size()), Matte(plate.size(), 255), {}};
+    PlateViews views{
+        ImageU8x3(plate.size()), Matte(plate.size()), Matte(plate.size(), 255), {}, {}};
     std::atomic<bool> all_finite{true};
     const bool convert = !display_from_plate.identity();
     parallel_rows(plate.height(), kBand, [&](int y0, int y1) {
@@ -55,7 +56,10 @@ PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_p
     });
     if (all_finite) views.finite = {};
     const Size followed = follow_size(plate.size());
-    if (followed != plate.size()) views.small_luma = reduced(views.luma, followed);
+    if (followed != plate.size()) {
+        views.small_luma = reduced(views.luma, followed);
+        views.small_display = reduced(views.display, followed);
+    }
     return views;
 }
 

@@ -10,10 +10,16 @@ struct PlateViews {
     ImageU8x3 display;  ///< sRGB codes; NaN as 0, values outside [0, 1] clipped.
     Matte luma;         ///< Rec. 709 luma of it.
     Matte finite;       ///< 255 where all components are finite, else 0; empty: everywhere.
-    Matte small_luma;   ///< At follow_size(); empty if that is the plate's.
+    // At follow_size(); empty if that is the plate's.
+    Matte small_luma;
+    ImageU8x3 small_display;
 
     /// The luma that surfaces are followed by, of follow_size().
     [[nodiscard]] const Matte& followed() const { return small_luma.empty() ? luma : small_luma; }
+    /// The colours of the same size.
+    [[nodiscard]] const ImageU8x3& followed_display() const {
+        return small_display.empty() ? display : small_display;
+    }
 };
 
 [[nodiscard]] PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_plate);

@@ -136,8 +136,8 @@ class Follower {
             placed = corrected(LatticeField(size, SurfaceTrack::spacing_for(size, motion)), *pins);
             base = &*placed;
         }
-        job.track.emplace(*at.views, stop.visible, stop.extent, motion, context_.plan.quality,
-                          base);
+        job.track.emplace(*at.views, stop.visible, stop.extent, motion, context_.plan.quality, base,
+                          stop.step ? stop.step->frame : nullptr);
         job.walked_to = job.anchored_at = at.frame;
         job.last_visible = stop.visible;
         if (job.paper && at.frame == job.primary) {
@@ -183,10 +183,10 @@ class Follower {
         WEFT_CHECK_OK(keep_found_late(job, at.frame));
         if (const auto* pins = pins_at(job, at.frame)) {
             const LatticeField placed = corrected(job.track->ref_from_cur(), *pins);
-            job.track->anchor_here(*at.views, visible, &placed);
+            job.track->anchor_here(&placed);
             job.anchored_at = at.frame;
         } else if (job.is_reference(at.frame)) {
-            job.track->anchor_here(*at.views, visible);
+            job.track->anchor_here();
             job.anchored_at = at.frame;
         }
         job.walked_to = at.frame;

@@ -38,9 +38,10 @@ Size followed_size(Size plate, SurfaceTrack::Motion motion) {
 
 SurfaceWalker walker_at(const PlateViews& views, const Matte& visible, const Matte& extent,
                         const SurfaceWalkerOptions& options, Size followed,
-                        const LatticeField* base) {
+                        const LatticeField* base, std::shared_ptr<const StepFrame> start) {
     LatticeField small;
     if (base) small = resized(*base, followed, options.spacing_px);
+    if (start) return {std::move(start), options, base ? &small : nullptr};
     const Matte& luma = views.luma.size() == followed ? views.luma : views.followed();
     return {luma, Followed(visible, followed), options, base ? &small : nullptr,
             Followed(extent, followed)};
@@ -54,7 +55,8 @@ WalkStep prepare_step(const PlateViews& views, const Matte& visible, const Matte
     const SurfaceWalkerOptions options =
         walker_options(followed, SurfaceTrack::Motion::kEstimated, quality);
     WalkStep out{std::make_shared<const StepFrame>(views.followed(), Followed(visible, followed),
-                                                   Followed(extent, followed)),
+                                                   Followed(extent, followed),
+                                                   views.followed_display(), prev),
                  {}};
     static_cast<void>(out.frame->picture());  // the walk registers it
     if (prev && prev_from_cur)
@@ -70,12 +72,13 @@ int SurfaceTrack::spacing_for(Size plate, Motion motion) {
 }
 
 SurfaceTrack::SurfaceTrack(const PlateViews& views, const Matte& visible, const Matte& extent,
-                           Motion motion, FlowQuality quality, const LatticeField* base)
+                           Motion motion, FlowQuality quality, const LatticeField* base,
+                           std::shared_ptr<const StepFrame> start)
     : plate_(visible.size()),
       followed_(followed_size(plate_, motion)),
       spacing_px_(spacing_for(plate_, motion)),
       walker_(walker_at(views, visible, extent, walker_options(followed_, motion, quality),
-                        followed_, base)) {
+                        followed_, base, std::move(start))) {
     take_over();
 }
 
@@ -118,14 +121,13 @@ void SurfaceTrack::hold() {
     take_over();
 }
 
-void SurfaceTrack::anchor_here(const PlateViews& views, const Matte& visible,
-                               const LatticeField* ref_from_here) {
+void SurfaceTrack::anchor_here(const LatticeField* ref_from_here) {
     LatticeField small;
     if (ref_from_here) {
         small = resized(*ref_from_here, followed_, walker_.ref_from_cur().spacing());
         ref_from_here = &small;
     }
-    walker_.anchor_here(luma_of(views), Followed(visible, followed_), ref_from_here);
+    walker_.anchor_here(ref_from_here);
     take_over();
 }
 

@@ -2,6 +2,7 @@
 // Internal to follow_surfaces(): a surface's walk at the size at which it is followed, seen from
 // the plate's.
 
+#include <memory>
 #include <vector>
 
 #include "engine/pipeline/plate_views.h"
@@ -29,9 +30,11 @@ class SurfaceTrack {
     /// The spacing of the lattices of a walk, px of the plate.
     [[nodiscard]] static int spacing_for(Size plate, Motion motion);
 
-    /// As SurfaceWalker's; `base` has the spacing that spacing_for() gives.
+    /// As SurfaceWalker's; `base` has the spacing that spacing_for() gives. `start`: the first
+    /// frame as prepare_step() made it, for estimated motion; else null.
     SurfaceTrack(const PlateViews& views, const Matte& visible, const Matte& extent, Motion motion,
-                 FlowQuality quality, const LatticeField* base);
+                 FlowQuality quality, const LatticeField* base,
+                 std::shared_ptr<const StepFrame> start);
 
     void advance(const PlateViews& views, const Matte& visible, const FlowField& prev_from_cur,
                  const Matte& extent);
@@ -39,8 +42,7 @@ class SurfaceTrack {
     void advance_known(const PlateViews& views, const Matte& visible, LatticeField prev_from_cur,
                        LatticeField anchor_from_cur);
     void hold();
-    void anchor_here(const PlateViews& views, const Matte& visible,
-                     const LatticeField* ref_from_here = nullptr);
+    void anchor_here(const LatticeField* ref_from_here = nullptr);
     void hide_reanchoring(bool hide) { walker_.hide_reanchoring(hide); }
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;

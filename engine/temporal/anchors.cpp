@@ -2,17 +2,21 @@
 
 namespace weft {
 
-Registered register_against(const Anchor& anchor, const RegistrationPicture& cur,
+Registered register_against(const Anchor& anchor, const StepFrame& cur_frame, bool by_color,
                             const LatticeField& initial, FlowQuality quality) {
+    const bool colors = by_color && anchor.frame->has_color() && cur_frame.has_color();
+    const RegistrationPicture& there =
+        colors ? anchor.frame->color_picture() : anchor.frame->picture();
+    const RegistrationPicture& cur = colors ? cur_frame.color_picture() : cur_frame.picture();
     RegistrationOptions options;
     options.samples = quality == FlowQuality::kDraft ? 20000 : 60000;
     options.lattice_px = 3 * initial.spacing() / 2;
     options.iterations = 3;
     Registered out;
-    out.anchor_from_cur = register_lattice(anchor.picture, cur, initial, options);
-    out.fit = registration_fit(anchor.picture, cur, out.anchor_from_cur, options);
+    out.anchor_from_cur = register_lattice(there, cur, initial, options);
+    out.fit = registration_fit(there, cur, out.anchor_from_cur, options);
     options.iterations = 10;
-    PlanarRegistration plane = register_planar(anchor.picture, cur, out.anchor_from_cur, options);
+    PlanarRegistration plane = register_planar(there, cur, out.anchor_from_cur, options);
     // A homography has few parameters and the least jitter. It is used where it explains the frame
     // as well as the smooth field, which has enough parameters to follow some of the noise.
     constexpr double kAsWell = 1.03;

@@ -1,17 +1,19 @@
 #pragma once
 // The frames against which a walk is registered.
 
+#include <memory>
 #include <vector>
 
 #include "engine/motion/lattice_field.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/motion/photometric_register.h"
+#include "engine/temporal/step_motion.h"
 
 namespace weft {
 
 /// A frame of the walk whose position on the reference frame is known.
 struct Anchor {
-    RegistrationPicture picture;
+    std::shared_ptr<const StepFrame> frame;
     LatticeField ref_from_anchor;
     int generation = 0;  ///< Number of anchors between it and the reference frame.
 };
@@ -27,8 +29,9 @@ struct Registered {
 };
 
 /// Registers a frame against an anchor from an initial field: by a smooth correction, or by a
-/// homography where that explains the frame as well. Pure; deterministic.
-[[nodiscard]] Registered register_against(const Anchor& anchor, const RegistrationPicture& cur,
+/// homography where that explains the frame as well. `by_color`: the colours, if both have any,
+/// else the lumas. Pure; deterministic.
+[[nodiscard]] Registered register_against(const Anchor& anchor, const StepFrame& cur, bool by_color,
                                           const LatticeField& initial, FlowQuality quality);
 
 /// The anchors of one walk: the first, which is the reference frame or replaces it, and the latest

@@ -14,13 +14,13 @@
 namespace weft {
 namespace {
 
-LatticeField by_picture(const OutlineView& cur, const FlowField& prev_from_cur, int spacing_px) {
+LatticeField by_picture(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
+                        int spacing_px) {
     constexpr int kBorder_px = 6;
     SurfaceFitOptions fit;
     fit.spacing_px = spacing_px;
-    return fit_surface_motion(
-        prev_from_cur.d, motion_weights(cur.luma, cur.visible, prev_from_cur.valid, kBorder_px),
-        fit);
+    return fit_surface_motion(prev_from_cur.d,
+                              motion_weights(luma, visible, prev_from_cur.valid, kBorder_px), fit);
 }
 
 LatticeField by_outline(const StepFrame& prev, const StepFrame& cur, int spacing_px) {
@@ -58,11 +58,31 @@ double known_share(const FlowField& flow, ViewU8x1 visible) {
     return inside == 0 ? 0 : static_cast<double>(known) / static_cast<double>(inside);
 }
 
+// Motion that was fitted to the pictures that judge it leads before any other one by chance, too.
+// By the median over a shot of the lead less the bias: walls, coats and a torso have 3.5 to 16,
+// cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox, whose speckle is new in each
+// frame, leads by -2.9 to 0.6, flat drawn fills by -5 to 0.4.)
+constexpr double kOfTheFit = 2.6;
+
+// Adds the motion of the colours. Shades move over luma, and not over these.
+void add_color(const StepFrame& prev, const StepFrame& cur, FlowQuality quality, int spacing_px,
+               StepEvidence& out) {
+    if (!prev.has_color() || !cur.has_color()) return;
+    const OutlineView before = prev.view(), now = cur.view();
+    const RegistrationPicture &there = prev.color_picture(), &here = cur.color_picture();
+    const FlowField flow =
+        estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
+    out.by_color = by_picture(cur.color(), now.visible, flow, spacing_px);
+    const bool freed = out.by_freed && *out.freed_lead > 0;
+    out.color_lead =
+        registration_lead(there, here, *out.by_color, freed ? *out.by_freed : out.by_picture)
+            .errors -
+        kOfTheFit;
+}
+
 // Adds the motion of the pictures freed of light to `out`.
 void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
                FlowQuality quality, int spacing_px, StepEvidence& out) {
-    // Where the surface is found again almost everywhere, nothing is left to be explained.
-    constexpr double kAlmostEverywhere = 0.95;
     // A fiftieth of the surface weighs as much as a standard error, of which more than two say no
     // more: over a wide surface they come from the least difference.
     constexpr double kShareWeight = 50, kMostErrors = 2;
@@ -70,14 +90,13 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
     constexpr double kHopeless = -4;
     const OutlineView before = prev.view(), now = cur.view();
     const RegistrationPicture &there = prev.picture(), &here = cur.picture();
-    if (registration_agreement(there, here, out.by_picture) >= kAlmostEverywhere) return;
     const FlowField flow =
         estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
     const double steadier =
         kShareWeight * (known_share(flow, now.visible) - known_share(prev_from_cur, now.visible));
     out.freed_lead = steadier;
     if (steadier < kHopeless) return;
-    out.by_freed = by_picture(now, flow, spacing_px);
+    out.by_freed = by_picture(now.luma, now.visible, flow, spacing_px);
     out.freed_lead =
         steadier + std::clamp(registration_lead(there, here, *out.by_freed, out.by_picture).errors,
                               -kMostErrors, kMostErrors);
@@ -95,10 +114,6 @@ double picture_lead(const RegistrationPicture& before, const RegistrationPicture
     // In correlation, in the mean over a shot: cars of plain paint gain 0.03 at most, walls, coats
     // and a torso 0.05 to 0.4.
     constexpr float kLittle = 0.04f, kMuch = 0.1f;
-    // By the median over a shot of the lead less the bias: walls, coats and a torso have 3.5 to 16,
-    // cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox, whose speckle is new in each
-    // frame, leads by -2.9 to 0.6, flat drawn fills by -5 to 0.4.)
-    constexpr double kOfTheFit = 2.6;
     const RegistrationLead lead = registration_lead(before, now, picture, outline);
     if (lead.errors == 0) return 0;  // too little can be compared
     const float doubtful = 1.0f - smooth_step(static_cast<float>(lead.gain), kLittle, kMuch);
@@ -143,6 +158,12 @@ void MotionChoice::note_freed(double lead) {
     freed_.note(lead, kFrames, kFreed, kPlate);
 }
 
+void MotionChoice::note_color(double lead) {
+    constexpr int kFrames = 5;
+    constexpr double kColor = 1.25, kLuma = 0.75;
+    color_.note(lead, kFrames, kColor, kLuma);
+}
+
 void MotionChoice::note_lines(double lead) {
     constexpr int kFrames = 8;
     constexpr double kLines = 0.6, kPicture = -0.5;
@@ -153,9 +174,22 @@ void MotionChoice::note_lines(double lead) {
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
     : luma_(copy_of(luma)), extent_(copy_of(extent)), visible_(copy_of(visible)) {}
 
+StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent, ViewU8x3 display,
+                     const StepFrame* before)
+    : StepFrame(luma, visible, extent) {
+    axis_ = before ? before->axis_ : color_axis(display, visible);
+    if (axis_) color_ = weft::color_picture(display, *axis_);
+}
+
 const RegistrationPicture& StepFrame::picture() const {
     std::call_once(picture_made_, [&] { picture_ = registration_picture(luma_, visible_); });
     return *picture_;
+}
+
+const RegistrationPicture& StepFrame::color_picture() const {
+    std::call_once(color_picture_made_,
+                   [&] { color_picture_ = registration_picture(color_, visible_); });
+    return *color_picture_;
 }
 
 const OutlineShape& StepFrame::outline() const {
@@ -168,8 +202,13 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
     StepEvidence out;
-    out.by_picture = by_picture(now, prev_from_cur, spacing_px);
-    add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
+    out.by_picture = by_picture(now.luma, now.visible, prev_from_cur, spacing_px);
+    // Where the surface is found again almost everywhere, nothing is left to be explained.
+    constexpr double kAlmostEverywhere = 0.95;
+    if (registration_agreement(prev.picture(), cur.picture(), out.by_picture) < kAlmostEverywhere) {
+        add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
+        add_color(prev, cur, quality, spacing_px, out);
+    }
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         add_lines(prev, cur, spacing_px, out);
@@ -186,7 +225,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     out.lead = picture_lead(prev.picture(), cur.picture(), picture, *out.by_outline);
     // Where arms end what is seen of a torso, its outline moves with them. Torsos have 0.2 to 0.6
     // and a wall behind a walker 0.6 to 0.95, a car that turns up to 0.25.
-    constexpr double kOwn = 0.2, kForEachShare = 10;
+    constexpr double kOwn = 0.2, kForEachShare = 20;
     const double occluded = occluded_share(now.extent, *out.by_outline, picture, prev_from_cur);
     if (out.lead != 0) out.lead += kForEachShare * std::max(0.0, occluded - kOwn);
     return out;
@@ -196,12 +235,14 @@ StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
     // Structure that stands out speaks for the picture where it does not for a moment, too.
     choice.note(evidence.by_outline ? evidence.lead : kMostLead);
     if (evidence.freed_lead) choice.note_freed(*evidence.freed_lead);
+    if (evidence.by_color) choice.note_color(evidence.color_lead);
     if (evidence.by_outline && choice.by_outline()) return {*evidence.by_outline, true};
     if (evidence.by_lines) {
         choice.note_lines(evidence.lines_lead);
         if (choice.by_lines()) return {*evidence.by_lines, false};
     }
-    return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture, false};
+    if (evidence.by_color && choice.by_color()) return {*evidence.by_color, false, true};
+    return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture};
 }
 
 LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "engine/motion/color_picture.h"
 #include "engine/motion/lattice_field.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/motion/outline_register.h"
@@ -17,16 +18,27 @@ class StepFrame {
   public:
     /// `luma`, `visible` (the matte without holdouts), `extent` (the full matte): H×W.
     StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent);
+    /// With `display`, sRGB codes, H×W: its colours too, if the surface has any. `before`: the
+    /// frame that the walk comes from, whose axis is kept; null: this one begins the walk.
+    StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent, ViewU8x3 display,
+              const StepFrame* before);
 
     [[nodiscard]] Size size() const { return luma_.size(); }
     [[nodiscard]] OutlineView view() const { return {luma_, extent_, visible_}; }
     [[nodiscard]] const RegistrationPicture& picture() const;
+    /// Whether color() shows anything.
+    [[nodiscard]] bool has_color() const { return !color_.empty(); }
+    /// The colours (color_picture()) as 8-bit luma; empty if there are none.
+    [[nodiscard]] ViewU8x1 color() const { return color_; }
+    /// As picture(), of the colours. Call it only if there are any.
+    [[nodiscard]] const RegistrationPicture& color_picture() const;
     [[nodiscard]] const OutlineShape& outline() const;
 
   private:
-    Matte luma_, extent_, visible_;
-    mutable std::once_flag picture_made_;
-    mutable std::optional<RegistrationPicture> picture_;
+    Matte luma_, extent_, visible_, color_;
+    std::optional<ColorAxis> axis_;
+    mutable std::once_flag picture_made_, color_picture_made_;
+    mutable std::optional<RegistrationPicture> picture_, color_picture_;
     mutable std::optional<OutlineShape> outline_;
 };
 
@@ -37,6 +49,9 @@ struct StepEvidence {
     /// The same from pictures that are freed of light, where that may explain more.
     std::optional<LatticeField> by_freed;
     std::optional<double> freed_lead;  ///< Before by_picture, standard errors; where searched.
+    /// The same from colours, which light does not change, where lumas do not agree everywhere.
+    std::optional<LatticeField> by_color = {};
+    double color_lead = 0;  ///< Before what luma finds, as colours judge it, standard errors.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
     double lead = 0;                         ///< then picture_lead().
     /// Where the picture shows lines of one direction (stripes_of()): the picture's motion across
@@ -70,11 +85,14 @@ class MotionChoice {
     void note(double lead);
     /// How far that of pictures freed of light leads before the plate's (StepEvidence::freed_lead).
     void note_freed(double lead);
+    /// How far the motion of colours leads before that of lumas (StepEvidence::color_lead).
+    void note_color(double lead);
     /// How far the picture's motion along its lines leads before the outline's.
     void note_lines(double lead);
     [[nodiscard]] bool by_lines() const { return lines_.leads; }
     [[nodiscard]] bool by_outline() const { return !picture_.leads; }
     [[nodiscard]] bool freed() const { return freed_.leads; }
+    [[nodiscard]] bool by_color() const { return color_.leads; }
 
   private:
     struct Lead {
@@ -86,12 +104,13 @@ class MotionChoice {
     };
     // As after three frames of indifference: a walk begins by the outline unless the picture leads
     // clearly.
-    Lead picture_{0, 3, false}, freed_, lines_{0, 3, false};
+    Lead picture_{0, 3, false}, freed_, color_, lines_{0, 3, false};
 };
 
 struct StepMotion {
     LatticeField prev_from_cur;
     bool by_outline = false;  ///< There is nothing inside to register either.
+    bool by_color = false;    ///< Colours are what is registered, too.
 };
 
 /// The surface's motion: of those that were measured the one that `choice` takes after what the

@@ -53,16 +53,16 @@ struct SurfaceWalker::State {
     // Frames on which it was visible while it was searched, each with the step from the frame
     // before.
     struct Searched {
-        RegistrationPicture picture;
+        std::shared_ptr<const StepFrame> frame;
         LatticeField prev_from_cur;
         bool a_sliver = false;
     };
     std::vector<Searched> searched;
     std::vector<LatticeField> found_late;
 
-    void become_anchor(RegistrationPicture picture) {
+    void become_anchor(std::shared_ptr<const StepFrame> frame) {
         const int generation = anchors.empty() ? 0 : anchors.present().generation + 1;
-        anchors.add({std::move(picture), ref_from_cur, generation});
+        anchors.add({std::move(frame), ref_from_cur, generation});
         anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
     }
     void become_drawing() {
@@ -94,12 +94,17 @@ struct SurfaceWalker::State {
     bool reanchor(ViewU8x1 visible);
     void advance_stretched();
     void note_steady(ViewU8x1 visible, std::int64_t visible_px);
-    void find_late(const RegistrationPicture& cur, ViewU8x1 visible);
+    // A frame against an anchor, by what the walk goes by.
+    [[nodiscard]] Registered against(const Anchor& anchor, const StepFrame& cur,
+                                     const LatticeField& initial) const {
+        return register_against(anchor, cur, choice.by_color(), initial, options.quality);
+    }
+    void find_late(const std::shared_ptr<const StepFrame>& cur);
     void wait_out_of_view();
-    void search(const RegistrationPicture& cur, ViewU8x1 visible, std::int64_t visible_px);
-    void register_frame(const RegistrationPicture& cur, ViewU8x1 visible);
+    void search(const std::shared_ptr<const StepFrame>& cur, std::int64_t visible_px);
+    void register_frame(const std::shared_ptr<const StepFrame>& cur);
     void register_drawing(const StepFrame& cur);
-    bool try_others(const RegistrationPicture& cur, int generation_below, double share_above);
+    bool try_others(const StepFrame& cur, int generation_below, double share_above);
 };
 
 bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
@@ -141,7 +146,8 @@ void SurfaceWalker::State::wait_out_of_view() {
 
 // The frames between the surface's return and its detection: backwards from here along the measured
 // steps, each registered against this frame. A sliver is assumed to move as the whole does.
-void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 visible) {
+void SurfaceWalker::State::find_late(const std::shared_ptr<const StepFrame>& cur) {
+    const ViewU8x1 visible = cur->view().visible;
     const Anchor here{cur, ref_from_cur, 0};
     const bool here_too = is_sliver(count_of(visible)) && !steady_step.nodes().empty();
     const LatticeField usual =
@@ -150,8 +156,7 @@ void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 vi
     LatticeField step = prev_from_cur;
     for (std::size_t k = searched.size(); k-- > 0;) {
         here_from_frame = compose(searched[k].a_sliver ? usual : inverse(step), here_from_frame);
-        Registered found =
-            register_against(here, searched[k].picture, here_from_frame, options.quality);
+        Registered found = against(here, *searched[k].frame, here_from_frame);
         if (found.holds()) here_from_frame = std::move(found.anchor_from_cur);
         found_late.push_back(compose(here_from_frame, ref_from_cur));
         step = std::move(searched[k].prev_from_cur);
@@ -160,23 +165,24 @@ void SurfaceWalker::State::find_late(const RegistrationPicture& cur, ViewU8x1 vi
 }
 
 // The surface is in view again, near its predicted position or anywhere else.
-void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visible,
+void SurfaceWalker::State::search(const std::shared_ptr<const StepFrame>& cur,
                                   std::int64_t visible_px) {
     const auto accept = [&](std::size_t k, const Registered& found) {
         if (!found.holds()) return false;
         correct(k, found.anchor_from_cur);
         lost = false;
         hidden_for = 0;
-        find_late(cur, visible);
+        find_late(cur);
         return true;
     };
     const auto& all = anchors.all();
     for (std::size_t k = all.size(); k-- > 0;) {
-        if (accept(k, register_against(all[k], cur, predicted(all[k]), options.quality))) return;
+        if (accept(k, against(all[k], *cur, predicted(all[k])))) return;
     }
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto start = find_again(all[k].picture, cur, frame_size(), options.spacing_px);
-        if (start && accept(k, register_against(all[k], cur, *start, options.quality))) return;
+        const auto start =
+            find_again(all[k].frame->picture(), cur->picture(), frame_size(), options.spacing_px);
+        if (start && accept(k, against(all[k], *cur, *start))) return;
     }
     // Enough of it has been visible for long enough: its appearance has changed.
     constexpr int kLongest = 10;
@@ -194,12 +200,12 @@ void SurfaceWalker::State::search(const RegistrationPicture& cur, ViewU8x1 visib
 
 // Switches to another anchor of an earlier generation if one explains the frame. Only generations
 // below `generation_below`; the share must exceed `share_above`.
-bool SurfaceWalker::State::try_others(const RegistrationPicture& cur, int generation_below,
+bool SurfaceWalker::State::try_others(const StepFrame& cur, int generation_below,
                                       double share_above) {
     const auto& all = anchors.all();
     for (std::size_t k = 0; k < all.size(); ++k) {
         if (k == anchors.present_index() || all[k].generation >= generation_below) continue;
-        const Registered found = register_against(all[k], cur, predicted(all[k]), options.quality);
+        const Registered found = against(all[k], cur, predicted(all[k]));
         if (!found.holds() || found.fit.share < share_above) continue;
         correct(k, found.anchor_from_cur);
         return true;
@@ -229,9 +235,9 @@ void SurfaceWalker::State::advance_stretched() {
     stretched = compose(compose(ref_from_cur, inverse(relaxed_at_event)), stretched_at_event);
 }
 
-void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8x1 visible) {
-    const Registered found =
-        register_against(anchors.present(), cur, anchor_from_cur, options.quality);
+void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>& cur) {
+    const ViewU8x1 visible = cur->view().visible;
+    const Registered found = against(anchors.present(), *cur, anchor_from_cur);
     // The chain is steady but drifts; the registration does not drift but jitters. The gains are
     // those of stationary Kalman filters that combine them.
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
@@ -245,14 +251,14 @@ void SurfaceWalker::State::register_frame(const RegistrationPicture& cur, ViewU8
     }
     constexpr double kEnough = 0.6;
     if (found.fit.share < kEnough) {
-        if (!try_others(cur, anchors.present().generation + 1, kEnough)) become_anchor(cur);
+        if (!try_others(*cur, anchors.present().generation + 1, kEnough)) become_anchor(cur);
         return;
     }
     // An older anchor has less drift, so it is used again when the view returns to it.
     constexpr int kEvery = 6;
     if (anchors.present().generation > 0 && ++since_older_tried >= kEvery) {
         since_older_tried = 0;
-        try_others(cur, anchors.present().generation, kEnough);
+        try_others(*cur, anchors.present().generation, kEnough);
     }
 }
 
@@ -271,17 +277,24 @@ void SurfaceWalker::State::register_drawing(const StepFrame& cur) {
     anchor_from_cur = predicted(anchors.present());
 }
 
-SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
-                             const LatticeField* ref_from_start, ViewU8x1 extent)
+SurfaceWalker::SurfaceWalker(std::shared_ptr<const StepFrame> start,
+                             const SurfaceWalkerOptions& options,
+                             const LatticeField* ref_from_start)
     : state_(std::make_unique<State>()) {
-    const LatticeField still(luma.size(), options.spacing_px);
+    const LatticeField still(start->size(), options.spacing_px);
     state_->options = options;
     state_->ref_from_cur = ref_from_start ? *ref_from_start : still;
     state_->prev_from_cur = still;
-    state_->last = std::make_shared<StepFrame>(luma, visible, extent.empty() ? visible : extent);
-    state_->become_anchor(state_->last->picture());
+    state_->last = std::move(start);
+    state_->become_anchor(state_->last);
     state_->become_drawing();
 }
+
+SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
+                             const LatticeField* ref_from_start, ViewU8x1 extent)
+    : SurfaceWalker(
+          std::make_shared<const StepFrame>(luma, visible, extent.empty() ? visible : extent),
+          options, ref_from_start) {}
 
 SurfaceWalker::~SurfaceWalker() = default;
 SurfaceWalker::SurfaceWalker(SurfaceWalker&&) noexcept = default;
@@ -329,9 +342,9 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     if (step.by_outline) {
         s.register_drawing(cur);
     } else if (s.lost) {
-        s.search(cur.picture(), visible, visible_px);
+        s.search(to.frame, visible_px);
     } else {
-        s.register_frame(cur.picture(), visible);
+        s.register_frame(to.frame);
     }
     return noted();
 }
@@ -359,8 +372,7 @@ void SurfaceWalker::hold() {
     state_->prev_from_cur = LatticeField(state_->frame_size(), state_->options.spacing_px);
 }
 
-void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
-                                const LatticeField* ref_from_here) {
+void SurfaceWalker::anchor_here(const LatticeField* ref_from_here) {
     state_->lost = false;
     state_->hidden_for = 0;
     state_->searched.clear();
@@ -369,7 +381,7 @@ void SurfaceWalker::anchor_here(ViewU8x1 luma, ViewU8x1 visible,
         // Older anchors would pull it back.
         state_->anchors.clear();
     }
-    state_->become_anchor(registration_picture(luma, visible));
+    state_->become_anchor(state_->last);
     state_->become_drawing();
 }
 

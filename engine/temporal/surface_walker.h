@@ -41,6 +41,9 @@ class SurfaceWalker {
     /// on the reference frame; null: the start is the reference frame.
     SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
                   const LatticeField* ref_from_start = nullptr, ViewU8x1 extent = {});
+    /// The same, prepared.
+    SurfaceWalker(std::shared_ptr<const StepFrame> start, const SurfaceWalkerOptions& options,
+                  const LatticeField* ref_from_start = nullptr);
     ~SurfaceWalker();
     SurfaceWalker(SurfaceWalker&&) noexcept;
     SurfaceWalker& operator=(SurfaceWalker&&) noexcept;
@@ -70,9 +73,9 @@ class SurfaceWalker {
                        LatticeField anchor_from_cur);
     /// Goes on to a frame that shows the same drawing as the frame before: nothing moves.
     void hold();
-    /// Makes the current frame, whose pictures these are, the anchor; for further reference frames.
-    /// With `ref_from_here` the surface has that position from now on, whatever the walk has found.
-    void anchor_here(ViewU8x1 luma, ViewU8x1 visible, const LatticeField* ref_from_here = nullptr);
+    /// Makes the current frame the anchor; for further reference frames. With `ref_from_here` the
+    /// surface has that position from now on, whatever the walk has found.
+    void anchor_here(const LatticeField* ref_from_here = nullptr);
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;
     /// The surface's motion of the last step, defined everywhere.
