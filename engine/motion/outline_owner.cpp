@@ -19,13 +19,27 @@ Vec2 outwards(ViewU8x1 extent, int x, int y) {
     return length > 0 ? sum / length : Vec2(0);
 }
 
+// Whether motion can be seen around (x, y): flat fills move with the nearest line.
+bool has_structure(ViewU8x1 luma, int x, int y) {
+    constexpr int kReach = 3, kCount = (2 * kReach + 1) * (2 * kReach + 1);
+    constexpr int kLeast = 2;  // levels of deviation; flat fills have none
+    int sum = 0, squares = 0;
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+        for (int dx = -kReach; dx <= kReach; ++dx) {
+            const int v = luma.at(x + dx, y + dy);
+            sum += v, squares += v * v;
+        }
+    }
+    return kCount * squares - sum * sum > kLeast * kLeast * kCount * kCount;
+}
+
 }  // namespace
 
-double occluded_share(ViewU8x1 extent, const LatticeField& outline, const LatticeField& inside,
-                      const FlowField& raw) {
+double occluded_share(ViewU8x1 luma, ViewU8x1 extent, const LatticeField& outline,
+                      const LatticeField& inside, const FlowField& raw) {
     // Raw motion is a mixture so near to an edge.
     constexpr float kAway_px = 7;
-    constexpr int kMargin_px = 8;  // from the frame's border
+    constexpr int kMargin_px = 12;  // from the frame's border
     // Slower than that the two sides cannot be told apart.
     constexpr float kApart_px = 0.5f, kWith = 0.3f;
     int told = 0, with_outside = 0;
@@ -39,7 +53,9 @@ double occluded_share(ViewU8x1 extent, const LatticeField& outline, const Lattic
             const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
             const Vec2 out = p + kAway_px * n;
             const int ox = static_cast<int>(out.x), oy = static_cast<int>(out.y);
-            if (extent.at(ox, oy) >= 128 || raw.valid.at(ox, oy) == 0) continue;
+            if (extent.at(ox, oy) >= 128 || raw.valid.at(ox, oy) == 0 ||
+                !has_structure(luma, ox, oy))
+                continue;
             const float* d = raw.d.pixel(ox, oy);
             // Of an edge's motion only what goes across it can be seen.
             const float edge = glm::dot(n, outline.at(p)), within = glm::dot(n, inside.at(p));

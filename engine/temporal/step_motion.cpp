@@ -225,9 +225,10 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     out.lead = picture_lead(prev.picture(), cur.picture(), picture, *out.by_outline);
     // Where arms end what is seen of a torso, its outline moves with them. Torsos have 0.2 to 0.6
     // and a wall behind a walker 0.6 to 0.95, a car that turns up to 0.25.
-    constexpr double kOwn = 0.2, kForEachShare = 20;
-    const double occluded = occluded_share(now.extent, *out.by_outline, picture, prev_from_cur);
-    if (out.lead != 0) out.lead += kForEachShare * std::max(0.0, occluded - kOwn);
+    constexpr double kOwn = 0.2, kForEachShare = 20, kMostOfIt = 3;
+    const double occluded =
+        occluded_share(now.luma, now.extent, *out.by_outline, picture, prev_from_cur);
+    if (out.lead != 0) out.lead += std::clamp(kForEachShare * (occluded - kOwn), 0.0, kMostOfIt);
     return out;
 }
 

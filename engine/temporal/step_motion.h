@@ -49,15 +49,16 @@ struct StepEvidence {
     /// The same from pictures that are freed of light, where that may explain more.
     std::optional<LatticeField> by_freed;
     std::optional<double> freed_lead;  ///< Before by_picture, standard errors; where searched.
-    /// The same from colours, which light does not change, where lumas do not agree everywhere.
-    std::optional<LatticeField> by_color = {};
-    double color_lead = 0;  ///< Before what luma finds, as colours judge it, standard errors.
     std::optional<LatticeField> by_outline;  ///< The outline's, where structure is faint;
     double lead = 0;                         ///< then picture_lead().
     /// Where the picture shows lines of one direction (stripes_of()): the picture's motion across
     /// them and the outline's along them, then how far the picture's own leads (picture_lead()).
     std::optional<LatticeField> by_lines = {};
     double lines_lead = 0;
+    /// As by_picture, from colours, which light does not change, where lumas do not agree
+    /// everywhere.
+    std::optional<LatticeField> by_color = {};
+    double color_lead = 0;  ///< Before what luma finds, as colours judge it, standard errors.
 };
 
 /// How far motion that was fitted to two pictures leads before the outline's, in standard errors
