@@ -325,14 +325,15 @@ LatticeField best_of(const OutlineMatch& match, const OutlineShape& prev, const 
     // 0.18 on flags that are off by 4 to 35 px.
     // Where legs pass each other, no way around one outline is one around the other:
     // blender_fox_gt's fox keeps 0.8 and more of its slip, flags 0.3 to 0.6.
-    constexpr double kSlips = 0.035, kSlipsToo = 0.065, kClearlyLess = 0.8;
+    constexpr double kSlips = 0.035, kSlipsToo = 0.065, kClearlyLess = 0.8, kHalf = 0.5;
     const double slip = outline_slip(prev.curve(), cur.curve(), field);
     if (slip > kSlips) {
         const LatticeField whole = found ? *found : LatticeField(cur.frame_size(), field.spacing());
         if (std::optional<LatticeField> curve = by_curve(prev, cur, whole)) {
             match.smooth(*curve);
             const double left = outline_slip(prev.curve(), cur.curve(), *curve);
-            if (left < kSlipsToo && left < kClearlyLess * slip) prefer(std::move(*curve));
+            if (left < kHalf * slip || (left < kSlipsToo && left < kClearlyLess * slip))
+                prefer(std::move(*curve));
         }
     }
     constexpr double kAsWell = 1.03, kAlmostNothing = 0.03;

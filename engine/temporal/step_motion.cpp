@@ -64,10 +64,10 @@ double known_share(const FlowField& flow, ViewU8x1 visible) {
 // frame, leads by -2.9 to 0.6, flat drawn fills by -5 to 0.4.)
 constexpr double kOfTheFit = 2.6;
 
-// Adds the motion of the colours. Shades move over luma, and not over these.
+// Adds the motion of the colours, which both frames have. Shades move over luma, and not over
+// these.
 void add_color(const StepFrame& prev, const StepFrame& cur, FlowQuality quality, int spacing_px,
                StepEvidence& out) {
-    if (!prev.has_color() || !cur.has_color()) return;
     const OutlineView before = prev.view(), now = cur.view();
     const RegistrationPicture &there = prev.color_picture(), &here = cur.color_picture();
     const FlowField flow =
@@ -203,12 +203,16 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     const OutlineView before = prev.view(), now = cur.view();
     StepEvidence out;
     out.by_picture = by_picture(now.luma, now.visible, prev_from_cur, spacing_px);
-    // Where the surface is found again almost everywhere, nothing is left to be explained.
-    constexpr double kAlmostEverywhere = 0.95;
-    if (registration_agreement(prev.picture(), cur.picture(), out.by_picture) < kAlmostEverywhere) {
-        add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
+    // Where the surface is found again almost everywhere, nothing is left to be explained; but
+    // shades alone are found again, too, and leave its colours behind.
+    constexpr double kAlmostEverywhere = 0.95, kLeftBehind = 0.6;
+    const bool found =
+        registration_agreement(prev.picture(), cur.picture(), out.by_picture) >= kAlmostEverywhere;
+    if (!found) add_freed(prev, cur, prev_from_cur, quality, spacing_px, out);
+    if (prev.has_color() && cur.has_color() &&
+        (!found || registration_agreement(prev.color_picture(), cur.color_picture(),
+                                          out.by_picture) < kLeftBehind))
         add_color(prev, cur, quality, spacing_px, out);
-    }
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         add_lines(prev, cur, spacing_px, out);

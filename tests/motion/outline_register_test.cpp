@@ -93,6 +93,57 @@ TEST(OutlineRegister, BendsWhereNoPlaneFits) {
     EXPECT_LT(mean_error(found, cur, after, prev_at), 0.25f * unmoved);
 }
 
+TEST(OutlineRegister, FindsAShapeThatTurnedFar) {
+    const auto before = [](Vec2 p) { return p - Vec2(150, 120); };
+    constexpr float kCos = 0.5f, kSin = 0.8660254f;  // 60°
+    const auto after = [](Vec2 p) {
+        const Vec2 q = p - Vec2(185, 110);
+        return Vec2(kCos * q.x + kSin * q.y, -kSin * q.x + kCos * q.y);
+    };
+    const Drawing prev = draw_one(before, 0.2f), cur = draw_one(after, 0.2f);
+    const auto prev_at = [](Vec2 q) { return q + Vec2(150, 120); };
+    const LatticeField still(kFrame, 8);
+    EXPECT_GT(mean_error(still, cur, after, prev_at), 40.0f);
+    EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), still), cur, after, prev_at),
+              0.5f);
+    // Nor is an estimate needed.
+    EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), 8), cur, after, prev_at),
+              0.5f);
+}
+
+// A flag: what bends between its corners is not where the bends were.
+TEST(OutlineRegister, KeepsTheCornersOfAFlagOnItsCorners) {
+    constexpr float kAmplitude = 26;
+    const auto waves = [](float phase) {
+        return [phase](Vec2 p) {
+            const Vec2 q = p - Vec2(160, 120);
+            return q - Vec2(0, kAmplitude * std::sin(q.x / 32 + phase));
+        };
+    };
+    const auto flag = [](const auto& material) {
+        Drawing out;
+        out.extent = draw(kFrame, [&](Vec2 p) {
+            const Vec2 q = material(p);
+            return std::abs(q.x) < 95 && std::abs(q.y) < 45 ? 1.0f : 0.0f;
+        });
+        out.visible = out.extent;
+        out.luma = draw(kFrame, [&](Vec2 p) {
+            const Vec2 q = material(p);
+            return std::abs(q.x) < 95 && std::abs(q.y) < 45 ? 0.55f : 0.3f;
+        });
+        return out;
+    };
+    const auto before = waves(0), after = waves(1.6f);
+    const Drawing prev = flag(before), cur = flag(after);
+    const auto prev_at = [](Vec2 q) {
+        return q + Vec2(160, 120 + kAmplitude * std::sin(q.x / 32));
+    };
+    const LatticeField still(kFrame, 8);
+    EXPECT_GT(mean_error(still, cur, after, prev_at), 20.0f);
+    EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), still), cur, after, prev_at),
+              4.0f);
+}
+
 TEST(OutlineRegister, WithoutAShapeNothingIsChanged) {
     const Matte empty(kFrame);
     LatticeField initial(kFrame, 8);

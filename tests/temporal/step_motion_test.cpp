@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "engine/core/luma.h"
 #include "engine/core/rng.h"
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/photometric_register.h"
@@ -272,6 +273,96 @@ TEST(StepMotion, FollowsTheOutlineAlongStripesOfOneDirection) {
     clear.by_lines = moved_by(-5);
     clear.lines_lead = 3;
     EXPECT_EQ(choose_motion(clear, seen).prev_from_cur.at({120, 60}).x, -1);
+}
+
+// A wall with faint structure in a window whose frame moves over it, as arms before a torso.
+TEST(StepMotion, DoesNotFollowTheOutlineOfWhatPassesInFront) {
+    constexpr float kContrast = 0.02f, kGrain = 1.5f;
+    const WaveTexture frame(21);
+    const auto inside = [](int t) {
+        return draw(kFrame, [&](Vec2 p) {
+            const Vec2 q = glm::abs(p - Vec2(110 + 4 * static_cast<float>(t), 88));
+            return q.x < 70 && q.y < 55 ? 1.0f : 0.0f;
+        });
+    };
+    const auto picture = [&](int t, const Matte& matte) {
+        const WaveTexture wall(11);
+        Rng rng(40 + static_cast<std::uint64_t>(t));
+        return draw(kFrame, [&](Vec2 p) {
+            const bool seen = matte.at(static_cast<int>(p.x), static_cast<int>(p.y)) >= 128;
+            const float moved = 4 * static_cast<float>(t);
+            const float value =
+                seen ? 0.5f + kContrast * (wall(p) - 0.5f) : frame(p - Vec2(moved, 0));
+            return value + kGrain / 255 * normal(rng);
+        });
+    };
+    MotionChoice choice;
+    Matte matte = inside(0), last = picture(0, matte);
+    for (int t = 1; t <= 4; ++t) {
+        const Matte now = inside(t), luma = picture(t, now);
+        const StepEvidence found =
+            gather_evidence(StepFrame(last, matte, matte), StepFrame(luma, now, now),
+                            flow_between(luma, last), FlowQuality::kFinal, 8);
+        ASSERT_TRUE(found.by_outline) << t;
+        EXPECT_NEAR(found.by_outline->at({120, 88}).x, -4, 0.5);
+        EXPECT_FALSE(choose_motion(found, choice).by_outline) << t;
+        matte = now, last = luma;
+    }
+}
+
+// Paints that differ more in colour than in brightness, under shades that move another way.
+TEST(StepMotion, FollowsColoursUnderMovingShades) {
+    const WaveTexture shades(31);
+    const Matte matte = window();
+    const auto display = [&](int t) {
+        ImageU8x3 out(kFrame);
+        Rng rng(70 + static_cast<std::uint64_t>(t));
+        for (int y = 0; y < kFrame.height; ++y) {
+            for (int x = 0; x < kFrame.width; ++x) {
+                const Vec2 p = centre_of(x, y), q = p - Vec2(kStep_px * static_cast<float>(t), 0);
+                const Vec2 s = p + Vec2(2 * static_cast<float>(t), 3 * static_cast<float>(t));
+                const float paint = std::sin(q.x / 5) * std::sin(q.y / 6 + q.x / 17);
+                const float light = 0.4f + 0.5f * shades(0.7f * s);
+                for (int c = 0; c < 3; ++c) {
+                    const std::array<float, 3> own{1 + 0.35f * paint, 1 + 0.1f * paint,
+                                                   1 - 0.35f * paint};
+                    out.pixel(x, y)[c] = code_of(light * own[static_cast<std::size_t>(c)] * 0.75f +
+                                                 normal(rng) / 255);
+                }
+            }
+        }
+        return out;
+    };
+    const auto luma_of = [](const ImageU8x3& shown) {
+        Matte out(shown.size());
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const std::uint8_t* p = shown.pixel(x, y);
+                out.at(x, y) = static_cast<std::uint8_t>(luma_709_code(p[0], p[1], p[2]));
+            }
+        }
+        return out;
+    };
+    ImageU8x3 colors = display(0);
+    Matte last = luma_of(colors);
+    auto start = std::make_shared<const StepFrame>(last, matte, matte, colors, nullptr);
+    ASSERT_TRUE(start->has_color());
+    SurfaceWalker walker(start, {});
+    std::shared_ptr<const StepFrame> before = start;
+    constexpr int kSteps = 6;
+    for (int t = 1; t <= kSteps; ++t) {
+        colors = display(t);
+        const Matte luma = luma_of(colors);
+        auto now = std::make_shared<const StepFrame>(luma, matte, matte, colors, before.get());
+        StepEvidence evidence =
+            gather_evidence(*before, *now, flow_between(luma, last), FlowQuality::kFinal, 8);
+        ASSERT_TRUE(evidence.by_color) << t;
+        EXPECT_LT(distance(evidence.by_color->at({128, 88}), {-kStep_px, 0}), 0.6f) << t;
+        walker.advance({now, std::move(evidence)});
+        before = now, last = luma;
+    }
+    for (const Vec2 p : {Vec2(80, 60), Vec2(128, 88), Vec2(180, 120)})
+        EXPECT_LT(distance(walker.ref_from_cur().at(p), {-kStep_px * kSteps, 0}), 1.0f);
 }
 
 }  // namespace
