@@ -9,6 +9,7 @@
 #include "engine/mask/background_motion.h"
 #include "engine/mask/background_plate.h"
 #include "engine/mask/boundary_refiner.h"
+#include "engine/mask/flat_fills.h"
 #include "engine/mask/growth_evidence.h"
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/motion_sides.h"
@@ -130,12 +131,14 @@ struct MatteWalker::State {
     float clearance_px = kClearancePx;  ///< Nearer to the boundary, colours are not used.
     Matte last;                         ///< The matte of the walk's last frame.
     SurfaceReturn hidden;
+    FlatFills fills;
     MotionSides sides = {};
     bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
     void take_back(ViewU8x3 now, ImageF1& distance, Matte& matte);
+    void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                const Recti& area) const;
 };
@@ -156,7 +159,8 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            {},
                                            kClearancePx,
                                            copy_of(key),
-                                           SurfaceReturn(frame, phi)});
+                                           SurfaceReturn(frame, phi),
+                                           FlatFills(frame, phi)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -237,6 +241,24 @@ void MatteWalker::State::take_back(ViewU8x3 now, ImageF1& distance, Matte& matte
     }
 }
 
+// Of drawn animation: fills between lines belong to the surface as a whole, or not at all.
+void MatteWalker::State::take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte) {
+    const Matte whole = fills.corrected(now, distance);
+    if (whole.empty()) return;
+    const ImageF1 found = smooth_distance(signed_distance(whole, scale.limit_px), 1);
+    constexpr float kBeside_px = 2;
+    for (int y = 0; y < matte.height(); ++y) {
+        for (int x = 0; x < matte.width(); ++x) {
+            const bool as_before = (distance.at(x, y) > 0) == (whole.at(x, y) != 0);
+            // What is as it was keeps its edge to a fraction of a pixel.
+            if (as_before && std::abs(distance.at(x, y) - found.at(x, y)) < kBeside_px) continue;
+            distance.at(x, y) = found.at(x, y);
+            matte.at(x, y) = static_cast<std::uint8_t>(
+                std::lround(255 * std::clamp(0.5f + found.at(x, y), 0.0f, 1.0f)));
+        }
+    }
+}
+
 bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
@@ -284,6 +306,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         s.hidden.follow(found.phi, key_from_cur, area);
     }
     s.take_back(frame, phi, estimate.matte);
+    s.take_whole_fills(frame, phi, estimate.matte);
     estimate.confidence = s.confidence;
     s.plate.update(frame, phi);
     s.palette.follow(frame, phi, s.scale.band_px);

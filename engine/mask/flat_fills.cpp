@@ -1,0 +1,167 @@
+#include "engine/mask/flat_fills.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "engine/mask/signed_distance.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSameFill = 4;    // levels from where a fill was first met: compression, no gradient
+constexpr int kSamePaint = 8;   // levels between fills of one paint
+constexpr int kLeastArea = 24;  // px; less is the antialiasing of lines
+
+using Color = std::array<int, 3>;
+
+int difference(const Color& a, const Color& b) {
+    return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+Color color_at(ViewU8x3 frame, int x, int y) {
+    const std::uint8_t* p = frame.pixel(x, y);
+    return {p[0], p[1], p[2]};
+}
+
+struct Fill {
+    Color color;
+    std::int64_t area = 0, inside = 0;  // px; those on the inner side of the boundary
+};
+
+// Every connected set of pixels of one colour, and which of them each pixel is of: −1 for what is
+// none, lines and their edges.
+struct Fills {
+    Image<std::int32_t, 1> of;
+    std::vector<Fill> all;
+};
+
+Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
+    constexpr std::int32_t kNew = -2, kNone = -1;
+    Fills out{Image<std::int32_t, 1>(frame.size(), kNew), {}};
+    std::vector<Vec2i> members;
+    for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+            if (out.of.at(x, y) != kNew) continue;
+            Fill fill{color_at(frame, x, y)};
+            const auto label = static_cast<std::int32_t>(out.all.size());
+            members.assign(1, {x, y});
+            out.of.at(x, y) = label;
+            for (std::size_t k = 0; k < members.size(); ++k) {
+                const Vec2i p = members[k];
+                fill.inside += phi.row(p.y)[p.x] > 0;
+                for (const Vec2i step : {Vec2i(1, 0), Vec2i(-1, 0), Vec2i(0, 1), Vec2i(0, -1)}) {
+                    const Vec2i q = p + step;
+                    if (q.x < 0 || q.y < 0 || q.x >= frame.width() || q.y >= frame.height())
+                        continue;
+                    if (out.of.at(q.x, q.y) != kNew ||
+                        difference(color_at(frame, q.x, q.y), fill.color) > kSameFill)
+                        continue;
+                    out.of.at(q.x, q.y) = label;
+                    members.push_back(q);
+                }
+            }
+            fill.area = static_cast<std::int64_t>(members.size());
+            if (fill.area >= kLeastArea) {
+                out.all.push_back(fill);
+                continue;
+            }
+            for (const Vec2i& p : members)
+                out.of.at(p.x, p.y) = kNone;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
+    constexpr double kMostly = 0.6, kDivided = 0.05;
+    const Fills fills = fills_of(frame, phi);
+    std::int64_t inside = 0, flat = 0;
+    for (int y = 0; y < frame.height(); ++y) {
+        const float* row = phi.row(y);
+        inside += std::count_if(row, row + frame.width(), [](float d) { return d > 0; });
+    }
+    for (const Fill& fill : fills.all) {
+        flat += fill.inside;
+        const double share = static_cast<double>(fill.inside) / static_cast<double>(fill.area);
+        auto paint = std::find_if(paints_.begin(), paints_.end(), [&](const Paint& p) {
+            return difference(p.color, fill.color) <= kSamePaint;
+        });
+        if (paint == paints_.end()) paint = paints_.insert(paint, Paint{fill.color});
+        paint->inside += fill.inside;
+        paint->outside += fill.area - fill.inside;
+        paint->divided = paint->divided || (share > kDivided && share < 1 - kDivided);
+    }
+    if (static_cast<double>(flat) < kMostly * static_cast<double>(inside) || inside == 0)
+        paints_.clear();
+}
+
+const FlatFills::Paint* FlatFills::paint_of(const std::array<int, 3>& color) const {
+    const auto nearest =
+        std::min_element(paints_.begin(), paints_.end(), [&](const Paint& a, const Paint& b) {
+            return difference(a.color, color) < difference(b.color, color);
+        });
+    return nearest == paints_.end() || difference(nearest->color, color) > kSamePaint ? nullptr
+                                                                                      : &*nearest;
+}
+
+Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
+    if (paints_.empty()) return {};
+    // Of a paint: hardly a pixel of the other side, which is where the boundary is off by a line.
+    constexpr double kAlone = 0.98;
+    constexpr double kFound = 0.05;  // of a fill: it is the surface's and not another thing's
+    const Fills fills = fills_of(frame, phi);
+    enum : std::uint8_t { kAsFound, kInside, kOutside };
+    std::vector<std::uint8_t> decided(fills.all.size(), kAsFound);
+    bool any = false;
+    for (std::size_t k = 0; k < fills.all.size(); ++k) {
+        const Fill& fill = fills.all[k];
+        if (fill.inside == 0) continue;
+        const Paint* paint = paint_of(fill.color);
+        if (!paint || paint->divided) continue;
+        const double own = static_cast<double>(paint->inside) /
+                           static_cast<double>(paint->inside + paint->outside);
+        const double found = static_cast<double>(fill.inside) / static_cast<double>(fill.area);
+        if (own < 1 - kAlone)
+            decided[k] = kOutside;
+        else if (own > kAlone)
+            decided[k] = found > kFound ? kInside : kAsFound;
+        else
+            decided[k] = found > 0.5 ? kInside : kOutside;
+        const bool differs = decided[k] == kInside ? fill.inside < fill.area : fill.inside > 0;
+        any = any || (decided[k] != kAsFound && differs);
+    }
+    if (!any) return {};
+    // Pixels of lines: as the nearest fill.
+    cv::Mat lines(frame.height(), frame.width(), CV_8U), distance, nearest;
+    for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x)
+            lines.at<std::uint8_t>(y, x) = fills.of.at(x, y) < 0 ? 255 : 0;
+    }
+    cv::distanceTransform(lines, distance, nearest, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+    std::vector<std::int32_t> fill_of_label(1, -1);
+    for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+            if (lines.at<std::uint8_t>(y, x) != 0) continue;
+            const auto label = static_cast<std::size_t>(nearest.at<std::int32_t>(y, x));
+            if (label >= fill_of_label.size()) fill_of_label.resize(label + 1, -1);
+            fill_of_label[label] = fills.of.at(x, y);
+        }
+    }
+    Matte out(frame.size());
+    for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+            const auto label = static_cast<std::size_t>(nearest.at<std::int32_t>(y, x));
+            const std::int32_t fill = label < fill_of_label.size() ? fill_of_label[label] : -1;
+            std::uint8_t how = kAsFound;
+            if (fill >= 0) how = decided[static_cast<std::size_t>(fill)];
+            const bool inside = how == kAsFound ? phi.row(y)[x] > 0 : how == kInside;
+            out.at(x, y) = inside ? 1 : 0;
+        }
+    }
+    return out;
+}
+
+}  // namespace weft
