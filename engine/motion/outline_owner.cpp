@@ -36,12 +36,12 @@ bool has_structure(ViewU8x1 luma, int x, int y) {
 }  // namespace
 
 double occluded_share(ViewU8x1 luma, ViewU8x1 extent, const LatticeField& outline,
-                      const LatticeField& inside, const FlowField& raw) {
+                      const LatticeField& inside, const FlowField& raw, Vec2 unseen) {
     // Raw motion is a mixture so near to an edge.
     constexpr float kAway_px = 7;
     constexpr int kMargin_px = 12;  // from the frame's border
     // Slower than that the two sides cannot be told apart.
-    constexpr float kApart_px = 0.5f, kWith = 0.3f;
+    constexpr float kApart_px = 0.5f, kWith = 0.3f, kFacing = 0.7f;
     int told = 0, with_outside = 0;
     for (int y = kMargin_px; y < extent.height() - kMargin_px; ++y) {
         for (int x = kMargin_px; x < extent.width() - kMargin_px; ++x) {
@@ -50,6 +50,7 @@ double occluded_share(ViewU8x1 luma, ViewU8x1 extent, const LatticeField& outlin
                 extent.at(x, y - 1) >= 128 && extent.at(x, y + 1) >= 128)
                 continue;
             const Vec2 n = outwards(extent, x, y);
+            if (std::abs(glm::dot(n, unseen)) > kFacing) continue;
             const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
             const Vec2 out = p + kAway_px * n;
             const int ox = static_cast<int>(out.x), oy = static_cast<int>(out.y);

@@ -104,37 +104,64 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
 
 }  // namespace
 
+namespace {
+
 // If the picture shows paint, going as far to the other side of its motion finds as little as the
 // outline's motion does; if it shows more on the outline's side, that counts against the picture,
-// unless its motion finds very much more than the outline's.
-double picture_lead(const RegistrationPicture& before, const RegistrationPicture& now,
-                    const LatticeField& picture, const LatticeField& outline) {
+// unless its motion finds very much more than the outline's. `of_chance`: what is taken off where
+// it does; else kOfTheFit.
+double lead_of(const RegistrationPicture& before, const RegistrationPicture& now,
+               const LatticeField& picture, const LatticeField& outline, double of_chance) {
     constexpr double kMostBias = 2;
     constexpr float kOtherSide = -1;  // picture + (picture - outline)
-    // In correlation, in the mean over a shot: cars of plain paint gain 0.03 at most, walls, coats
-    // and a torso 0.05 to 0.4.
-    constexpr float kLittle = 0.04f, kMuch = 0.1f;
+    // In correlation, in the mean over a shot: cars of plain paint gain 0.03 at most (in a single
+    // step 0.06), walls, coats and a torso 0.05 to 0.4.
+    constexpr float kLittle = 0.04f, kMuch = 0.1f, kFarMore = 0.2f;
     const RegistrationLead lead = registration_lead(before, now, picture, outline);
     if (lead.errors == 0) return 0;  // too little can be compared
-    const float doubtful = 1.0f - smooth_step(static_cast<float>(lead.gain), kLittle, kMuch);
-    if (!(doubtful > 0)) return lead.errors - kOfTheFit;
+    const auto gain = static_cast<float>(lead.gain);
+    const auto far_more = static_cast<double>(smooth_step(gain, kMuch, kFarMore));
+    const double beyond = lead.errors - (kOfTheFit + far_more * (of_chance - kOfTheFit));
+    const float doubtful = 1.0f - smooth_step(gain, kLittle, kMuch);
+    if (!(doubtful > 0)) return beyond;
     const LatticeField other_side = mix(picture, outline, kOtherSide);
     const double bias = registration_lead(before, now, outline, other_side).errors;
-    return lead.errors - kOfTheFit -
-           static_cast<double>(doubtful) * std::clamp(bias, 0.0, kMostBias);
+    return beyond - static_cast<double>(doubtful) * std::clamp(bias, 0.0, kMostBias);
+}
+
+// How much of an outline is an occluder's, as standard errors for the picture. Torsos between arms
+// have 0.2 to 0.6 and a wall behind a walker 0.6 to 0.95, cars that turn 0.25 at most in the mean.
+double against_outline(double occluded_share, double most) {
+    constexpr double kOwn = 0.2, kForEachShare = 20;
+    return std::clamp(kForEachShare * (occluded_share - kOwn), 0.0, most);
+}
+
+}  // namespace
+
+double picture_lead(const RegistrationPicture& before, const RegistrationPicture& now,
+                    const LatticeField& picture, const LatticeField& outline) {
+    constexpr double kOfChance = 1;
+    return lead_of(before, now, picture, outline, kOfChance);
 }
 
 namespace {
 
 // Along stripes raw motion says nothing, but follows noise, or stands still.
-void add_lines(const StepFrame& prev, const StepFrame& cur, int spacing_px, StepEvidence& out) {
-    const Stripes stripes = stripes_of(cur.view().luma, cur.view().visible);
+void add_lines(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
+               int spacing_px, StepEvidence& out) {
+    const OutlineView now = cur.view();
+    const Stripes stripes = stripes_of(now.luma, now.visible);
     if (!(stripes.share > 0)) return;
     const bool freed = out.by_freed && *out.freed_lead > 0;
     const LatticeField& picture = freed ? *out.by_freed : out.by_picture;
-    out.by_lines =
-        along_stripes(picture, by_outline(prev, cur, spacing_px), cur.view().extent, stripes);
-    out.lines_lead = picture_lead(prev.picture(), cur.picture(), picture, *out.by_lines);
+    const LatticeField outline = by_outline(prev, cur, spacing_px);
+    out.by_lines = along_stripes(picture, outline, now.extent, stripes);
+    // Along its lines a picture finds itself again anywhere.
+    out.lines_lead = lead_of(prev.picture(), cur.picture(), picture, *out.by_lines, kOfTheFit);
+    constexpr double kMostOfIt = 4;
+    const double occluded =
+        occluded_share(now.luma, now.extent, outline, picture, prev_from_cur, stripes.along);
+    if (out.lines_lead != 0) out.lines_lead += against_outline(occluded, kMostOfIt);
 }
 
 }  // namespace
@@ -215,7 +242,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
         add_color(prev, cur, quality, spacing_px, out);
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
-        add_lines(prev, cur, spacing_px, out);
+        add_lines(prev, cur, prev_from_cur, spacing_px, out);
         return out;
     }
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
@@ -227,12 +254,11 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     const bool freed = out.by_freed && *out.freed_lead > 0;
     const LatticeField& picture = freed ? *out.by_freed : out.by_picture;
     out.lead = picture_lead(prev.picture(), cur.picture(), picture, *out.by_outline);
-    // Where arms end what is seen of a torso, its outline moves with them. Torsos have 0.2 to 0.6
-    // and a wall behind a walker 0.6 to 0.95, a car that turns up to 0.25.
-    constexpr double kOwn = 0.2, kForEachShare = 20, kMostOfIt = 3;
+    // Where arms end what is seen of a torso, its outline moves with them.
+    constexpr double kMostOfIt = 3;
     const double occluded =
         occluded_share(now.luma, now.extent, *out.by_outline, picture, prev_from_cur);
-    if (out.lead != 0) out.lead += std::clamp(kForEachShare * (occluded - kOwn), 0.0, kMostOfIt);
+    if (out.lead != 0) out.lead += against_outline(occluded, kMostOfIt);
     return out;
 }
 
