@@ -27,6 +27,7 @@ Color color_at(ViewU8x3 frame, int x, int y) {
 struct Fill {
     Color color;
     std::int64_t area = 0, inside = 0;  // px; those on the inner side of the boundary
+    bool thick = false;                 // else a line
 };
 
 // Every connected set of pixels of one colour, and which of them each pixel is of: −1 for what is
@@ -35,6 +36,30 @@ struct Fills {
     Image<std::int32_t, 1> of;
     std::vector<Fill> all;
 };
+
+// Lines of ink are flat, too, but nowhere as wide as a fill; they become none.
+void mark_thick(Fills& fills) {
+    constexpr int kHalf = 2;  // px
+    Image<std::int32_t, 1>& of = fills.of;
+    for (int y = kHalf; y < of.height() - kHalf; ++y) {
+        for (int x = kHalf; x < of.width() - kHalf; ++x) {
+            const std::int32_t own = of.at(x, y);
+            if (own < 0 || fills.all[static_cast<std::size_t>(own)].thick) continue;
+            bool same = true;
+            for (int dy = -kHalf; same && dy <= kHalf; dy += kHalf) {
+                for (int dx = -kHalf; same && dx <= kHalf; dx += kHalf)
+                    same = of.at(x + dx, y + dy) == own;
+            }
+            fills.all[static_cast<std::size_t>(own)].thick = same;
+        }
+    }
+    for (int y = 0; y < of.height(); ++y) {
+        for (int x = 0; x < of.width(); ++x) {
+            if (of.at(x, y) >= 0 && !fills.all[static_cast<std::size_t>(of.at(x, y))].thick)
+                of.at(x, y) = -1;
+        }
+    }
+}
 
 Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
     constexpr std::int32_t kNew = -2, kNone = -1;
@@ -70,6 +95,7 @@ Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
                 out.of.at(p.x, p.y) = kNone;
         }
     }
+    mark_thick(out);
     return out;
 }
 
@@ -84,6 +110,7 @@ FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
         inside += std::count_if(row, row + frame.width(), [](float d) { return d > 0; });
     }
     for (const Fill& fill : fills.all) {
+        if (!fill.thick) continue;
         flat += fill.inside;
         const double share = static_cast<double>(fill.inside) / static_cast<double>(fill.area);
         auto paint = std::find_if(paints_.begin(), paints_.end(), [&](const Paint& p) {
@@ -118,7 +145,7 @@ Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
     bool any = false;
     for (std::size_t k = 0; k < fills.all.size(); ++k) {
         const Fill& fill = fills.all[k];
-        if (fill.inside == 0) continue;
+        if (fill.inside == 0 || !fill.thick) continue;
         const Paint* paint = paint_of(fill.color);
         if (!paint || paint->divided) continue;
         const double own = static_cast<double>(paint->inside) /

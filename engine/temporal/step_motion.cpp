@@ -5,6 +5,7 @@
 
 #include "engine/core/smooth_step.h"
 #include "engine/motion/contour_flow.h"
+#include "engine/motion/flat_motion.h"
 #include "engine/motion/outline_owner.h"
 #include "engine/motion/photometric_register.h"
 #include "engine/motion/stripes.h"
@@ -14,13 +15,29 @@
 namespace weft {
 namespace {
 
+Matte weights_of(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur) {
+    constexpr int kBorder_px = 6;
+    return motion_weights(luma, visible, prev_from_cur.valid, kBorder_px);
+}
+
 LatticeField by_picture(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
                         int spacing_px) {
-    constexpr int kBorder_px = 6;
     SurfaceFitOptions fit;
     fit.spacing_px = spacing_px;
-    return fit_surface_motion(prev_from_cur.d,
-                              motion_weights(luma, visible, prev_from_cur.valid, kBorder_px), fit);
+    return fit_surface_motion(prev_from_cur.d, weights_of(luma, visible, prev_from_cur), fit);
+}
+
+// The picture's motion as one plane, where its own bends find no more than chance would: a piece of
+// a brick wall that an occluder cuts off finds itself again a brick further, too.
+LatticeField flat_or_bent(const StepFrame& prev, const StepFrame& cur,
+                          const FlowField& prev_from_cur, int spacing_px) {
+    constexpr double kOfChance = 0.5;
+    const OutlineView now = cur.view();
+    LatticeField bent = by_picture(now.luma, now.visible, prev_from_cur, spacing_px);
+    LatticeField flat = fit_flat_motion(
+        prev_from_cur.d, weights_of(now.luma, now.visible, prev_from_cur), spacing_px);
+    const RegistrationLead lead = registration_lead(prev.picture(), cur.picture(), bent, flat);
+    return lead.errors < kOfChance ? flat : bent;
 }
 
 LatticeField by_outline(const StepFrame& prev, const StepFrame& cur, int spacing_px) {
@@ -229,7 +246,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
     StepEvidence out;
-    out.by_picture = by_picture(now.luma, now.visible, prev_from_cur, spacing_px);
+    out.by_picture = flat_or_bent(prev, cur, prev_from_cur, spacing_px);
     // Where the surface is found again almost everywhere, nothing is left to be explained; but
     // shades alone are found again, too, and leave its colours behind.
     constexpr double kAlmostEverywhere = 0.95, kLeftBehind = 0.6;

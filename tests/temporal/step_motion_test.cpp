@@ -275,6 +275,33 @@ TEST(StepMotion, FollowsTheOutlineAlongStripesOfOneDirection) {
     EXPECT_EQ(choose_motion(clear, seen).prev_from_cur.at({120, 60}).x, -1);
 }
 
+// A wall of bricks that a pillar divides: the smaller piece finds itself again one brick further.
+TEST(StepMotion, TakesOnePlaneWhereBendsFindNoMoreThanChance) {
+    constexpr float kBrick_px = 16;
+    const Matte matte = draw(kFrame, [](Vec2 p) { return p.x < 175 || p.x > 220 ? 1.0f : 0.0f; });
+    const auto bricks = [&](int t) {
+        Rng rng(80 + static_cast<std::uint64_t>(t));
+        return draw(kFrame, [&](Vec2 p) {
+            const float x = p.x - kStep_px * static_cast<float>(t);
+            const float joints = std::max(std::cos(x * 2 * std::numbers::pi_v<float> / kBrick_px),
+                                          std::cos(p.y * 2 * std::numbers::pi_v<float> / 11));
+            return 0.4f + 0.2f * joints + 1.5f / 255 * normal(rng);
+        });
+    };
+    FlowField flow(kFrame);
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x) {
+            flow.d.pixel(x, y)[0] = -kStep_px + (x > 215 ? kBrick_px : 0);
+            flow.valid.at(x, y) = 255;
+        }
+    }
+    const Matte last = bricks(0), luma = bricks(1);
+    const StepEvidence found = gather_evidence(
+        StepFrame(last, matte, matte), StepFrame(luma, matte, matte), flow, FlowQuality::kFinal, 8);
+    for (const Vec2 p : {Vec2(40, 40), Vec2(120, 90), Vec2(235, 60), Vec2(240, 120)})
+        EXPECT_LT(distance(found.by_picture.at(p), {-kStep_px, 0}), 0.3f) << p.x;
+}
+
 // A wall with faint structure in a window whose frame moves over it, as arms before a torso.
 TEST(StepMotion, DoesNotFollowTheOutlineOfWhatPassesInFront) {
     constexpr float kContrast = 0.02f, kGrain = 1.5f;

@@ -1,0 +1,120 @@
+#include "engine/mask/flat_fills.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/mask/signed_distance.h"
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{160, 100};
+using Color = std::array<std::uint8_t, 3>;
+constexpr Color kSky{150, 170, 200}, kCoat{60, 70, 160}, kSash{200, 60, 60}, kInk{10, 10, 10};
+constexpr float kLimit_px = 30;
+
+ImageU8x3 sky() {
+    ImageU8x3 out(kFrame);
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x)
+            std::copy(kSky.begin(), kSky.end(), out.pixel(x, y));
+    }
+    return out;
+}
+
+// A fill under a line of 2 px.
+void draw(ImageU8x3& into, const Recti& box, const Color& color) {
+    for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) {
+            const bool line =
+                x < box.x0 + 2 || y < box.y0 + 2 || x >= box.x1 - 2 || y >= box.y1 - 2;
+            const Color& c = line ? kInk : color;
+            std::copy(c.begin(), c.end(), into.pixel(x, y));
+        }
+    }
+}
+
+Matte box_matte(const Recti& box) {
+    Matte out(kFrame);
+    for (int y = box.y0; y < box.y1; ++y)
+        std::fill(out.row(y) + box.x0, out.row(y) + box.x1, std::uint8_t{1});
+    return out;
+}
+
+ImageF1 distance_of(const Recti& box) {
+    return signed_distance(box_matte(box), kLimit_px);
+}
+
+struct Share {
+    double of_box = 0, elsewhere = 0;
+};
+
+Share share_of(const Matte& found, const Recti& box) {
+    Share out;
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x) {
+            const bool in = x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1;
+            (in ? out.of_box : out.elsewhere) += found.at(x, y) != 0;
+        }
+    }
+    const double area = static_cast<double>(box.width()) * box.height();
+    return {out.of_box / area, out.elsewhere / area};
+}
+
+// The key: a coat, and a sash beside it that is not the coat's.
+const Recti kKeyCoat{20, 20, 70, 80}, kKeySash{90, 20, 110, 80};
+
+ImageU8x3 key() {
+    ImageU8x3 out = sky();
+    draw(out, kKeyCoat, kCoat);
+    draw(out, kKeySash, kSash);
+    return out;
+}
+
+TEST(FlatFills, TakesOwnPaintWholeAndLeavesForeignPaintOut) {
+    const FlatFills fills(key(), distance_of(kKeyCoat));
+    // The coat jumped, and the matte found half of it and half of the sash.
+    const Recti coat{60, 10, 110, 70}, sash{112, 10, 132, 70};
+    ImageU8x3 frame = sky();
+    draw(frame, coat, kCoat);
+    draw(frame, sash, kSash);
+    const Matte found = fills.corrected(frame, distance_of({85, 10, 122, 70}));
+    ASSERT_FALSE(found.empty());
+    const Share share = share_of(found, coat);
+    EXPECT_GT(share.of_box, 0.9);  // and half of its line
+    EXPECT_LT(share.elsewhere, 0.06);
+}
+
+TEST(FlatFills, LeavesAnotherThingOfThePaintWhereNoneOfItWasFound) {
+    const FlatFills fills(key(), distance_of(kKeyCoat));
+    const Recti coat{20, 20, 70, 80}, twin{90, 20, 140, 80};
+    ImageU8x3 frame = sky();
+    draw(frame, coat, kCoat);
+    draw(frame, twin, kCoat);
+    const Matte found = fills.corrected(frame, distance_of({20, 20, 60, 80}));
+    ASSERT_FALSE(found.empty());
+    EXPECT_GT(share_of(found, coat).of_box, 0.97);
+    EXPECT_EQ(share_of(found, twin).of_box, 0);
+}
+
+TEST(FlatFills, LeavesAFillThatTheKeyDivides) {
+    const FlatFills fills(key(), distance_of({20, 20, 70, 50}));
+    EXPECT_TRUE(fills.corrected(key(), distance_of({20, 20, 70, 40})).empty());
+}
+
+TEST(FlatFills, SaysNothingOfAPictureWithGrainOrWhereNothingDiffers) {
+    const FlatFills fills(key(), distance_of(kKeyCoat));
+    EXPECT_TRUE(fills.corrected(key(), distance_of(kKeyCoat)).empty());
+    ImageU8x3 grainy = key();
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x) {
+            for (int c = 0; c < 3; ++c)
+                grainy.pixel(x, y)[c] = static_cast<std::uint8_t>(grainy.pixel(x, y)[c] / 2 +
+                                                                  (7 * x + 13 * y * y) % 60);
+        }
+    }
+    const FlatFills none(grainy, distance_of(kKeyCoat));
+    EXPECT_TRUE(none.corrected(key(), distance_of({20, 20, 60, 80})).empty());
+}
+
+}  // namespace
+}  // namespace weft
