@@ -9,8 +9,10 @@
 namespace weft {
 namespace {
 
-constexpr int kSameFill = 4;    // levels from where a fill was first met: compression, no gradient
-constexpr int kSamePaint = 8;   // levels between fills of one paint
+constexpr int kSameFill = 4;   // levels from where a fill was first met: compression, no gradient
+constexpr int kSamePaint = 8;  // levels between fills of one paint
+// Drawn fills have 0 to 0.3 levels, through H.264 up to 1.3; grain on smooth walls 1.6 and more.
+constexpr double kMostDeviation = 1.3;
 constexpr int kLeastArea = 24;  // px; less is the antialiasing of lines
 
 using Color = std::array<int, 3>;
@@ -28,7 +30,25 @@ struct Fill {
     Color color;
     std::int64_t area = 0, inside = 0;  // px; those on the inner side of the boundary
     bool thick = false;                 // else a line
+    bool even = true;                   // else grain, or a piece of a gradient
 };
+
+// The mean deviation of the channels from their means, levels.
+double deviation_of(ViewU8x3 frame, const std::vector<Vec2i>& members) {
+    std::array<std::int64_t, 3> sum{}, squares{};
+    for (const Vec2i& p : members) {
+        const Color color = color_at(frame, p.x, p.y);
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += color[c], squares[c] += std::int64_t{color[c]} * color[c];
+    }
+    const auto n = static_cast<double>(members.size());
+    double total = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double mean = static_cast<double>(sum[c]) / n;
+        total += std::sqrt(std::max(0.0, static_cast<double>(squares[c]) / n - mean * mean)) / 3;
+    }
+    return total;
+}
 
 // Every connected set of pixels of one colour, and which of them each pixel is of: −1 for what is
 // none, lines and their edges.
@@ -87,6 +107,7 @@ Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
                 }
             }
             fill.area = static_cast<std::int64_t>(members.size());
+            fill.even = deviation_of(frame, members) < kMostDeviation;
             if (fill.area >= kLeastArea) {
                 out.all.push_back(fill);
                 continue;
@@ -110,7 +131,7 @@ FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
         inside += std::count_if(row, row + frame.width(), [](float d) { return d > 0; });
     }
     for (const Fill& fill : fills.all) {
-        if (!fill.thick) continue;
+        if (!fill.thick || !fill.even) continue;
         flat += fill.inside;
         const double share = static_cast<double>(fill.inside) / static_cast<double>(fill.area);
         auto paint = std::find_if(paints_.begin(), paints_.end(), [&](const Paint& p) {
@@ -145,7 +166,7 @@ Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
     bool any = false;
     for (std::size_t k = 0; k < fills.all.size(); ++k) {
         const Fill& fill = fills.all[k];
-        if (fill.inside == 0 || !fill.thick) continue;
+        if (fill.inside == 0 || !fill.thick || !fill.even) continue;
         const Paint* paint = paint_of(fill.color);
         if (!paint || paint->divided) continue;
         const double own = static_cast<double>(paint->inside) /

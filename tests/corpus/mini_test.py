@@ -1,6 +1,6 @@
 """Renders the mini corpus in draft, and compares with its truth: usage: mini_test.py WEFT.
 
-The limits guard what is reached: each is the figure of 23 to 25 November 2026 with a margin for what rounding and another
+The limits guard what is reached: each is the figure of 23 to 26 November 2026 with a margin for what rounding and another
 compiler may change. Whoever makes a figure better moves its limit."""
 import json
 import sys
@@ -35,7 +35,7 @@ LIMITS = {
     "cloth-12, wall": {
         "tde_over_floor": 4.35, "drift_px": 0.41, "correlation": 0.979, "levels": 0.64, "iou": 0.986, "leak": 0.005},
     "leaves-13, ball": {
-        "tde_over_floor": 49.7, "drift_px": 11.11, "correlation": 0.843, "levels": 14.91, "iou": 0.969, "leak": 0.0054},
+        "tde_over_floor": 21.5, "drift_px": 5.76, "correlation": 0.843, "levels": 14.91, "iou": 0.969, "leak": 0.0054},
     "leaves-13, floor": {
         "tde_over_floor": 5.31, "drift_px": 1.46, "correlation": 0.717, "levels": 23.9, "iou": 0.983, "leak": 0.005},
     "leaves-13, wall": {
@@ -43,7 +43,7 @@ LIMITS = {
     "room-11, floor": {
         "tde_over_floor": 1.36, "drift_px": 0.14, "correlation": 0.929, "levels": 5.61, "iou": 0.984, "leak": 0.005},
     "room-11, table": {
-        "tde_over_floor": 31.05, "correlation": 0.816, "levels": 4.37, "iou": 0.899, "leak": 0.005},
+        "tde_over_floor": 26.6, "correlation": 0.816, "levels": 4.37, "iou": 0.899, "leak": 0.005},
     "room-11, wall": {
         "tde_over_floor": 1.32, "drift_px": 0.12, "correlation": 0.976, "levels": 1.79, "iou": 0.979, "leak": 0.005},
 }
