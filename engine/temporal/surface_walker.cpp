@@ -266,13 +266,13 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
 // come to lie on corners. A thing that turned away from it has no such motion: cars lose and gain
 // parts of their outline.
 void SurfaceWalker::State::register_drawing(const StepFrame& cur) {
-    constexpr double kLost = 0.075, kSlips = 0.035;
+    constexpr double kLost = 0.075;
     constexpr float kGain = 0.5f;
     const OutlineShape &there = drawing->outline(), &here = cur.outline();
     const LatticeField chain = compose(ref_from_cur, inverse(ref_from_drawing));
     if (outline_slip(there.curve(), here.curve(), chain) > kLost) return;
     const LatticeField found = register_outline(there, here, options.spacing_px);
-    if (outline_slip(there.curve(), here.curve(), found) > kSlips) return;
+    if (outline_slip(there.curve(), here.curve(), found) > kSlipping) return;
     ref_from_cur = compose(mix(chain, found, kGain), ref_from_drawing);
     anchor_from_cur = predicted(anchors.present());
 }
