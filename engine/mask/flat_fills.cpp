@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-
-#include "engine/mask/signed_distance.h"
+#include <utility>
 
 namespace weft {
 namespace {
@@ -120,6 +118,25 @@ Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
     return out;
 }
 
+enum class Decision : std::uint8_t { kAsFound, kInside, kOutside };
+
+// Which side each pixel's fill is on; `decided`, by fill, may be empty: all as they were found.
+FillSides sides_of(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided) {
+    FillSides out(phi.size());
+    for (int y = 0; y < phi.height(); ++y) {
+        for (int x = 0; x < phi.width(); ++x) {
+            const std::int32_t fill = fills.of.at(x, y);
+            if (fill < 0) continue;
+            const Decision how =
+                decided.empty() ? Decision::kAsFound : decided[static_cast<std::size_t>(fill)];
+            const bool inside =
+                how == Decision::kAsFound ? phi.row(y)[x] > 0 : how == Decision::kInside;
+            out.at(x, y) = inside ? 1 : 2;
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
@@ -142,8 +159,11 @@ FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
         paint->outside += fill.area - fill.inside;
         paint->divided = paint->divided || (share > kDivided && share < 1 - kDivided);
     }
-    if (static_cast<double>(flat) < kMostly * static_cast<double>(inside) || inside == 0)
+    if (static_cast<double>(flat) < kMostly * static_cast<double>(inside) || inside == 0) {
         paints_.clear();
+        return;
+    }
+    lines_ = LineHabit(sides_of(fills, phi, {}), phi);
 }
 
 const FlatFills::Paint* FlatFills::paint_of(const std::array<int, 3>& color) const {
@@ -161,9 +181,7 @@ Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
     constexpr double kAlone = 0.98;
     constexpr double kFound = 0.05;  // of a fill: it is the surface's and not another thing's
     const Fills fills = fills_of(frame, phi);
-    enum : std::uint8_t { kAsFound, kInside, kOutside };
-    std::vector<std::uint8_t> decided(fills.all.size(), kAsFound);
-    bool any = false;
+    std::vector<Decision> decided(fills.all.size(), Decision::kAsFound);
     for (std::size_t k = 0; k < fills.all.size(); ++k) {
         const Fill& fill = fills.all[k];
         if (fill.inside == 0 || !fill.thick || !fill.even) continue;
@@ -173,43 +191,19 @@ Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
                            static_cast<double>(paint->inside + paint->outside);
         const double found = static_cast<double>(fill.inside) / static_cast<double>(fill.area);
         if (own < 1 - kAlone)
-            decided[k] = kOutside;
+            decided[k] = Decision::kOutside;
         else if (own > kAlone)
-            decided[k] = found > kFound ? kInside : kAsFound;
+            decided[k] = found > kFound ? Decision::kInside : Decision::kAsFound;
         else
-            decided[k] = found > 0.5 ? kInside : kOutside;
-        const bool differs = decided[k] == kInside ? fill.inside < fill.area : fill.inside > 0;
-        any = any || (decided[k] != kAsFound && differs);
+            decided[k] = found > 0.5 ? Decision::kInside : Decision::kOutside;
     }
-    if (!any) return {};
-    // Pixels of lines: as the nearest fill.
-    cv::Mat lines(frame.height(), frame.width(), CV_8U), distance, nearest;
-    for (int y = 0; y < frame.height(); ++y) {
-        for (int x = 0; x < frame.width(); ++x)
-            lines.at<std::uint8_t>(y, x) = fills.of.at(x, y) < 0 ? 255 : 0;
+    Matte out = lines_.complete(sides_of(fills, phi, decided));
+    bool differs = false;
+    for (int y = 0; !differs && y < frame.height(); ++y) {
+        for (int x = 0; !differs && x < frame.width(); ++x)
+            differs = (out.at(x, y) != 0) != (phi.row(y)[x] > 0);
     }
-    cv::distanceTransform(lines, distance, nearest, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
-    std::vector<std::int32_t> fill_of_label(1, -1);
-    for (int y = 0; y < frame.height(); ++y) {
-        for (int x = 0; x < frame.width(); ++x) {
-            if (lines.at<std::uint8_t>(y, x) != 0) continue;
-            const auto label = static_cast<std::size_t>(nearest.at<std::int32_t>(y, x));
-            if (label >= fill_of_label.size()) fill_of_label.resize(label + 1, -1);
-            fill_of_label[label] = fills.of.at(x, y);
-        }
-    }
-    Matte out(frame.size());
-    for (int y = 0; y < frame.height(); ++y) {
-        for (int x = 0; x < frame.width(); ++x) {
-            const auto label = static_cast<std::size_t>(nearest.at<std::int32_t>(y, x));
-            const std::int32_t fill = label < fill_of_label.size() ? fill_of_label[label] : -1;
-            std::uint8_t how = kAsFound;
-            if (fill >= 0) how = decided[static_cast<std::size_t>(fill)];
-            const bool inside = how == kAsFound ? phi.row(y)[x] > 0 : how == kInside;
-            out.at(x, y) = inside ? 1 : 0;
-        }
-    }
-    return out;
+    return differs ? std::move(out) : Matte();
 }
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/image.h"
+#include "engine/mask/line_habit.h"
 
 namespace weft {
 
@@ -21,8 +22,9 @@ class FlatFills {
     /// sign of `phi`, the boundary that was found. A fill of a colour that the surface alone had on
     /// the keyframe is taken as a whole where a part of it was found, one of a colour that it never
     /// had is left out, and one of a colour of both goes with most of its area. Colours that the
-    /// key's boundary divides, or that the key did not show, are left as they were found. Lines
-    /// between fills go with the nearest one. Empty if nothing differs. Pure; deterministic.
+    /// key's boundary divides, or that the key did not show, are left as they were found. Lines are
+    /// taken as the keyframe's matte took them (LineHabit). Empty if nothing differs. Pure;
+    /// deterministic.
     [[nodiscard]] Matte corrected(ViewU8x3 frame, ViewF1 phi) const;
 
   private:
@@ -34,6 +36,7 @@ class FlatFills {
     [[nodiscard]] const Paint* paint_of(const std::array<int, 3>& color) const;
 
     std::vector<Paint> paints_;
+    LineHabit lines_;
 };
 
 }  // namespace weft

@@ -80,8 +80,27 @@ TEST(FlatFills, TakesOwnPaintWholeAndLeavesForeignPaintOut) {
     const Matte found = fills.corrected(frame, distance_of({85, 10, 122, 70}));
     ASSERT_FALSE(found.empty());
     const Share share = share_of(found, coat);
-    EXPECT_GT(share.of_box, 0.9);  // and half of its line
+    EXPECT_GT(share.of_box, 0.97);
     EXPECT_LT(share.elsewhere, 0.06);
+}
+
+// A matte without the lines, as a selection by colour gives it, stays one.
+TEST(FlatFills, TakesLinesAsTheKeyframeDid) {
+    const auto inner = [](const Recti& box) { return box.grown(-2); };
+    const FlatFills fills(key(), distance_of(inner(kKeyCoat)));
+    const Recti coat{60, 10, 110, 70};
+    ImageU8x3 frame = sky();
+    draw(frame, coat, kCoat);
+    const Matte found = fills.corrected(frame, distance_of(coat));
+    ASSERT_FALSE(found.empty());
+    const Share share = share_of(found, inner(coat));
+    EXPECT_EQ(share.of_box, 1);
+    EXPECT_EQ(share.elsewhere, 0);
+    // And one that goes around them, too.
+    const FlatFills around(key(), distance_of(kKeyCoat));
+    const Share whole = share_of(around.corrected(frame, distance_of(inner(coat))), coat);
+    EXPECT_EQ(whole.of_box, 1);
+    EXPECT_EQ(whole.elsewhere, 0);
 }
 
 TEST(FlatFills, LeavesAnotherThingOfThePaintWhereNoneOfItWasFound) {
@@ -98,7 +117,12 @@ TEST(FlatFills, LeavesAnotherThingOfThePaintWhereNoneOfItWasFound) {
 
 TEST(FlatFills, LeavesAFillThatTheKeyDivides) {
     const FlatFills fills(key(), distance_of({20, 20, 70, 50}));
-    EXPECT_TRUE(fills.corrected(key(), distance_of({20, 20, 70, 40})).empty());
+    const Matte found = fills.corrected(key(), distance_of({20, 20, 70, 40}));
+    if (found.empty()) return;
+    for (int y = 22; y < 78; ++y) {
+        for (int x = 22; x < 68; ++x)
+            EXPECT_EQ(found.at(x, y) != 0, y < 40) << x << " " << y;
+    }
 }
 
 TEST(FlatFills, SaysNothingOfAPictureWithGrainOrWhereNothingDiffers) {
