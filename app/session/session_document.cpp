@@ -213,7 +213,8 @@ void Session::recover(bool accept) {
         }
         start_document(std::move(saved), found.project_path);
         commit(project, "Recover unsaved work");
-        recovery_.flush();  // before the old snapshot is deleted
+        find_render_folder();  // by the name that came with it
+        recovery_.flush();     // before the old snapshot is deleted
     }
     fs::remove(found.file, error);
     recoverable_.erase(recoverable_.begin());

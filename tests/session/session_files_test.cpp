@@ -45,6 +45,28 @@ TEST_F(SessionFiles, TitleAndRendersFollowTheSavedName) {
     EXPECT_EQ(view().render_folder, in("two_render_v001"));
 }
 
+TEST_F(SessionFiles, AShotThatIsRecoveredRendersUnderItsName) {
+    open();
+    const std::string kept = in("state/recovery/recovery-" + std::to_string(getpid()) + ".weft");
+    ASSERT_TRUE(wait([&] { return fs::exists(kept); }));
+    // As if the process had gone: no process has this number.
+    fs::copy_file(kept, in("state/recovery/recovery-99999999.weft"));
+    session_.reset();
+    SessionOptions options;
+    options.program = "/bin/false";
+    options.state_folder = in("state");
+    options.cache.folder = in("cache");
+    options.trust_file = in("trusted.json");
+    options.offer_recovery = true;
+    session_ = std::make_unique<Session>(options);
+    update();
+    ASSERT_TRUE(view().recovery);
+    act(Recover{true});
+    update();
+    EXPECT_EQ(view().title, folder_.filename().string());
+    EXPECT_THAT(view().render_folder, HasSubstr("/weft/" + folder_.filename().string()));
+}
+
 TEST_F(SessionFiles, SaveAsTakesMattesAlongAndUndoFindsThem) {
     open();
     paint();
