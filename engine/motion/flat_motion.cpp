@@ -35,7 +35,7 @@ glm::dmat3 fit_trimmed(std::vector<PlacePair> pairs) {
 }  // namespace
 
 LatticeField fit_flat_motion(ViewF2 flow, ViewU8x1 weights, int spacing_px) {
-    constexpr std::int64_t kMostPairs = 3000;
+    constexpr std::int64_t kMostPairs = 1000;
     std::int64_t known = 0;
     for (int y = 0; y < weights.height(); ++y) {
         const std::uint8_t* row = weights.row(y);

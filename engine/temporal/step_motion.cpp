@@ -20,11 +20,10 @@ Matte weights_of(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur
     return motion_weights(luma, visible, prev_from_cur.valid, kBorder_px);
 }
 
-LatticeField by_picture(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
-                        int spacing_px) {
+LatticeField by_picture(const FlowField& prev_from_cur, ViewU8x1 weights, int spacing_px) {
     SurfaceFitOptions fit;
     fit.spacing_px = spacing_px;
-    return fit_surface_motion(prev_from_cur.d, weights_of(luma, visible, prev_from_cur), fit);
+    return fit_surface_motion(prev_from_cur.d, weights, fit);
 }
 
 // The picture's motion as one plane, where its own bends find no more than chance would: a piece of
@@ -33,9 +32,9 @@ LatticeField flat_or_bent(const StepFrame& prev, const StepFrame& cur,
                           const FlowField& prev_from_cur, int spacing_px) {
     constexpr double kOfChance = 0.5;
     const OutlineView now = cur.view();
-    LatticeField bent = by_picture(now.luma, now.visible, prev_from_cur, spacing_px);
-    LatticeField flat = fit_flat_motion(
-        prev_from_cur.d, weights_of(now.luma, now.visible, prev_from_cur), spacing_px);
+    const Matte weights = weights_of(now.luma, now.visible, prev_from_cur);
+    LatticeField bent = by_picture(prev_from_cur, weights, spacing_px);
+    LatticeField flat = fit_flat_motion(prev_from_cur.d, weights, spacing_px);
     const RegistrationLead lead = registration_lead(prev.picture(), cur.picture(), bent, flat);
     return lead.errors < kOfChance ? flat : bent;
 }
@@ -89,7 +88,7 @@ void add_color(const StepFrame& prev, const StepFrame& cur, FlowQuality quality,
     const RegistrationPicture &there = prev.color_picture(), &here = cur.color_picture();
     const FlowField flow =
         estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
-    out.by_color = by_picture(cur.color(), now.visible, flow, spacing_px);
+    out.by_color = by_picture(flow, weights_of(cur.color(), now.visible, flow), spacing_px);
     const bool freed = out.by_freed && *out.freed_lead > 0;
     out.color_lead =
         registration_lead(there, here, *out.by_color, freed ? *out.by_freed : out.by_picture)
@@ -113,7 +112,7 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
         kShareWeight * (known_share(flow, now.visible) - known_share(prev_from_cur, now.visible));
     out.freed_lead = steadier;
     if (steadier < kHopeless) return;
-    out.by_freed = by_picture(now.luma, now.visible, flow, spacing_px);
+    out.by_freed = by_picture(flow, weights_of(now.luma, now.visible, flow), spacing_px);
     out.freed_lead =
         steadier + std::clamp(registration_lead(there, here, *out.by_freed, out.by_picture).errors,
                               -kMostErrors, kMostErrors);
