@@ -197,11 +197,14 @@ LatticeField best_of(const OutlineMatch& match, const OutlineShape& prev, const 
     const double slip = outline_slip(prev.curve(), cur.curve(), field);
     if (slip > kSlipping) {
         const LatticeField whole = found ? *found : LatticeField(cur.frame_size(), field.spacing());
-        if (std::optional<LatticeField> curve = by_curve(prev, cur, whole)) {
+        const auto slips_less = [&](const LatticeField& curve) {
+            const double left = outline_slip(prev.curve(), cur.curve(), curve);
+            return left < kHalf * slip || (left < kSlipsToo && left < kClearlyLess * slip);
+        };
+        std::optional<LatticeField> curve = by_curve(prev, cur, whole);
+        if (curve && slips_less(*curve)) {
             match.smooth(*curve);
-            const double left = outline_slip(prev.curve(), cur.curve(), *curve);
-            if (left < kHalf * slip || (left < kSlipsToo && left < kClearlyLess * slip))
-                prefer(std::move(*curve));
+            if (slips_less(*curve)) prefer(std::move(*curve));
         }
     }
     constexpr double kAsWell = 1.03, kAlmostNothing = 0.03;
