@@ -109,7 +109,8 @@ float way_around(const std::vector<float>& costs, int n, int m, int first,
         // The whole ways are as long, so a point lies near to the diagonal.
         const int middle = i * m / n, reach = m / 5;
         for (int j = std::max(1, middle - reach); j <= std::min(m, middle + reach); ++j) {
-            const float own = costs[static_cast<std::size_t>((i % n) * m + (j + first) % m)];
+            const int pair = (i % n) * m + (j + first) % m;
+            const float own = costs[static_cast<std::size_t>(pair)];
             for (std::size_t s = 0; s < kSteps.size(); ++s) {
                 const Step& step = kSteps[s];
                 if (i < step.cur || j < step.prev) continue;

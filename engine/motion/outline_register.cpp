@@ -226,7 +226,7 @@ LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur,
 }
 
 LatticeField register_outline(const OutlineShape& prev, const OutlineShape& cur, int spacing_px) {
-    const LatticeField still(cur.frame_size(), spacing_px);
+    LatticeField still(cur.frame_size(), spacing_px);
     if (prev.empty() || cur.empty()) return still;
     const OutlineMatch match(prev, cur);
     return best_of(match, prev, cur, still, match.residual(still, kNarrow));
