@@ -302,5 +302,41 @@ TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
     EXPECT_EQ(carried, 21 - let_go);
 }
 
+// A drawn sign, a flat fill with one line, that swings on and back: 12° from drawing to drawing.
+TEST(SurfaceWalker, LaysADrawingOnTheReferenceDrawingAgain) {
+    constexpr int kDrawings = 8;
+    const auto turn = [](int t) { return 0.21f * static_cast<float>(t < 5 ? t : 8 - t); };
+    const Vec2 hook(128, 40);
+    const auto on_sign = [&](Vec2 p, int t) {
+        const float c = std::cos(turn(t)), s = std::sin(turn(t));
+        const Vec2 q = p - hook;
+        return Vec2(c * q.x + s * q.y, -s * q.x + c * q.y) - Vec2(0, 45);
+    };
+    const auto inside = [](Vec2 q) {
+        return std::abs(q.x) < 36 + 0.2f * q.y && std::abs(q.y) < 30;
+    };
+    const auto extent = [&](int t) {
+        return draw(kFrame, [&](Vec2 p) { return inside(on_sign(p, t)) ? 1.0f : 0.0f; });
+    };
+    const auto luma = [&](int t) {
+        return draw(kFrame, [&](Vec2 p) {
+            const Vec2 q = on_sign(p, t);
+            return !inside(q) ? 0.8f : std::abs(q.y - 6) < 1.5f ? 0.1f : 0.5f;
+        });
+    };
+    SurfaceWalker walker(luma(0), extent(0), {});
+    FlowField still(kFrame);
+    std::fill_n(still.valid.data(), still.valid.size_bytes(), std::uint8_t{255});
+    for (int t = 1; t <= kDrawings; ++t) {
+        walker.advance(luma(t), extent(t), still);
+        const float c = std::cos(turn(t)), s = std::sin(turn(t));
+        for (const Vec2 q : {Vec2(-25, 25), Vec2(20, 60), Vec2(5, 30)}) {
+            const Vec2 here = hook + Vec2(c * q.x - s * q.y, s * q.x + c * q.y);
+            EXPECT_LT(distance(here + walker.ref_from_cur().at(here), hook + q), 0.6f)
+                << "drawing " << t;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weft
