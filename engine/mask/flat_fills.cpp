@@ -9,8 +9,10 @@ namespace {
 
 constexpr int kSameFill = 4;   // levels from where a fill was first met: compression, no gradient
 constexpr int kSamePaint = 8;  // levels between fills of one paint
-// Drawn fills have 0 to 0.3 levels, through H.264 up to 1.3; grain on smooth walls 1.6 and more.
-constexpr double kMostDeviation = 1.3;
+// What tells a fill from a smooth wall under grain is that neighbours are equal (drawn 0.96 of
+// them, through H.264 0.65 to 0.8; walls 0.02 to 0.2), and from a piece of a gradient that its
+// colours do not follow their places.
+constexpr double kLeastEqual = 0.5, kMostDeviation = 2.5, kMostSlope = 0.5, kNoSlope = 0.6;
 constexpr int kLeastArea = 24;  // px; less is the antialiasing of lines
 
 using Color = std::array<int, 3>;
@@ -31,21 +33,56 @@ struct Fill {
     bool even = true;                   // else grain, or a piece of a gradient
 };
 
-// The mean deviation of the channels from their means, levels.
-double deviation_of(ViewU8x3 frame, const std::vector<Vec2i>& members) {
-    std::array<std::int64_t, 3> sum{}, squares{};
-    for (const Vec2i& p : members) {
-        const Color color = color_at(frame, p.x, p.y);
-        for (std::size_t c = 0; c < 3; ++c)
-            sum[c] += color[c], squares[c] += std::int64_t{color[c]} * color[c];
-    }
+// How the brightness of a fill's pixels deviates, levels, and the share of it that a plane over
+// their places explains.
+struct Spread {
+    double deviation = 0, by_place = 0;
+};
+
+Spread spread_of(ViewU8x3 frame, const std::vector<Vec2i>& members) {
     const auto n = static_cast<double>(members.size());
-    double total = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double mean = static_cast<double>(sum[c]) / n;
-        total += std::sqrt(std::max(0.0, static_cast<double>(squares[c]) / n - mean * mean)) / 3;
+    const auto value = [&](const Vec2i& p) {
+        const Color color = color_at(frame, p.x, p.y);
+        return (color[0] + color[1] + color[2]) / 3.0;
+    };
+    double mx = 0, my = 0, mv = 0;
+    for (const Vec2i& p : members)
+        mx += p.x / n, my += p.y / n, mv += value(p) / n;
+    double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0, vv = 0;
+    for (const Vec2i& p : members) {
+        const double x = p.x - mx, y = p.y - my, v = value(p) - mv;
+        xx += x * x, xy += x * y, yy += y * y, xv += x * v, yv += y * v, vv += v * v;
     }
-    return total;
+    const double det = xx * yy - xy * xy;
+    if (!(vv > 0) || !(det > 0)) return {std::sqrt(vv / n), 0};
+    const double a = (xv * yy - yv * xy) / det, b = (yv * xx - xv * xy) / det;
+    return {std::sqrt(vv / n), (a * xv + b * yv) / vv};
+}
+
+// Whether all of a fill's pixels are one colour, but for what compression does to it.
+bool is_even(ViewU8x3 frame, const Image<std::int32_t, 1>& of, const std::vector<Vec2i>& members) {
+    std::int64_t pairs = 0, equal = 0;
+    for (const Vec2i& p : members) {
+        if (p.x + 1 == frame.width() || of.at(p.x + 1, p.y) != of.at(p.x, p.y)) continue;
+        ++pairs;
+        equal += difference(color_at(frame, p.x, p.y), color_at(frame, p.x + 1, p.y)) <= 1;
+    }
+    if (static_cast<double>(equal) < kLeastEqual * static_cast<double>(pairs)) return false;
+    const Spread spread = spread_of(frame, members);
+    return spread.deviation < kNoSlope ||
+           (spread.deviation < kMostDeviation && spread.by_place < kMostSlope);
+}
+
+// Whether the colour around (x, y) is the fill's: beside lines, compression leaves ringing.
+bool is_calm(ViewU8x3 frame, int x, int y) {
+    constexpr int kRinging = 2;  // levels
+    const Color own = color_at(frame, x, y);
+    for (int v = std::max(0, y - 1); v <= std::min(frame.height() - 1, y + 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(frame.width() - 1, x + 1); ++u) {
+            if (difference(own, color_at(frame, u, v)) > kRinging) return false;
+        }
+    }
+    return true;
 }
 
 // Every connected set of pixels of one colour, and which of them each pixel is of: −1 for what is
@@ -79,39 +116,46 @@ void mark_thick(Fills& fills) {
     }
 }
 
+constexpr std::int32_t kNew = -2, kNone = -1;
+
+// Adds the fill around a pixel that is of none yet.
+void grow_fill(ViewU8x3 frame, ViewF1 phi, Vec2i from, Fills& out, std::vector<Vec2i>& members) {
+    Fill fill{color_at(frame, from.x, from.y)};
+    const auto label = static_cast<std::int32_t>(out.all.size());
+    members.assign(1, from);
+    out.of.at(from.x, from.y) = label;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const Vec2i p = members[k];
+        fill.inside += phi.row(p.y)[p.x] > 0;
+        for (const Vec2i step : {Vec2i(1, 0), Vec2i(-1, 0), Vec2i(0, 1), Vec2i(0, -1)}) {
+            const Vec2i q = p + step;
+            if (q.x < 0 || q.y < 0 || q.x >= frame.width() || q.y >= frame.height()) continue;
+            if (out.of.at(q.x, q.y) != kNew ||
+                difference(color_at(frame, q.x, q.y), fill.color) > kSameFill)
+                continue;
+            out.of.at(q.x, q.y) = label;
+            members.push_back(q);
+        }
+    }
+    fill.area = static_cast<std::int64_t>(members.size());
+    if (fill.area >= kLeastArea) {
+        fill.even = is_even(frame, out.of, members);
+        out.all.push_back(fill);
+        return;
+    }
+    for (const Vec2i& p : members)
+        out.of.at(p.x, p.y) = kNone;
+}
+
 Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
-    constexpr std::int32_t kNew = -2, kNone = -1;
     Fills out{Image<std::int32_t, 1>(frame.size(), kNew), {}};
     std::vector<Vec2i> members;
-    for (int y = 0; y < frame.height(); ++y) {
-        for (int x = 0; x < frame.width(); ++x) {
-            if (out.of.at(x, y) != kNew) continue;
-            Fill fill{color_at(frame, x, y)};
-            const auto label = static_cast<std::int32_t>(out.all.size());
-            members.assign(1, {x, y});
-            out.of.at(x, y) = label;
-            for (std::size_t k = 0; k < members.size(); ++k) {
-                const Vec2i p = members[k];
-                fill.inside += phi.row(p.y)[p.x] > 0;
-                for (const Vec2i step : {Vec2i(1, 0), Vec2i(-1, 0), Vec2i(0, 1), Vec2i(0, -1)}) {
-                    const Vec2i q = p + step;
-                    if (q.x < 0 || q.y < 0 || q.x >= frame.width() || q.y >= frame.height())
-                        continue;
-                    if (out.of.at(q.x, q.y) != kNew ||
-                        difference(color_at(frame, q.x, q.y), fill.color) > kSameFill)
-                        continue;
-                    out.of.at(q.x, q.y) = label;
-                    members.push_back(q);
-                }
+    for (const bool calm : {true, false}) {
+        for (int y = 0; y < frame.height(); ++y) {
+            for (int x = 0; x < frame.width(); ++x) {
+                if (out.of.at(x, y) == kNew && (!calm || is_calm(frame, x, y)))
+                    grow_fill(frame, phi, {x, y}, out, members);
             }
-            fill.area = static_cast<std::int64_t>(members.size());
-            fill.even = deviation_of(frame, members) < kMostDeviation;
-            if (fill.area >= kLeastArea) {
-                out.all.push_back(fill);
-                continue;
-            }
-            for (const Vec2i& p : members)
-                out.of.at(p.x, p.y) = kNone;
         }
     }
     mark_thick(out);

@@ -140,5 +140,44 @@ TEST(FlatFills, SaysNothingOfAPictureWithGrainOrWhereNothingDiffers) {
     EXPECT_TRUE(none.corrected(key(), distance_of({20, 20, 60, 80})).empty());
 }
 
+// A rendering without grain: neighbours are equal, and all the same it is no fill.
+TEST(FlatFills, AGradientIsNoFill) {
+    ImageU8x3 frame = sky();
+    for (int y = 20; y < 80; ++y) {
+        for (int x = 20; x < 140; ++x) {
+            for (int c = 0; c < 3; ++c)
+                frame.pixel(x, y)[c] = static_cast<std::uint8_t>(60 + x / 2 + y / 3);
+        }
+    }
+    const FlatFills none(frame, distance_of({20, 20, 140, 80}));
+    EXPECT_TRUE(none.corrected(frame, distance_of({20, 20, 80, 80})).empty());
+}
+
+// As H.264 leaves a fill: blocks a level or two off, and ringing beside the lines.
+TEST(FlatFills, ACompressedFillIsOne) {
+    const auto compressed = [](const Recti& coat) {
+        ImageU8x3 out = sky();
+        draw(out, coat, kCoat);
+        for (int y = 0; y < kFrame.height; ++y) {
+            for (int x = 0; x < kFrame.width; ++x) {
+                const int block = (x / 8 * 5 + y / 8 * 3) % 3 - 1;
+                const int from_line =
+                    std::min({x - coat.x0, coat.x1 - x, y - coat.y0, coat.y1 - y});
+                const int ringing = from_line > 2 && from_line < 6 ? (x + y) % 3 * 3 - 3 : 0;
+                for (int c = 0; c < 3; ++c)
+                    out.pixel(x, y)[c] =
+                        static_cast<std::uint8_t>(out.pixel(x, y)[c] + block + ringing);
+            }
+        }
+        return out;
+    };
+    const FlatFills fills(compressed(kKeyCoat), distance_of(kKeyCoat));
+    const Recti coat{60, 10, 110, 70};
+    const Matte found = fills.corrected(compressed(coat), distance_of({85, 10, 110, 70}));
+    ASSERT_FALSE(found.empty());
+    EXPECT_GT(share_of(found, coat).of_box, 0.95);
+    EXPECT_LT(share_of(found, coat).elsewhere, 0.03);
+}
+
 }  // namespace
 }  // namespace weft
