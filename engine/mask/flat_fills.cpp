@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 namespace weft {
@@ -164,15 +165,31 @@ Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
 
 enum class Decision : std::uint8_t { kAsFound, kInside, kOutside };
 
+// Where there are no fills, and more than lines: what is painted in many colours or has grain.
+cv::Mat textured(const Image<std::int32_t, 1>& of) {
+    constexpr double kWidestLine = 12;  // px
+    cv::Mat none(of.height(), of.width(), CV_8U), distance;
+    for (int y = 0; y < of.height(); ++y) {
+        for (int x = 0; x < of.width(); ++x)
+            none.at<std::uint8_t>(y, x) = of.at(x, y) < 0 ? 255 : 0;
+    }
+    cv::distanceTransform(none, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    const cv::Mat thin = distance <= kWidestLine / 2;
+    cv::distanceTransform(thin, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    return none & (distance <= kWidestLine / 2 + 1);
+}
+
 // Which side each pixel's fill is on; `decided`, by fill, may be empty: all as they were found.
 FillSides sides_of(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided) {
     FillSides out(phi.size());
+    const cv::Mat no_line = textured(fills.of);
     for (int y = 0; y < phi.height(); ++y) {
         for (int x = 0; x < phi.width(); ++x) {
             const std::int32_t fill = fills.of.at(x, y);
-            if (fill < 0) continue;
-            const Decision how =
-                decided.empty() ? Decision::kAsFound : decided[static_cast<std::size_t>(fill)];
+            if (fill < 0 && no_line.at<std::uint8_t>(y, x) == 0) continue;
+            const Decision how = decided.empty() || fill < 0
+                                     ? Decision::kAsFound
+                                     : decided[static_cast<std::size_t>(fill)];
             const bool inside =
                 how == Decision::kAsFound ? phi.row(y)[x] > 0 : how == Decision::kInside;
             out.at(x, y) = inside ? 1 : 2;

@@ -179,5 +179,24 @@ TEST(FlatFills, ACompressedFillIsOne) {
     EXPECT_LT(share_of(found, coat).elsewhere, 0.03);
 }
 
+// A patterned card on a flat ground, painted with much of the ground.
+TEST(FlatFills, LeavesWhatIsNeitherFillNorLine) {
+    const Recti card{50, 30, 100, 70}, painted{30, 25, 120, 75}, later{34, 25, 124, 75};
+    ImageU8x3 frame = sky();
+    for (int y = card.y0; y < card.y1; ++y) {
+        for (int x = card.x0; x < card.x1; ++x) {
+            for (int c = 0; c < 3; ++c)
+                frame.pixel(x, y)[c] = static_cast<std::uint8_t>(60 + (x + y) % 7 * 9);
+        }
+    }
+    const FlatFills fills(frame, distance_of(painted));
+    const Matte found = fills.corrected(frame, distance_of(later));
+    if (found.empty()) return;
+    for (int y = card.y0 + 2; y < card.y1 - 2; ++y) {
+        for (int x = card.x0 + 2; x < card.x1 - 2; ++x)
+            EXPECT_NE(found.at(x, y), 0) << x << " " << y;
+    }
+}
+
 }  // namespace
 }  // namespace weft
