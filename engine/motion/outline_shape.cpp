@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -50,6 +51,7 @@ struct OutlineShape::State {
     cv::Mat distance;              // signed, positive inside
     cv::Mat open;                  // visible, away from holdouts
     cv::Mat light, share;          // luma where open, and 1 there
+    std::mutex making;             // guards what follows; std::map's values stay where they are
     std::map<float, cv::Mat> ink;  // by σ, px
     std::map<std::pair<float, float>, RegistrationPicture> pictures;
 };
@@ -109,6 +111,7 @@ float OutlineShape::area_px() const {
 const RegistrationPicture& OutlineShape::picture(float band_px, float sigma_px) const {
     constexpr float kDistance_px = 6;  // that counts as 1
     State& s = *state_;
+    const std::lock_guard lock(s.making);
     const auto [kept, is_new] = s.pictures.try_emplace({band_px, sigma_px});
     RegistrationPicture& out = kept->second;
     if (!is_new || s.box.empty()) return out;

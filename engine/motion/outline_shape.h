@@ -17,8 +17,8 @@ struct OutlineView {
 };
 
 /// What is compared of one frame, by the width of the band about its outline. Each picture is made
-/// when it is first asked for and kept, since a frame is registered against the one before it and
-/// the one after it. Not thread-safe.
+/// when it is first asked for and kept, since a frame is registered against the one before it, the
+/// one after it and the reference frame. Const access is thread-safe.
 class OutlineShape {
   public:
     explicit OutlineShape(const OutlineView& view);

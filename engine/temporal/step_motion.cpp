@@ -236,7 +236,7 @@ const RegistrationPicture& StepFrame::color_picture() const {
 }
 
 const OutlineShape& StepFrame::outline() const {
-    if (!outline_) outline_.emplace(view());
+    std::call_once(outline_made_, [&] { outline_.emplace(view()); });
     return *outline_;
 }
 

@@ -13,7 +13,7 @@
 namespace weft {
 
 /// One frame of a walk: copies of its pictures, and what registration makes of them, computed when
-/// it is first asked for. Thread-safe except for outline().
+/// it is first asked for. Const access is thread-safe.
 class StepFrame {
   public:
     /// `luma`, `visible` (the matte without holdouts), `extent` (the full matte): H×W.
@@ -37,7 +37,7 @@ class StepFrame {
   private:
     Matte luma_, extent_, visible_, color_;
     std::optional<ColorAxis> axis_;
-    mutable std::once_flag picture_made_, color_picture_made_;
+    mutable std::once_flag picture_made_, color_picture_made_, outline_made_;
     mutable std::optional<RegistrationPicture> picture_, color_picture_;
     mutable std::optional<OutlineShape> outline_;
 };
@@ -71,8 +71,7 @@ struct StepEvidence {
 /// plate's raw motion `prev_from_cur` does not find the surface again almost everywhere; how far
 /// they lead is registration_lead(), and what their motion gains in places that are consistent
 /// there and back. The outline's motion is measured where structure is faint
-/// (structure_to_noise()) or runs in one direction. Pure, but for the caches of the frames:
-/// outlines are compared, so one thread at a time may use a frame.
+/// (structure_to_noise()) or runs in one direction. Pure, but for the caches of the frames.
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
                                            const FlowField& prev_from_cur, FlowQuality quality,
                                            int spacing_px);
