@@ -165,13 +165,14 @@ Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
 
 enum class Decision : std::uint8_t { kAsFound, kInside, kOutside };
 
+constexpr int kWidestLine = 12;  // px
+
 // Where there are no fills, and more than lines: what is painted in many colours or has grain.
-cv::Mat textured(const Image<std::int32_t, 1>& of) {
-    constexpr double kWidestLine = 12;  // px
-    cv::Mat none(of.height(), of.width(), CV_8U), distance;
-    for (int y = 0; y < of.height(); ++y) {
-        for (int x = 0; x < of.width(); ++x)
-            none.at<std::uint8_t>(y, x) = of.at(x, y) < 0 ? 255 : 0;
+cv::Mat textured(const Image<std::int32_t, 1>& of, const Recti& box) {
+    cv::Mat none(box.height(), box.width(), CV_8U), distance;
+    for (int y = 0; y < box.height(); ++y) {
+        for (int x = 0; x < box.width(); ++x)
+            none.at<std::uint8_t>(y, x) = of.at(box.x0 + x, box.y0 + y) < 0 ? 255 : 0;
     }
     cv::distanceTransform(none, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     const cv::Mat thin = distance <= kWidestLine / 2;
@@ -179,29 +180,62 @@ cv::Mat textured(const Image<std::int32_t, 1>& of) {
     return none & (distance <= kWidestLine / 2 + 1);
 }
 
-// Which side each pixel's fill is on; `decided`, by fill, may be empty: all as they were found.
-FillSides sides_of(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided) {
-    FillSides out(phi.size());
-    const cv::Mat no_line = textured(fills.of);
+// Whether a pixel is of the surface, if its fill is decided so.
+bool is_own(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided, int x, int y) {
+    const std::int32_t fill = fills.of.at(x, y);
+    const Decision how = fill < 0 ? Decision::kAsFound : decided[static_cast<std::size_t>(fill)];
+    return how == Decision::kAsFound ? phi.row(y)[x] > 0 : how == Decision::kInside;
+}
+
+// Around what is the surface's: with as much as says whether what lies there is a line.
+Recti box_of(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided) {
+    Recti box{phi.width(), phi.height(), 0, 0};
     for (int y = 0; y < phi.height(); ++y) {
         for (int x = 0; x < phi.width(); ++x) {
-            const std::int32_t fill = fills.of.at(x, y);
-            if (fill < 0 && no_line.at<std::uint8_t>(y, x) == 0) continue;
-            const Decision how = decided.empty() || fill < 0
-                                     ? Decision::kAsFound
-                                     : decided[static_cast<std::size_t>(fill)];
-            const bool inside =
-                how == Decision::kAsFound ? phi.row(y)[x] > 0 : how == Decision::kInside;
-            out.at(x, y) = inside ? 1 : 2;
+            if (phi.row(y)[x] <= 0 && !is_own(fills, phi, decided, x, y)) continue;
+            box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
+                   std::max(box.y1, y + 1)};
+        }
+    }
+    if (box.empty()) return {};
+    return box.grown(LineHabit::kSees_px + kWidestLine + 1).intersected(rect_of(phi.size()));
+}
+
+// Which side each pixel's fill is on, in `box`.
+FillSides sides_of(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided,
+                   const Recti& box) {
+    FillSides out(box.size());
+    const cv::Mat no_line = textured(fills.of, box);
+    for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) {
+            const int u = x - box.x0, v = y - box.y0;
+            if (fills.of.at(x, y) < 0 && no_line.at<std::uint8_t>(v, u) == 0) continue;
+            out.at(u, v) = is_own(fills, phi, decided, x, y) ? 1 : 2;
         }
     }
     return out;
+}
+
+// How many of the surface's neighbouring pixels are equal.
+double equal_share(ViewU8x3 frame, ViewF1 phi) {
+    std::int64_t pairs = 0, equal = 0;
+    for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x + 1 < frame.width(); ++x) {
+            if (phi.row(y)[x] <= 0 || phi.row(y)[x + 1] <= 0) continue;
+            ++pairs;
+            equal += difference(color_at(frame, x, y), color_at(frame, x + 1, y)) <= 1;
+        }
+    }
+    return pairs == 0 ? 0 : static_cast<double>(equal) / static_cast<double>(pairs);
 }
 
 }  // namespace
 
 FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
     constexpr double kMostly = 0.6, kDivided = 0.05;
+    // Film and renderings need no search: what is mostly even fills has more equal neighbours.
+    constexpr double kEnoughEqual = 0.8 * kMostly * kLeastEqual;
+    if (equal_share(frame, phi) < kEnoughEqual) return;
     const Fills fills = fills_of(frame, phi);
     std::int64_t inside = 0, flat = 0;
     for (int y = 0; y < frame.height(); ++y) {
@@ -224,7 +258,9 @@ FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
         paints_.clear();
         return;
     }
-    lines_ = LineHabit(sides_of(fills, phi, {}), phi);
+    const std::vector<Decision> as_painted(fills.all.size(), Decision::kAsFound);
+    const Recti box = box_of(fills, phi, as_painted);
+    lines_ = LineHabit(sides_of(fills, phi, as_painted, box), phi.crop(box));
 }
 
 const FlatFills::Paint* FlatFills::paint_of(const std::array<int, 3>& color) const {
@@ -258,11 +294,16 @@ Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
         else
             decided[k] = found > 0.5 ? Decision::kInside : Decision::kOutside;
     }
-    Matte out = lines_.complete(sides_of(fills, phi, decided));
+    const Recti box = box_of(fills, phi, decided);
+    if (box.empty()) return {};
+    const Matte own = lines_.complete(sides_of(fills, phi, decided, box));
     bool differs = false;
-    for (int y = 0; !differs && y < frame.height(); ++y) {
-        for (int x = 0; !differs && x < frame.width(); ++x)
-            differs = (out.at(x, y) != 0) != (phi.row(y)[x] > 0);
+    Matte out(frame.size());
+    for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) {
+            out.at(x, y) = own.at(x - box.x0, y - box.y0);
+            differs = differs || (out.at(x, y) != 0) != (phi.row(y)[x] > 0);
+        }
     }
     return differs ? std::move(out) : Matte();
 }

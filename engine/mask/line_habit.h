@@ -15,6 +15,9 @@ using FillSides = Image<std::uint8_t, 1>;
 /// and whether it takes in those between its own fills: learnt from the keyframe, by distance.
 class LineHabit {
   public:
+    /// What lies further than this from all fills of the surface does not matter, px.
+    static constexpr int kSees_px = 12;
+
     LineHabit() = default;
     /// From the keyframe's `sides` and its matte, `phi` > 0 inside; H×W.
     LineHabit(const FillSides& sides, ViewF1 phi);

@@ -34,7 +34,7 @@ std::vector<Vec2> smoothed(const std::vector<cv::Point>& contour) {
 }
 
 // How a curve goes on around each point, whatever its direction: the tangent some way ahead as seen
-// from the one as far behind, near, further and far.
+// from the one as far behind. Not from far: waves travel through cloth, corners stay.
 constexpr std::array<int, 2> kReaches{2, 4};  // points
 using Bend = std::array<Vec2, kReaches.size()>;
 
