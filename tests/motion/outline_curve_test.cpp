@@ -17,12 +17,7 @@ Matte rectangle(Vec2 middle, Vec2 half) {
 }
 
 LatticeField moved_by(Vec2 d) {
-    LatticeField out(kFrame, 8);
-    for (int j = 0; j < out.nodes().height(); ++j) {
-        for (int i = 0; i < out.nodes().width(); ++i)
-            out.set_node(i, j, d);
-    }
-    return out;
+    return weft::moved_by(kFrame, d);
 }
 
 TEST(OutlineCurve, IsSampledEvenlyAroundTheLargestPiece) {

@@ -10,12 +10,7 @@ namespace {
 constexpr Size kFrame{200, 160};
 
 LatticeField moved_by(Vec2 d) {
-    LatticeField out(kFrame, 8);
-    for (int j = 0; j < out.nodes().height(); ++j) {
-        for (int i = 0; i < out.nodes().width(); ++i)
-            out.set_node(i, j, d);
-    }
-    return out;
+    return weft::moved_by(kFrame, d);
 }
 
 struct Scene {

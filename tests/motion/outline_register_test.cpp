@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+#include <vector>
+
 #include "tests/motion/pictures.h"
 
 namespace weft {
@@ -142,6 +145,23 @@ TEST(OutlineRegister, KeepsTheCornersOfAFlagOnItsCorners) {
     EXPECT_GT(mean_error(still, cur, after, prev_at), 20.0f);
     EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), still), cur, after, prev_at),
               4.0f);
+}
+
+// The walk registers a frame while its step to the next one is prepared.
+TEST(OutlineRegister, AShapeServesSeveralThreads) {
+    const auto before = [](Vec2 p) { return p - Vec2(150, 120); };
+    const auto after = [](Vec2 p) { return p - Vec2(157, 116); };
+    const Drawing prev = draw_one(before, 0.2f), cur = draw_one(after, -0.3f);
+    const LatticeField alone = register_outline(prev.shape(), cur.shape(), 8);
+    const OutlineShape a = prev.shape(), b = cur.shape();
+    std::vector<LatticeField> found(8);
+    std::vector<std::thread> threads;
+    for (LatticeField& field : found)
+        threads.emplace_back([&] { field = register_outline(a, b, 8); });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (const LatticeField& field : found)
+        EXPECT_EQ(field.nodes(), alone.nodes());
 }
 
 TEST(OutlineRegister, WithoutAShapeNothingIsChanged) {

@@ -8,6 +8,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/rng.h"
+#include "engine/motion/lattice_field.h"
 
 namespace weft {
 
@@ -57,6 +58,16 @@ Matte draw(Size size, const F& value) {
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x)
             out.at(x, y) = code_of(value(centre_of(x, y)));
+    }
+    return out;
+}
+
+/// The same displacement everywhere, on a lattice of 8 px.
+inline LatticeField moved_by(Size size, Vec2 d) {
+    LatticeField out(size, 8);
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i)
+            out.set_node(i, j, d);
     }
     return out;
 }

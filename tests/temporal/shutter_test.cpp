@@ -10,12 +10,7 @@ namespace {
 constexpr Size kSize{200, 160};
 
 LatticeField steady(Vec2 prev_from_cur) {
-    LatticeField field(kSize, 8);
-    for (int j = 0; j < field.nodes().height(); ++j) {
-        for (int i = 0; i < field.nodes().width(); ++i)
-            field.set_node(i, j, prev_from_cur);
-    }
-    return field;
+    return moved_by(kSize, prev_from_cur);
 }
 
 // Turned tiles in random tones that move by v a frame, seen through a shutter.

@@ -107,11 +107,7 @@ TEST(StepMotion, FollowsAFaintClothUnderAMovingShade) {
 }
 
 LatticeField moved_by(float x) {
-    LatticeField field(kFrame, 8);
-    for (int j = 0; j < field.nodes().height(); ++j)
-        for (int i = 0; i < field.nodes().width(); ++i)
-            field.set_node(i, j, {x, 0});
-    return field;
+    return moved_by(kFrame, {x, 0});
 }
 
 // Paint with a little detail that moves to the right, and light with some that stands still.
