@@ -90,10 +90,9 @@ void add_color(const StepFrame& prev, const StepFrame& cur, FlowQuality quality,
         estimate_surface_flow({here, now.visible}, {there, before.visible}, cur.size(), quality);
     out.by_color = by_picture(flow, weights_of(cur.color(), now.visible, flow), spacing_px);
     const bool freed = out.by_freed && *out.freed_lead > 0;
-    out.color_lead =
-        registration_lead(there, here, *out.by_color, freed ? *out.by_freed : out.by_picture)
-            .errors -
-        kOfTheFit;
+    const RegistrationLead lead =
+        registration_lead(there, here, *out.by_color, freed ? *out.by_freed : out.by_picture);
+    out.color_lead = lead.errors == 0 ? 0 : lead.errors - kOfTheFit;
 }
 
 // Adds the motion of the pictures freed of light to `out`.
@@ -204,6 +203,7 @@ void MotionChoice::note_freed(double lead) {
 void MotionChoice::note_color(double lead) {
     constexpr int kFrames = 5;
     constexpr double kColor = 1.25, kLuma = 0.75;
+    if (lead == 0) return;  // nothing could be compared
     color_.note(lead, kFrames, kColor, kLuma);
 }
 
