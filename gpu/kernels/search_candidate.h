@@ -17,7 +17,7 @@ struct SearchCandidateLevel {
         u32 target[kTileH][kTileW];
         u32 sample[kTileH][kSampleW];
         u64 ssd[kThreads], weight[kThreads];
-        u32 some;
+        u32 some[2];  ///< Of tiles in turn, so that clearing one cannot meet the last read.
     };
     struct Sums {
         u64 ssd[kCandidates], weight[kCandidates];
@@ -32,10 +32,12 @@ struct SearchCandidateLevel {
         const int first = block.index() % groups * kCandidates;
         const int tx = a.lo_x + first, ty = a.lo_y + block.index() / groups;
         block.each([&](int t) { sums[t] = Sums{}; });
+        int turn = 0;
         for (int y0 = 0; y0 < a.block_h; y0 += kTileH) {
             for (int x0 = 0; x0 < a.block_w; x0 += kTileW) {
-                load(block, s, a, x0, y0, tx, ty);
-                if (s.some) add(block, s, a, x0, y0, tx, ty, sums);
+                turn = 1 - turn;
+                load(block, s, a, x0, y0, tx, ty, s.some[turn]);
+                if (s.some[turn]) add(block, s, a, x0, y0, tx, ty, sums);
             }
         }
         for (int c = 0; c < kCandidates; ++c) {
@@ -61,17 +63,17 @@ struct SearchCandidateLevel {
 
   private:
     template <class Block>
-    WEFT_HD static void load(Block& block, Shared& s, const Args& a, int x0, int y0, int tx,
-                             int ty) {
+    WEFT_HD static void load(Block& block, Shared& s, const Args& a, int x0, int y0, int tx, int ty,
+                             u32& some) {
         block.each([&](int t) {
-            if (t == 0) s.some = 0;
+            if (t == 0) some = 0;
         });
         block.each([&](int t) {
             for (int i = t; i < kTileH * kTileW; i += kThreads) {
                 const int x = i % kTileW, y = i / kTileW;
                 const u32 word = block_pixel(a, x0 + x, y0 + y);
                 s.target[y][x] = word;
-                if (word) s.some = 1;  // Whoever writes it writes the same.
+                if (word) some = 1;  // Whoever writes it writes the same.
             }
             for (int i = t; i < kTileH * kSampleW; i += kThreads) {
                 // Candidate c sees sample column x + kCandidates − 1 − c beside target column x.
