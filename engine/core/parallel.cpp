@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/stopwatch.h"
+
 namespace weft {
 namespace {
 
@@ -25,32 +27,65 @@ int processors() {
 thread_local bool inside_parallel = false;
 
 // One parallel_for call. Helpers and the caller take indices from `next` until none is left.
-struct Work {
-    const std::function<void(std::size_t)>* body;
-    std::size_t n;
-    std::atomic<std::size_t> next{0};
-    std::atomic<std::size_t> finished{0};
-    std::mutex mutex;
-    std::condition_variable all_done;
-    std::exception_ptr error;
+//
+// Much work is over before a thread is awake, and to wake a machine's worth of threads for it takes
+// longer than doing it. So the caller wakes two, and whoever takes an index two more for as long as
+// what is left is worth it.
+class Work {
+  public:
+    Work(const std::function<void(std::size_t)>& body, std::size_t n) : body_(&body), n_(n) {}
 
-    void run() {
+    [[nodiscard]] std::size_t left() const { return n_ - std::min(n_, taken()); }
+
+    /// Wakes two of those who wait.
+    void wake(std::condition_variable& helpers) {
+        for (int k = 0; k < 2 && woken_.fetch_add(1, std::memory_order_relaxed) + 1 < n_; ++k)
+            helpers.notify_one();
+    }
+
+    void run(std::condition_variable& helpers) {
         const bool nested = std::exchange(inside_parallel, true);
         std::size_t done = 0;
-        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < n; ++done) {
+        for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < n_; ++done) {
+            if (woken_.load(std::memory_order_relaxed) + 1 < n_ && lasts()) wake(helpers);
             try {
-                (*body)(i);
+                (*body_)(i);
             } catch (...) {
-                const std::lock_guard lock(mutex);
-                if (!error) error = std::current_exception();
+                const std::lock_guard lock(mutex_);
+                if (!error_) error_ = std::current_exception();
             }
         }
         inside_parallel = nested;
-        if (done > 0 && finished.fetch_add(done) + done == n) {
-            const std::lock_guard lock(mutex);
-            all_done.notify_all();
+        if (done > 0 && finished_.fetch_add(done) + done == n_) {
+            const std::lock_guard lock(mutex_);
+            all_done_.notify_all();
         }
     }
+
+    /// Until every index is done. Rethrows what one of them threw.
+    void wait() {
+        std::unique_lock lock(mutex_);
+        all_done_.wait(lock, [&] { return finished_.load() == n_; });
+        if (error_) std::rethrow_exception(error_);
+    }
+
+  private:
+    [[nodiscard]] std::size_t taken() const { return next_.load(std::memory_order_relaxed); }
+
+    // Whether what is left, at the pace so far, takes longer than a thread takes to wake.
+    [[nodiscard]] bool lasts() const {
+        constexpr double kWaking_s = 50e-6;
+        const auto ahead = static_cast<double>(left());
+        return seconds_since(start_) * ahead > kWaking_s * static_cast<double>(taken());
+    }
+
+    const std::function<void(std::size_t)>* body_;
+    const std::size_t n_;
+    const Clock::time_point start_ = Clock::now();
+    std::atomic<std::size_t> next_{0}, finished_{0}, woken_{0};
+    std::mutex mutex_;
+    std::condition_variable all_done_;
+    std::exception_ptr error_;
 };
 
 // Helper threads that live until the process ends. Several callers may hand in work at once: each
@@ -68,6 +103,7 @@ class Pool {
             stop_ = true;
         }
         wake_.notify_all();
+        surplus_.notify_all();
         for (auto& t : helpers_)
             t.join();
     }
@@ -76,6 +112,8 @@ class Pool {
         const std::lock_guard lock(mutex_);
         count_ = count > 0 ? count : processors();
         note_usable();
+        wake_.notify_all();
+        surplus_.notify_all();
     }
 
     int count() {
@@ -96,38 +134,38 @@ class Pool {
                 helpers_.emplace_back([this, index] { loop(index); });
                 note_usable();
             }
+            std::erase_if(queue_, [](const auto& w) { return w->left() == 0; });
             queue_.push_back(work);
         }
-        wake_.notify_all();
-        work->run();
-        {
-            std::unique_lock lock(work->mutex);
-            work->all_done.wait(lock, [&] { return work->finished.load() == work->n; });
-        }
-        const std::lock_guard lock(mutex_);
-        std::erase(queue_, work);
+        work->wake(wake_);
+        work->run(wake_);
+        work->wait();
     }
 
   private:
     void loop(int index) {
         std::unique_lock lock(mutex_);
-        while (true) {
-            std::shared_ptr<Work> work;
-            wake_.wait(lock, [&] { return stop_ || (work = claim(index)) != nullptr; });
-            if (stop_) return;
+        while (!stop_) {
+            if (index >= count_ - 1) {
+                surplus_.wait(lock);
+                continue;
+            }
+            const std::shared_ptr<Work> work = claim();
+            if (!work) {
+                wake_.wait(lock);
+                continue;
+            }
             ++busy_;
             lock.unlock();
-            work->run();
+            work->run(wake_);
             lock.lock();
             --busy_;
         }
     }
 
-    // Helpers beyond the current count sleep.
-    std::shared_ptr<Work> claim(int index) {
-        if (index >= count_ - 1) return nullptr;
+    std::shared_ptr<Work> claim() {
         for (const auto& work : queue_) {
-            if (work->next.load(std::memory_order_relaxed) < work->n) return work;
+            if (work->left() > 0) return work;
         }
         return nullptr;
     }
@@ -136,9 +174,10 @@ class Pool {
 
     std::mutex mutex_;
     std::condition_variable wake_;
+    std::condition_variable surplus_;       // where helpers beyond the current count sleep
     std::atomic<int> busy_{0}, usable_{0};  // helpers that run work; that may
     std::vector<std::thread> helpers_;
-    std::vector<std::shared_ptr<Work>> queue_;
+    std::vector<std::shared_ptr<Work>> queue_;  // and some of which no index is left
     int count_ = processors();
     bool stop_ = false;
 };
@@ -160,11 +199,15 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
             body(i);
         return;
     }
-    const auto work = std::make_shared<Work>();
-    work->body = &body;
-    work->n = n;
-    Pool::instance().run(work);
-    if (work->error) std::rethrow_exception(work->error);
+    Pool::instance().run(std::make_shared<Work>(body, n));
+}
+
+Status parallel_try(std::size_t n, const std::function<Status(std::size_t)>& body) {
+    std::vector<Status> done(n);
+    parallel_for(n, [&](std::size_t i) { done[i] = body(i); });
+    for (Status& status : done)
+        WEFT_CHECK_OK(std::move(status));
+    return {};
 }
 
 void parallel_rows(int height, int band, const std::function<void(int, int)>& body) {

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "engine/core/error.h"
+
 namespace weft {
 
 /// How many threads parallel work may use, the caller included. 0 means one for each processor that
@@ -14,6 +16,10 @@ void set_thread_count(int count);
 /// on the number of threads. Inside a body: in the calling thread, helped by threads without work.
 /// An exception from a body is rethrown here after the others have finished.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
+
+/// The same for bodies that may fail: all are called, and the error of the lowest index is
+/// returned.
+[[nodiscard]] Status parallel_try(std::size_t n, const std::function<Status(std::size_t)>& body);
 
 /// The same over bands of rows: body(y0, y1) for consecutive bands of [0, height) of `band` rows.
 /// Bands do not depend on the number of threads.

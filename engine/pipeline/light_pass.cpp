@@ -39,25 +39,31 @@ Expected<Evidence> evidence_at(const AnalysisStore& store, int region, int frame
     return Evidence{std::move(sample), std::move(motion)};
 }
 
+Status light_at(const PassContext& context, AnalysisStore& store, int region, int frame,
+                const ClipReflectance& reflectance) {
+    if (context.cancel.cancelled()) return cancelled(context.cancel);
+    WEFT_TRY(at, evidence_at(store, region, frame));
+    const ShadingOptions options = shading_options(context.plan, context.source.size());
+    const Shading shading = shading_with(at.sample, reflectance, at.ref_from_cur, options);
+    return store.put({region, frame, AnalysisKind::kShading}, encode(shading));
+}
+
 }  // namespace
 
 Status estimate_light(const PassContext& context, int region, FrameSpan span,
                       AnalysisStore& store) {
-    const ShadingOptions options = shading_options(context.plan, context.source.size());
-    ReflectanceGatherer gatherer(options);
+    ReflectanceGatherer gatherer(shading_options(context.plan, context.source.size()));
     for (const int frame : context.plan.regions[static_cast<std::size_t>(region)].light_evidence) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
         WEFT_TRY(at, evidence_at(store, region, frame));
         gatherer.add(at.sample, at.ref_from_cur);
     }
     const ClipReflectance reflectance = gatherer.finish();
-    for (int frame = span.first; frame <= span.last; ++frame) {
-        if (context.cancel.cancelled()) return cancelled(context.cancel);
-        WEFT_TRY(at, evidence_at(store, region, frame));
-        const Shading shading = shading_with(at.sample, reflectance, at.ref_from_cur, options);
-        WEFT_CHECK_OK(store.put({region, frame, AnalysisKind::kShading}, encode(shading)));
-    }
-    return {};
+    const auto frames = static_cast<std::size_t>(span.last - span.first + 1);
+    return parallel_try(frames, [&](std::size_t k) {
+        const int frame = span.first + static_cast<int>(k);
+        return light_at(context, store, region, frame, reflectance);
+    });
 }
 
 }  // namespace weft

@@ -38,7 +38,6 @@ struct SurfaceJob {
     std::optional<Shading> last_shading;
     SurfaceLight light;
     std::optional<PaperWalker> painter;
-    Matte last_visible;
     ShutterMeter shutter_meter;
     std::optional<GrainMeter> meter;  // while grain is measured, with the frame before:
     ImageF3 last_display;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/core/follow_up.h"
+#include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/region_mattes.h"
@@ -28,16 +29,15 @@ class Follower {
         SurfaceStops stops(context_, store_, jobs, leg);
         const auto prepare = [&](const SweepFrame& at) { return stops.prepare(at); };
         const auto visit_all = [&](const SweepFrame& at) -> Status {
-            const std::vector<std::optional<SurfaceStop>> here = stops.take();
-            std::vector<Status> done(jobs.size());
-            for_each_job(jobs.size(), [&](std::size_t k) {
-                if (here[k]) done[k] = visit(jobs[k], at, *here[k]);
-            });
-            for (Status& status : done)
-                WEFT_CHECK_OK(std::move(status));
+            WEFT_TRY(here, stops.take());
+            WEFT_CHECK_OK(parallel_try(jobs.size(), [&](std::size_t k) {
+                return here[k] ? visit(jobs[k], at, *here[k]) : Status{};
+            }));
             return measure_later(jobs, at, here);
         };
-        WEFT_CHECK_OK(sweep(context_, *options, visit_all, prepare));
+        SweepOptions ahead = *options;
+        ahead.ahead = stops.ahead();
+        WEFT_CHECK_OK(sweep(context_, ahead, visit_all, prepare));
         return measuring_.finish();
     }
 
@@ -92,7 +92,7 @@ class Follower {
     // What is measured on a frame from the step that led to it, in the order of the frames: light,
     // grain and shutter. Nothing waits for it, so the next frame is visited meanwhile.
     Status measure_later(std::vector<SurfaceJob>& jobs, const SweepFrame& at,
-                         const std::vector<std::optional<SurfaceStop>>& here) {
+                         const SurfaceStops::Stops& here) {
         struct Measured {
             SurfaceJob* job;
             Matte visible;
@@ -107,14 +107,10 @@ class Follower {
         }
         if (all->empty()) return {};
         return measuring_.run([this, at, all]() -> Status {
-            std::vector<Status> done(all->size());
-            for_each_job(all->size(), [&](std::size_t k) {
+            return parallel_try(all->size(), [&](std::size_t k) {
                 const Measured& m = (*all)[k];
-                done[k] = measure(*m.job, at, m.visible, m.prev_from_cur);
+                return measure(*m.job, at, m.visible, m.prev_from_cur);
             });
-            for (Status& status : done)
-                WEFT_CHECK_OK(std::move(status));
-            return {};
         });
     }
 
@@ -139,7 +135,6 @@ class Follower {
         job.track.emplace(*at.views, stop.visible, stop.extent, motion, context_.plan.quality, base,
                           stop.step ? stop.step->frame : nullptr);
         job.walked_to = job.anchored_at = at.frame;
-        job.last_visible = stop.visible;
         if (job.paper && at.frame == job.primary) {
             job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size(),
                                 context_.backend);
@@ -169,8 +164,7 @@ class Follower {
         if (!job.plan->track.empty()) {
             follow_track(job, at, visible);
         } else if (job.plan->true_motion) {
-            WEFT_TRY(motion, true_motion(job, at.frame));
-            job.track->advance(*at.views, visible, motion, stop.extent);
+            job.track->advance(*stop.step);
         } else if (stop.held) {
             job.track->hold();
         } else {
@@ -179,7 +173,6 @@ class Follower {
             job.track->hide_reanchoring(job.coords && job.layer == 0 && !between);
             job.track->advance(*stop.step);
         }
-        job.last_visible = visible;
         WEFT_CHECK_OK(keep_found_late(job, at.frame));
         if (const auto* pins = pins_at(job, at.frame)) {
             const LatticeField placed = corrected(job.track->ref_from_cur(), *pins);
@@ -227,18 +220,6 @@ class Follower {
         };
         job.track->advance_known(*at.views, visible, motion_to(job.walked_to),
                                  motion_to(job.anchored_at));
-    }
-
-    // prev_from_cur from the files, which point in one direction of time. The other direction is
-    // inverted, using what was visible of the surface in the frame before; otherwise an occluder's
-    // motion would land on it.
-    [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame) const {
-        const bool direct = job.plan->motion_forward == walking_back();
-        if (direct) return context_.source.motion(job.region, frame);
-        WEFT_TRY(cur_from_prev,
-                 context_.source.motion(job.region, frame + (walking_back() ? 1 : -1)));
-        drop_nonfinite(cur_from_prev.valid, job.last_visible);
-        return invert_flow(cur_from_prev);
     }
 
     // While a seam hides that a stretched texture returned to its shape, both tracks are stored for

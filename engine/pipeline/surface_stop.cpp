@@ -1,5 +1,6 @@
 #include "engine/pipeline/surface_stop.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/core/parallel.h"
@@ -31,9 +32,28 @@ bool begins(const SurfaceJob& job, SurfaceLeg leg, int frame) {
     return false;
 }
 
+namespace {
+
+// Threads that gather evidence of several frames side by side: inside of a step little runs in
+// parallel. One for four processors; more frames on their way take more memory.
+std::size_t gathering_threads(Size plate) {
+    constexpr int kMost = 4;
+    constexpr int kMostPixels = 24 << 20;  // of plates, about 0.5 GB
+    const int by_memory = kMostPixels / std::max(1, plate.width) / std::max(1, plate.height);
+    const int threads = std::min({thread_count() / 4, kMost, by_memory});
+    return threads > 1 ? static_cast<std::size_t>(threads) : 0;
+}
+
+}  // namespace
+
 SurfaceStops::SurfaceStops(const PassContext& context, const AnalysisStore& store,
                            const std::vector<SurfaceJob>& jobs, SurfaceLeg leg)
-    : context_(context), store_(store), jobs_(jobs), leg_(leg), before_(jobs.size()) {}
+    : context_(context),
+      store_(store),
+      jobs_(jobs),
+      leg_(leg),
+      before_(jobs.size()),
+      workers_(gathering_threads(context.source.size())) {}
 
 Expected<Matte> SurfaceStops::extent_of(const SurfaceJob& job, int frame) const {
     if (is_zone_layer(job.layer))
@@ -42,8 +62,45 @@ Expected<Matte> SurfaceStops::extent_of(const SurfaceJob& job, int frame) const 
     return extent_matte(context_.source, context_.plan, store_, job.region, frame);
 }
 
-Expected<SurfaceStop> SurfaceStops::stop_at(const SurfaceJob& job, Before& before,
-                                            const SweepFrame& at) const {
+// prev_from_cur from the files, which point in one direction of time. The other direction is
+// inverted, using what was visible of the surface in the frame before; otherwise an occluder's
+// motion would land on it.
+Expected<FlowField> SurfaceStops::true_motion(const SurfaceJob& job, int frame,
+                                              const Matte& visible_before) const {
+    const bool back = leg_ == SurfaceLeg::kBackward;
+    if (job.plan->motion_forward == back) return context_.source.motion(job.region, frame);
+    WEFT_TRY(cur_from_prev, context_.source.motion(job.region, frame + (back ? 1 : -1)));
+    drop_nonfinite(cur_from_prev.valid, visible_before);
+    return invert_flow(cur_from_prev);
+}
+
+// The part of a step that needs the frame before, and the rest, which needs nothing else.
+SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& before,
+                                              const SweepFrame& at, SurfaceStop& stop) const {
+    const bool first = begins(job, leg_, at.frame);
+    const SurfaceTrack::Motion motion = motion_of(*job.plan);
+    if (motion == SurfaceTrack::Motion::kExact && !first) {
+        return [this, &job, frame = at.frame, views = at.views,
+                visible_before = before.visible](SurfaceStop& s) -> Status {
+            WEFT_TRY(flow, true_motion(job, frame, visible_before));
+            s.step = exact_step(*views, s.visible, flow);
+            return {};
+        };
+    }
+    if (motion != SurfaceTrack::Motion::kEstimated || (stop.held && !first)) return {};
+    const auto prev = first ? nullptr : std::exchange(before.frame, nullptr);
+    before.frame = step_frame(*at.views, stop.visible, stop.extent, prev.get());
+    stop.step = WalkStep{before.frame, {}};
+    return [prev, motion = at.prev_from_cur, quality = context_.plan.quality](SurfaceStop& s) {
+        static_cast<void>(s.step->frame->picture());  // the walk registers it
+        if (prev && motion)
+            s.step->evidence = step_evidence(*prev, *s.step->frame, *motion, quality);
+        return Status{};
+    };
+}
+
+Expected<SurfaceStop> SurfaceStops::begin_stop(const SurfaceJob& job, Before& before,
+                                               const SweepFrame& at, Gather& gather) const {
     SurfaceStop out;
     WEFT_TRY(extent, extent_of(job, at.frame));
     WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
@@ -51,48 +108,47 @@ Expected<SurfaceStop> SurfaceStops::stop_at(const SurfaceJob& job, Before& befor
     out.visible = without_holdout(extent, holdout);
     out.extent = std::move(extent);
     drop_nonfinite(out.visible, at.views->finite);
-    if (motion_of(*job.plan) != SurfaceTrack::Motion::kEstimated) return out;
-    const bool first = begins(job, leg_, at.frame);
-    if (out.held && !first) return out;
-    const StepFrame* last = first ? nullptr : before.frame.get();
-    out.step = prepare_step(*at.views, out.visible, out.extent, at.prev_from_cur.get(), last,
-                            context_.plan.quality);
-    before.frame = out.step->frame;
+    gather = begin_step(job, before, at, out);
+    before.visible = out.visible;
     return out;
 }
 
 Status SurfaceStops::prepare(const SweepFrame& at) {
-    std::vector<std::optional<SurfaceStop>> stops(jobs_.size());
-    std::vector<Status> done(jobs_.size());
-    for_each_job(jobs_.size(), [&](std::size_t k) {
-        if (!visits(jobs_[k], leg_, at.frame)) return;
-        auto stop = stop_at(jobs_[k], before_[k], at);
-        if (stop)
-            stops[k] = std::move(*stop);
-        else
-            done[k] = tl::unexpected(std::move(stop).error());
-    });
-    for (Status& status : done)
-        WEFT_CHECK_OK(std::move(status));
+    const auto stops = std::make_shared<Stops>(jobs_.size());
+    const auto gather = std::make_shared<std::vector<Gather>>(jobs_.size());
+    WEFT_CHECK_OK(parallel_try(jobs_.size(), [&](std::size_t k) -> Status {
+        if (!visits(jobs_[k], leg_, at.frame)) return {};
+        WEFT_TRY(stop, begin_stop(jobs_[k], before_[k], at, (*gather)[k]));
+        (*stops)[k] = std::move(stop);
+        return {};
+    }));
+    const auto finish = [stops, gather]() -> Expected<Stops> {
+        WEFT_CHECK_OK(parallel_try(stops->size(), [&](std::size_t k) {
+            return (*gather)[k] ? (*gather)[k](*(*stops)[k]) : Status{};
+        }));
+        return std::move(*stops);
+    };
+    std::future<Expected<Stops>> coming;
+    if (workers_.empty()) {
+        std::promise<Expected<Stops>> made;
+        made.set_value(finish());
+        coming = made.get_future();
+    } else {
+        coming = workers_[turn_++ % workers_.size()].run(finish);
+    }
     const std::lock_guard lock(mutex_);
-    prepared_.push_back(std::move(stops));
+    prepared_.push_back(std::move(coming));
     return {};
 }
 
-std::vector<std::optional<SurfaceStop>> SurfaceStops::take() {
-    const std::lock_guard lock(mutex_);
-    std::vector<std::optional<SurfaceStop>> oldest = std::move(prepared_.front());
-    prepared_.pop_front();
-    return oldest;
-}
-
-void for_each_job(std::size_t jobs, const std::function<void(std::size_t)>& one) {
-    if (jobs > 1 && thread_count() <= 2 * static_cast<int>(jobs)) {
-        parallel_for(jobs, one);
-        return;
+Expected<SurfaceStops::Stops> SurfaceStops::take() {
+    std::future<Expected<Stops>> oldest;
+    {
+        const std::lock_guard lock(mutex_);
+        oldest = std::move(prepared_.front());
+        prepared_.pop_front();
     }
-    for (std::size_t k = 0; k < jobs; ++k)
-        one(k);
+    return oldest.get();
 }
 
 }  // namespace weft

@@ -1,14 +1,17 @@
 #pragma once
 // Internal to follow_surfaces(): what can be said of a region on a frame ahead of its walk.
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "engine/core/work_thread.h"
 #include "engine/pipeline/surface_job.h"
 #include "engine/pipeline/sweep.h"
 #include "engine/temporal/held_frames.h"
@@ -27,30 +30,44 @@ enum class SurfaceLeg : std::uint8_t { kForward, kBackward, kAgain };
 struct SurfaceStop {
     Matte visible, extent;
     bool held = false;  ///< The drawing of the frame before is held.
-    /// Where motion was estimated, if the frame is neither held nor the first.
+    /// The step to the frame where motion is estimated, on the first frame its beginning, or comes
+    /// from files. Nothing where estimated motion is held.
     std::optional<WalkStep> step;
 };
 
 /// Prepares the stops of one leg in the order of its frames; one thread prepares while another one
-/// takes.
+/// takes. On many processors several frames are prepared at the same time.
 class SurfaceStops {
   public:
+    /// By job; nothing where a region is not visited.
+    using Stops = std::vector<std::optional<SurfaceStop>>;
+
     SurfaceStops(const PassContext& context, const AnalysisStore& store,
                  const std::vector<SurfaceJob>& jobs, SurfaceLeg leg);
 
-    /// Prepares all regions on the next frame. Errors: those of the source and the store.
+    /// How many frames should be prepared before they are taken.
+    [[nodiscard]] int ahead() const { return std::max(1, static_cast<int>(workers_.size())); }
+    /// Begins with all regions on the next frame. Errors: those of the source and the store, here
+    /// or from take().
     [[nodiscard]] Status prepare(const SweepFrame& at);
-    /// The oldest prepared frame, by job; nothing where a region is not visited.
-    [[nodiscard]] std::vector<std::optional<SurfaceStop>> take();
+    /// The oldest frame that was begun, when it is prepared.
+    [[nodiscard]] Expected<Stops> take();
 
   private:
     struct Before {
         HeldFrames held;
         std::shared_ptr<const StepFrame> frame;  // the last one that was not held
+        Matte visible;                           // of the last one
     };
+    using Gather = std::function<Status(SurfaceStop&)>;  // what is still to be found out of a stop
+
     [[nodiscard]] Expected<Matte> extent_of(const SurfaceJob& job, int frame) const;
-    [[nodiscard]] Expected<SurfaceStop> stop_at(const SurfaceJob& job, Before& before,
-                                                const SweepFrame& at) const;
+    [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame,
+                                                  const Matte& visible_before) const;
+    [[nodiscard]] Gather begin_step(const SurfaceJob& job, Before& before, const SweepFrame& at,
+                                    SurfaceStop& stop) const;
+    [[nodiscard]] Expected<SurfaceStop> begin_stop(const SurfaceJob& job, Before& before,
+                                                   const SweepFrame& at, Gather& gather) const;
 
     const PassContext& context_;
     const AnalysisStore& store_;
@@ -58,11 +75,9 @@ class SurfaceStops {
     const SurfaceLeg leg_;
     std::vector<Before> before_;
     std::mutex mutex_;
-    std::deque<std::vector<std::optional<SurfaceStop>>> prepared_;
+    std::deque<std::future<Expected<Stops>>> prepared_;
+    std::size_t turn_ = 0;            // of the workers
+    std::deque<WorkThread> workers_;  // use the members above until they are destroyed
 };
-
-/// Calls one(k) for each region, side by side where that fills the processors better than what runs
-/// in parallel inside of each.
-void for_each_job(std::size_t jobs, const std::function<void(std::size_t)>& one);
 
 }  // namespace weft

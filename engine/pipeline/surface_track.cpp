@@ -49,20 +49,26 @@ SurfaceWalker walker_at(const PlateViews& views, const Matte& visible, const Mat
 
 }  // namespace
 
-WalkStep prepare_step(const PlateViews& views, const Matte& visible, const Matte& extent,
-                      const FlowField* prev_from_cur, const StepFrame* prev, FlowQuality quality) {
+std::shared_ptr<const StepFrame> step_frame(const PlateViews& views, const Matte& visible,
+                                            const Matte& extent, const StepFrame* prev) {
     const Size followed = views.followed().size();
+    return std::make_shared<const StepFrame>(views.followed(), Followed(visible, followed),
+                                             Followed(extent, followed), views.followed_display(),
+                                             prev);
+}
+
+StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,
+                           const FlowField& prev_from_cur, FlowQuality quality) {
     const SurfaceWalkerOptions options =
-        walker_options(followed, SurfaceTrack::Motion::kEstimated, quality);
-    WalkStep out{std::make_shared<const StepFrame>(views.followed(), Followed(visible, followed),
-                                                   Followed(extent, followed),
-                                                   views.followed_display(), prev),
-                 {}};
-    static_cast<void>(out.frame->picture());  // the walk registers it
-    if (prev && prev_from_cur)
-        out.evidence =
-            gather_evidence(*prev, *out.frame, *prev_from_cur, quality, options.spacing_px);
-    return out;
+        walker_options(cur.size(), SurfaceTrack::Motion::kEstimated, quality);
+    return gather_evidence(prev, cur, prev_from_cur, quality, options.spacing_px);
+}
+
+WalkStep exact_step(const PlateViews& views, const Matte& visible, const FlowField& prev_from_cur) {
+    const int spacing_px = SurfaceTrack::spacing_for(visible.size(), SurfaceTrack::Motion::kExact);
+    auto frame = std::make_shared<const StepFrame>(views.luma, visible, visible);
+    StepEvidence evidence = exact_evidence(*frame, prev_from_cur, spacing_px);
+    return {std::move(frame), std::move(evidence)};
 }
 
 int SurfaceTrack::spacing_for(Size plate, Motion motion) {
@@ -96,13 +102,6 @@ void SurfaceTrack::take_over() {
     prev_from_cur_ = in_plate(walker_.prev_from_cur());
     const LatticeField* stretched = walker_.stretched();
     stretched_ = stretched ? in_plate(*stretched) : LatticeField();
-}
-
-void SurfaceTrack::advance(const PlateViews& views, const Matte& visible,
-                           const FlowField& prev_from_cur, const Matte& extent) {
-    walker_.advance(luma_of(views), Followed(visible, followed_), prev_from_cur,
-                    Followed(extent, followed_));
-    take_over();
 }
 
 void SurfaceTrack::advance(const WalkStep& step) {

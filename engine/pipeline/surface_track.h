@@ -10,12 +10,20 @@
 
 namespace weft {
 
-/// Prepares the step to a frame from raw motion, for SurfaceTrack::advance(). `prev`: the frame
-/// that it leads from; null: it begins here, and there is no evidence. Mattes of the plate's size,
-/// raw motion of that of PlateViews::followed(). Pure as gather_evidence().
-[[nodiscard]] WalkStep prepare_step(const PlateViews& views, const Matte& visible,
-                                    const Matte& extent, const FlowField* prev_from_cur,
-                                    const StepFrame* prev, FlowQuality quality);
+/// A frame for WalkStep where motion is estimated; mattes of the plate's size. `prev`: the one that
+/// the step leads from; null: the walk begins here. Pure.
+[[nodiscard]] std::shared_ptr<const StepFrame> step_frame(const PlateViews& views,
+                                                          const Matte& visible, const Matte& extent,
+                                                          const StepFrame* prev);
+
+/// What raw motion, of the size of PlateViews::followed(), says of the step from `prev` to `cur`.
+/// Pure as gather_evidence().
+[[nodiscard]] StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,
+                                         const FlowField& prev_from_cur, FlowQuality quality);
+
+/// The step to a frame from exact motion, all of the plate's size. Pure.
+[[nodiscard]] WalkStep exact_step(const PlateViews& views, const Matte& visible,
+                                  const FlowField& prev_from_cur);
 
 /// All mattes and lattices are of the plate's size; motion that was estimated from frame to frame
 /// is of the size of PlateViews::followed(). A surface whose motion is known is not followed and
@@ -31,14 +39,12 @@ class SurfaceTrack {
     [[nodiscard]] static int spacing_for(Size plate, Motion motion);
 
     /// As SurfaceWalker's; `base` has the spacing that spacing_for() gives. `start`: the first
-    /// frame as prepare_step() made it, for estimated motion; else null.
+    /// frame as step_frame() made it, for estimated motion; else null.
     SurfaceTrack(const PlateViews& views, const Matte& visible, const Matte& extent, Motion motion,
                  FlowQuality quality, const LatticeField* base,
                  std::shared_ptr<const StepFrame> start);
 
-    void advance(const PlateViews& views, const Matte& visible, const FlowField& prev_from_cur,
-                 const Matte& extent);
-    void advance(const WalkStep& step);  ///< Of prepare_step(); for estimated motion.
+    void advance(const WalkStep& step);
     void advance_known(const PlateViews& views, const Matte& visible, LatticeField prev_from_cur,
                        LatticeField anchor_from_cur);
     void hold();

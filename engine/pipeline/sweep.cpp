@@ -27,8 +27,8 @@ Expected<SweepFrame> load(const PassContext& context, int frame) {
     return SweepFrame{frame, plate, std::move(views), nullptr};
 }
 
-// Several frames on their way to the visitor: one is being read and its motion estimated, one is
-// being prepared. With one thread in all, only reading runs beside the visitor.
+// Several frames on their way to the visitor: one is being read and its motion estimated, others
+// are being prepared. With one thread in all, only reading runs beside the visitor.
 class Conveyor {
   public:
     Conveyor(const PassContext& context, const SweepOptions& options, const SweepVisitor& prepare)
@@ -38,9 +38,16 @@ class Conveyor {
           step_(options.last >= options.first ? 1 : -1),
           count_(std::abs(options.last - options.first) + 1),
           ahead_(thread_count() > 1) {
-        read(0);
-        if (ahead_) prepare_ahead(0);
-        read(1);
+        if (ahead_) {
+            for (int k = 0; k < options_.ahead; ++k) {
+                read(k);
+                prepare_ahead(k);
+            }
+            read(options_.ahead);
+        } else {
+            read(0);
+            read(1);
+        }
     }
 
     [[nodiscard]] int count() const { return count_; }
@@ -55,9 +62,10 @@ class Conveyor {
             add_motion(frame);
             return prepared(std::move(frame));
         }
-        auto frame = preparing_.get();
-        prepare_ahead(k + 1);
-        read(k + 2);
+        auto frame = preparing_.front().get();
+        preparing_.pop_front();
+        prepare_ahead(k + options_.ahead);
+        read(k + options_.ahead + 1);
         return frame;
     }
 
@@ -93,7 +101,7 @@ class Conveyor {
         if (k >= count_) return;
         auto coming = std::make_shared<Coming>(std::move(reading_.front()));
         reading_.pop_front();
-        preparing_ = preparer_.run([this, coming] { return prepared(coming->get()); });
+        preparing_.push_back(preparer_.run([this, coming] { return prepared(coming->get()); }));
     }
 
     const PassContext& context_;
@@ -103,8 +111,7 @@ class Conveyor {
     const bool ahead_;
     int next_ = 0;
     SweepFrame before_;
-    std::deque<Coming> reading_;
-    Coming preparing_;
+    std::deque<Coming> reading_, preparing_;
     WorkThread reader_, preparer_;  // use the members above until they are destroyed
 };
 

@@ -28,6 +28,7 @@ struct SweepFrame {
 struct SweepOptions {
     int first = 0, last = 0;
     bool motion = true;
+    int ahead = 1;  ///< Frames that are prepared before they are visited, at most.
 };
 
 /// What all passes share.
@@ -42,8 +43,8 @@ struct PassContext {
 using SweepVisitor = std::function<Status(const SweepFrame&)>;
 
 /// Visits the frames in order. `prepare`, if any, gets every frame before `visit` does and must not
-/// depend on what that does. With more than one thread, one frame is visited while the next one is
-/// prepared, and the motion of the one after it estimated; the results are the same without.
+/// depend on what that does. With more than one thread, one frame is visited while the next ones
+/// are prepared, and the motion of the one after them estimated; the results are the same without.
 /// Errors: those of the source, of `prepare` and of `visit`, and cancellation.
 [[nodiscard]] Status sweep(const PassContext& context, const SweepOptions& options,
                            const SweepVisitor& visit, const SweepVisitor& prepare = {});

@@ -292,16 +292,18 @@ StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice) {
     return {evidence.by_freed && choice.freed() ? *evidence.by_freed : evidence.by_picture};
 }
 
-LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible, const FlowField& prev_from_cur,
-                              int spacing_px) {
+StepEvidence exact_evidence(const StepFrame& cur, const FlowField& prev_from_cur, int spacing_px) {
     constexpr int kBorder_px = 2;
     SurfaceFitOptions fit;
     fit.spacing_px = spacing_px;
     fit.finest_px = 8;
     fit.correlation_px = 1;
     fit.noise_floor_px = 0.005f;
-    return fit_surface_motion(prev_from_cur.d,
-                              motion_weights(luma, visible, prev_from_cur.valid, kBorder_px), fit);
+    const OutlineView now = cur.view();
+    const Matte weights = motion_weights(now.luma, now.visible, prev_from_cur.valid, kBorder_px);
+    StepEvidence out;
+    out.by_picture = fit_surface_motion(prev_from_cur.d, weights, fit);
+    return out;
 }
 
 }  // namespace weft

@@ -117,8 +117,8 @@ struct StepMotion {
 /// pictures bear out.
 [[nodiscard]] StepMotion choose_motion(const StepEvidence& evidence, MotionChoice& choice);
 
-/// The surface's motion by motion that is exact, followed closely.
-[[nodiscard]] LatticeField fit_exact_motion(ViewU8x1 luma, ViewU8x1 visible,
-                                            const FlowField& prev_from_cur, int spacing_px);
+/// What exact motion says of a step: it is followed closely, and nothing else is asked.
+[[nodiscard]] StepEvidence exact_evidence(const StepFrame& cur, const FlowField& prev_from_cur,
+                                          int spacing_px);
 
 }  // namespace weft

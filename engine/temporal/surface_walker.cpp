@@ -304,13 +304,10 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
                                            const FlowField& prev_from_cur, ViewU8x1 extent) {
     State& s = *state_;
     auto cur = std::make_shared<const StepFrame>(luma, visible, extent.empty() ? visible : extent);
-    if (s.options.exact_motion) {
-        s.follow(fit_exact_motion(luma, visible, prev_from_cur, s.options.spacing_px));
-        s.last = std::move(cur);
-        return s.ref_from_cur;
-    }
-    StepEvidence evidence =
-        gather_evidence(*s.last, *cur, prev_from_cur, s.options.quality, s.options.spacing_px);
+    StepEvidence evidence = s.options.exact_motion
+                                ? exact_evidence(*cur, prev_from_cur, s.options.spacing_px)
+                                : gather_evidence(*s.last, *cur, prev_from_cur, s.options.quality,
+                                                  s.options.spacing_px);
     return advance({std::move(cur), std::move(evidence)});
 }
 
@@ -322,6 +319,10 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
         s.last = to.frame;
         return s.ref_from_cur;
     };
+    if (s.options.exact_motion) {
+        s.follow(to.evidence.by_picture);
+        return keep();
+    }
     const bool hiding = s.hiding_left > 0;
     const std::int64_t visible_px = count_of(visible);
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
