@@ -11,6 +11,7 @@
 #include "engine/mask/boundary_refiner.h"
 #include "engine/mask/flat_fills.h"
 #include "engine/mask/growth_evidence.h"
+#include "engine/mask/left_behind.h"
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/motion_sides.h"
 #include "engine/mask/shape_transport.h"
@@ -133,12 +134,16 @@ struct MatteWalker::State {
     SurfaceReturn hidden;
     FlatFills fills;
     MotionSides sides = {};
+    LeftBehind left_behind = {};
     bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
     void take_back(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
+    void take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const;
+    void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
+                      ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                const Recti& area) const;
 };
@@ -244,12 +249,16 @@ void MatteWalker::State::take_back(ViewU8x3 now, ImageF1& distance, Matte& matte
 // Of drawn animation: fills between lines belong to the surface as a whole, or not at all.
 void MatteWalker::State::take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte) {
     const Matte whole = fills.corrected(now, distance);
-    if (whole.empty()) return;
-    const ImageF1 found = smooth_distance(signed_distance(whole, scale.limit_px), 1);
+    if (!whole.empty()) take_changed(whole, distance, matte);
+}
+
+// Takes over what differs from the boundary that was found.
+void MatteWalker::State::take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const {
+    const ImageF1 found = smooth_distance(signed_distance(inside, scale.limit_px), 1);
     constexpr float kBeside_px = 2;
     for (int y = 0; y < matte.height(); ++y) {
         for (int x = 0; x < matte.width(); ++x) {
-            const bool as_before = (distance.at(x, y) > 0) == (whole.at(x, y) != 0);
+            const bool as_before = (distance.at(x, y) > 0) == (inside.at(x, y) != 0);
             // What is as it was keeps its edge to a fraction of a pixel.
             if (as_before && std::abs(distance.at(x, y) - found.at(x, y)) < kBeside_px) continue;
             distance.at(x, y) = found.at(x, y);
@@ -257,6 +266,20 @@ void MatteWalker::State::take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte
                 std::lround(255 * std::clamp(0.5f + found.at(x, y), 0.0f, 1.0f)));
         }
     }
+}
+
+// What was uncovered and taken for surface goes out when it is left behind.
+void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_cur,
+                                      ViewF2 background, ImageF1& distance, Matte& matte) {
+    const Matte islands = left_behind.advance({now, distance, prev_from_cur, background, key_frame,
+                                               key_phi, key_from_prev, scale.band_px / kBandUnits});
+    if (islands.empty()) return;
+    Matte kept(distance.size());
+    for (int y = 0; y < kept.height(); ++y) {
+        for (int x = 0; x < kept.width(); ++x)
+            kept.at(x, y) = distance.at(x, y) > 0 && islands.at(x, y) == 0 ? 255 : 0;
+    }
+    take_changed(kept, distance, matte);
 }
 
 bool MatteWalker::has_soft_edges() const {
@@ -305,6 +328,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
         paste(s.key_from_prev, key_from_cur, area);
         s.hidden.follow(found.phi, key_from_cur, area);
     }
+    s.drop_islands(frame, prev_from_cur, background, phi, estimate.matte);
     s.take_back(frame, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);
     estimate.confidence = s.confidence;

@@ -1,0 +1,36 @@
+#pragma once
+// Islands of a matte that stayed behind with the background.
+
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// All of the frame's size. Motion leads to the frame before, pixels.
+struct IslandInput {
+    ViewU8x3 frame;  ///< Display codes.
+    ViewF1 phi;      ///< Signed distance of the boundary that was found, px, inside positive.
+    const FlowField& flow;
+    ViewF2 background_motion;  ///< Of what is outside, carried on inside.
+    ViewU8x3 key_frame;
+    ViewF1 key_phi;
+    ViewF2 key_from_cur;  ///< Where each pixel's surface lay on the keyframe, px.
+    float unit_px;        ///< A pixel of 854×480.
+};
+
+/// What a moving surface uncovers can have its colours, and is then taken for it. When the surface
+/// has moved on, that is an island, and moves as the background does, while the surface does not.
+/// An island that did so for three frames and does not look like the place of the surface that it
+/// is taken for is none of it. Where most of the surface moves as the background does nothing is
+/// said. Not thread-safe.
+class LeftBehind {
+  public:
+    /// Goes on by a frame. Not 0: an island that stayed behind. Empty if there is none.
+    /// Deterministic.
+    [[nodiscard]] Matte advance(const IslandInput& in);
+
+  private:
+    ImageF1 frames_;  ///< For how many frames the island at a pixel of the last frame has stayed.
+};
+
+}  // namespace weft

@@ -1,0 +1,107 @@
+#include "engine/mask/left_behind.h"
+
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{120, 80};
+constexpr Recti kIsland{16, 14, 26, 24};
+constexpr int kStep_px = 4;
+
+// A square moves to the right before a background that stands still, and an island of its matte is
+// left on the background.
+struct World {
+    std::uint8_t island_level = 200;  // of its pixels; the surface has 90
+    int surface_px = kStep_px;        // a frame
+    int island_px = 0;                // a frame
+    LeftBehind left_behind;
+
+    [[nodiscard]] static Recti surface(int t, int step_px) {
+        const int x = 30 + t * step_px;
+        return {x, 30, x + 40, 70};
+    }
+    [[nodiscard]] Recti island(int t) const {
+        return {kIsland.x0 + t * island_px, kIsland.y0, kIsland.x1 + t * island_px, kIsland.y1};
+    }
+
+    static void fill(ImageF1& image, const Recti& where, float value) {
+        for (int y = where.y0; y < where.y1; ++y) {
+            for (int x = where.x0; x < where.x1; ++x)
+                image.at(x, y) = value;
+        }
+    }
+
+    // What is dropped on frame t.
+    Matte advance(int t) {
+        const Recti square = surface(t, surface_px), rest = island(t);
+        ImageF1 phi(kFrame, -9.0f), key_phi(kFrame, -9.0f);
+        fill(phi, square, 9);
+        fill(phi, rest, 3);
+        fill(key_phi, surface(0, surface_px), 9);
+        ImageU8x3 frame(kFrame, 40), key(kFrame, 90);
+        FlowField flow(kFrame);
+        ImageF2 still(kFrame), key_from_cur(kFrame);
+        for (int y = 0; y < kFrame.height; ++y) {
+            for (int x = 0; x < kFrame.width; ++x) {
+                // Outside, and of the island, a place in the middle of the surface.
+                key_from_cur.pixel(x, y)[0] = key_from_cur.pixel(x, y)[1] = 50;
+                const bool on_square = square.contains(x, y), on_rest = rest.contains(x, y);
+                if (on_square) key_from_cur.pixel(x, y)[0] = static_cast<float>(x - t * surface_px);
+                if (on_square) key_from_cur.pixel(x, y)[1] = static_cast<float>(y);
+                flow.d.pixel(x, y)[0] =
+                    static_cast<float>(on_square ? -surface_px : (on_rest ? -island_px : 0));
+                for (int c = 0; c < 3 && (on_square || on_rest); ++c)
+                    frame.at(x, y, c) = on_square ? std::uint8_t{90} : island_level;
+            }
+        }
+        return left_behind.advance({frame, phi, flow, still, key, key_phi, key_from_cur, 1});
+    }
+};
+
+TEST(LeftBehind, AnIslandThatMovesWithTheBackgroundIsDroppedAfterThreeFrames) {
+    World w;
+    EXPECT_TRUE(w.advance(1).empty());
+    EXPECT_TRUE(w.advance(2).empty());
+    const Matte dropped = w.advance(3);
+    ASSERT_FALSE(dropped.empty());
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x)
+            EXPECT_EQ(dropped.at(x, y) != 0, kIsland.contains(x, y)) << x << ", " << y;
+    }
+}
+
+TEST(LeftBehind, OneThatLooksLikeItsPlaceOnTheKeyframeStays) {
+    World w;
+    w.island_level = 94;
+    for (int t = 1; t <= 8; ++t)
+        EXPECT_TRUE(w.advance(t).empty()) << t;
+}
+
+TEST(LeftBehind, OneThatMovesWithTheSurfaceStays) {
+    World w;
+    w.island_px = kStep_px;
+    for (int t = 1; t <= 8; ++t)
+        EXPECT_TRUE(w.advance(t).empty()) << t;
+}
+
+TEST(LeftBehind, NothingIsSaidWhereTheSurfaceMovesAsTheBackground) {
+    World w;
+    w.surface_px = 0;
+    for (int t = 1; t <= 8; ++t)
+        EXPECT_TRUE(w.advance(t).empty()) << t;
+}
+
+TEST(LeftBehind, AMoveBeginsTheCountAgain) {
+    World w;
+    EXPECT_TRUE(w.advance(1).empty());
+    EXPECT_TRUE(w.advance(2).empty());
+    w.island_px = 1;  // for one frame
+    EXPECT_TRUE(w.advance(3).empty());
+    w.island_px = 0;
+    EXPECT_TRUE(w.advance(4).empty());
+    EXPECT_TRUE(w.advance(5).empty());
+}
+
+}  // namespace
+}  // namespace weft
