@@ -35,31 +35,34 @@ class Work {
   public:
     Work(const std::function<void(std::size_t)>& body, std::size_t n) : body_(&body), n_(n) {}
 
-    [[nodiscard]] std::size_t left() const { return n_ - std::min(n_, taken()); }
+    [[nodiscard]] std::size_t left() const {
+        return n_ - std::min(n_, next_.load(std::memory_order_relaxed));
+    }
 
-    /// Wakes two of those who wait.
+    /// Wakes two helpers, if there is something for them.
     void wake(std::condition_variable& helpers) {
         for (int k = 0; k < 2 && woken_.fetch_add(1, std::memory_order_relaxed) + 1 < n_; ++k)
             helpers.notify_one();
     }
 
-    void run(std::condition_variable& helpers) {
+    /// Takes indices until none is left. `helps`: not the caller, who has just woken two.
+    void run(std::condition_variable& helpers, bool helps) {
         const bool nested = std::exchange(inside_parallel, true);
-        std::size_t done = 0;
-        for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < n_; ++done) {
-            if (woken_.load(std::memory_order_relaxed) + 1 < n_ && lasts()) wake(helpers);
+        for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < n_;) {
+            if (helps && woken_.load(std::memory_order_relaxed) + 1 < n_ && lasts()) wake(helpers);
+            helps = true;
             try {
                 (*body_)(i);
             } catch (...) {
                 const std::lock_guard lock(mutex_);
                 if (!error_) error_ = std::current_exception();
             }
+            if (finished_.fetch_add(1) + 1 == n_) {
+                const std::lock_guard lock(mutex_);
+                all_done_.notify_all();
+            }
         }
         inside_parallel = nested;
-        if (done > 0 && finished_.fetch_add(done) + done == n_) {
-            const std::lock_guard lock(mutex_);
-            all_done_.notify_all();
-        }
     }
 
     /// Until every index is done. Rethrows what one of them threw.
@@ -70,13 +73,12 @@ class Work {
     }
 
   private:
-    [[nodiscard]] std::size_t taken() const { return next_.load(std::memory_order_relaxed); }
-
-    // Whether what is left, at the pace so far, takes longer than a thread takes to wake.
+    // Whether what is left, at the pace so far, takes longer than a thread takes to wake. Where
+    // nothing is finished yet when a helper comes, a single index does.
     [[nodiscard]] bool lasts() const {
         constexpr double kWaking_s = 50e-6;
-        const auto ahead = static_cast<double>(left());
-        return seconds_since(start_) * ahead > kWaking_s * static_cast<double>(taken());
+        const auto finished = static_cast<double>(finished_.load(std::memory_order_relaxed));
+        return seconds_since(start_) * static_cast<double>(left()) > kWaking_s * finished;
     }
 
     const std::function<void(std::size_t)>* body_;
@@ -138,7 +140,7 @@ class Pool {
             queue_.push_back(work);
         }
         work->wake(wake_);
-        work->run(wake_);
+        work->run(wake_, false);
         work->wait();
     }
 
@@ -157,7 +159,7 @@ class Pool {
             }
             ++busy_;
             lock.unlock();
-            work->run(wake_);
+            work->run(wake_, true);
             lock.lock();
             --busy_;
         }

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "engine/core/parallel.h"
 #include "engine/form/homography_fit.h"
 #include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
@@ -174,25 +176,36 @@ std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size 
     return out;
 }
 
+// The solutions of `count` starts, in their order, without those that lead nowhere.
+template <class From>
+std::vector<RigidBundle> descended(std::size_t count, const From& from) {
+    std::vector<std::optional<RigidBundle>> found(count);
+    parallel_for(count, [&](std::size_t k) { found[k] = from(k); });
+    std::vector<RigidBundle> out;
+    for (auto& bundle : found) {
+        if (bundle) out.push_back(std::move(*bundle));
+    }
+    return out;
+}
+
 // Solutions with a plane, best first, no two alike.
 std::vector<RigidBundle> planes(const Problem& problem, double sigma) {
-    std::vector<RigidBundle> all;
-    const auto look = [&](double tangent, const glm::dvec2& slope) {
-        RigidSurface start = problem.flat;
-        start.tangent = tangent;
-        start.slope_x = slope.x;
-        start.slope_y = slope.y;
-        if (auto bundle = problem.bundle_on(start, sigma)) {
-            bundle->descend(kFirstSteps);
-            all.push_back(std::move(*bundle));
-        }
-    };
+    std::vector<RigidSurface> starts;
     std::vector<double> tangents(kStartTangents.begin(), kStartTangents.end());
     if (problem.tangent_known) tangents = {problem.prior.tangent};
     for (const double tangent : tangents) {
-        for (const glm::dvec2& slope : start_slopes())
-            look(tangent, slope);
+        for (const glm::dvec2& slope : start_slopes()) {
+            RigidSurface& start = starts.emplace_back(problem.flat);
+            start.tangent = tangent;
+            start.slope_x = slope.x;
+            start.slope_y = slope.y;
+        }
     }
+    std::vector<RigidBundle> all = descended(starts.size(), [&](std::size_t k) {
+        auto bundle = problem.bundle_on(starts[k], sigma);
+        if (bundle) bundle->descend(kFirstSteps);
+        return bundle;
+    });
     const auto cheaper = [](const RigidBundle& a, const RigidBundle& b) {
         return a.cost() < b.cost();
     };
@@ -214,23 +227,30 @@ std::vector<RigidBundle> planes(const Problem& problem, double sigma) {
 // Solutions with a curved surface, from the planes and from bulges either way on the best of them.
 std::vector<RigidBundle> curved(const Problem& problem, const std::vector<RigidBundle>& from,
                                 double sigma) {
-    std::vector<RigidBundle> out;
-    const auto look = [&](const RigidBundle& plane, double bulge) {
-        RigidSurface start = plane.surface();
+    struct Start {
+        const RigidBundle* plane;
+        double bulge;
+    };
+    std::vector<Start> starts;
+    for (const RigidBundle& plane : from)
+        starts.push_back({&plane, 0});
+    for (const double bulge : {-kBulge, kBulge})
+        starts.push_back({&from.front(), bulge});
+    std::vector<RigidBundle> out = descended(starts.size(), [&](std::size_t at) {
+        const auto& [plane, bulge] = starts[at];
+        RigidSurface start = plane->surface();
         start.relief.assign(RigidSurface::orders().size(), 0.0);
         for (std::size_t k = 0; k < start.relief.size(); ++k) {
             const Vec2i order = RigidSurface::orders()[k];
             if (std::max(order.x, order.y) == 2 && std::min(order.x, order.y) == 0)
                 start.relief[k] = bulge;
         }
-        RigidBundle bundle(*problem.frames, std::move(start), plane.poses(), problem.prior, sigma);
-        bundle.descend(kMoreSteps);
-        if (std::isfinite(bundle.cost())) out.push_back(std::move(bundle));
-    };
-    for (const RigidBundle& plane : from)
-        look(plane, 0);
-    for (const double bulge : {-kBulge, kBulge})
-        look(from.front(), bulge);
+        std::optional<RigidBundle> bundle(std::in_place, *problem.frames, std::move(start),
+                                          plane->poses(), problem.prior, sigma);
+        bundle->descend(kMoreSteps);
+        if (!std::isfinite(bundle->cost())) bundle.reset();
+        return bundle;
+    });
     std::stable_sort(out.begin(), out.end(), [](const RigidBundle& a, const RigidBundle& b) {
         return a.cost() < b.cost();
     });

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -80,6 +81,48 @@ TEST_F(Parallel, CallersFromSeveralThreadsDoNotMix) {
     for (auto& c : callers)
         c.join();
     EXPECT_EQ(sum, 4 * 50 * 10);
+}
+
+// Only two helpers are woken at first; work that lasts is passed on to all.
+TEST_F(Parallel, LongWorkReachesEveryThread) {
+    constexpr int kThreads = 6;
+    set_thread_count(kThreads);
+    std::atomic<int> begun{0};
+    parallel_for(kThreads, [&](std::size_t) {
+        ++begun;
+        const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (begun < kThreads && std::chrono::steady_clock::now() < until)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_EQ(begun, kThreads);
+    });
+}
+
+TEST_F(Parallel, HelpersComeBackWhenThereAreMoreThreadsAgain) {
+    for (const int threads : {6, 2, 6}) {
+        set_thread_count(threads);
+        std::atomic<int> begun{0};
+        parallel_for(static_cast<std::size_t>(threads), [&](std::size_t) {
+            ++begun;
+            const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+            while (begun < threads && std::chrono::steady_clock::now() < until)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            EXPECT_EQ(begun, threads);
+        });
+    }
+}
+
+TEST_F(Parallel, TheErrorOfTheLowestIndexIsReturned) {
+    set_thread_count(3);
+    std::atomic<int> calls{0};
+    const Status status = parallel_try(20, [&](std::size_t i) -> Status {
+        ++calls;
+        if (i == 7 || i == 3) return fail(ErrorCode::kUnreadable, std::to_string(i));
+        return {};
+    });
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "3");
+    EXPECT_EQ(calls, 20);
+    EXPECT_TRUE(parallel_try(0, [](std::size_t) { return Status{}; }));
 }
 
 TEST_F(Parallel, RethrowsAfterAllHaveFinished) {

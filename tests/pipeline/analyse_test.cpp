@@ -106,7 +106,7 @@ TEST(Analysis, RegionsSideBySideAreThoseOneAfterTheOther) {
     };
     const auto alone = analysed(1);
     EXPECT_EQ(analysed(2), alone);   // side by side
-    EXPECT_EQ(analysed(16), alone);  // each parallel inside
+    EXPECT_EQ(analysed(16), alone);  // steps of several frames, too
 }
 
 TEST(Analysis, TwoReferencesAreBlendedBetweenAndKeptThemselves) {
@@ -241,11 +241,17 @@ TEST(Analysis, TakesTrueMotionPointingEitherWay) {
         RegionPlan region = region_from({5});
         region.has_holdout = region.true_motion = true;
         region.motion_forward = forward;
-        MemoryAnalysisStore store;
+        MemoryAnalysisStore store, with_more_threads;
+        set_thread_count(1);
         analyse(shot, make_plan(region), store);
+        set_thread_count(16);
+        analyse(shot, make_plan(region), with_more_threads);
+        set_thread_count(0);
         for (int frame = kFirst; frame <= kLast; ++frame) {
             EXPECT_LT(coords_error(store, frame, 5), 0.02f)
                 << frame << (forward ? " forward" : " backward");
+            EXPECT_EQ(*with_more_threads.get({0, frame, AnalysisKind::kCoords}),
+                      *store.get({0, frame, AnalysisKind::kCoords}));
         }
     }
 }
@@ -277,10 +283,14 @@ TEST(Analysis, AMissingFileOfTrueMotionIsTold) {
     const MemoryShot shot = make_wall();
     RegionPlan region = region_from({5});
     region.true_motion = true;
-    MemoryAnalysisStore store;
-    const Status status = analyse_shot(shot, make_plan(region), store, {}, {});
-    ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().code, ErrorCode::kMissingFrames);
+    for (const int threads : {1, 2, 16}) {
+        set_thread_count(threads);
+        MemoryAnalysisStore store;
+        const Status status = analyse_shot(shot, make_plan(region), store, {}, {});
+        set_thread_count(0);
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().code, ErrorCode::kMissingFrames);
+    }
 }
 
 TEST(Analysis, ReportsEveryFrameOnce) {
