@@ -232,6 +232,7 @@ std::vector<RigidBundle> curved(const Problem& problem, const std::vector<RigidB
         double bulge;
     };
     std::vector<Start> starts;
+    starts.reserve(from.size() + 2);
     for (const RigidBundle& plane : from)
         starts.push_back({&plane, 0});
     for (const double bulge : {-kBulge, kBulge})

@@ -59,8 +59,8 @@ Status estimate_light(const PassContext& context, int region, FrameSpan span,
         gatherer.add(at.sample, at.ref_from_cur);
     }
     const ClipReflectance reflectance = gatherer.finish();
-    const auto frames = static_cast<std::size_t>(span.last - span.first + 1);
-    return parallel_try(frames, [&](std::size_t k) {
+    const int frames = span.last - span.first + 1;
+    return parallel_try(static_cast<std::size_t>(frames), [&](std::size_t k) {
         const int frame = span.first + static_cast<int>(k);
         return light_at(context, store, region, frame, reflectance);
     });
