@@ -4,6 +4,7 @@
 
 #include "app/cache/blob_file.h"
 #include "engine/core/byte_stream.h"
+#include "engine/media/atomic_file.h"
 
 namespace weft {
 namespace {
@@ -80,8 +81,12 @@ std::shared_ptr<StageStore> open_stage_cache(const Shot& shot, const std::string
         .value(shot.project.plate.movie_start);
     add_plate_stamps(hasher, *shot.plate);
     hasher.text(shot.spaces.plate.name).value(static_cast<int>(shot.plan.quality));
-    return std::make_shared<DiskStages>(fs::path(root) / "planes",
-                                        fs::path(root) / "motion" / hasher.finish().hex());
+    const fs::path planes = fs::path(root) / "planes";
+    const fs::path motion = fs::path(root) / "motion" / hasher.finish().hex();
+    // A run that was killed while it wrote leaves its file there.
+    for (const fs::path& folder : {planes, motion})
+        remove_stale_temporaries((folder / "blob").string());
+    return std::make_shared<DiskStages>(planes, motion);
 }
 
 }  // namespace weft

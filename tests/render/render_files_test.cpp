@@ -1,6 +1,9 @@
 // The files around a render: the cache's, the layers', the farm's, the recipe's.
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -15,6 +18,7 @@
 #include "app/render/recipe.h"
 #include "app/render/report.h"
 #include "app/render/version_up.h"
+#include "engine/media/atomic_file.h"
 #include "tests/render/shot_fixture.h"
 
 namespace weft::test {
@@ -63,6 +67,27 @@ TEST_F(RenderFiles, MotionAndPlanesAreKeptFromRunToRun) {
     ASSERT_TRUE(kept);
     EXPECT_EQ(kept->d, motion.d);
     EXPECT_FALSE(again->motion(3, 2));
+}
+
+// The caches of planes and motion are shared by runs, so each that opens them tidies up.
+TEST_F(RenderFiles, WhatAKilledRunLeftInTheCacheIsRemoved) {
+    const auto shot = open_shot(spec("out").project);
+    ASSERT_TRUE(shot) << shot.error().text();
+    FlowField motion(Size{16, 12});
+    open_stage_cache(**shot, in("stages"))->keep_motion(2, 1, motion);
+    const std::filesystem::path planes = in("stages/planes");
+    std::filesystem::create_directories(planes);
+    const pid_t child = fork();
+    if (child == 0) {
+        auto temporary = TemporaryFile::create((planes / "plane").string(), WriteRule::own());
+        raise(SIGKILL);
+        _exit(temporary ? 0 : 1);
+    }
+    waitpid(child, nullptr, 0);
+    ASSERT_FALSE(std::filesystem::is_empty(planes));
+    const auto again = open_stage_cache(**shot, in("stages"));
+    EXPECT_TRUE(std::filesystem::is_empty(planes));
+    EXPECT_TRUE(again->motion(2, 1));
 }
 
 TEST(BurnIn, WritesOnADarkBandInTheCorner) {
