@@ -182,6 +182,7 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
     }
     // Analyse only frames that are still to be rendered.
     setup.plan.frames = std::move(to_render);
+    setup.plan.spare_memory = spec.memory_bytes > 0;
     return {};
 }
 

@@ -237,6 +237,7 @@ struct ShotPlan {
     bool layers = false;           ///< Frames are rendered with their FrameLayers.
     bool form_layers = false;      ///< And with those of the form (shows_form()).
     bool keep_planes = false;      ///< Scenes keep what their planes were made of.
+    bool spare_memory = false;     ///< Frames are not prepared side by side.
     /// The step of the plate's codes, as a share of white; 0: floating point.
     float plate_quantum = 0;
     std::vector<RegionPlan> regions;     ///< Lowest layer first.

@@ -36,7 +36,8 @@ namespace {
 
 // Threads that gather evidence of several frames side by side: inside of a step little runs in
 // parallel. One for four processors; more frames on their way take more memory.
-std::size_t gathering_threads(Size plate) {
+std::size_t gathering_threads(const ShotPlan& plan, Size plate) {
+    if (plan.spare_memory) return 0;
     constexpr int kMost = 4;
     constexpr int kMostPixels = 24 << 20;  // of plates, about 0.5 GB
     const int by_memory = kMostPixels / std::max(1, plate.width) / std::max(1, plate.height);
@@ -53,7 +54,7 @@ SurfaceStops::SurfaceStops(const PassContext& context, const AnalysisStore& stor
       jobs_(jobs),
       leg_(leg),
       before_(jobs.size()),
-      workers_(gathering_threads(context.source.size())) {}
+      workers_(gathering_threads(context.plan, context.source.size())) {}
 
 Expected<Matte> SurfaceStops::extent_of(const SurfaceJob& job, int frame) const {
     if (is_zone_layer(job.layer))

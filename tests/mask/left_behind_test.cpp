@@ -71,25 +71,27 @@ TEST(LeftBehind, AnIslandThatMovesWithTheBackgroundIsDroppedAfterThreeFrames) {
     }
 }
 
+void expect_kept(World w) {
+    for (int t = 1; t <= 8; ++t)
+        EXPECT_TRUE(w.advance(t).empty()) << t;
+}
+
 TEST(LeftBehind, OneThatLooksLikeItsPlaceOnTheKeyframeStays) {
     World w;
     w.island_level = 94;
-    for (int t = 1; t <= 8; ++t)
-        EXPECT_TRUE(w.advance(t).empty()) << t;
+    expect_kept(w);
 }
 
 TEST(LeftBehind, OneThatMovesWithTheSurfaceStays) {
     World w;
     w.island_px = kStep_px;
-    for (int t = 1; t <= 8; ++t)
-        EXPECT_TRUE(w.advance(t).empty()) << t;
+    expect_kept(w);
 }
 
 TEST(LeftBehind, NothingIsSaidWhereTheSurfaceMovesAsTheBackground) {
     World w;
     w.surface_px = 0;
-    for (int t = 1; t <= 8; ++t)
-        EXPECT_TRUE(w.advance(t).empty()) << t;
+    expect_kept(w);
 }
 
 TEST(LeftBehind, AMoveBeginsTheCountAgain) {

@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/pipeline/matte_pass.h"
 #include "engine/pipeline/surface_pass.h"
+#include "engine/pipeline/surface_stop.h"
 #include "tests/pipeline/memory_shot.h"
 
 namespace weft {
@@ -107,6 +108,26 @@ TEST(Analysis, RegionsSideBySideAreThoseOneAfterTheOther) {
     const auto alone = analysed(1);
     EXPECT_EQ(analysed(2), alone);   // side by side
     EXPECT_EQ(analysed(16), alone);  // steps of several frames, too
+}
+
+// More frames on their way take more memory.
+TEST(Analysis, FramesArePreparedSideBySideWhereThreadsAndMemoryAllow) {
+    const MemoryShot shot = make_wall();
+    const MemoryAnalysisStore store;
+    const std::vector<SurfaceJob> none;
+    const auto ahead = [&](int threads, bool spare_memory) {
+        ShotPlan plan = make_plan(region_from({1}));
+        plan.spare_memory = spare_memory;
+        const PassContext context{shot, plan, {}, {}, nullptr};
+        set_thread_count(threads);
+        const int frames = SurfaceStops(context, store, none, SurfaceLeg::kForward).ahead();
+        set_thread_count(0);
+        return frames;
+    };
+    EXPECT_EQ(ahead(2, false), 1);
+    EXPECT_EQ(ahead(8, false), 2);
+    EXPECT_EQ(ahead(64, false), 4);
+    EXPECT_EQ(ahead(64, true), 1);
 }
 
 TEST(Analysis, TwoReferencesAreBlendedBetweenAndKeptThemselves) {
