@@ -91,10 +91,12 @@ void Preview::Impl::analyse_loop() {
             shared->analysing_key = work->analysis;
         }
         if (!first.empty()) carry_mattes_at(*work, first.front(), token);
-        // Analyse the visible frame first, unless that is most of the work anyway.
+        // Analyse the visible frame first, unless that is nearly all of the work.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
-        if (for_first > 0 && 2 * for_first < for_all) analyse(work, first, token);
-        if (!token.cancelled()) analyse(work, all, token);
+        const bool apart = for_first > 0 && 5 * for_first < 4 * for_all;
+        if (apart) analyse(work, first, true, token);
+        // Its walks are kept: they are walked again with the other frames, and when a pin moves.
+        if (!token.cancelled()) analyse(work, all, !apart, token);
         collect_confidence(*work);
         {
             const auto shared = guarded.lock();
@@ -107,9 +109,11 @@ void Preview::Impl::analyse_loop() {
     }
 }
 
-void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
+void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list, bool keep_walks,
                             const CancelToken& token) {
-    const ShotPlan plan = plan_for(*work, list);
+    ShotPlan plan = plan_for(*work, list);
+    plan.walks = walks;
+    plan.keep_walks = keep_walks;
     const auto start = Clock::now();
     const auto progress = [&](const ProgressEvent& event) {
         const auto shared = guarded.lock();

@@ -24,6 +24,7 @@
 #include "engine/core/cancel.h"
 #include "engine/pipeline/draft_analysis.h"
 #include "engine/pipeline/provisional.h"
+#include "engine/pipeline/walk_memory.h"
 
 namespace weft {
 
@@ -129,7 +130,8 @@ struct Preview::Impl {
 
     // ---- the analysis thread (preview_analysis.cpp) ----
     void analyse_loop();
-    void analyse(const OpenedPtr& opened, const std::vector<int>& frames, const CancelToken& token);
+    void analyse(const OpenedPtr& opened, const std::vector<int>& frames, bool keep_walks,
+                 const CancelToken& token);
     void carry_mattes_at(const OpenedShot& opened, int frame, const CancelToken& token);
     void collect_confidence(const OpenedShot& opened);
     void collect_health(const OpenedShot& opened, const CancelToken& token);
@@ -185,6 +187,10 @@ struct Preview::Impl {
     const std::string texture_library;
     const std::size_t budget_bytes;
     const std::shared_ptr<const Backend> backend;
+
+    // To the frame shown: a pin or another reference walks much of the way there again.
+    static constexpr std::size_t kWalkBytes = std::size_t{512} << 20;
+    const std::shared_ptr<WalkMemory> walks = std::make_shared<WalkMemory>(kWalkBytes);
 
     Guarded<Shared> guarded;
     std::condition_variable wake;  // uses the lock of `guarded`

@@ -125,7 +125,7 @@ Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
 // the painted matte itself.
 Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
                              const SweepFrame& at) {
-    if (!job.is_key(at.frame)) return job.walker->advance(at.views->display, *at.prev_from_cur);
+    if (!job.is_key(at.frame)) return job.walker->advance(at.views->display, at.prev_from_cur->get());
     WEFT_TRY(key, key_of(context.source, job, at.frame));
     if (length(within) > 1) {
         job.walker.emplace(at.views->display, key, job.options);
@@ -197,9 +197,10 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
         return sweep(context, options, [&](SweepFrame at) -> Status {
             // Mattes are of the plate's size.
             const Size plate = at.views->display.size();
-            if (!at.prev_from_cur || at.prev_from_cur->size() == plate)
+            if (!at.prev_from_cur || at.prev_from_cur->get().size() == plate)
                 return visit(context, store, jobs, at);
-            at.prev_from_cur = std::make_shared<const FlowField>(resized(*at.prev_from_cur, plate));
+            at.prev_from_cur = std::make_shared<const FrameMotion>(
+                [small = at.prev_from_cur, plate] { return resized(small->get(), plate); });
             return visit(context, store, jobs, at);
         });
     };

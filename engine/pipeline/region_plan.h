@@ -39,6 +39,8 @@
 
 namespace weft {
 
+class WalkMemory;
+
 /// A texture as it was read: exactly one of `sample` (to be grown) and `plane` (used as it is).
 struct TexturePicture {
     ImageF3 pixels;             ///< In the texture's own space.
@@ -242,6 +244,8 @@ struct ShotPlan {
     float plate_quantum = 0;
     std::vector<RegionPlan> regions;     ///< Lowest layer first.
     std::shared_ptr<StageStore> stages;  ///< Stored planes and motion; may be null.
+    std::shared_ptr<WalkMemory> walks;   ///< Earlier ones; may be null.
+    bool keep_walks = false;             ///< Adds these to them.
 };
 
 }  // namespace weft

@@ -10,6 +10,7 @@
 #include "engine/pipeline/light_pass.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_stop.h"
+#include "engine/pipeline/walk_along.h"
 #include "engine/temporal/history_seam.h"
 #include "engine/temporal/shutter.h"
 
@@ -37,6 +38,7 @@ class Follower {
         };
         SweepOptions ahead = *options;
         ahead.ahead = stops.ahead();
+        ahead.known = context_.plan.walks.get();
         WEFT_CHECK_OK(sweep(context_, ahead, visit_all, prepare));
         return measuring_.finish();
     }
@@ -132,8 +134,7 @@ class Follower {
             placed = corrected(LatticeField(size, SurfaceTrack::spacing_for(size, motion)), *pins);
             base = &*placed;
         }
-        job.track.emplace(*at.views, stop.visible, stop.extent, motion, context_.plan.quality, base,
-                          stop.step ? stop.step->frame : nullptr);
+        begin_walk(job, *at.views, stop, context_.plan.quality, base);
         job.walked_to = job.anchored_at = at.frame;
         if (job.paper && at.frame == job.primary) {
             job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size(),
@@ -166,20 +167,20 @@ class Follower {
         } else if (job.plan->true_motion) {
             job.track->advance(*stop.step);
         } else if (stop.held) {
-            job.track->hold();
+            hold_walk(job);
         } else {
             const bool between =
                 at.frame > job.references.front() && at.frame < job.references.back();
-            job.track->hide_reanchoring(job.coords && job.layer == 0 && !between);
-            job.track->advance(*stop.step);
+            const bool hide = job.coords && job.layer == 0 && !between;
+            walk_on(job, stop, hide, context_.plan);
         }
         WEFT_CHECK_OK(keep_found_late(job, at.frame));
         if (const auto* pins = pins_at(job, at.frame)) {
             const LatticeField placed = corrected(job.track->ref_from_cur(), *pins);
-            job.track->anchor_here(&placed);
+            anchor_walk(job, &placed);
             job.anchored_at = at.frame;
         } else if (job.is_reference(at.frame)) {
-            job.track->anchor_here();
+            anchor_walk(job, nullptr);
             job.anchored_at = at.frame;
         }
         job.walked_to = at.frame;

@@ -5,6 +5,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/pipeline/motion_zones.h"
+#include "engine/pipeline/walk_memory.h"
 
 namespace weft {
 
@@ -43,6 +44,10 @@ std::size_t gathering_threads(const ShotPlan& plan, Size plate) {
     const int by_memory = kMostPixels / std::max(1, plate.width) / std::max(1, plate.height);
     const int threads = std::min({thread_count() / 4, kMost, by_memory});
     return threads > 1 ? static_cast<std::size_t>(threads) : 0;
+}
+
+Hash128 hash_of(const PlateViews& views) {
+    return Hasher().image(views.followed()).image(views.followed_display()).finish();
 }
 
 }  // namespace
@@ -89,15 +94,43 @@ SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& bef
         };
     }
     if (motion != SurfaceTrack::Motion::kEstimated || (stop.held && !first)) return {};
+    WalkMemory* const walks = context_.plan.walks.get();
+    if (walks) stop.key = before.key = key_of(before, at, stop, first);
     const auto prev = first ? nullptr : std::exchange(before.frame, nullptr);
+    if (walks) stop.step = walks->find_step(before.key);
+    if (stop.step) {
+        before.frame = stop.step->frame;
+        return {};
+    }
     before.frame = step_frame(*at.views, stop.visible, stop.extent, prev.get());
     stop.step = WalkStep{before.frame, {}};
-    return [prev, motion = at.prev_from_cur, quality = context_.plan.quality](SurfaceStop& s) {
+    return [prev, motion = at.prev_from_cur, quality = context_.plan.quality,
+            walks = context_.plan.keep_walks ? walks : nullptr, key = before.key, frame = at.frame,
+            previous = before.number](SurfaceStop& s) {
         static_cast<void>(s.step->frame->picture());  // the walk registers it
         if (prev && motion)
-            s.step->evidence = step_evidence(*prev, *s.step->frame, *motion, quality);
+            s.step->evidence = step_evidence(*prev, *s.step->frame, motion->get(), quality);
+        if (walks && (!prev || motion)) walks->keep_step(key, frame, previous, *s.step);
         return Status{};
     };
+}
+
+// Names a step by all that it depends on: what it begins with is named by the step before, whose
+// colours are followed, too.
+Hash128 SurfaceStops::key_of(const Before& before, const SweepFrame& at, const SurfaceStop& stop,
+                             bool first) const {
+    Hasher hasher;
+    if (!first) {
+        for (const Hash128& h : {before.key, before.views})
+            hasher.value(h.high).value(h.low);
+    }
+    const Hash128 views = hash_of(*at.views);
+    return hasher.value(views.high)
+        .value(views.low)
+        .image(stop.visible)
+        .image(stop.extent)
+        .value(static_cast<int>(context_.plan.quality))
+        .finish();
 }
 
 Expected<SurfaceStop> SurfaceStops::begin_stop(const SurfaceJob& job, Before& before,
@@ -111,6 +144,8 @@ Expected<SurfaceStop> SurfaceStops::begin_stop(const SurfaceJob& job, Before& be
     drop_nonfinite(out.visible, at.views->finite);
     gather = begin_step(job, before, at, out);
     before.visible = out.visible;
+    before.number = at.frame;
+    if (context_.plan.walks) before.views = hash_of(*at.views);
     return out;
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/core/work_thread.h"
 #include "engine/pipeline/surface_job.h"
 #include "engine/pipeline/sweep.h"
@@ -33,6 +34,7 @@ struct SurfaceStop {
     /// The step to the frame where motion is estimated, on the first frame its beginning, or comes
     /// from files. Nothing where estimated motion is held.
     std::optional<WalkStep> step;
+    std::optional<Hash128> key;  ///< Names the step where motion is estimated, if walks are kept.
 };
 
 /// Prepares the stops of one leg in the order of its frames; one thread prepares while another one
@@ -57,13 +59,18 @@ class SurfaceStops {
     struct Before {
         HeldFrames held;
         std::shared_ptr<const StepFrame> frame;  // the last one that was not held
+        Hash128 key;                             // of the step to it, if walks are kept
+        Hash128 views;                           // of the last one, if walks are kept
         Matte visible;                           // of the last one
+        int number = 0;                          // of the last one
     };
     using Gather = std::function<Status(SurfaceStop&)>;  // what is still to be found out of a stop
 
     [[nodiscard]] Expected<Matte> extent_of(const SurfaceJob& job, int frame) const;
     [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame,
                                                   const Matte& visible_before) const;
+    [[nodiscard]] Hash128 key_of(const Before& before, const SweepFrame& at,
+                                 const SurfaceStop& stop, bool first) const;
     [[nodiscard]] Gather begin_step(const SurfaceJob& job, Before& before, const SweepFrame& at,
                                     SurfaceStop& stop) const;
     [[nodiscard]] Expected<SurfaceStop> begin_stop(const SurfaceJob& job, Before& before,

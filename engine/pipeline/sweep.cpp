@@ -10,6 +10,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/core/work_thread.h"
+#include "engine/pipeline/walk_memory.h"
 
 namespace weft {
 
@@ -75,8 +76,14 @@ class Conveyor {
     // Of the frame after the one of the last call.
     void add_motion(SweepFrame& frame) {
         if (options_.motion && before_.views && !context_.cancel.cancelled()) {
-            frame.prev_from_cur = std::make_shared<const FlowField>(motion_between(
-                context_.plan, frame.frame, *frame.views, before_.frame, *before_.views));
+            frame.prev_from_cur = std::make_shared<const FrameMotion>(
+                [&plan = context_.plan, number = frame.frame, views = frame.views,
+                 before_number = before_.frame, before_views = before_.views] {
+                    return motion_between(plan, number, *views, before_number, *before_views);
+                });
+            const bool expected =
+                options_.known && options_.known->expects(frame.frame, before_.frame);
+            if (!expected) static_cast<void>(frame.prev_from_cur->get());
         }
         before_ = frame;
     }

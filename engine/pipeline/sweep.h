@@ -7,12 +7,15 @@
 #include "engine/core/cancel.h"
 #include "engine/core/fields.h"
 #include "engine/core/progress.h"
+#include "engine/pipeline/frame_motion.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
 
 namespace weft {
+
+class WalkMemory;
 
 /// One stop of a sweep.
 struct SweepFrame {
@@ -21,7 +24,7 @@ struct SweepFrame {
     std::shared_ptr<const PlateViews> views;
     /// Estimated motion to the frame before (of the sweep) with its consistency, of follow_size();
     /// null on the first frame and if the sweep uses no motion.
-    std::shared_ptr<const FlowField> prev_from_cur;
+    std::shared_ptr<const FrameMotion> prev_from_cur;
 };
 
 /// From frame `first` to `last`, both inclusive, in either direction of time.
@@ -29,6 +32,8 @@ struct SweepOptions {
     int first = 0, last = 0;
     bool motion = true;
     int ahead = 1;  ///< Frames that are prepared before they are visited, at most.
+    /// The motion of steps that this expects is not estimated before it is asked for; may be null.
+    const WalkMemory* known = nullptr;
 };
 
 /// What all passes share.

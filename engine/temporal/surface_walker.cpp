@@ -296,6 +296,8 @@ SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalke
           std::make_shared<const StepFrame>(luma, visible, extent.empty() ? visible : extent),
           options, ref_from_start) {}
 
+SurfaceWalker::SurfaceWalker(const SurfaceWalker& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
 SurfaceWalker::~SurfaceWalker() = default;
 SurfaceWalker::SurfaceWalker(SurfaceWalker&&) noexcept = default;
 SurfaceWalker& SurfaceWalker::operator=(SurfaceWalker&&) noexcept = default;

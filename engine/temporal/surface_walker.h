@@ -45,6 +45,9 @@ class SurfaceWalker {
     SurfaceWalker(std::shared_ptr<const StepFrame> start, const SurfaceWalkerOptions& options,
                   const LatticeField* ref_from_start = nullptr);
     ~SurfaceWalker();
+    /// A copy walks on by itself; frames are shared.
+    SurfaceWalker(const SurfaceWalker& other);
+    SurfaceWalker& operator=(const SurfaceWalker& other) { return *this = SurfaceWalker(other); }
     SurfaceWalker(SurfaceWalker&&) noexcept;
     SurfaceWalker& operator=(SurfaceWalker&&) noexcept;
 
