@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 28;
+constexpr int kAnalysisVersion = 29;
 constexpr int kFormVersion = 5;   // of the form alone
 constexpr int kFocusVersion = 1;  // of the focus alone
 
@@ -94,12 +94,16 @@ void add_plate(Hasher& hasher, const Shot& shot) {
         .value(static_cast<int>(shot.plan.quality));
 }
 
-// The keys of what is propagated from a layer's keyframes.
-RegionKeys::Layer matte_keys(const Shot& shot, const MatteSource& matte,
-                             const PaintedMattes& painted) {
+// The keys of what is propagated from a layer's keyframes. `in_front`: the holdouts that hide some
+// of it.
+Expected<RegionKeys::Layer> matte_keys(const Shot& shot, const MatteSource& matte,
+                                       const std::vector<MatteSource>& in_front,
+                                       const PaintedMattes& painted) {
     Hasher common;
     add_plate(common, shot);
     add_settings(common.text("matte"), matte);
+    for (const MatteSource& holdout : in_front)
+        WEFT_CHECK_OK(add_matte(common, holdout, painted));
     const Hash128 same = common.finish();
     RegionKeys::Layer out;
     const auto first = matte.keyframes.begin(), end = matte.keyframes.end();
@@ -117,18 +121,24 @@ RegionKeys::Layer matte_keys(const Shot& shot, const MatteSource& matte,
     }
 }
 
-std::map<int, RegionKeys::Layer> all_matte_keys(const Shot& shot, const Region& region,
-                                                const PaintedMattes& painted) {
+Expected<std::map<int, RegionKeys::Layer>> all_matte_keys(const Shot& shot, const Region& region,
+                                                          const PaintedMattes& painted) {
     std::map<int, RegionKeys::Layer> out;
-    const auto add = [&](int layer, const MatteSource& matte) {
-        if (!matte.keyframes.empty()) out[layer] = matte_keys(shot, matte, painted);
+    const auto add = [&](int layer, const MatteSource& matte) -> Status {
+        if (matte.keyframes.empty()) return {};
+        const bool holdout = layer > 0;
+        WEFT_TRY(keys,
+                 matte_keys(shot, matte, holdout ? std::vector<MatteSource>() : *region.holdouts,
+                            painted));
+        out[layer] = std::move(keys);
+        return {};
     };
-    add(0, *region.matte);
+    WEFT_CHECK_OK(add(0, *region.matte));
     int holdout = 0;
     for (const MatteSource& matte : *region.holdouts)
-        if (!matte.by_frame()) add(++holdout, matte);
+        if (!matte.by_frame()) WEFT_CHECK_OK(add(++holdout, matte));
     for (int zone = 0; zone < static_cast<int>(region.zones->size()); ++zone)
-        add(zone_layer(zone), (*region.zones)[static_cast<std::size_t>(zone)].matte);
+        WEFT_CHECK_OK(add(zone_layer(zone), (*region.zones)[static_cast<std::size_t>(zone)].matte));
     return out;
 }
 
@@ -306,8 +316,9 @@ Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
     WEFT_TRY(form, form_key(shot, index, surface, painted));
     WEFT_TRY(focus, focus_key(shot, index, painted));
     WEFT_TRY(around, around_keys(shot, region, surface, painted));
-    return RegionKeys{std::move(surface), std::move(form), std::move(focus),
-                      all_matte_keys(shot, region, painted), std::move(around)};
+    WEFT_TRY(mattes, all_matte_keys(shot, region, painted));
+    return RegionKeys{std::move(surface), std::move(form), std::move(focus), std::move(mattes),
+                      std::move(around)};
 }
 
 }  // namespace weft

@@ -219,6 +219,7 @@ void LocalColorField::index_windows(Size size) {
 }
 
 ColorProbability LocalColorField::at(int x, int y, Vec3 color) const {
+    if (!left_out_.empty() && left_out_.at(x, y) != 0) return {};
     const auto& ids = nearest_[static_cast<std::size_t>((y / kCell) * cells_wide_ + x / kCell)];
     float p = 0, s = 0, total = 0;
     for (const int id : ids) {

@@ -3,6 +3,7 @@
 // overlapping windows, each with a mixture of Gaussians for the inside and one for the outside.
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "engine/core/geometry.h"
@@ -60,6 +61,9 @@ class LocalColorField {
     LocalColorField(std::vector<ColorWindow> windows, const std::vector<ColorSource>& sources,
                     int half_px, int stride, Size size);
 
+    /// Colours say nothing about the pixels of this size that are not 0.
+    void leave_out(Matte pixels) { left_out_ = std::move(pixels); }
+
     /// Blend of the nearest windows that cover (x, y), by inverse distance (SnapCut eq. 6).
     [[nodiscard]] ColorProbability at(int x, int y, Vec3 color) const;
 
@@ -68,6 +72,7 @@ class LocalColorField {
     void index_windows(Size size);
 
     std::vector<ColorWindow> windows_;
+    Matte left_out_;
     int half_px_;
     int cells_wide_ = 0;
     std::vector<std::array<int, 4>>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/mask/boundary_refiner.h"
+#include "engine/mask/hidden_part.h"
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
@@ -79,7 +80,8 @@ Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, View
 }  // namespace
 
 MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstimate& from_after,
-                              float position, ViewU8x3 frame, const MatteOptions& options) {
+                              float position, ViewU8x3 frame, const MatteOptions& options,
+                              ViewU8x1 in_front) {
     if (position <= 0) return from_before;
     if (position >= 1) return from_after;
     // Squared: a walk with half the confidence is more than twice as likely to be wrong.
@@ -104,8 +106,12 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
     std::vector<ColorWindow> windows = place_windows(joint.expected, scale.window_step_px);
     for (ColorWindow& w : windows)
         w.source_centers = {w.center};
-    const LocalColorField colors(std::move(windows), {{part, joint.agreed, 1.5f, 1.0f, 1.0f}},
-                                 scale.window_half_px, scale.sample_stride, part.size());
+    const Matte hidden = in_front.empty() ? Matte() : hidden_part(in_front.crop(area));
+    const ImageF1 seen = hidden.empty() ? ImageF1() : seen_distance(joint.agreed, hidden);
+    LocalColorField colors(std::move(windows),
+                           {{part, hidden.empty() ? joint.agreed : seen, 1.5f, 1.0f, 1.0f}},
+                           scale.window_half_px, scale.sample_stride, part.size());
+    colors.leave_out(hidden);
     const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.side_odds,
                                                   ViewF1(), scale, options.steadiness);
     const Matte matte = soften(part, found, from_before.matte.view().crop(area),

@@ -11,6 +11,8 @@
 #include "engine/mask/boundary_refiner.h"
 #include "engine/mask/flat_fills.h"
 #include "engine/mask/growth_evidence.h"
+#include "engine/mask/hidden_part.h"
+#include "engine/mask/key_places.h"
 #include "engine/mask/left_behind.h"
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/motion_sides.h"
@@ -44,35 +46,6 @@ void paste(Image<T, C>& into, const Image<T, C>& part, const Recti& at) {
     for (int y = 0; y < part.height(); ++y) {
         std::copy(part.row(y), part.row(y) + part.stride(), into.pixel(at.x0, at.y0 + y));
     }
-}
-
-ImageF2 own_places(Size size) {
-    ImageF2 places(size);
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            places.pixel(x, y)[0] = static_cast<float>(x);
-            places.pixel(x, y)[1] = static_cast<float>(y);
-        }
-    }
-    return places;
-}
-
-// Where each pixel of `area` lay on the keyframe, from where the previous frame's pixels lay.
-ImageF2 follow_places(ViewF2 key_from_prev, ViewF2 prev_from_cur, const Recti& area) {
-    ImageF2 places(area.size());
-    parallel_rows(area.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < area.width(); ++x) {
-                const float* d = prev_from_cur.pixel(x, y);
-                const Vec2 k =
-                    sample_bilinear(key_from_prev, static_cast<float>(area.x0 + x) + d[0],
-                                    static_cast<float>(area.y0 + y) + d[1]);
-                places.pixel(x, y)[0] = k.x;
-                places.pixel(x, y)[1] = k.y;
-            }
-        }
-    });
-    return places;
 }
 
 Vec2i rounded(float x, float y) {
@@ -122,7 +95,8 @@ struct MatteWalker::State {
     ImageF1 phi;      ///< … and the signed distance of its matte's boundary, pixels.
     ImageU8x3 key_frame;
     ImageF1 key_phi;
-    ImageF2 key_from_prev;  ///< Where each pixel's surface lay on the keyframe, pixels.
+    ImageF1 seen, key_seen;  ///< As both, 0 where something in front hides it; empty: nowhere.
+    ImageF2 key_from_prev;   ///< Where each pixel's surface lay on the keyframe, pixels.
     RefineScale scale;
     BackgroundPlate plate;
     SurfacePalette palette;
@@ -145,20 +119,30 @@ struct MatteWalker::State {
     void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
                       ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
-                               const Recti& area) const;
+                               const Recti& area, Matte covered) const;
+    RefinedBoundary find_boundary(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
+                                  const FlowField& prev_from_cur, const Recti& area,
+                                  const Matte& covered);
+    [[nodiscard]] const ImageF1& seen_phi() const { return seen.empty() ? phi : seen; }
 };
 
-MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options) {
+MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options,
+                         ViewU8x1 in_front) {
     const RefineScale scale(frame.size());
     ImageF1 phi = smooth_distance(signed_distance(inside_of(key), scale.limit_px), 1);
+    const Matte covered = hidden_part(in_front);
+    const ImageF1 seen = covered.empty() ? ImageF1() : seen_distance(phi, covered);
+    const ImageF1& known = covered.empty() ? phi : seen;
     state_ = std::make_unique<State>(State{copy_of(frame),
                                            phi,
                                            copy_of(frame),
                                            phi,
+                                           seen,
+                                           seen,
                                            own_places(frame.size()),
                                            scale,
-                                           BackgroundPlate(frame, phi),
-                                           SurfacePalette(frame, phi),
+                                           BackgroundPlate(frame, known),
+                                           SurfacePalette(frame, known),
                                            options,
                                            1.0f,
                                            {},
@@ -183,7 +167,8 @@ MatteWalker& MatteWalker::operator=(MatteWalker&&) noexcept = default;
 // surroundings change as the surface moves; their colours come from the last frame and from this
 // one.
 LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedShape& shape,
-                                               ViewF2 key_from_cur, const Recti& area) const {
+                                               ViewF2 key_from_cur, const Recti& area,
+                                               Matte covered) const {
     std::vector<ColorWindow> windows = place_windows(shape.phi, scale.window_step_px);
     for (ColorWindow& w : windows) {
         const float* d = shape.prev_from_cur.pixel(w.center.x, w.center.y);
@@ -192,10 +177,39 @@ LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedS
                                     static_cast<float>(area.y0 + w.center.y) + d[1]),
                             rounded(k[0], k[1]), w.center};
     }
-    const std::vector<ColorSource> sources = {{frame, phi, clearance_px, 0.3f, 1.0f},
-                                              {key_frame, key_phi, clearance_px, 1.0f, 0.3f},
-                                              {part, shape.phi, kUnsureClearancePx, 0.0f, 0.2f}};
-    return {std::move(windows), sources, scale.window_half_px, scale.sample_stride, part.size()};
+    const ImageF1 expected = covered.empty() ? ImageF1() : seen_distance(shape.phi, covered);
+    const std::vector<ColorSource> sources = {
+        {frame, seen_phi(), clearance_px, 0.3f, 1.0f},
+        {key_frame, key_seen.empty() ? key_phi : key_seen, clearance_px, 1.0f, 0.3f},
+        {part, covered.empty() ? shape.phi : expected, kUnsureClearancePx, 0.0f, 0.2f}};
+    LocalColorField colors(std::move(windows), sources, scale.window_half_px, scale.sample_stride,
+                           part.size());
+    colors.leave_out(std::move(covered));
+    return colors;
+}
+
+// The boundary near where the shape's motion leads. What something in front hides says nothing.
+RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const TransportedShape& shape,
+                                                  ViewF2 key_from_cur,
+                                                  const FlowField& prev_from_cur, const Recti& area,
+                                                  const Matte& covered) {
+    const Vec2i origin(area.x0, area.y0);
+    const LocalColorField colors =
+        fit_colors(part, shape, key_from_cur, area,
+                   covered.empty() ? Matte() : copy_of(covered.view().crop(area)));
+    ImageF1 matched = match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
+                                      origin, frame, seen_phi(), prev_from_cur.d},
+                                     scale.band_px);
+    const GrowthInput growth{part,  shape.phi, shape.prev_from_cur, area,
+                             frame, phi,       &prev_from_cur};
+    ImageF1 wide =
+        plate.odds(part, shape.phi, surface_difference(growth, palette, scale.band_px), area);
+    limit_growth(wide, growth, palette, kFarBands * scale.band_px);
+    add_sides(
+        sides.advance({phi, prev_from_cur, shape.outside_motion, area, scale.band_px / kBandUnits}),
+        shape.phi, matched, wide);
+    if (!covered.empty()) keep_hidden(matched, wide, shape.phi, covered, origin);
+    return refine_boundary(part, shape.phi, colors, matched, wide, scale, options.steadiness);
 }
 
 // Hair, fur and motion blur stay where they were on the keyframe, warped along the motion.
@@ -286,37 +300,29 @@ bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
 
-MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cur) {
+MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, ViewU8x1 in_front) {
     State& s = *state_;
+    const Matte covered = hidden_part(in_front);
+    const FlowField behind =
+        covered.empty() ? FlowField() : motion_behind(measured, covered, s.phi, s.scale.band_px);
+    const FlowField& prev_from_cur = covered.empty() ? measured : behind;
+    const ImageF2 background = background_motion(s.phi, prev_from_cur, s.scale.band_px);
     MatteEstimate estimate{Matte(frame.size()), 0};
     const Recti area =
         working_area(transported_bounds(s.phi, prev_from_cur), s.scale, frame.size());
     ImageF1 phi(frame.size(), -s.scale.limit_px);
-    const ImageF2 background = background_motion(s.phi, prev_from_cur, s.scale.band_px);
     s.plate.move(background);
     s.hidden.move(background);
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
         s.sides = {};
     } else {
-        const TransportedShape shape = transport_shape(s.phi, prev_from_cur, area, s.scale);
+        const TransportedShape shape =
+            transport_shape(s.phi, prev_from_cur, area, s.scale, covered);
         const ViewU8x3 part = frame.crop(area);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
-        const LocalColorField colors = s.fit_colors(part, shape, key_from_cur, area);
-        ImageF1 matched =
-            match_evidence({part, shape.phi, shape.prev_from_cur, shape.outside_motion,
-                            Vec2i(area.x0, area.y0), s.frame, s.phi, prev_from_cur.d},
-                           s.scale.band_px);
-        const GrowthInput growth{part,    shape.phi, shape.prev_from_cur, area,
-                                 s.frame, s.phi,     &prev_from_cur};
-        ImageF1 wide = s.plate.odds(part, shape.phi,
-                                    surface_difference(growth, s.palette, s.scale.band_px), area);
-        limit_growth(wide, growth, s.palette, kFarBands * s.scale.band_px);
-        add_sides(s.sides.advance({s.phi, prev_from_cur, shape.outside_motion, area,
-                                   s.scale.band_px / kBandUnits}),
-                  shape.phi, matched, wide);
         const RefinedBoundary found =
-            refine_boundary(part, shape.phi, colors, matched, wide, s.scale, s.options.steadiness);
+            s.find_boundary(part, shape, key_from_cur, prev_from_cur, area, covered);
         // Confidence falls with each frame whose boundary had to be guessed. It ranks frames by
         // quality and is not calibrated to be the overlap itself.
         const BoundaryEvidence& e = found.evidence;
@@ -332,9 +338,10 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& prev_from_cu
     s.take_back(frame, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);
     estimate.confidence = s.confidence;
-    s.plate.update(frame, phi);
-    s.palette.follow(frame, phi, s.scale.band_px);
     s.phi = std::move(phi);
+    s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
+    s.plate.update(frame, s.seen_phi());
+    s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
     s.frame = copy_of(frame);
     s.last = estimate.matte;
     return estimate;

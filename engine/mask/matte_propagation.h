@@ -25,15 +25,20 @@ struct MatteOptions {
 class MatteWalker {
   public:
     /// `frame`: display-encoded 8-bit plate, H×W×3. `key`: its painted matte, the same size.
-    MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options = {});
+    /// `in_front`: the matte of what passes in front of it there; may be empty.
+    MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options = {},
+                ViewU8x1 in_front = {});
     ~MatteWalker();
     MatteWalker(MatteWalker&&) noexcept;
     MatteWalker& operator=(MatteWalker&&) noexcept;
 
     /// The matte of the next frame of the walk. `prev_from_cur`: for each pixel of `frame`, where
     /// it was in the walk's previous frame, pixels; `valid` marks reliable motion, and `d` is
-    /// finite everywhere. Both have the keyframe's size.
-    [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur);
+    /// finite everywhere. `in_front`: of what passes in front; what it hides keeps its shape and
+    /// goes on with what is seen of the surface, or with the background. All have the keyframe's
+    /// size.
+    [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur,
+                                        ViewU8x1 in_front = {});
 
     /// Whether the keyframe's edge is soft anywhere: hair, fur, motion blur.
     [[nodiscard]] bool has_soft_edges() const;
@@ -44,9 +49,10 @@ class MatteWalker {
 };
 
 /// Two estimates of one frame, from the keyframe before and the one after it. `position` in [0, 1]
-/// is where the frame lies between them (0: at `from_before`'s keyframe).
+/// is where the frame lies between them (0: at `from_before`'s keyframe). `in_front` as above.
 [[nodiscard]] MatteEstimate merge_estimates(const MatteEstimate& from_before,
                                             const MatteEstimate& from_after, float position,
-                                            ViewU8x3 frame, const MatteOptions& options = {});
+                                            ViewU8x3 frame, const MatteOptions& options = {},
+                                            ViewU8x1 in_front = {});
 
 }  // namespace weft

@@ -14,7 +14,8 @@ namespace weft {
 namespace {
 
 constexpr std::array<float, 3> kRadiiPx = {4, 12, 40};  // at 854×480
-constexpr float kWiderWeight = 0.03f;         // weight of each wider radius against the one before
+constexpr float kWiderWeight = 0.03f;  // weight of each wider radius against the one before
+constexpr float kHiddenWeight = 0.005f;
 constexpr float kInconsistentWeight = 0.04f;  // weight of motion that failed the consistency check
 
 float nearest_phi(ViewF1 phi, float x, float y) {
@@ -80,7 +81,7 @@ Recti transported_bounds(ViewF1 prev_phi, const FlowField& prev_from_cur) {
 }
 
 TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur, const Recti& area,
-                                 const RefineScale& scale) {
+                                 const RefineScale& scale, ViewU8x1 hidden) {
     const int w = area.width(), h = area.height();
     cv::Mat weighted(h, w, CV_32FC3), around(h, w, CV_32FC3);
     Vec2 mean(0);
@@ -93,7 +94,9 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
             const bool valid = prev_from_cur.valid.row(area.y0 + y)[area.x0 + x] != 0;
             const float phi = nearest_phi(prev_phi, static_cast<float>(area.x0 + x) + d[0],
                                           static_cast<float>(area.y0 + y) + d[1]);
-            const float confidence = valid ? 1.0f : kInconsistentWeight;
+            const bool behind = !hidden.empty() && hidden.row(area.y0 + y)[area.x0 + x] != 0;
+            const float unsure = behind ? kHiddenWeight : kInconsistentWeight;
+            const float confidence = valid ? 1.0f : unsure;
             const float weight = phi <= 0 ? 0.0f : confidence;
             const float other = phi <= 0 ? confidence : 0.0f;
             out[x] = cv::Vec3f(weight, weight * d[0], weight * d[1]);

@@ -18,8 +18,10 @@ struct TransportedShape {
 /// Bounds of the pixels whose motion leads inside the shape; empty if there are none.
 [[nodiscard]] Recti transported_bounds(ViewF1 prev_phi, const FlowField& prev_from_cur);
 
-/// `prev_phi` and `prev_from_cur` are of the frame's size, `area` lies in it.
+/// `prev_phi` and `prev_from_cur` are of the frame's size, `area` lies in it. `hidden`, of the same
+/// size or empty: where something is in front (motion_behind()); what is seen near by counts more.
 [[nodiscard]] TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur,
-                                               const Recti& area, const RefineScale& scale);
+                                               const Recti& area, const RefineScale& scale,
+                                               ViewU8x1 hidden = {});
 
 }  // namespace weft

@@ -1,8 +1,10 @@
 #include "engine/pipeline/matte_pass.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "engine/mask/matte_propagation.h"
 #include "engine/motion/follow_size.h"
@@ -32,6 +34,12 @@ struct Job {
     [[nodiscard]] bool merged(int frame) const {
         return reach.direction == PropagationDirection::kBoth && between_keys(frame) &&
                !is_key(frame);
+    }
+    // A holdout, which is in front of the region's other mattes.
+    [[nodiscard]] bool in_front() const { return layer > 0; }
+    // All frames that it needs: its own, and its keyframes.
+    [[nodiscard]] FrameSpan needed() const {
+        return {std::min(own.first, keys.front()), std::max(own.last, keys.back())};
     }
     // The frames that the walk visits in each direction, from the keyframe on; empty: none.
     [[nodiscard]] FrameSpan forward() const {
@@ -66,33 +74,80 @@ std::vector<Job> stretches(int region, int layer, const PaintedMatte& painted, F
     return out;
 }
 
-// The stretches that `wanted` holds for and that are not complete.
+bool overlap(FrameSpan a, FrameSpan b) {
+    return a.first <= b.last && b.first <= a.last;
+}
+
+// Adds the stretches of a region that `wanted` holds for and that are not complete. Holdouts come
+// first, with all that the others need of them.
+template <class Wanted>
+void add_jobs(const ShotPlan& plan, const AnalysisStore& store, std::size_t k, Wanted&& wanted,
+              std::vector<Job>& jobs) {
+    const RegionPlan& region = plan.regions[k];
+    const FrameSpan span = analysed_span(plan, region);
+    std::vector<Job> behind;
+    const auto add = [&](int layer, const PaintedMatte& painted, auto&& also,
+                         std::vector<Job>& to) {
+        const auto missing = [&](const Job& job) {
+            for (int f = job.own.first; f <= job.own.last; ++f)
+                if (!store.has({job.region, f, AnalysisKind::kMatte, job.layer})) return true;
+            return false;
+        };
+        for (Job& job : stretches(static_cast<int>(k), layer, painted, span))
+            if ((wanted(job) || also(job)) && missing(job)) to.push_back(std::move(job));
+    };
+    const auto no_other = [](const Job&) { return false; };
+    if (region.propagated())
+        add(0, {region.matte_keys, region.matte_steadiness, region.matte_reach}, no_other, behind);
+    for (int zone = 0; zone < static_cast<int>(region.zones.size()); ++zone)
+        if (const ZonePlan& planned = region.zones[static_cast<std::size_t>(zone)];
+            planned.propagated())
+            add(zone_layer(zone), planned.painted, no_other, behind);
+    const auto needed = [&](const Job& holdout) {
+        return std::any_of(behind.begin(), behind.end(),
+                           [&](const Job& job) { return overlap(job.needed(), holdout.own); });
+    };
+    int layer = 0;
+    for (const PaintedMatte& holdout : region.painted_holdouts)
+        add(++layer, holdout, needed, jobs);
+    std::move(behind.begin(), behind.end(), std::back_inserter(jobs));
+}
+
 template <class Wanted>
 std::vector<Job> jobs_of(const ShotPlan& plan, const AnalysisStore& store, Wanted&& wanted) {
     std::vector<Job> jobs;
-    const auto missing = [&](const Job& job) {
-        for (int f = job.own.first; f <= job.own.last; ++f)
-            if (!store.has({job.region, f, AnalysisKind::kMatte, job.layer})) return true;
-        return false;
-    };
-    for (std::size_t k = 0; k < plan.regions.size(); ++k) {
-        const RegionPlan& region = plan.regions[k];
-        const FrameSpan span = analysed_span(plan, region);
-        const auto add = [&](int layer, const PaintedMatte& painted) {
-            for (Job& job : stretches(static_cast<int>(k), layer, painted, span))
-                if (wanted(job) && missing(job)) jobs.push_back(std::move(job));
-        };
-        if (region.propagated())
-            add(0, {region.matte_keys, region.matte_steadiness, region.matte_reach});
-        int layer = 0;
-        for (const PaintedMatte& holdout : region.painted_holdouts)
-            add(++layer, holdout);
-        for (int zone = 0; zone < static_cast<int>(region.zones.size()); ++zone)
-            if (const ZonePlan& planned = region.zones[static_cast<std::size_t>(zone)];
-                planned.propagated())
-                add(zone_layer(zone), planned.painted);
-    }
+    for (std::size_t k = 0; k < plan.regions.size(); ++k)
+        add_jobs(plan, store, k, wanted, jobs);
     return jobs;
+}
+
+// Whether each frame's holdouts are final when the mattes behind them come to it in the same walk:
+// then one walk is enough. That does not depend on what is stored, nor do the mattes.
+bool known_in_time(const std::vector<Job>& jobs) {
+    return std::all_of(jobs.begin(), jobs.end(), [&](const Job& holdout) {
+        if (!holdout.in_front()) return true;
+        const bool everywhere = holdout.reach == MatteReach();
+        return std::all_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+            if (job.in_front() || job.region != holdout.region) return true;
+            return everywhere && holdout.keys.size() == 1 && job.keys.size() == 1 &&
+                   holdout.keys.front() <= job.keys.front();
+        });
+    });
+}
+
+// The walks to be made one after another: of all together, or of holdouts first.
+std::vector<std::vector<Job>> walks_of(std::vector<Job> jobs) {
+    std::vector<std::vector<Job>> walks;
+    if (jobs.empty()) return walks;
+    if (known_in_time(jobs)) {
+        walks.push_back(std::move(jobs));
+        return walks;
+    }
+    const auto behind = std::stable_partition(jobs.begin(), jobs.end(),
+                                              [](const Job& job) { return job.in_front(); });
+    walks.emplace_back(std::make_move_iterator(jobs.begin()), std::make_move_iterator(behind));
+    walks.emplace_back(std::make_move_iterator(behind), std::make_move_iterator(jobs.end()));
+    return walks;
 }
 
 constexpr auto kAll = [](const Job&) { return true; };
@@ -121,14 +176,23 @@ Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
                           : source.holdout_key(job.region, job.layer - 1, frame);
 }
 
+// What passes in front of a job's matte; empty: nothing does.
+Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& store, const Job& job,
+                            int frame) {
+    if (job.in_front()) return Matte();
+    return holdout_matte(context.source, context.plan, store, job.region, frame);
+}
+
 // Advances a job's walker to this frame, which is one of `within`. On a keyframe the estimate is
 // the painted matte itself.
-Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
-                             const SweepFrame& at) {
-    if (!job.is_key(at.frame)) return job.walker->advance(at.views->display, at.prev_from_cur->get());
+Expected<MatteEstimate> walk(const PassContext& context, const AnalysisStore& store, Job& job,
+                             FrameSpan within, const SweepFrame& at) {
+    WEFT_TRY(front, in_front_of(context, store, job, at.frame));
+    if (!job.is_key(at.frame))
+        return job.walker->advance(at.views->display, at.prev_from_cur->get(), front);
     WEFT_TRY(key, key_of(context.source, job, at.frame));
     if (length(within) > 1) {
-        job.walker.emplace(at.views->display, key, job.options);
+        job.walker.emplace(at.views->display, key, job.options, front);
         job.options.soft_edges |= job.walker->has_soft_edges();
     }
     return MatteEstimate{std::move(key), 1.0f};
@@ -145,7 +209,7 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
     for (Job& job : jobs) {
         const FrameSpan within = job.forward();
         if (!holds(within, at.frame)) continue;
-        WEFT_TRY(estimate, walk(context, job, within, at));
+        WEFT_TRY(estimate, walk(context, store, job, within, at));
         if (at.frame == within.last) job.walker.reset();
         if (!job.reach.covers(at.frame, job.keys)) continue;
         const auto kind = job.merged(at.frame) ? AnalysisKind::kMatteForward : AnalysisKind::kMatte;
@@ -159,7 +223,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
     for (Job& job : jobs) {
         const FrameSpan within = job.backward();
         if (!holds(within, at.frame)) continue;
-        WEFT_TRY(estimate, walk(context, job, within, at));
+        WEFT_TRY(estimate, walk(context, store, job, within, at));
         if (at.frame == within.first) job.walker.reset();
         if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
         if (!job.merged(at.frame)) {
@@ -168,11 +232,12 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         }
         WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward, job.layer}));
         WEFT_TRY(forward, decode_matte(bytes));
+        WEFT_TRY(front, in_front_of(context, store, job, at.frame));
         const float position = static_cast<float>(at.frame - job.keys.front()) /
                                static_cast<float>(job.keys.back() - job.keys.front());
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
                           merge_estimates({std::move(forward.matte), forward.confidence}, estimate,
-                                          position, at.views->display, job.options)));
+                                          position, at.views->display, job.options, front)));
     }
     return {};
 }
@@ -211,15 +276,23 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
     return fill_the_rest(context, store, jobs);
 }
 
+Status propagate_all(const PassContext& context, AnalysisStore& store, std::vector<Job> jobs) {
+    for (std::vector<Job>& walk : walks_of(std::move(jobs)))
+        WEFT_CHECK_OK(propagate(context, store, std::move(walk)));
+    return {};
+}
+
 }  // namespace
 
 int count_matte_steps(const ShotPlan& plan, const AnalysisStore& store) {
-    const std::vector<Job> jobs = jobs_of(plan, store, kAll);
-    return length(walked(jobs, &Job::forward)) + length(walked(jobs, &Job::backward));
+    int steps = 0;
+    for (const std::vector<Job>& jobs : walks_of(jobs_of(plan, store, kAll)))
+        steps += length(walked(jobs, &Job::forward)) + length(walked(jobs, &Job::backward));
+    return steps;
 }
 
 Status propagate_mattes(const PassContext& context, AnalysisStore& store) {
-    return propagate(context, store, jobs_of(context.plan, store, kAll));
+    return propagate_all(context, store, jobs_of(context.plan, store, kAll));
 }
 
 Status propagate_mattes_at(const PassContext& context, AnalysisStore& store, int frame) {
@@ -227,8 +300,8 @@ Status propagate_mattes_at(const PassContext& context, AnalysisStore& store, int
     const auto before = [&](const Job& job) {
         return job.own.first < frame && job.keys.back() == frame;
     };
-    WEFT_CHECK_OK(propagate(context, store, jobs_of(context.plan, store, after)));
-    return propagate(context, store, jobs_of(context.plan, store, before));
+    WEFT_CHECK_OK(propagate_all(context, store, jobs_of(context.plan, store, after)));
+    return propagate_all(context, store, jobs_of(context.plan, store, before));
 }
 
 }  // namespace weft

@@ -130,6 +130,56 @@ TEST_F(Stretches, KeyframesBesideEachOtherAreKeptAsPainted) {
         EXPECT_TRUE(any(stored_matte(store, frame, 0))) << frame;
 }
 
+// The wall and the disc in front of it, both painted on some frames only.
+struct BothPainted : PaintedDisc {
+    explicit BothPainted(const std::vector<int>& matte_keys) {
+        for (const int key : matte_keys)
+            keys[{0, key}] = box_matte(kRegionBox);
+    }
+};
+
+ShotPlan both_painted(std::vector<int> matte_keys, std::vector<int> holdout_keys) {
+    RegionPlan region = painted_region(std::move(holdout_keys));
+    region.reference_frames = {matte_keys.front()};
+    region.matte_keys = std::move(matte_keys);
+    return make_plan(region);
+}
+
+TEST(PaintedHoldouts, HideTheMatteBehindInWhateverOrderBothAreMade) {
+    struct Keys {
+        std::vector<int> matte, holdout;
+        int steps;
+    };
+    const std::vector<Keys> all{{{5}, {3}, 8 + 5},          // one walk there, one back
+                                {{5}, {8}, 3 + 8 + 6 + 5},  // the holdout's first
+                                {{2, 9}, {2, 6}, 9 + 6 + 9 + 9}};
+    for (const auto& [matte, holdout, steps] : all) {
+        const BothPainted shot(matte);
+        const ShotPlan plan = both_painted(matte, holdout);
+        MemoryAnalysisStore at_once, apart, by_frame;
+        EXPECT_EQ(count_matte_steps(plan, at_once), steps);
+        int taken = 0;
+        expect_ok(propagate_mattes({shot, plan, {}, [&](int, double) { ++taken; }}, at_once));
+        EXPECT_EQ(taken, steps);
+        // Holdouts that were made before.
+        for (int frame = kFirst; frame <= kLast; ++frame) {
+            const AnalysisKey front{0, frame, AnalysisKind::kMatte, 1};
+            expect_ok(apart.put(front, *at_once.get(front)));
+        }
+        expect_ok(propagate(shot, plan, apart));
+        for (const int frame : {7, 2, 10}) {
+            expect_ok(propagate_mattes_at({shot, plan, {}, [](int, double) {}, nullptr}, by_frame,
+                                          frame));
+        }
+        expect_ok(propagate(shot, plan, by_frame));
+        for (int frame = kFirst; frame <= kLast; ++frame) {
+            EXPECT_EQ(stored_matte(apart, frame, 0), stored_matte(at_once, frame, 0)) << frame;
+            EXPECT_EQ(stored_matte(by_frame, frame, 0), stored_matte(at_once, frame, 0)) << frame;
+            EXPECT_EQ(stored_matte(by_frame, frame, 1), stored_matte(at_once, frame, 1)) << frame;
+        }
+    }
+}
+
 struct Way {
     PropagationDirection direction;
     int first, last;

@@ -93,5 +93,27 @@ TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
     EXPECT_EQ(before.all().size(), 3u + 4u) << "surface, form, focus and mattes";
 }
 
+TEST_F(AnalysisKeyTest, AMatteDependsOnTheHoldoutsInFrontOfItAndNotTheyOnIt) {
+    for (const char* name : {"a.png", "b.png"})
+        ASSERT_TRUE(write_matte(in(name), card_matte(1), WriteRule::own()));
+    const auto keys = [&](const char* matte, const char* holdout) {
+        return keys_after([&](Region& r) {
+            MatteSource painted, front;
+            painted.keyframes[1] = {in(matte)};
+            front.keyframes[3] = {in(holdout)};
+            r.matte = painted;
+            r.holdouts = std::vector<MatteSource>{front};
+            r.reference_frames = {1};
+        });
+    };
+    const RegionKeys before = keys("a.png", "a.png");
+    const RegionKeys holdout = keys("a.png", "b.png"), matte = keys("b.png", "a.png");
+    const AnalysisKey behind{0, 2, AnalysisKind::kMatte}, front{0, 2, AnalysisKind::kMatte, 1};
+    EXPECT_NE(holdout.of(behind), before.of(behind));
+    EXPECT_NE(holdout.of(front), before.of(front));
+    EXPECT_NE(matte.of(behind), before.of(behind));
+    EXPECT_EQ(matte.of(front), before.of(front));
+}
+
 }  // namespace
 }  // namespace weft::test
