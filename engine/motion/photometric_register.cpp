@@ -170,22 +170,27 @@ std::vector<Vec2> places_under(const Homography& map, const RegistrationSamples&
     return places;
 }
 
+// A prior that limits perspective to about a tenth over the region.
+void add_prior(Normal& normal, const Homography& map, double scale) {
+    const double prior = 100 * scale * scale;
+    normal.a[6][6] += prior;
+    normal.a[7][7] += prior;
+    normal.b[6] -= prior * map.h[6];
+    normal.b[7] -= prior * map.h[7];
+    for (std::size_t i = 0; i < 8; ++i)
+        normal.a[i][i] *= 1 + 1e-9;
+}
+
 // One Gauss–Newton step. Returns how far the samples move at most, px; negative: no solution.
 double planar_step(const RegistrationPicture& anchor, const RegistrationSamples& samples,
                    Homography& map) {
     const auto residuals = residuals_at(anchor, samples, places_under(map, samples));
     if (residuals.size() < 200) return -1;
     const double scale = robust_spread(residuals);
-    auto [a, b] = normal_of(map, residuals, scale);
-    // A prior limits perspective to about a tenth over the region.
-    const double prior = 100 * scale * scale;
-    a[6][6] += prior;
-    a[7][7] += prior;
-    b[6] -= prior * map.h[6];
-    b[7] -= prior * map.h[7];
-    for (std::size_t i = 0; i < 8; ++i)
-        a[i][i] *= 1 + 1e-9;
-    if (!solve_cholesky(a, b)) return -1;
+    Normal normal = normal_of(map, residuals, scale);
+    add_prior(normal, map, scale);
+    Vec8& b = normal.b;
+    if (!solve_cholesky(normal.a, b)) return -1;
     double most = 0;
     for (std::size_t i = 0; i < 8; ++i) {
         map.h[i] += b[i];
@@ -193,6 +198,41 @@ double planar_step(const RegistrationPicture& anchor, const RegistrationSamples&
     }
     return most;
 }
+
+// The standard error of the map that the noise of the samples leaves, px: the root of its mean
+// square over the samples.
+double standard_error(const RegistrationPicture& anchor, const RegistrationSamples& samples,
+                      const Homography& map) {
+    const auto residuals = residuals_at(anchor, samples, places_under(map, samples));
+    if (residuals.empty()) return 0;
+    const double scale = robust_spread(residuals);
+    Normal normal = normal_of(map, residuals, scale);
+    add_prior(normal, map, scale);
+    constexpr std::size_t kEvery = 97;
+    double sum = 0, n = 0;
+    for (std::size_t k = 0; k < samples.size(); k += kEvery, ++n) {
+        const auto at = map.at(samples.p[k].x, samples.p[k].y);
+        for (const double along_x : {1.0, 0.0}) {
+            const Vec8 j = gradient_of(map, at, along_x, 1 - along_x);
+            Mat8 a = normal.a;
+            Vec8 solved = j;
+            if (!solve_cholesky(a, solved)) return 0;
+            for (std::size_t i = 0; i < 8; ++i)
+                sum += j[i] * solved[i];
+        }
+    }
+    return n > 0 ? scale * std::sqrt(sum / n) : 0;
+}
+
+Homography about(const RegistrationPicture& cur) {
+    Homography map;
+    map.cx = 0.5 * (cur.area.x0 + cur.area.x1);
+    map.cy = 0.5 * (cur.area.y0 + cur.area.y1);
+    map.radius = std::max(8.0, 0.5 * std::max(cur.area.width(), cur.area.height()));
+    return map;
+}
+
+constexpr double kStill = 0.003;  // px: converged
 
 }  // namespace
 
@@ -202,13 +242,10 @@ PlanarRegistration register_planar(const RegistrationPicture& anchor,
     PlanarRegistration out{initial, {}, false};
     const RegistrationSamples samples = registration_samples(cur, options.samples);
     if (samples.size() < 500) return out;
-    Homography map;
-    map.cx = 0.5 * (cur.area.x0 + cur.area.x1);
-    map.cy = 0.5 * (cur.area.y0 + cur.area.y1);
-    map.radius = std::max(8.0, 0.5 * std::max(cur.area.width(), cur.area.height()));
+    Homography map = about(cur);
     if (!start_from(initial, samples, map)) return out;
     double moved = 1;
-    for (int k = 0; k < options.iterations && moved > 0.003; ++k) {
+    for (int k = 0; k < options.iterations && moved > kStill; ++k) {
         moved = planar_step(anchor, samples, map);
         if (moved < 0 || moved > 50) return out;
     }
@@ -216,6 +253,27 @@ PlanarRegistration register_planar(const RegistrationPicture& anchor,
     out.fit = registration_fit(anchor, cur, out.anchor_from_cur, options);
     out.found = true;
     return out;
+}
+
+LatticeField refine_planar(const RegistrationPicture& anchor, const RegistrationPicture& cur,
+                           const LatticeField& found, const RegistrationOptions& options) {
+    constexpr double kWanted_px = 0.01, kFarthest_px = 1;
+    constexpr double kMost = 400000;
+    constexpr int kRounds = 4;
+    const RegistrationSamples samples = registration_samples(cur, options.samples);
+    Homography map = about(cur);
+    if (!start_from(found, samples, map)) return found;
+    const double error = standard_error(anchor, samples, map) / kWanted_px;
+    if (error <= 1) return found;
+    const auto wanted = static_cast<int>(std::min(kMost, error * error * options.samples));
+    const RegistrationSamples more = registration_samples(cur, wanted);
+    if (more.size() <= samples.size()) return found;
+    double moved = 1;
+    for (int k = 0; k < kRounds && moved > kStill; ++k) {
+        moved = planar_step(anchor, more, map);
+        if (moved < 0 || moved > kFarthest_px) return found;
+    }
+    return field_of(map, found);
 }
 
 }  // namespace weft

@@ -45,6 +45,12 @@ struct PlanarRegistration {
                                                  const LatticeField& initial,
                                                  const RegistrationOptions& options);
 
+/// The homography that register_planar() `found`, from more pixels where those that it compared
+/// leave a standard error above 0.01 px by their noise, as on faint surfaces. Pure; deterministic.
+[[nodiscard]] LatticeField refine_planar(const RegistrationPicture& anchor,
+                                         const RegistrationPicture& cur, const LatticeField& found,
+                                         const RegistrationOptions& options);
+
 /// `initial` plus a smooth correction: the maximum a posteriori displacement of a coarse lattice
 /// under the photometric residuals and the prior that second differences are of the order of
 /// `stiffness_px`; where the picture has no information the correction is extrapolated.

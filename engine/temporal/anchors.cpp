@@ -16,14 +16,14 @@ Registered register_against(const Anchor& anchor, const StepFrame& cur_frame, bo
     out.anchor_from_cur = register_lattice(there, cur, initial, options);
     out.fit = registration_fit(there, cur, out.anchor_from_cur, options);
     options.iterations = 10;
-    PlanarRegistration plane = register_planar(there, cur, out.anchor_from_cur, options);
+    const PlanarRegistration plane = register_planar(there, cur, out.anchor_from_cur, options);
     // A homography has few parameters and the least jitter. It is used where it explains the frame
     // as well as the smooth field, which has enough parameters to follow some of the noise.
     constexpr double kAsWell = 1.03;
     out.planar = plane.found && plane.fit.residual <= kAsWell * out.fit.residual &&
                  kAsWell * plane.fit.share >= out.fit.share;
     if (out.planar) {
-        out.anchor_from_cur = std::move(plane.anchor_from_cur);
+        out.anchor_from_cur = refine_planar(there, cur, plane.anchor_from_cur, options);
         out.fit = plane.fit;
     }
     return out;

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "engine/core/rng.h"
 #include "tests/motion/pictures.h"
 
 namespace weft {
@@ -84,6 +85,46 @@ TEST(RegisterPlanar, FindsAPlaneThroughAShadow) {
         EXPECT_LT(mean_error(found.anchor_from_cur, plane, kInner), 0.03f) << shadow;
         EXPECT_GT(found.fit.share, 0.8);
     }
+}
+
+// Plaster: a pattern of a few levels under as much noise, which is new in each frame.
+Pair faint_pair(std::uint64_t seed) {
+    const WaveTexture texture(3);
+    Pair out;
+    const auto seen = [&](const Map& map, std::uint64_t stream) {
+        Rng rng(seed, stream, 0);
+        return draw(kFrame, [&](Vec2 p) {
+            return 0.5f + 0.08f * texture(map(p)) + 0.03f * static_cast<float>(rng.uniform() - 0.5);
+        });
+    };
+    out.anchor = seen([](Vec2 p) { return p; }, 1);
+    out.frame = seen(plane, 2);
+    out.visible = Matte(kFrame, 255);
+    return out;
+}
+
+TEST(RefinePlanar, ComparesMorePixelsOfAFaintSurface) {
+    RegistrationOptions few;
+    few.samples = 4000;
+    float before = 0, after = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const Pair p = faint_pair(seed);
+        const RegistrationPicture anchor = registration_picture(p.anchor, p.visible);
+        const RegistrationPicture cur = registration_picture(p.frame, p.visible);
+        const PlanarRegistration found = register_planar(anchor, cur, roughly(plane), few);
+        ASSERT_TRUE(found.found);
+        before += mean_error(found.anchor_from_cur, plane, kInner);
+        after += mean_error(refine_planar(anchor, cur, found.anchor_from_cur, few), plane, kInner);
+    }
+    EXPECT_LT(after, 0.5f * before);
+}
+
+TEST(RefinePlanar, LeavesWhatIsKnownWellEnough) {
+    const Pair p = pair(plane, false);
+    const RegistrationPicture anchor = registration_picture(p.anchor, p.visible);
+    const RegistrationPicture cur = registration_picture(p.frame, p.visible);
+    const LatticeField found = register_planar(anchor, cur, roughly(plane), {}).anchor_from_cur;
+    EXPECT_EQ(refine_planar(anchor, cur, found, {}).nodes(), found.nodes());
 }
 
 TEST(RegisterPlanar, ExplainsAFoldedSurfaceWorseThanASmoothField) {

@@ -1,0 +1,104 @@
+#pragma once
+// Internal to SurfaceWalker: what a walk knows, in surface_walker.cpp while the surface is seen and
+// in walk_search.cpp while it is not.
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/temporal/anchors.h"
+#include "engine/temporal/step_motion.h"
+#include "engine/temporal/surface_walker.h"
+#include "engine/temporal/walk_smoother.h"
+
+namespace weft {
+
+/// Pixels that are covered by at least a half.
+[[nodiscard]] std::int64_t visible_pixels(ViewU8x1 visible);
+
+/// What a walk knows. Not thread-safe.
+struct SurfaceWalker::State {
+    SurfaceWalkerOptions options;
+    LatticeField ref_from_cur, prev_from_cur;
+    std::shared_ptr<const StepFrame> last;
+
+    AnchorSet anchors;
+    LatticeField anchor_from_cur;  // of the present anchor
+    // Against which outlines are registered: the last reference frame, and its position.
+    std::shared_ptr<const StepFrame> drawing;
+    LatticeField ref_from_drawing;
+    MotionChoice choice;
+    int since_older_tried = 0;  // frames
+
+    // After the texture was released to its own shape: its previous track, continued for the
+    // frames over which a seam hides the change.
+    LatticeField relaxed_at_event, stretched_at_event, stretched;
+    int hiding_left = 0;  // frames
+    bool hide_reanchoring = false;
+
+    bool lost = false;                     // not visible, or not found again yet
+    int hidden_for = 0, searched_for = 0;  // frames
+    std::int64_t largest_px = 0;           // the largest visible area in any frame
+    // The last frame that showed enough of the surface to determine its motion as a whole.
+    LatticeField steady_ref_from_cur, steady_step;
+    int since_steady = 0;  // frames
+    // Frames on which it was visible while it was searched, each with the step from the frame
+    // before.
+    struct Searched {
+        std::shared_ptr<const StepFrame> frame;
+        LatticeField prev_from_cur;
+        bool a_sliver = false;
+    };
+    std::vector<Searched> searched;
+    std::vector<LatticeField> found_late;
+    WalkSmoother smoother;
+
+    void become_anchor(std::shared_ptr<const StepFrame> frame) {
+        const int generation = anchors.empty() ? 0 : anchors.present().generation + 1;
+        anchors.add({std::move(frame), ref_from_cur, generation});
+        anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
+    }
+    void become_drawing() {
+        drawing = last;
+        ref_from_drawing = ref_from_cur;
+    }
+    [[nodiscard]] Size frame_size() const { return last->size(); }
+
+    // The position of the frame on an anchor, from the positions of both on the reference frame.
+    [[nodiscard]] LatticeField predicted(const Anchor& anchor) const {
+        return compose(ref_from_cur, inverse(anchor.ref_from_anchor));
+    }
+    void follow(LatticeField step) {
+        prev_from_cur = std::move(step);
+        anchor_from_cur = compose(prev_from_cur, anchor_from_cur);
+        ref_from_cur = compose(anchor_from_cur, anchors.present().ref_from_anchor);
+    }
+    void correct(std::size_t anchor, LatticeField field) {
+        anchors.use(anchor);
+        anchor_from_cur = std::move(field);
+        ref_from_cur = compose(anchor_from_cur, anchors.present().ref_from_anchor);
+    }
+
+    [[nodiscard]] bool is_hidden(std::int64_t visible_px);
+    // True if too little of the surface is visible to determine its motion.
+    [[nodiscard]] bool is_sliver(std::int64_t visible_px) const {
+        return 6 * visible_px < largest_px;
+    }
+    bool reanchor(ViewU8x1 visible);
+    void advance_stretched();
+    void note_steady(ViewU8x1 visible, std::int64_t visible_px);
+    // A frame against an anchor, by what the walk goes by.
+    [[nodiscard]] Registered against(const Anchor& anchor, const StepFrame& cur,
+                                     const LatticeField& initial) const {
+        return register_against(anchor, cur, choice.by_color(), initial, options.quality);
+    }
+    void find_late(const std::shared_ptr<const StepFrame>& cur);
+    void wait_out_of_view();
+    void search(const std::shared_ptr<const StepFrame>& cur, std::int64_t visible_px);
+    void register_frame(const std::shared_ptr<const StepFrame>& cur);
+    void register_drawing(const StepFrame& cur);
+    bool try_others(const StepFrame& cur, int generation_below, double share_above);
+};
+
+}  // namespace weft
