@@ -48,19 +48,15 @@ class Follower {
 
     Status visit(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
         if (stop.held) job.held_frames.insert(walking_back() ? at.frame + 1 : at.frame);
-        if (begins(job, leg_, at.frame) && job.track) WEFT_CHECK_OK(keep_settled(job, true));
         switch (leg_) {
             case SurfaceLeg::kForward:
-                WEFT_CHECK_OK(forward(job, at, stop));
-                break;
+                return forward(job, at, stop);
             case SurfaceLeg::kBackward:
-                WEFT_CHECK_OK(backward(job, at, stop));
-                break;
+                return backward(job, at, stop);
             case SurfaceLeg::kAgain:
-                WEFT_CHECK_OK(again(job, at, stop));
-                break;
+                return again(job, at, stop);
         }
-        return keep_settled(job, ends(job, leg_, at.frame));
+        return {};
     }
 
     // Leg 1: forwards from the primary reference.
@@ -199,31 +195,22 @@ class Follower {
     // Stores better coordinates for frames that were passed.
     Status keep_found_late(SurfaceJob& job, int frame) {
         const auto found = job.track->take_found_late();
+        if (!job.coords && !job.gathers_light()) return {};
         for (const LatticeField& ref_from_frame : found) {
             frame += walking_back() ? 1 : -1;
-            WEFT_CHECK_OK(keep_passed(job, frame, ref_from_frame));
+            // Legs 2 and 3 blend their result with that of leg 1.
+            const bool between = walking_back() ? frame > job.primary : frame < job.primary;
+            if (!between) {
+                WEFT_CHECK_OK(keep(job, frame, job.coords_kind(frame), encode(ref_from_frame)));
+                continue;
+            }
+            WEFT_TRY(extent,
+                     extent_matte(context_.source, context_.plan, store_, job.region, frame));
+            WEFT_TRY(holdout,
+                     holdout_matte(context_.source, context_.plan, store_, job.region, frame));
+            WEFT_CHECK_OK(blend(job, frame, without_holdout(extent, holdout), ref_from_frame));
         }
         return {};
-    }
-
-    // Stores the final coordinates of frames that were passed, or of all when the walk ends.
-    Status keep_settled(SurfaceJob& job, bool ends) {
-        for (const Settled& passed : job.track->take_settled(ends)) {
-            const int back = walking_back() ? passed.frames_back : -passed.frames_back;
-            WEFT_CHECK_OK(keep_passed(job, job.walked_to + back, passed.ref_from_frame));
-        }
-        return {};
-    }
-
-    Status keep_passed(SurfaceJob& job, int frame, const LatticeField& ref_from_frame) {
-        if (!job.coords && !job.gathers_light()) return {};
-        // Legs 2 and 3 blend their result with that of leg 1.
-        const bool between = (leg_ == SurfaceLeg::kBackward && frame > job.primary) ||
-                             (leg_ == SurfaceLeg::kAgain && frame < job.primary);
-        if (!between) return keep(job, frame, job.coords_kind(frame), encode(ref_from_frame));
-        WEFT_TRY(extent, extent_matte(context_.source, context_.plan, store_, job.region, frame));
-        WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, store_, job.region, frame));
-        return blend(job, frame, without_holdout(extent, holdout), ref_from_frame);
     }
 
     // The track gives the motion to any frame directly, so errors do not add up.

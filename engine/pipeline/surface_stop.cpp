@@ -33,18 +33,6 @@ bool begins(const SurfaceJob& job, SurfaceLeg leg, int frame) {
     return false;
 }
 
-bool ends(const SurfaceJob& job, SurfaceLeg leg, int frame) {
-    switch (leg) {
-        case SurfaceLeg::kForward:
-            return frame == job.span.last;
-        case SurfaceLeg::kBackward:
-            return frame == job.span.first;
-        case SurfaceLeg::kAgain:
-            return frame == job.primary - 1;
-    }
-    return false;
-}
-
 namespace {
 
 // Threads that gather evidence of several frames side by side: inside of a step little runs in

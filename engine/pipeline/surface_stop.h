@@ -26,8 +26,6 @@ enum class SurfaceLeg : std::uint8_t { kForward, kBackward, kAgain };
 [[nodiscard]] bool visits(const SurfaceJob& job, SurfaceLeg leg, int frame);
 /// Whether its walk begins there.
 [[nodiscard]] bool begins(const SurfaceJob& job, SurfaceLeg leg, int frame);
-/// Whether the leg ends there.
-[[nodiscard]] bool ends(const SurfaceJob& job, SurfaceLeg leg, int frame);
 
 /// A region on one frame of a leg.
 struct SurfaceStop {

@@ -143,15 +143,6 @@ const LatticeField* SurfaceTrack::stretched() const {
     return stretched_.empty() ? nullptr : &stretched_;
 }
 
-std::vector<Settled> SurfaceTrack::take_settled(bool ends) {
-    std::vector<Settled> settled = walker_.take_settled(ends);
-    if (reduces()) {
-        for (Settled& frame : settled)
-            frame.ref_from_frame = in_plate(frame.ref_from_frame);
-    }
-    return settled;
-}
-
 std::vector<LatticeField> SurfaceTrack::take_found_late() {
     std::vector<LatticeField> found = walker_.take_found_late();
     if (reduces()) {

@@ -56,8 +56,6 @@ class SurfaceTrack {
     /// Null unless a seam hides that the texture returned to its shape.
     [[nodiscard]] const LatticeField* stretched() const;
     [[nodiscard]] std::vector<LatticeField> take_found_late();
-    /// As SurfaceWalker's.
-    [[nodiscard]] std::vector<Settled> take_settled(bool ends);
 
   private:
     [[nodiscard]] bool reduces() const { return followed_ != plate_; }

@@ -50,8 +50,6 @@ void SurfaceWalker::State::advance_stretched() {
 void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>& cur) {
     const ViewU8x1 visible = cur->view().visible;
     const Registered found = against(anchors.present(), *cur, anchor_from_cur);
-    const LatticeField registered =
-        compose(found.anchor_from_cur, anchors.present().ref_from_anchor);
     // The chain is steady but drifts; the registration does not drift but jitters. The gains are
     // those of stationary Kalman filters that combine them.
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
@@ -61,13 +59,8 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
         // The texture slid: older anchors would pull it back.
         anchors.clear();
         become_anchor(cur);
-        smoother.skip();
         return;
     }
-    if (found.holds() && hiding_left == 0)
-        smoother.add(registered, prev_from_cur);
-    else
-        smoother.skip();
     constexpr double kEnough = 0.6;
     if (found.fit.share < kEnough) {
         if (!try_others(*cur, anchors.present().generation + 1, kEnough)) become_anchor(cur);
@@ -107,7 +100,6 @@ SurfaceWalker::SurfaceWalker(std::shared_ptr<const StepFrame> start,
     state_->last = std::move(start);
     state_->become_anchor(state_->last);
     state_->become_drawing();
-    state_->smoother.begin(state_->ref_from_cur);
 }
 
 SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,
@@ -150,7 +142,6 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
     if (s.is_hidden(visible_px)) {
         s.wait_out_of_view();
-        s.smoother.skip();
         if (hiding) s.advance_stretched();
         return keep();
     }
@@ -163,7 +154,6 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     MotionChoice unchanged = s.choice;
     StepMotion step = choose_motion(to.evidence, was_hidden ? unchanged : s.choice);
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
-    if (step.by_outline || s.lost) s.smoother.skip();
     if (step.by_outline) {
         s.register_drawing(cur);
     } else if (s.lost) {
@@ -185,11 +175,6 @@ std::vector<LatticeField> SurfaceWalker::take_found_late() {
     return std::exchange(state_->found_late, {});
 }
 
-std::vector<Settled> SurfaceWalker::take_settled(bool ends) {
-    if (ends) state_->smoother.finish();
-    return state_->smoother.take();
-}
-
 void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
                                   LatticeField anchor_from_cur) {
     State& s = *state_;
@@ -199,7 +184,6 @@ void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField 
 }
 
 void SurfaceWalker::hold() {
-    state_->smoother.hold();
     state_->prev_from_cur = LatticeField(state_->frame_size(), state_->options.spacing_px);
 }
 
@@ -214,7 +198,6 @@ void SurfaceWalker::anchor_here(const LatticeField* ref_from_here) {
     }
     state_->become_anchor(state_->last);
     state_->become_drawing();
-    state_->smoother.place(state_->ref_from_cur);
 }
 
 const LatticeField& SurfaceWalker::ref_from_cur() const {

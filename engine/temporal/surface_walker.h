@@ -9,7 +9,6 @@
 #include "engine/motion/lattice_field.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/temporal/step_motion.h"
-#include "engine/temporal/walk_smoother.h"
 
 namespace weft {
 
@@ -65,9 +64,6 @@ class SurfaceWalker {
     /// into view shows too little of itself at first and is found some frames later. The latest
     /// first: the frame before the current one, the one before that, and so on. Empties the list.
     [[nodiscard]] std::vector<LatticeField> take_found_late();
-    /// Frames that were passed, with positions in which the jitter of registrations is smoothed
-    /// along the steps (WalkSmoother). `ends`: no frame follows. Empties the list.
-    [[nodiscard]] std::vector<Settled> take_settled(bool ends);
     /// If `hide`, a texture that is stretched or sheared past the limit over much of the surface
     /// returns to its own shape at once (relaxed_stretch()), and a seam hides the change over the
     /// next frames. Otherwise it slides back slowly, which is the default.

@@ -10,7 +10,6 @@
 #include "engine/temporal/anchors.h"
 #include "engine/temporal/step_motion.h"
 #include "engine/temporal/surface_walker.h"
-#include "engine/temporal/walk_smoother.h"
 
 namespace weft {
 
@@ -52,7 +51,6 @@ struct SurfaceWalker::State {
     };
     std::vector<Searched> searched;
     std::vector<LatticeField> found_late;
-    WalkSmoother smoother;
 
     void become_anchor(std::shared_ptr<const StepFrame> frame) {
         const int generation = anchors.empty() ? 0 : anchors.present().generation + 1;
