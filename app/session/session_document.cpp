@@ -238,6 +238,8 @@ void Session::open_plate_in_background() {
     drawn_.reset();
     playback_.close();
     view_.plate = {};
+    // Not even until the new plate's first frame is decoded, should it open at once.
+    view_.plate_picture.reset();
 }
 
 // Waits in the background, because a worker may be decoding a large frame.
