@@ -238,7 +238,7 @@ void Session::open_plate_in_background() {
     drawn_.reset();
     playback_.close();
     view_.plate = {};
-    // Not even until the new plate's first frame is decoded, should it open at once.
+    // The new plate may open at once, and its first frame be decoded later.
     view_.plate_picture.reset();
 }
 

@@ -185,9 +185,8 @@ Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& sto
 
 // Advances a job's walker to this frame, which is one of `within`. On a keyframe the estimate is
 // the painted matte itself.
-Expected<MatteEstimate> walk(const PassContext& context, const AnalysisStore& store, Job& job,
-                             FrameSpan within, const SweepFrame& at) {
-    WEFT_TRY(front, in_front_of(context, store, job, at.frame));
+Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
+                             const SweepFrame& at, const Matte& front) {
     if (!job.is_key(at.frame))
         return job.walker->advance(at.views->display, at.prev_from_cur->get(), front);
     WEFT_TRY(key, key_of(context.source, job, at.frame));
@@ -209,7 +208,8 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
     for (Job& job : jobs) {
         const FrameSpan within = job.forward();
         if (!holds(within, at.frame)) continue;
-        WEFT_TRY(estimate, walk(context, store, job, within, at));
+        WEFT_TRY(front, in_front_of(context, store, job, at.frame));
+        WEFT_TRY(estimate, walk(context, job, within, at, front));
         if (at.frame == within.last) job.walker.reset();
         if (!job.reach.covers(at.frame, job.keys)) continue;
         const auto kind = job.merged(at.frame) ? AnalysisKind::kMatteForward : AnalysisKind::kMatte;
@@ -223,7 +223,8 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
     for (Job& job : jobs) {
         const FrameSpan within = job.backward();
         if (!holds(within, at.frame)) continue;
-        WEFT_TRY(estimate, walk(context, store, job, within, at));
+        WEFT_TRY(front, in_front_of(context, store, job, at.frame));
+        WEFT_TRY(estimate, walk(context, job, within, at, front));
         if (at.frame == within.first) job.walker.reset();
         if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
         if (!job.merged(at.frame)) {
@@ -232,7 +233,6 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         }
         WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward, job.layer}));
         WEFT_TRY(forward, decode_matte(bytes));
-        WEFT_TRY(front, in_front_of(context, store, job, at.frame));
         const float position = static_cast<float>(at.frame - job.keys.front()) /
                                static_cast<float>(job.keys.back() - job.keys.front());
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,

@@ -82,7 +82,8 @@ Expected<FlowField> SurfaceStops::true_motion(const SurfaceJob& job, int frame,
 
 // The part of a step that needs the frame before, and the rest, which needs nothing else.
 SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& before,
-                                              const SweepFrame& at, SurfaceStop& stop) const {
+                                              const SweepFrame& at, const Hash128& views,
+                                              SurfaceStop& stop) const {
     const bool first = begins(job, leg_, at.frame);
     const SurfaceTrack::Motion motion = motion_of(*job.plan);
     if (motion == SurfaceTrack::Motion::kExact && !first) {
@@ -95,7 +96,7 @@ SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& bef
     }
     if (motion != SurfaceTrack::Motion::kEstimated || (stop.held && !first)) return {};
     WalkMemory* const walks = context_.plan.walks.get();
-    if (walks) stop.key = before.key = key_of(before, at, stop, first);
+    if (walks) stop.key = before.key = key_of(before, views, stop, first);
     const auto prev = first ? nullptr : std::exchange(before.frame, nullptr);
     if (walks) stop.step = walks->find_step(before.key);
     if (stop.step) {
@@ -117,14 +118,13 @@ SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& bef
 
 // Names a step by all that it depends on: what it begins with is named by the step before, whose
 // colours are followed, too.
-Hash128 SurfaceStops::key_of(const Before& before, const SweepFrame& at, const SurfaceStop& stop,
+Hash128 SurfaceStops::key_of(const Before& before, const Hash128& views, const SurfaceStop& stop,
                              bool first) const {
     Hasher hasher;
     if (!first) {
         for (const Hash128& h : {before.key, before.views})
             hasher.value(h.high).value(h.low);
     }
-    const Hash128 views = hash_of(*at.views);
     return hasher.value(views.high)
         .value(views.low)
         .image(stop.visible)
@@ -134,7 +134,8 @@ Hash128 SurfaceStops::key_of(const Before& before, const SweepFrame& at, const S
 }
 
 Expected<SurfaceStop> SurfaceStops::begin_stop(const SurfaceJob& job, Before& before,
-                                               const SweepFrame& at, Gather& gather) const {
+                                               const SweepFrame& at, const Hash128& views,
+                                               Gather& gather) const {
     SurfaceStop out;
     WEFT_TRY(extent, extent_of(job, at.frame));
     WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
@@ -142,19 +143,20 @@ Expected<SurfaceStop> SurfaceStops::begin_stop(const SurfaceJob& job, Before& be
     out.visible = without_holdout(extent, holdout);
     out.extent = std::move(extent);
     drop_nonfinite(out.visible, at.views->finite);
-    gather = begin_step(job, before, at, out);
+    gather = begin_step(job, before, at, views, out);
     before.visible = out.visible;
     before.number = at.frame;
-    if (context_.plan.walks) before.views = hash_of(*at.views);
+    before.views = views;
     return out;
 }
 
 Status SurfaceStops::prepare(const SweepFrame& at) {
     const auto stops = std::make_shared<Stops>(jobs_.size());
     const auto gather = std::make_shared<std::vector<Gather>>(jobs_.size());
+    const Hash128 views = context_.plan.walks ? hash_of(*at.views) : Hash128();
     WEFT_CHECK_OK(parallel_try(jobs_.size(), [&](std::size_t k) -> Status {
         if (!visits(jobs_[k], leg_, at.frame)) return {};
-        WEFT_TRY(stop, begin_stop(jobs_[k], before_[k], at, (*gather)[k]));
+        WEFT_TRY(stop, begin_stop(jobs_[k], before_[k], at, views, (*gather)[k]));
         (*stops)[k] = std::move(stop);
         return {};
     }));

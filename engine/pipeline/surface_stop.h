@@ -69,12 +69,14 @@ class SurfaceStops {
     [[nodiscard]] Expected<Matte> extent_of(const SurfaceJob& job, int frame) const;
     [[nodiscard]] Expected<FlowField> true_motion(const SurfaceJob& job, int frame,
                                                   const Matte& visible_before) const;
-    [[nodiscard]] Hash128 key_of(const Before& before, const SweepFrame& at,
+    [[nodiscard]] Hash128 key_of(const Before& before, const Hash128& views,
                                  const SurfaceStop& stop, bool first) const;
+    // `views`: hash of the frame's, if walks are kept.
     [[nodiscard]] Gather begin_step(const SurfaceJob& job, Before& before, const SweepFrame& at,
-                                    SurfaceStop& stop) const;
+                                    const Hash128& views, SurfaceStop& stop) const;
     [[nodiscard]] Expected<SurfaceStop> begin_stop(const SurfaceJob& job, Before& before,
-                                                   const SweepFrame& at, Gather& gather) const;
+                                                   const SweepFrame& at, const Hash128& views,
+                                                   Gather& gather) const;
 
     const PassContext& context_;
     const AnalysisStore& store_;

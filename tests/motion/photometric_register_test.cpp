@@ -87,7 +87,7 @@ TEST(RegisterPlanar, FindsAPlaneThroughAShadow) {
     }
 }
 
-// Plaster: a pattern of a few levels under as much noise, which is new in each frame.
+// A faint pattern, of twenty levels, under noise of eight that is new in each frame.
 Pair faint_pair(std::uint64_t seed) {
     const WaveTexture texture(3);
     Pair out;
