@@ -13,7 +13,7 @@ std::size_t bytes_of(const WalkStep& step) {
 
 // Its lattices, and those of its anchors. Frames are mostly those of steps that are kept.
 std::size_t bytes_of(const SurfaceTrack& track) {
-    constexpr std::size_t kLattices = 24;
+    constexpr std::size_t kLattices = 30;
     return kLattices * track.ref_from_cur().nodes().size_bytes();
 }
 

@@ -2,6 +2,7 @@
 // The frames against which a walk is registered.
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/motion/lattice_field.h"
@@ -15,7 +16,8 @@ namespace weft {
 struct Anchor {
     std::shared_ptr<const StepFrame> frame;
     LatticeField ref_from_anchor;
-    int generation = 0;  ///< Number of anchors between it and the reference frame.
+    int generation = 0;        ///< Number of anchors between it and the reference frame.
+    LatticeField motion = {};  ///< Of the step to it (of the first one: from it); empty: not known.
 };
 
 /// A frame registered against one anchor.
@@ -41,6 +43,8 @@ class AnchorSet {
     /// Makes `anchor` the present one.
     void add(Anchor anchor);
     [[nodiscard]] const Anchor& present() const { return anchors_[present_]; }
+    /// How the present anchor's frame moves, found later.
+    void set_motion(LatticeField motion) { anchors_[present_].motion = std::move(motion); }
     void use(std::size_t index) { present_ = index; }
     /// Drops all anchors, because their mapping to the reference frame is no longer valid.
     void clear() { anchors_.clear(); }

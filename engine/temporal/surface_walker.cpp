@@ -17,7 +17,7 @@ bool SurfaceWalker::State::try_others(const StepFrame& cur, int generation_below
     const auto& all = anchors.all();
     for (std::size_t k = 0; k < all.size(); ++k) {
         if (k == anchors.present_index() || all[k].generation >= generation_below) continue;
-        const Registered found = against(all[k], cur, predicted(all[k]));
+        const Registered found = against(all[k], cur, prev_from_cur, predicted(all[k]));
         if (!found.holds() || found.fit.share < share_above) continue;
         correct(k, found.anchor_from_cur);
         return true;
@@ -47,9 +47,30 @@ void SurfaceWalker::State::advance_stretched() {
     stretched = compose(compose(ref_from_cur, inverse(relaxed_at_event)), stretched_at_event);
 }
 
+Registered SurfaceWalker::State::against(const Anchor& anchor, const StepFrame& cur,
+                                         const LatticeField& motion,
+                                         const LatticeField& initial) const {
+    Registered found = register_against(anchor, cur, choice.by_color(), initial, options.quality);
+    if (choice.by_color()) return found;
+    auto alike = exposure.registered(anchor, cur, motion, initial, found, options.quality);
+    return alike ? std::move(*alike) : std::move(found);
+}
+
+// Against the present anchor, with all that can be learnt from it.
+Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
+    const Anchor& anchor = anchors.present();
+    RegistrationOptions few;
+    few.samples = 20000;
+    lost_places.note(registration_fit(last->picture(), cur.picture(), prev_from_cur, few));
+    if (!choice.by_color()) exposure.learn(anchor, cur, prev_from_cur, anchor_from_cur);
+    Registered found = against(anchor, cur, prev_from_cur, anchor_from_cur);
+    auto wider = lost_places.find(anchor, cur, choice.by_color(), found, options.quality);
+    return wider ? std::move(*wider) : std::move(found);
+}
+
 void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>& cur) {
     const ViewU8x1 visible = cur->view().visible;
-    const Registered found = against(anchors.present(), *cur, anchor_from_cur);
+    const Registered found = against_present(*cur);
     // The chain is steady but drifts; the registration does not drift but jitters. The gains are
     // those of stationary Kalman filters that combine them.
     constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
@@ -96,10 +117,10 @@ SurfaceWalker::SurfaceWalker(std::shared_ptr<const StepFrame> start,
     const LatticeField still(start->size(), options.spacing_px);
     state_->options = options;
     state_->ref_from_cur = ref_from_start ? *ref_from_start : still;
-    state_->prev_from_cur = still;
     state_->last = std::move(start);
     state_->become_anchor(state_->last);
     state_->become_drawing();
+    state_->prev_from_cur = still;
 }
 
 SurfaceWalker::SurfaceWalker(ViewU8x1 luma, ViewU8x1 visible, const SurfaceWalkerOptions& options,

@@ -58,7 +58,7 @@ void SurfaceWalker::State::wait_out_of_view() {
 // steps, each registered against this frame. A sliver is assumed to move as the whole does.
 void SurfaceWalker::State::find_late(const std::shared_ptr<const StepFrame>& cur) {
     const ViewU8x1 visible = cur->view().visible;
-    const Anchor here{cur, ref_from_cur, 0};
+    const Anchor here{cur, ref_from_cur, 0, prev_from_cur};
     const bool here_too = is_sliver(visible_pixels(visible)) && !steady_step.nodes().empty();
     const LatticeField usual =
         inverse(here_too ? steady_step : similar_motion(prev_from_cur, visible));
@@ -66,7 +66,8 @@ void SurfaceWalker::State::find_late(const std::shared_ptr<const StepFrame>& cur
     LatticeField step = prev_from_cur;
     for (std::size_t k = searched.size(); k-- > 0;) {
         here_from_frame = compose(searched[k].a_sliver ? usual : inverse(step), here_from_frame);
-        Registered found = against(here, *searched[k].frame, here_from_frame);
+        Registered found =
+            against(here, *searched[k].frame, searched[k].prev_from_cur, here_from_frame);
         if (found.holds()) here_from_frame = std::move(found.anchor_from_cur);
         found_late.push_back(compose(here_from_frame, ref_from_cur));
         step = std::move(searched[k].prev_from_cur);
@@ -87,12 +88,12 @@ void SurfaceWalker::State::search(const std::shared_ptr<const StepFrame>& cur,
     };
     const auto& all = anchors.all();
     for (std::size_t k = all.size(); k-- > 0;) {
-        if (accept(k, against(all[k], *cur, predicted(all[k])))) return;
+        if (accept(k, against(all[k], *cur, prev_from_cur, predicted(all[k])))) return;
     }
     for (std::size_t k = 0; k < all.size(); ++k) {
         const auto start =
             find_again(all[k].frame->picture(), cur->picture(), frame_size(), options.spacing_px);
-        if (start && accept(k, against(all[k], *cur, *start))) return;
+        if (start && accept(k, against(all[k], *cur, prev_from_cur, *start))) return;
     }
     // Enough of it has been visible for long enough: its appearance has changed.
     constexpr int kLongest = 10;

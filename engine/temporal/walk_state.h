@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/temporal/anchors.h"
+#include "engine/temporal/exposure_match.h"
+#include "engine/temporal/lost_places.h"
 #include "engine/temporal/step_motion.h"
 #include "engine/temporal/surface_walker.h"
 
@@ -28,6 +30,8 @@ struct SurfaceWalker::State {
     std::shared_ptr<const StepFrame> drawing;
     LatticeField ref_from_drawing;
     MotionChoice choice;
+    ExposureMatch exposure;
+    LostPlaces lost_places;
     int since_older_tried = 0;  // frames
 
     // After the texture was released to its own shape: its previous track, continued for the
@@ -54,7 +58,7 @@ struct SurfaceWalker::State {
 
     void become_anchor(std::shared_ptr<const StepFrame> frame) {
         const int generation = anchors.empty() ? 0 : anchors.present().generation + 1;
-        anchors.add({std::move(frame), ref_from_cur, generation});
+        anchors.add({std::move(frame), ref_from_cur, generation, prev_from_cur});
         anchor_from_cur = LatticeField(frame_size(), options.spacing_px);
     }
     void become_drawing() {
@@ -69,6 +73,8 @@ struct SurfaceWalker::State {
     }
     void follow(LatticeField step) {
         prev_from_cur = std::move(step);
+        // The frame where the walk begins, whose own motion nobody knows, goes on as it came.
+        if (anchors.present().motion.empty()) anchors.set_motion(inverse(prev_from_cur));
         anchor_from_cur = compose(prev_from_cur, anchor_from_cur);
         ref_from_cur = compose(anchor_from_cur, anchors.present().ref_from_anchor);
     }
@@ -86,11 +92,10 @@ struct SurfaceWalker::State {
     bool reanchor(ViewU8x1 visible);
     void advance_stretched();
     void note_steady(ViewU8x1 visible, std::int64_t visible_px);
-    // A frame against an anchor, by what the walk goes by.
+    // A frame against an anchor, by what the walk goes by. `motion`: of the step to it.
     [[nodiscard]] Registered against(const Anchor& anchor, const StepFrame& cur,
-                                     const LatticeField& initial) const {
-        return register_against(anchor, cur, choice.by_color(), initial, options.quality);
-    }
+                                     const LatticeField& motion, const LatticeField& initial) const;
+    [[nodiscard]] Registered against_present(const StepFrame& cur);
     void find_late(const std::shared_ptr<const StepFrame>& cur);
     void wait_out_of_view();
     void search(const std::shared_ptr<const StepFrame>& cur, std::int64_t visible_px);

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 #include <numeric>
 
+#include "engine/motion/motion_blur.h"
 #include "tests/motion/pictures.h"
 
 namespace weft {
@@ -300,6 +301,50 @@ TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
     EXPECT_GE(let_go, 13);
     EXPECT_LE(let_go, 16);
     EXPECT_EQ(carried, 21 - let_go);
+}
+
+// A camera that begins to pan, with the shutter open for half of each frame: a blurred frame fits
+// a sharp one best somewhere beside its place.
+TEST(SurfaceWalker, StaysInPlaceWhenAPanBlursThePicture) {
+    const WaveTexture wall(14);
+    const auto pan = [](int t) { return 1.2f * static_cast<float>(t * t); };
+    const Matte all = draw(kFrame, [](Vec2) { return 1.0f; });
+    const auto taken = [&](int t) {
+        const Matte sharp =
+            draw(kFrame, [&](Vec2 p) { return wall((p + Vec2(pan(t), 0)) * 1.2f); });
+        const float way = t > 0 ? 0.5f * (pan(t) - pan(t - 1)) : 0;
+        return exposed_along(sharp, all, moved_by(kFrame, {way, 0})).luma;
+    };
+    Matte before = taken(0);
+    SurfaceWalker walker(before, all, {});
+    for (int t = 1; t < 8; ++t) {
+        const Matte cur = taken(t);
+        walker.advance(cur, all, flow_between(cur, before));
+        for (const Vec2 p : {Vec2(60, 50), Vec2(110, 90), Vec2(160, 120)})
+            EXPECT_LT(distance(walker.ref_from_cur().at(p), Vec2(pan(t), 0)), 0.25f) << t;
+        before = cur;
+    }
+}
+
+// Raw motion that knows nothing of a fold that jerks: what is lost in one step comes back.
+TEST(SurfaceWalker, FindsAgainWhatAStepHasLost) {
+    const WaveTexture cloth(15);
+    const Matte all = draw(kFrame, [](Vec2) { return 1.0f; });
+    const Vec2 middle(150, 90);
+    const auto fold = [&](Vec2 p, int t) {
+        const float r = distance(p, middle);
+        return t < 2 ? Vec2(0) : Vec2(8, 3) * std::exp(-r * r / (2 * 28 * 28));
+    };
+    const auto taken = [&](int t) {
+        return draw(kFrame, [&](Vec2 p) { return cloth(p + fold(p, t)); });
+    };
+    FlowField still(kFrame);
+    std::fill_n(still.valid.data(), still.valid.size_bytes(), std::uint8_t{255});
+    SurfaceWalker walker(taken(0), all, {});
+    for (int t = 1; t < 6; ++t)
+        walker.advance(taken(t), all, still);
+    for (const Vec2 p : {middle, middle + Vec2(20, 10), Vec2(50, 50)})
+        EXPECT_LT(distance(walker.ref_from_cur().at(p), fold(p, 5)), 0.5f);
 }
 
 // A drawn sign, a flat fill with one line, that swings on and back: 12° from drawing to drawing.

@@ -1,0 +1,96 @@
+#include "engine/temporal/lost_places.h"
+
+#include <algorithm>
+
+#include "engine/motion/wide_search.h"
+
+namespace weft {
+namespace {
+
+// What two frames are compared by.
+struct Pictures {
+    const RegistrationPicture &there, &here;
+    ViewU8x1 luma;  // of the frame here
+};
+
+Pictures pictures_of(const Anchor& anchor, const StepFrame& cur, bool by_color) {
+    if (by_color && anchor.frame->has_color() && cur.has_color())
+        return {anchor.frame->color_picture(), cur.color_picture(), cur.color()};
+    return {anchor.frame->picture(), cur.picture(), cur.view().luma};
+}
+
+struct Candidate {
+    Registered registered;
+    double known_share = 0;
+};
+
+Candidate search(const Anchor& anchor, const StepFrame& cur, const Pictures& seen, bool by_color,
+                 const Registered& found, MissedBy missed, FlowQuality quality) {
+    const WideSearch wide =
+        search_around({seen.there, anchor.frame->view().visible}, {seen.here, cur.view().visible},
+                      seen.luma, found.anchor_from_cur, missed, quality);
+    return {register_against(anchor, cur, by_color, wide.anchor_from_cur, quality),
+            wide.known_share};
+}
+
+// Whether a candidate is the same paint. Shades that move over a faint surface are found again,
+// too: they take a smooth field along, and leave more than noise since other shades are gone. A
+// part alone follows a fold's shading as easily, so it has to explain more.
+bool convinces(const Candidate& candidate, MissedBy missed, const Registered& before,
+               double noise) {
+    constexpr double kKnown = 0.3, kShareLost = 0.02;
+    constexpr double kAsNoise = 1.35, kExplained = 0.35, kExplainedByParts = 0.4;
+    constexpr double kExplainedByBending = 0.5;
+    const Registered& now = candidate.registered;
+    if (candidate.known_share < kKnown || now.fit.share < before.fit.share - kShareLost)
+        return false;
+    const double left = before.fit.residual - noise;
+    const double explained = (before.fit.residual - now.fit.residual) / left;
+    // What was a plane does not bend without reason.
+    if (before.planar && !now.planar && explained < kExplainedByBending) return false;
+    if (missed == MissedBy::kParts) return explained > kExplainedByParts;
+    return explained > kExplained || (explained > 0 && now.fit.residual < kAsNoise * noise);
+}
+
+}  // namespace
+
+void LostPlaces::note(const RegistrationFit& step) {
+    constexpr std::size_t kKept = 8;
+    if (steps_.size() == kKept) steps_.erase(steps_.begin());
+    steps_.push_back(step.residual);
+}
+
+// A step that itself missed leaves more than the noise.
+double LostPlaces::noise() const {
+    return steps_.empty() ? 1 : *std::min_element(steps_.begin(), steps_.end());
+}
+
+std::optional<Registered> LostPlaces::find(const Anchor& anchor, const StepFrame& cur,
+                                           bool by_color, const Registered& found,
+                                           FlowQuality quality) {
+    constexpr double kLittle = 1.05;       // of the noise
+    constexpr double kAnyStructure = 0.3;  // in correlation; less is grain
+    constexpr double kPlaneAlone = 1.5;    // of the noise: planes do not lose parts
+    constexpr int kLongestWait = 3;
+    const double noise = this->noise();
+    const double little = found.planar ? kPlaneAlone : kLittle;
+    if (found.fit.residual < little * noise || --waiting_ > 0) return std::nullopt;
+    const Pictures seen = pictures_of(anchor, cur, by_color);
+    if (registration_agreement(seen.there, seen.here, found.anchor_from_cur) < kAnyStructure)
+        return std::nullopt;
+    std::optional<Registered> best;
+    for (const MissedBy missed : {MissedBy::kSurface, MissedBy::kParts, MissedBy::kSurface}) {
+        const Registered& before = best ? *best : found;
+        if (before.fit.residual < kLittle * noise) break;
+        Candidate wider = search(anchor, cur, seen, by_color, before, missed, quality);
+        if (!convinces(wider, missed, before, noise)) continue;
+        const LatticeField& now = wider.registered.anchor_from_cur;
+        if (registration_lead(seen.there, seen.here, now, before.anchor_from_cur).errors > 0)
+            best = std::move(wider.registered);
+    }
+    in_vain_ = best ? 0 : std::min(in_vain_ + 1, kLongestWait);
+    waiting_ = 1 + in_vain_;
+    return best;
+}
+
+}  // namespace weft
