@@ -122,29 +122,47 @@ LatticeField field_of(const Homography& map, const LatticeField& like) {
 // The normal equations of some residuals.
 struct Normal {
     Mat8 a{};
-    Vec8 b{};
+    Vec8 b{}, noise{};  // of the residuals; of their noise for a variance of 1
+    NoiseInResiduals in_residuals;
 
     void add(const Homography& map, const RegistrationResidual& t, double scale) {
         const double w = cauchy(t.r / scale);
-        const Vec8 j = gradient_of(map, map.at(t.p.x, t.p.y), t.gradient.x, t.gradient.y);
+        const auto at = map.at(t.p.x, t.p.y);
+        const Vec8 j = gradient_of(map, at, t.gradient.x, t.gradient.y);
+        const Vec8 of_noise = gradient_of(map, at, t.noise.x, t.noise.y);
         for (std::size_t i = 0; i < 8; ++i) {
             const double wj = w * j[i];
             for (std::size_t k = 0; k <= i; ++k)
                 a[i][k] += wj * j[k];
             b[i] -= wj * t.r;
+            noise[i] += w * of_noise[i];
         }
+        in_residuals.add(t, w);
     }
     void add(const Normal& other) {
         for (std::size_t i = 0; i < 8; ++i) {
             for (std::size_t k = 0; k <= i; ++k)
                 a[i][k] += other.a[i][k];
             b[i] += other.b[i];
+            noise[i] += other.noise[i];
+        }
+        in_residuals.add(other.in_residuals);
+    }
+    // Without what interpolation makes of noise; with `near` that of the gradients, too, which is
+    // right near the solution: farther off, differences are more than noise.
+    void take_off_noise(double spread, bool near) {
+        const double half = 0.5 * in_residuals.variance(),
+                     left = near ? in_residuals.structure(spread) : 1;
+        for (std::size_t i = 0; i < 8; ++i) {
+            for (std::size_t k = 0; k <= i; ++k)
+                a[i][k] *= left * left;
+            b[i] = left * (b[i] + half * noise[i]);
         }
     }
 };
 
 Normal normal_of(const Homography& map, const std::vector<RegistrationResidual>& residuals,
-                 double scale) {
+                 double scale, bool near) {
     constexpr std::size_t kChunk = 4096;
     std::vector<Normal> parts((residuals.size() + kChunk - 1) / kChunk);
     parallel_for(parts.size(), [&](std::size_t part) {
@@ -155,6 +173,7 @@ Normal normal_of(const Homography& map, const std::vector<RegistrationResidual>&
     Normal sum;
     for (const Normal& part : parts)
         sum.add(part);
+    sum.take_off_noise(scale, near);
     return sum;
 }
 
@@ -183,11 +202,11 @@ void add_prior(Normal& normal, const Homography& map, double scale) {
 
 // One Gauss–Newton step. Returns how far the samples move at most, px; negative: no solution.
 double planar_step(const RegistrationPicture& anchor, const RegistrationSamples& samples,
-                   Homography& map) {
-    const auto residuals = residuals_at(anchor, samples, places_under(map, samples));
+                   const InterpolationNoise& noise, bool near, Homography& map) {
+    const auto residuals = residuals_at(anchor, samples, places_under(map, samples), noise);
     if (residuals.size() < 200) return -1;
     const double scale = robust_spread(residuals);
-    Normal normal = normal_of(map, residuals, scale);
+    Normal normal = normal_of(map, residuals, scale, near);
     add_prior(normal, map, scale);
     Vec8& b = normal.b;
     if (!solve_cholesky(normal.a, b)) return -1;
@@ -202,11 +221,11 @@ double planar_step(const RegistrationPicture& anchor, const RegistrationSamples&
 // The standard error of the map that the noise of the samples leaves, px: the root of its mean
 // square over the samples.
 double standard_error(const RegistrationPicture& anchor, const RegistrationSamples& samples,
-                      const Homography& map) {
-    const auto residuals = residuals_at(anchor, samples, places_under(map, samples));
+                      const InterpolationNoise& noise, const Homography& map) {
+    const auto residuals = residuals_at(anchor, samples, places_under(map, samples), noise);
     if (residuals.empty()) return 0;
     const double scale = robust_spread(residuals);
-    Normal normal = normal_of(map, residuals, scale);
+    Normal normal = normal_of(map, residuals, scale, true);
     add_prior(normal, map, scale);
     constexpr std::size_t kEvery = 97;
     double sum = 0, n = 0;
@@ -244,9 +263,10 @@ PlanarRegistration register_planar(const RegistrationPicture& anchor,
     if (samples.size() < 500) return out;
     Homography map = about(cur);
     if (!start_from(initial, samples, map)) return out;
+    const InterpolationNoise noise = noise_between(anchor, cur, initial);
     double moved = 1;
     for (int k = 0; k < options.iterations && moved > kStill; ++k) {
-        moved = planar_step(anchor, samples, map);
+        moved = planar_step(anchor, samples, noise, false, map);
         if (moved < 0 || moved > 50) return out;
     }
     out.anchor_from_cur = field_of(map, initial);
@@ -263,14 +283,15 @@ LatticeField refine_planar(const RegistrationPicture& anchor, const Registration
     const RegistrationSamples samples = registration_samples(cur, options.samples);
     Homography map = about(cur);
     if (!start_from(found, samples, map)) return found;
-    const double error = standard_error(anchor, samples, map) / kWanted_px;
+    const InterpolationNoise noise = noise_between(anchor, cur, found);
+    const double error = standard_error(anchor, samples, noise, map) / kWanted_px;
     if (error <= 1) return found;
     const auto wanted = static_cast<int>(std::min(kMost, error * error * options.samples));
     const RegistrationSamples more = registration_samples(cur, wanted);
     if (more.size() <= samples.size()) return found;
     double moved = 1;
     for (int k = 0; k < kRounds && moved > kStill; ++k) {
-        moved = planar_step(anchor, more, map);
+        moved = planar_step(anchor, more, noise, true, map);
         if (moved < 0 || moved > kFarthest_px) return found;
     }
     return field_of(map, found);

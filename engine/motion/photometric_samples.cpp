@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 #include "engine/core/parallel.h"
+#include "engine/motion/cubic_lookup.h"
 
 namespace weft {
 namespace {
@@ -20,31 +20,6 @@ cv::Mat as_mat(ViewU8x1 v) {
 constexpr float kLocal_px = 4;
 // Pixels nearer to the outline are mixed with the background.
 constexpr float kEdge_px = 3;
-
-using F4 = float __attribute__((vector_size(16)));
-
-F4 load(const float* from) {
-    F4 v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-}
-
-float dot(F4 a, F4 b) {
-    const F4 v = a * b;
-    return (v[0] + v[2]) + (v[1] + v[3]);
-}
-
-// Catmull–Rom weights of four neighbours at fraction t, and their derivatives.
-F4 weights_at(float t) {
-    const float t2 = t * t, t3 = t2 * t;
-    return F4{-0.5f * t + t2 - 0.5f * t3, 1 - 2.5f * t2 + 1.5f * t3, 0.5f * t + 2 * t2 - 1.5f * t3,
-              -0.5f * t2 + 0.5f * t3};
-}
-F4 slopes_at(float t) {
-    const float t2 = t * t;
-    return F4{-0.5f + 2 * t - 1.5f * t2, -5 * t + 4.5f * t2, 0.5f + 4 * t - 4.5f * t2,
-              -t + 1.5f * t2};
-}
 
 // Where a picture is looked up: the first of sixteen pixels, and the fractions.
 struct Cell {
@@ -68,6 +43,11 @@ std::optional<Cell> cell_at(const RegistrationPicture& picture, Vec2 p) {
 
 }  // namespace
 
+int local_window(int width) {
+    const double sigma = kLocal_px * static_cast<double>(width) / 854.0;
+    return 2 * static_cast<int>(std::lround(sigma)) + 1;
+}
+
 RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     RegistrationPicture out;
     const cv::Mat all = as_mat(visible) >= 128;
@@ -77,13 +57,12 @@ RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     out.area = {box.x, box.y, box.x + box.width, box.y + box.height};
 
     // Local mean and deviation by normalised convolution, from inside the region only.
-    const double sigma = kLocal_px * static_cast<double>(luma.width()) / 854.0;
     cv::Mat value, share, mean, square;
     as_mat(luma)(box).convertTo(value, CV_32F);
     inside.convertTo(share, CV_32F, 1.0 / 255);
     cv::GaussianBlur(value, value, {0, 0}, 0.6);
     const auto local = [&](const cv::Mat& m, cv::Mat& smooth) {
-        const int r = 2 * static_cast<int>(std::lround(sigma)) + 1;
+        const int r = local_window(luma.width());
         // Two box filters replace the Gaussian.
         cv::boxFilter(m, smooth, CV_32F, {r, r}, {-1, -1}, true, cv::BORDER_REPLICATE);
         cv::boxFilter(smooth, smooth, CV_32F, {r, r}, {-1, -1}, true, cv::BORDER_REPLICATE);
@@ -153,7 +132,8 @@ std::vector<Vec2> places_under(const LatticeField& anchor_from_cur,
 
 std::vector<RegistrationResidual> residuals_at(const RegistrationPicture& anchor,
                                                const RegistrationSamples& samples,
-                                               const std::vector<Vec2>& places) {
+                                               const std::vector<Vec2>& places,
+                                               const InterpolationNoise& noise) {
     constexpr std::size_t kChunk = 4096;
     std::vector<std::vector<RegistrationResidual>> parts((places.size() + kChunk - 1) / kChunk);
     parallel_for(parts.size(), [&](std::size_t part) {
@@ -172,9 +152,13 @@ std::vector<RegistrationResidual> residuals_at(const RegistrationPicture& anchor
                 slope += dy[j] * v;
             }
             const F4 wx = weights_at(cell->fx);
+            const Vec2 fraction(cell->fx, cell->fy);
             out.push_back({samples.p[k],
                            dot(wx, column) - samples.value[k],
-                           {dot(slopes_at(cell->fx), column), dot(wx, slope)}});
+                           {dot(slopes_at(cell->fx), column), dot(wx, slope)},
+                           noise.slope(fraction),
+                           noise.roughness(fraction),
+                           1 + noise.variance(fraction)});
         }
     });
     std::vector<RegistrationResidual> all;

@@ -13,10 +13,15 @@ namespace {
 
 // Adds the residuals to the system of a lattice.
 void fill(BendingSystem& system, const std::vector<RegistrationResidual>& residuals, double scale) {
+    NoiseInResiduals noise;
+    for (const RegistrationResidual& t : residuals)
+        noise.add(t, cauchy(t.r / scale));
+    const double half = 0.5 * noise.variance();
     for (const RegistrationResidual& t : residuals) {
         const double w = cauchy(t.r / scale) / (scale * scale);
         const double x = t.gradient.x, y = t.gradient.y;
-        system.measure(t.p, {w * x * x, w * x * y, w * y * y}, {-w * t.r * x, -w * t.r * y});
+        system.measure(t.p, {w * x * x, w * x * y, w * y * y},
+                       {w * (half * t.noise.x - t.r * x), w * (half * t.noise.y - t.r * y)});
     }
 }
 
@@ -29,11 +34,12 @@ LatticeField register_lattice(const RegistrationPicture& anchor, const Registrat
     if (samples.size() < 100) return field;
     // Neighbouring residuals are correlated, two or three at a time.
     constexpr double kIndependent = 0.4;
+    const InterpolationNoise noise = noise_between(anchor, cur, initial);
     const double stiffness =
         1.0 / (static_cast<double>(options.stiffness_px) * options.stiffness_px);
     std::vector<glm::dvec2> corrected;
     for (int k = 0; k < options.iterations; ++k) {
-        const auto residuals = residuals_at(anchor, samples, places_under(field, samples));
+        const auto residuals = residuals_at(anchor, samples, places_under(field, samples), noise);
         if (residuals.size() < 100) return initial;
         LatticeField correction(initial.full_size(), options.lattice_px);
         BendingSystem system(correction);
