@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "engine/compute/backend_registry.h"
 #include "engine/pipeline/draft_analysis.h"
 #include "engine/pipeline/render_frame.h"
@@ -23,7 +25,7 @@ class WatchedStore final : public AnalysisStore {
     [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
         return kept_.get(key);
     }
-    int puts = 0;
+    std::atomic<int> puts = 0;  // by several threads
 
   private:
     MemoryAnalysisStore kept_;
