@@ -38,7 +38,8 @@ class InterpolationNoise {
         float variance = 1, slope = 0, next = 1, roughness = 0;
     };
     [[nodiscard]] const At& at(float fraction) const {
-        return steps_[static_cast<std::size_t>(fraction * kSteps + 0.5f)];
+        const float nearest = fraction * kSteps + 0.5f;
+        return steps_[static_cast<std::size_t>(nearest)];
     }
     [[nodiscard]] float without_mean(float covariance) const {
         return (covariance - mean_) / (1 - mean_);

@@ -50,8 +50,8 @@ float mean_along(ViewU8x1 luma, ViewU8x1 visible, Vec2 pixel, Vec2 way) {
     for (int k = -halves; k <= halves; ++k) {
         const Vec2 at = pixel + static_cast<float>(k) * step;
         if (!(at.x >= 0 && at.y >= 0 && at.x <= most.x && at.y <= most.y)) return -1;
-        if (visible.at(static_cast<int>(at.x + 0.5f), static_cast<int>(at.y + 0.5f)) < 128)
-            return -1;
+        const Vec2 nearest = at + 0.5f;
+        if (visible.at(static_cast<int>(nearest.x), static_cast<int>(nearest.y)) < 128) return -1;
         sum += between_pixels(luma, at);
     }
     return sum / static_cast<float>(2 * halves + 1);

@@ -40,13 +40,15 @@ Neighbours neighbours_under(const RegistrationPicture& anchor, const Registratio
 
 // Of neighbouring differences; of those that show the same, since what does not is no noise.
 double correlation_of(const std::vector<Neighbours::Pair>& pairs) {
-    constexpr float kOutside = 3;  // robust deviations
+    constexpr float kOutside = 3;                  // robust deviations
+    constexpr float kDeviationOfMedian = 1.4826f;  // of a Gaussian
     std::vector<float> sizes;
+    sizes.reserve(pairs.size());
     for (const auto& pair : pairs)
         sizes.push_back(std::abs(pair.here));
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    const float most = kOutside * 1.4826f * *middle;
+    const float most = kOutside * kDeviationOfMedian * *middle;
     double square = 0, product = 0;
     for (const auto& pair : pairs) {
         if (std::abs(pair.here) > most || std::abs(pair.next) > most) continue;

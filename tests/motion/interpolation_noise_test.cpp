@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/motion/photometric_register.h"
 #include "engine/motion/photometric_samples.h"
 #include "tests/motion/pictures.h"
@@ -60,7 +62,7 @@ class FaintWall : public testing::Test {
                 double sum = 0;
                 for (int k = 0; k < 4; ++k)
                     sum += grain.uniform() - 0.5;
-                luma.at(x, y) = static_cast<std::uint8_t>(luma.at(x, y) + 6 * sum + 0.5);
+                luma.at(x, y) = static_cast<std::uint8_t>(std::lround(luma.at(x, y) + 6 * sum));
             }
         }
         return registration_picture(luma, draw(kFrame, [](Vec2) { return 1.0f; }));
