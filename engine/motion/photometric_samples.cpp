@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "engine/core/parallel.h"
 #include "engine/motion/cubic_lookup.h"
@@ -179,14 +180,19 @@ std::optional<float> look_up(const RegistrationPicture& picture, Vec2 p) {
     return dot(weights_at(cell->fx), column);
 }
 
+double robust_deviation(std::vector<float> sizes) {
+    if (sizes.empty()) return 0;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    return 1.4826 * static_cast<double>(*middle);
+}
+
 double robust_spread(const std::vector<RegistrationResidual>& residuals) {
     std::vector<float> sizes;
     sizes.reserve(residuals.size());
     for (const RegistrationResidual& t : residuals)
         sizes.push_back(std::abs(t.r));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return std::max(0.03, 1.4826 * static_cast<double>(*middle));
+    return std::max(0.03, robust_deviation(std::move(sizes)));
 }
 
 RegistrationFit registration_fit(const RegistrationPicture& anchor, const RegistrationPicture& cur,

@@ -52,7 +52,10 @@ struct RegistrationResidual {
 /// The picture at any position by Catmull–Rom; empty outside its region.
 [[nodiscard]] std::optional<float> look_up(const RegistrationPicture& picture, Vec2 p);
 
-/// 1.4826 · median of the absolute residuals, at least what one level of noise gives.
+/// 1.4826 · the median of absolute values; 0 of none.
+[[nodiscard]] double robust_deviation(std::vector<float> sizes);
+
+/// The robust_deviation() of the residuals, at least what one level of noise gives.
 [[nodiscard]] double robust_spread(const std::vector<RegistrationResidual>& residuals);
 
 /// What noise does to the normal equations of some residuals.

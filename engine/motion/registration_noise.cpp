@@ -1,7 +1,7 @@
 // noise_between(): the noise of two pictures that are registered.
-#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 #include <vector>
 
 #include "engine/motion/photometric_samples.h"
@@ -40,19 +40,16 @@ Neighbours neighbours_under(const RegistrationPicture& anchor, const Registratio
 
 // Of neighbouring differences; of those that show the same, since what does not is no noise.
 double correlation_of(const std::vector<Neighbours::Pair>& pairs) {
-    constexpr float kOutside = 3;                  // robust deviations
-    constexpr float kDeviationOfMedian = 1.4826f;  // of a Gaussian
+    constexpr double kOutside = 3;  // robust deviations
     std::vector<float> sizes;
     sizes.reserve(pairs.size());
     for (const auto& pair : pairs)
         sizes.push_back(std::abs(pair.here));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const float most = kOutside * kDeviationOfMedian * *middle;
+    const double most = kOutside * robust_deviation(std::move(sizes));
     double square = 0, product = 0;
     for (const auto& pair : pairs) {
-        if (std::abs(pair.here) > most || std::abs(pair.next) > most) continue;
         const double a = pair.here, b = pair.next;
+        if (std::abs(a) > most || std::abs(b) > most) continue;
         square += 0.5 * (a * a + b * b);
         product += a * b;
     }

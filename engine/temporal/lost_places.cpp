@@ -60,9 +60,12 @@ void LostPlaces::note(const RegistrationFit& step) {
     steps_.push_back(step.residual);
 }
 
-// A step that itself missed leaves more than the noise.
+// A step that itself missed leaves more than the noise. Pictures without any, as of a camera that
+// stands still in computed animation, leave what rounding to codes does.
 double LostPlaces::noise() const {
-    return steps_.empty() ? 1 : *std::min_element(steps_.begin(), steps_.end());
+    constexpr double kOfRounding = 0.01;
+    return steps_.empty() ? 1
+                          : std::max(kOfRounding, *std::min_element(steps_.begin(), steps_.end()));
 }
 
 std::optional<Registered> LostPlaces::find(const Anchor& anchor, const StepFrame& cur,

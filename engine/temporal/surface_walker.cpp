@@ -61,7 +61,10 @@ Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
     const Anchor& anchor = anchors.present();
     RegistrationOptions few;
     few.samples = 20000;
-    lost_places.note(registration_fit(last->picture(), cur.picture(), prev_from_cur, few));
+    const bool colors = choice.by_color() && last->has_color() && cur.has_color();
+    lost_places.note(registration_fit(colors ? last->color_picture() : last->picture(),
+                                      colors ? cur.color_picture() : cur.picture(), prev_from_cur,
+                                      few));
     if (!choice.by_color()) exposure.learn(anchor, cur, prev_from_cur, anchor_from_cur);
     Registered found = against(anchor, cur, prev_from_cur, anchor_from_cur);
     auto wider = lost_places.find(anchor, cur, choice.by_color(), found, options.quality);

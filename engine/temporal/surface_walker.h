@@ -31,7 +31,9 @@ struct WalkStep {
 /// structure stands out of its noise and the outline bears it out better, the outline's
 /// (gather_evidence()). A chain drifts, so each frame is also registered against an *anchor*, at
 /// first the reference frame itself: by a homography where one explains the picture, else by a
-/// smooth field (register_planar(), register_lattice()). When too little of the anchor is visible,
+/// smooth field (register_planar(), register_lattice()). Where either is blurred by motion, both
+/// are compared blurred alike (ExposureMatch); what a step has lost is searched again (LostPlaces).
+/// When too little of the anchor is visible,
 /// the current frame becomes the next anchor. Not thread-safe; several walkers may run in several
 /// threads.
 class SurfaceWalker {

@@ -80,7 +80,7 @@ TEST_F(WholeWay, StabilityIsMeasuredAsThePreviewFills) {
     const auto flicker = [&] {
         std::vector<float> values;
         for (const FrameMarks& mark : session->view().marks)
-            values.push_back(static_cast<float>(mark.flicker));
+            values.push_back(mark.flicker);
         return values;
     };
     const std::vector<float> before = flicker();
