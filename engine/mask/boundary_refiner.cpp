@@ -16,8 +16,6 @@ constexpr float kEdgeWidthPx = 1.5f;
 
 // Chosen by sweeps on DAVIS blackswan and dance-twirl and on two objects of a rendered clip. Most
 // have little effect there; a colour weight too small against the smoothness lets the matte leak.
-constexpr float kSeparableFrom = 0.6f;    // separability below which colours do not count
-constexpr float kSeparableRange = 0.35f;  // range above it over which they gain full weight
 constexpr float kColorWeight = 1.5f;
 // Shape prior: distance for one unit of log odds, without colours.
 constexpr float kShapeReachPx = 4;
@@ -48,8 +46,7 @@ Evidence gather_evidence(ViewU8x3 frame, ViewF1 phi, const LocalColorField& colo
                 const std::uint8_t* c = frame.pixel(x, y);
                 const ColorProbability p = colors.at(x, y, Vec3(c[0], c[1], c[2]));
                 const float q = std::clamp(p.inside, 0.01f, 0.99f);
-                const float confidence =
-                    std::clamp((p.separability - kSeparableFrom) / kSeparableRange, 0.0f, 1.0f);
+                const float confidence = p.confidence();
                 e.log_odds.row(y)[x] = kColorWeight * confidence * std::log(q / (1 - q)) +
                                        d / (kShapeReachPx + kSeparableReachPx * confidence) -
                                        kGrowthPenalty * std::clamp(-d / 3, 0.0f, 1.0f);

@@ -218,6 +218,11 @@ void LocalColorField::index_windows(Size size) {
     }
 }
 
+float ColorProbability::confidence() const {
+    constexpr float kFrom = 0.6f, kRange = 0.35f;  // of the separability
+    return std::clamp((separability - kFrom) / kRange, 0.0f, 1.0f);
+}
+
 ColorProbability LocalColorField::at(int x, int y, Vec3 color) const {
     if (!left_out_.empty() && left_out_.at(x, y) != 0) return {};
     const auto& ids = nearest_[static_cast<std::size_t>((y / kCell) * cells_wide_ + x / kCell)];

@@ -52,6 +52,8 @@ struct ColorWindow {
 struct ColorProbability {
     float inside = 0.5f;     ///< Probability of being inside, by colour alone.
     float separability = 0;  ///< 0–1: how reliable that is.
+    /// How far it counts, 0–1: colours that hardly separate say nothing.
+    [[nodiscard]] float confidence() const;
 };
 
 class LocalColorField {

@@ -21,6 +21,7 @@
 #include "engine/mask/soft_matting.h"
 #include "engine/mask/surface_palette.h"
 #include "engine/mask/surface_return.h"
+#include "engine/mask/uncovered.h"
 
 namespace weft {
 namespace {
@@ -73,6 +74,16 @@ void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1&
     });
 }
 
+// Pixels of either; `a` may be empty.
+Matte either(const Matte& a, const Matte& b) {
+    Matte both(b.size());
+    for (int y = 0; y < both.height(); ++y) {
+        for (int x = 0; x < both.width(); ++x)
+            both.at(x, y) = std::max(a.empty() ? std::uint8_t{0} : a.at(x, y), b.at(x, y));
+    }
+    return both;
+}
+
 // Nearer to the boundary than half of its usual softness, colours are mixed.
 float clearance_of(const ImageF1& phi, const ImageF1& softness) {
     double sum = 0, n = 0;
@@ -108,6 +119,7 @@ struct MatteWalker::State {
     SurfaceReturn hidden;
     FlatFills fills;
     MotionSides sides = {};
+    Uncovered uncovered = {};
     LeftBehind left_behind = {};
     bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
@@ -177,11 +189,12 @@ LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedS
                                     static_cast<float>(area.y0 + w.center.y) + d[1]),
                             rounded(k[0], k[1]), w.center};
     }
-    const ImageF1 expected = covered.empty() ? ImageF1() : seen_distance(shape.phi, covered);
+    // Neither what is hidden nor what has just appeared is known to be of either side.
+    const ImageF1 expected = seen_distance(shape.phi, either(covered, shape.uncovered.appearing));
     const std::vector<ColorSource> sources = {
         {frame, seen_phi(), clearance_px, 0.3f, 1.0f},
         {key_frame, key_seen.empty() ? key_phi : key_seen, clearance_px, 1.0f, 0.3f},
-        {part, covered.empty() ? shape.phi : expected, kUnsureClearancePx, 0.0f, 0.2f}};
+        {part, expected, kUnsureClearancePx, 0.0f, 0.2f}};
     LocalColorField colors(std::move(windows), sources, scale.window_half_px, scale.sample_stride,
                            part.size());
     colors.leave_out(std::move(covered));
@@ -205,6 +218,7 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
     ImageF1 wide =
         plate.odds(part, shape.phi, surface_difference(growth, palette, scale.band_px), area);
     limit_growth(wide, growth, palette, kFarBands * scale.band_px);
+    judge_uncovered(part, shape.uncovered, colors, palette, matched, wide);
     add_sides(
         sides.advance({phi, prev_from_cur, shape.outside_motion, area, scale.band_px / kBandUnits}),
         shape.phi, matched, wide);
@@ -317,8 +331,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         s.confidence = 0;
         s.sides = {};
     } else {
-        const TransportedShape shape =
-            transport_shape(s.phi, prev_from_cur, area, s.scale, covered);
+        const TransportedShape shape = transport_shape({s.phi, s.seen_phi()}, prev_from_cur, area,
+                                                       s.scale, s.uncovered, covered);
         const ViewU8x3 part = frame.crop(area);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
         const RefinedBoundary found =

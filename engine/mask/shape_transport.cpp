@@ -80,8 +80,11 @@ Recti transported_bounds(ViewF1 prev_phi, const FlowField& prev_from_cur) {
     return all;
 }
 
-TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur, const Recti& area,
-                                 const RefineScale& scale, ViewU8x1 hidden) {
+namespace {
+
+// The motion inside and around the shape, and how far it is reliable.
+TransportedShape measure_motion(ViewF1 prev_phi, const FlowField& prev_from_cur, const Recti& area,
+                                const RefineScale& scale, ViewU8x1 hidden) {
     const int w = area.width(), h = area.height();
     cv::Mat weighted(h, w, CV_32FC3), around(h, w, CV_32FC3);
     Vec2 mean(0);
@@ -114,27 +117,52 @@ TransportedShape transport_shape(ViewF1 prev_phi, const FlowField& prev_from_cur
     shape.prev_from_cur =
         surface_motion(weighted, total > 0 ? mean / total : Vec2(0), scale.band_px / 10);
     shape.outside_motion = surface_motion(around, Vec2(0), scale.band_px / 10);
+    return shape;
+}
+
+// The distance where the motion leads. What is revealed is outside, and near enough to the boundary
+// to be decided by its colours.
+ImageF1 moved_distance(ViewF1 prev_phi, ViewF2 motion, const Matte& revealed, const Recti& area,
+                       const RefineScale& scale) {
+    constexpr float kUndecidedBands = 0.2f;
+    const int w = area.width(), h = area.height();
     ImageF1 moved(area.size());
     Image<std::uint8_t, 1> inside(area.size());
     parallel_rows(h, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < w; ++x) {
-                const float* d = shape.prev_from_cur.pixel(x, y);
+                const float* d = motion.pixel(x, y);
                 moved.row(y)[x] = sample_bilinear(prev_phi, static_cast<float>(area.x0 + x) + d[0],
                                                   static_cast<float>(area.y0 + y) + d[1]);
-                inside.row(y)[x] = moved.row(y)[x] > 0 ? 1 : 0;
+                inside.row(y)[x] = moved.row(y)[x] > 0 && revealed.row(y)[x] == 0 ? 1 : 0;
             }
         }
     });
     // Stretching motion invalidates the distances: recompute them, but keep the sub-pixel position.
-    shape.phi = signed_distance(inside, scale.limit_px);
+    ImageF1 distance = signed_distance(inside, scale.limit_px);
     for (int y = 0; y < h; ++y) {
-        float* phi = shape.phi.row(y);
+        float* phi = distance.row(y);
         const float* m = moved.row(y);
         for (int x = 0; x < w; ++x) {
-            if (std::abs(phi[x]) < 3) phi[x] = std::clamp(m[x], phi[x] - 0.5f, phi[x] + 0.5f);
+            if (revealed.row(y)[x] != 0)
+                phi[x] = std::max(phi[x], -kUndecidedBands * scale.band_px);
+            else if (std::abs(phi[x]) < 3)
+                phi[x] = std::clamp(m[x], phi[x] - 0.5f, phi[x] + 0.5f);
         }
     }
+    return distance;
+}
+
+}  // namespace
+
+TransportedShape transport_shape(const PreviousShape& prev, const FlowField& prev_from_cur,
+                                 const Recti& area, const RefineScale& scale, Uncovered& uncovered,
+                                 ViewU8x1 hidden) {
+    TransportedShape shape = measure_motion(prev.phi, prev_from_cur, area, scale, hidden);
+    shape.uncovered = uncovered.advance({prev_from_cur, prev.phi, prev.seen, shape.prev_from_cur,
+                                         shape.outside_motion, area, scale.band_px});
+    shape.phi =
+        moved_distance(prev.phi, shape.prev_from_cur, shape.uncovered.revealed, area, scale);
     return shape;
 }
 
