@@ -6,11 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <vector>
 
-#include "engine/synthesis/autocovariance.h"
 #include "engine/synthesis/sample_lattice.h"
+#include "engine/synthesis/self_correlation.h"
 
 namespace weft {
 namespace {
@@ -21,60 +20,14 @@ constexpr int kLargest = 512;
 constexpr std::size_t kMostPeaks = 24;
 constexpr double kLeastHeight = 0.08;
 constexpr double kLeastMatch = 0.3;  // Of a lattice with two steps.
+// Of what resembles itself so much at two places or more, less contrast is no chance: woven bricks
+// are like themselves half a step on, too.
+constexpr double kSureMatch = 0.5, kSureContrast = 0.2;
 
 // A lattice of which few repeats lie within reach may be chance.
 double least_contrast(int count, int repeats) {
     if (count == 1) return repeats < 2 ? 0.6 : repeats < 3 ? 0.4 : 0.25;
     return repeats < 2 ? 0.4 : repeats < 6 ? 0.3 : repeats < 20 ? 0.2 : 0.14;
-}
-
-// Correlation with itself for all moves up to `reach`, 1 at 0.
-struct SelfCorrelation {
-    Image<double, 1> values;
-    Vec2i reach{0, 0};
-
-    [[nodiscard]] bool covers(Vec2i d) const {
-        return std::abs(d.x) <= reach.x && std::abs(d.y) <= reach.y;
-    }
-    [[nodiscard]] double at(Vec2i d) const {
-        return d.y < 0 ? values.at(reach.x - d.x, -d.y) : values.at(reach.x + d.x, d.y);
-    }
-};
-
-Vec2i nearest(glm::dvec2 v) {
-    return {static_cast<int>(std::lround(v.x)), static_cast<int>(std::lround(v.y))};
-}
-
-SelfCorrelation correlation_of(const SelfMismatch& self) {
-    SelfCorrelation out{Image<double, 1>(self.mismatch.size()), self.reach};
-    for (int y = 0; y < out.values.height(); ++y) {
-        for (int x = 0; x < out.values.width(); ++x)
-            out.values.at(x, y) = 1 - self.mismatch.at(x, y);
-    }
-    return out;
-}
-
-SelfCorrelation correlation_of(ViewU8x3 picture) {
-    const Vec2i reach{picture.width() / 2, picture.height() / 2};
-    SelfCorrelation out{autocovariance(picture, reach), reach};
-    const double variance = std::max(out.at({0, 0}), 1e-3);
-    for (int y = 0; y < out.values.height(); ++y) {
-        for (int x = 0; x < out.values.width(); ++x)
-            out.values.at(x, y) /= variance;
-    }
-    return out;
-}
-
-// The best move within `radius` of d, which the map need not cover.
-std::optional<Vec2i> best_near(const SelfCorrelation& c, Vec2i d, int radius) {
-    std::optional<Vec2i> best;
-    for (int y = -radius; y <= radius; ++y) {
-        for (int x = -radius; x <= radius; ++x) {
-            const Vec2i p = d + Vec2i{x, y};
-            if (c.covers(p) && (!best || c.at(p) > c.at(*best))) best = p;
-        }
-    }
-    return best;
 }
 
 std::vector<Vec2i> peaks_of(const SelfCorrelation& c) {
@@ -119,7 +72,9 @@ struct Contrast {
     double match = 0;  ///< Mean correlation on the lattice.
 
     [[nodiscard]] bool holds(int count) const {
-        return repeats > 0 && value >= least_contrast(count, repeats) &&
+        const bool sure =
+            count == 2 && repeats > 1 && match >= kSureMatch && value >= kSureContrast;
+        return repeats > 0 && (value >= least_contrast(count, repeats) || sure) &&
                (count == 1 || match >= kLeastMatch);
     }
 };
@@ -230,13 +185,17 @@ Found two_steps(const SelfCorrelation& c) {
     const Candidate clearest = *std::max_element(
         found.begin(), found.end(),
         [](const Candidate& a, const Candidate& b) { return a.contrast.value < b.contrast.value; });
+    const double clear = 0.5 * clearest.contrast.value;
+    double match = clearest.contrast.match;
+    for (const Candidate& k : found) {
+        if (k.contrast.value >= clear && k.contrast.repeats > 1)
+            match = std::max(match, k.contrast.match);
+    }
     // Every second or third step repeats as well; the finest that matches as well is the lattice.
+    // Half a brick of a basket weave or a herringbone is finer and does not.
     const Candidate* best = nullptr;
     for (const Candidate& k : found) {
-        if (k.contrast.match < 0.85 * clearest.contrast.match ||
-            k.contrast.value < 0.5 * clearest.contrast.value) {
-            continue;
-        }
+        if (k.contrast.match < 0.85 * match || k.contrast.value < clear) continue;
         if (!best || k.area < best->area - 0.5 ||
             (k.area < best->area + 0.5 && k.contrast.value > best->contrast.value)) {
             best = &k;

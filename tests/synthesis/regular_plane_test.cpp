@@ -54,6 +54,58 @@ ImageU8x3 planks_sample(int side, double height) {
     return out;
 }
 
+// Where in its brick, which is `side` high and twice as long, a place of a bond lies: along and
+// across it from 0 to 1, and which brick it is.
+struct InBrick {
+    double along, across;
+    int brick;
+};
+
+InBrick horizontal(double u, double v, int column, int row) {
+    return {u, v, 71 * column + 37 * row};
+}
+InBrick upright(double u, double v, int column, int row) {
+    return {v, u, 71 * column + 37 * row + 11};
+}
+
+int cell(double v) {
+    return static_cast<int>(std::floor(v));
+}
+
+// Pairs of bricks, lying and upright in turn.
+InBrick in_basket(glm::dvec2 p) {
+    const int i = cell(p.x / 2), j = cell(p.y / 2);
+    const double u = p.x / 2 - i, v = p.y / 2 - j;
+    if ((i + j) % 2 == 0) return horizontal(u, 2 * v - cell(2 * v), i, 2 * j + cell(2 * v));
+    return upright(2 * u - cell(2 * u), v, 2 * i + cell(2 * u), j);
+}
+
+InBrick in_herringbone(glm::dvec2 p) {
+    const int i = cell(p.x), j = cell(p.y), turn = ((i - j) % 4 + 4) % 4;
+    const double u = p.x - i, v = p.y - j;
+    if (turn < 2) return horizontal((u + turn) / 2, v, i - turn, j);
+    return upright(u, (v + (turn == 2 ? 1 : 0)) / 2, i, turn == 2 ? j - 1 : j);
+}
+
+// Bricks between joints, each of a tone of its own.
+ImageU8x3 bond_sample(int size, double side, InBrick (*in_brick)(glm::dvec2)) {
+    ImageU8x3 out(size, size);
+    Rng noise(5);
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const InBrick at = in_brick(glm::dvec2(x + 0.5, y + 0.5) / side);
+            const bool joint = std::min(at.along, 1 - at.along) < 0.06 ||
+                               std::min(at.across, 1 - at.across) < 0.12;
+            Rng own(7, static_cast<std::uint64_t>(at.brick + 4096));
+            const double tone = joint ? 150 : 70 + 40 * own.uniform();
+            for (int c = 0; c < 3; ++c)
+                out.at(x, y, c) =
+                    static_cast<std::uint8_t>(tone + static_cast<double>(noise.below(9)));
+        }
+    }
+    return out;
+}
+
 bool same_lattice(const SampleLattice& found, glm::dvec2 a, glm::dvec2 b, double most_px) {
     SampleLattice truth;
     truth.count = 2;
@@ -93,6 +145,18 @@ TEST(SampleLattice, IsFoundToAFractionOfAPixel) {
 
 TEST(SampleLattice, OfCoursesThatAreShifted) {
     EXPECT_TRUE(same_lattice(find_lattice(brick_sample(96, 96, 32, 14)), {32, 0}, {16, 14}, 0.3));
+}
+
+// Half a brick on, such bonds are like themselves as well, but less.
+TEST(SampleLattice, OfBondsIsNotHalfABrick) {
+    for (const double side : {9.7, 11.3}) {
+        const glm::dvec2 whole{2 * side, 2 * side}, other{-2 * side, 2 * side};
+        EXPECT_TRUE(same_lattice(find_lattice(bond_sample(96, side, in_basket)), whole, other, 0.4))
+            << side;
+        EXPECT_TRUE(same_lattice(find_lattice(bond_sample(96, side, in_herringbone)), whole / 2.0,
+                                 other, 0.4))
+            << side;
+    }
 }
 
 TEST(SampleLattice, HasOneStepAcrossPlanks) {
