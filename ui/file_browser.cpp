@@ -305,9 +305,9 @@ void file_browser(Ctx& c) {
             selected = &(*all)[static_cast<std::size_t>(b.selected)];
     } else {
         ImGui::BeginChild("##waiting", {size.x - t.px(214), body}, true);
-        empty_state(c, icons::kTimer,
-                    c.folders.error().empty() ? "Reading the folder…" : "Cannot read this folder",
-                    c.folders.error().c_str());
+        const std::string& error = c.folders.error();
+        empty_state(c, error.empty() ? icons::kTimer : icons::kFolder,
+                    error.empty() ? "Reading the folder…" : "Nothing to list", error.c_str());
         ImGui::EndChild();
     }
     if (among) {
