@@ -1,6 +1,8 @@
 // The file browser for shots, textures and output paths: a sequence is one entry with a thumbnail.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "ui/browser_paths.h"
@@ -133,9 +135,10 @@ void accept(Ctx& c, const std::string& path) {
 void places(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     ImGui::BeginChild("##places", size);
+    std::set<std::string> listed;  // several projects may lie in one folder
     const auto place = [&](const char* name, const char* icon, const std::string& path) {
-        if (path.empty()) return;
-        ImGui::PushID(name);
+        if (path.empty() || !listed.insert(path).second) return;
+        ImGui::PushID(path.c_str());
         const bool pressed = ImGui::InvisibleButton("##place", {-FLT_MIN, t.row});
         ImGui::PopID();
         c.note(name);

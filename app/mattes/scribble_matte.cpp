@@ -89,6 +89,7 @@ std::vector<cv::Vec3f> colours_of(const cv::Mat& colours, const cv::Mat& where) 
     cv::Mat numbers, centres;
     cv::kmeans(samples, kMost, numbers, enough, 1, cv::KMEANS_PP_CENTERS, centres);
     std::vector<cv::Vec3f> out;
+    out.reserve(kMost);
     for (int k = 0; k < centres.rows; ++k)
         out.emplace_back(centres.ptr<float>(k));
     return out;
