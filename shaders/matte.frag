@@ -33,8 +33,21 @@ void main() {
     float alpha = v * inside * opacity;
     if (outline == 1) {
         // A line of about 1.5 screen pixels where the matte crosses a half.
-        float slope = max(fwidth(v), 1.0 / 255.0);
-        float line = 1.0 - clamp(abs(v - 0.5) / (slope * 1.2), 0.0, 1.0);
+        float slope = max(fwidth(v), 1.0 / 255.0), reach = 1.2;
+        vec2 pixel = fwidth(uv), texels = pixel * vec2(textureSize(matte, 0));
+        if (max(texels.x, texels.y) > 1.0) {
+            // Derivatives are those of 2 x 2 pixels, and miss every other edge of a matte that is
+            // shown smaller than it is.
+            vec4 around = vec4(texture(matte, uv + vec2(pixel.x, 0.0)).r,
+                               texture(matte, uv - vec2(pixel.x, 0.0)).r,
+                               texture(matte, uv + vec2(0.0, pixel.y)).r,
+                               texture(matte, uv - vec2(0.0, pixel.y)).r);
+            float low = min(min(around.x, around.y), min(around.z, around.w));
+            float high = max(max(around.x, around.y), max(around.z, around.w));
+            slope = max(high - low, 1.0 / 255.0);
+            reach = 0.8;
+        }
+        float line = 1.0 - clamp(abs(v - 0.5) / (slope * reach), 0.0, 1.0);
         alpha = max(alpha, line * 0.95);
     }
     color = vec4(tint.rgb, alpha * tint.a);

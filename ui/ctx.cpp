@@ -16,6 +16,10 @@ void Ctx::edit(Edit what) {
     emit(DoEdit{std::move(what)});
 }
 
+void Ctx::drop_tried() {
+    emit(TryEdits{});
+}
+
 void Ctx::note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled) {
     if (!items) return;
     items->push_back({(panel.empty() ? "" : panel + "/") + std::string(name), min, max, enabled});

@@ -47,6 +47,8 @@ struct Ctx {
     /// For actions whose result must be visible in the current frame, such as a brush stroke.
     void emit_now(const std::vector<Action>& all);
     void edit(Edit what);
+    /// Takes back what was tried.
+    void drop_tried();
     /// Records the last ImGui item under a name.
     void note(std::string_view name, bool enabled = true);
     void note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled = true);

@@ -1,6 +1,8 @@
 // The file browser for shots, textures and output paths: a sequence is one entry with a thumbnail.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "ui/browser_paths.h"
@@ -133,9 +135,10 @@ void accept(Ctx& c, const std::string& path) {
 void places(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     ImGui::BeginChild("##places", size);
+    std::set<std::string> listed;  // several projects may lie in one folder
     const auto place = [&](const char* name, const char* icon, const std::string& path) {
-        if (path.empty()) return;
-        ImGui::PushID(name);
+        if (path.empty() || !listed.insert(path).second) return;
+        ImGui::PushID(path.c_str());
         const bool pressed = ImGui::InvisibleButton("##place", {-FLT_MIN, t.row});
         ImGui::PopID();
         c.note(name);
@@ -305,9 +308,9 @@ void file_browser(Ctx& c) {
             selected = &(*all)[static_cast<std::size_t>(b.selected)];
     } else {
         ImGui::BeginChild("##waiting", {size.x - t.px(214), body}, true);
-        empty_state(c, icons::kTimer,
-                    c.folders.error().empty() ? "Reading the folder…" : "Cannot read this folder",
-                    c.folders.error().c_str());
+        const std::string& error = c.folders.error();
+        empty_state(c, error.empty() ? icons::kTimer : icons::kFolder,
+                    error.empty() ? "Reading the folder…" : "Nothing to list", error.c_str());
         ImGui::EndChild();
     }
     if (among) {

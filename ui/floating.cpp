@@ -36,16 +36,16 @@ std::string readable_key(const std::string& key) {
     return out;
 }
 
-// "Set placement.rotate_deg of cloth" → "Rotate cloth"; other settings by their labels.
+// "Set placement.rotate_deg of cloth" → "Rotate texture of cloth"; other settings by their labels.
 std::string step_label(const std::string& step) {
     constexpr std::string_view kSet = "Set ", kOf = " of ";
     if (!step.starts_with(kSet) || step.starts_with("Set the ")) return step;
     const std::size_t of = step.find(kOf);
     const std::string key = step.substr(kSet.size(), of - kSet.size());
     const std::string rest = of == std::string::npos ? "" : step.substr(of + kOf.size());
-    if (key == "placement.scale") return "Scale " + rest;
-    if (key == "placement.rotate_deg") return "Rotate " + rest;
-    if (key == "placement.offset_px") return "Move " + rest;
+    if (key == "placement.scale") return "Scale texture of " + rest;
+    if (key == "placement.rotate_deg") return "Rotate texture of " + rest;
+    if (key == "placement.offset_px") return "Move texture of " + rest;
     std::string label(parameter_label(key));
     if (label.empty()) label = readable_key(key);
     return rest.empty() ? label : label + " of " + rest;

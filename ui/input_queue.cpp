@@ -39,6 +39,7 @@ void InputQueue::button(int button, bool down, double at_s) {
 }
 
 void InputQueue::move(ImVec2 to) {
+    newest_ = to;
     events_.push_back({Event::Kind::kMove, 0, false, to, 0});
 }
 

@@ -18,6 +18,8 @@ class InputQueue {
     void character(unsigned code);
     void button(int button, bool down, double at_s);
     void move(ImVec2 to);
+    /// Whether the mouse has moved in the window since it entered.
+    [[nodiscard]] bool knows_mouse() const { return newest_.x > -FLT_MAX; }
     void wheel(float x, float y);
     /// The mouse left the window.
     void leave();
@@ -51,7 +53,7 @@ class InputQueue {
 
     std::deque<Event> events_;
     std::vector<ImVec2> path_;
-    ImVec2 mouse_{-FLT_MAX, -FLT_MAX};
+    ImVec2 mouse_{-FLT_MAX, -FLT_MAX}, newest_ = mouse_;  // as passed on, and as queued
     bool down_[ImGuiMouseButton_COUNT] = {};
     struct Press {
         double at_s = -1;

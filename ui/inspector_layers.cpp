@@ -138,7 +138,8 @@ void propagation_section(Ctx& c, const Region& region) {
         if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
             c.emit(PauseAnalysis{false});
     } else if (v.unready.contains(region.id)) {
-        wrapped(c, "Choose a texture to propagate the matte through the shot.", c.theme.quiet);
+        wrapped(c, "Propagated in the background, the frames beside this one first.",
+                c.theme.quiet);
     } else {
         wrapped(c,
                 "Propagated through the shot. The strip below the ruler is pale where the "

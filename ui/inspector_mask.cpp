@@ -285,7 +285,7 @@ void mask_inspector(Ctx& c) {
             const ScribbleState& s = c.state.scribbles;
             if (button(c, "Clear scribbles",
                        {.icon = icons::kClose,
-                        .enabled = !s.keep.empty() || !s.drop.empty(),
+                        .enabled = !s.lines.empty(),
                         .tip = "The matte stays as it is. Esc",
                         .width = -1}))
                 c.state.scribbles = {};

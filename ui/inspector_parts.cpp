@@ -63,13 +63,13 @@ void shape_controls(Ctx& c) {
     }
     wrapped(
         c,
-        "Drag points. Shift moves the whole shape, Ctrl sets a point's feather, Ctrl+Shift removes "
-        "a point; Ctrl+Shift beside the shape begins another.",
+        "Drag points; drag inside to move the whole shape. Ctrl sets a point's feather, Ctrl+Shift "
+        "removes a point; Ctrl+Shift beside the shape begins another.",
         t.quiet);
     std::string frames;
     for (const int frame : c.view.shape_frames)
         frames += (frames.empty() ? "" : ", ") + std::to_string(frame);
-    info_row(c, "Shape keyframes", frames, "Frames with a shape keyframe");
+    info_row(c, "Keys on frames", frames, "Frames with a shape keyframe");
     if (button(c, "Smooth corners",
                {.enabled = !c.view.matte_busy,
                 .tip = "Gives every corner smooth handles",

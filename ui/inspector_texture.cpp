@@ -182,9 +182,10 @@ void texture_inspector(Ctx& c) {
     if (section(c, "Placement")) {
         const PanelName panel(c, "Placement");
         keyed_parameter(c, *region, "placement.scale", "placement.scale_keys");
-        magnified_warning(c, *region);
         keyed_parameter(c, *region, "placement.rotate_deg", "placement.rotate_keys");
         keyed_parameter(c, *region, "placement.offset_px", "placement.offset_keys", "Offset");
+        // Below what can be dragged, which would jump from under the mouse.
+        magnified_warning(c, *region);
         if (button(c, "Transform",
                    {.icon = icons::kMove,
                     .tip = "Drag inside the box to move the texture, its corners to scale it, "

@@ -182,7 +182,7 @@ void navigate(Ctx& c, ImVec2 min, ImVec2 max) {
 // Escape takes back a drag.
 void cancel_drag(Ctx& c) {
     KeysState& s = c.state.keys;
-    if (s.drag == KeysState::Drag::kKeys && (s.by != 0 || s.by_value != 0)) drop_tried(c);
+    if (s.drag == KeysState::Drag::kKeys && (s.by != 0 || s.by_value != 0)) c.drop_tried();
     s.drag = KeysState::Drag::kNone;
     s.by = 0;
     s.by_value = 0;

@@ -140,13 +140,9 @@ void try_region(Ctx& c, const Region& before, const Region& after) {
 void keep_region(Ctx& c, const Region& before, const Region& after, const std::string& label) {
     std::vector<Edit> edits = region_edits(before, after);
     if (edits.empty())
-        drop_tried(c);
+        c.drop_tried();
     else
         c.emit(DoEdits{std::move(edits), label});
-}
-
-void drop_tried(Ctx& c) {
-    c.emit(TryEdits{});
 }
 
 void press_key(Ctx& c, const Region& region, const KeyRef& key, std::size_t which) {

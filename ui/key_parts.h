@@ -35,8 +35,6 @@ void key_glyph(ImDrawList& list, ImVec2 at, float radius, KeyInterpolation after
 /// Shows what a drag makes of the region, one step of the history when it is kept.
 void try_region(Ctx& c, const Region& before, const Region& after);
 void keep_region(Ctx& c, const Region& before, const Region& after, const std::string& label);
-/// Takes back what was tried.
-void drop_tried(Ctx& c);
 
 /// A press on a key: selects, with Shift adds or removes. Begins a drag.
 void press_key(Ctx& c, const Region& region, const KeyRef& key, std::size_t which);

@@ -13,8 +13,10 @@ std::string title_of_layer(int layer) {
                                 : "Layer " + std::to_string(layer);
 }
 
-std::string name_of_layer(const MatteSource& holdout, int layer) {
+std::string name_of_layer(const Ctx& c, const MatteSource& holdout, int layer) {
     const std::string title = title_of_layer(layer);
+    for (const Leaf<Region>& other : c.view.project.regions)
+        if (!holdout.empty() && *other->matte == holdout) return title + ": " + other->name;
     if (holdout.empty()) return title + ", not painted yet";
     if (!holdout.select.crypto.empty()) return title + ": " + holdout.select.crypto;
     if (!holdout.shape.empty()) return title + ": roto shape";
@@ -51,7 +53,7 @@ void layer_row(Ctx& c, const Region& region, int layer) {
     ImGui::PushID(layer);
     const float width = ImGui::GetContentRegionAvail().x - t.px(26) - t.gap;
     const std::string label =
-        fitted(name_of_layer(painted, layer), width - t.px(36)) + "##" + title;
+        fitted(name_of_layer(c, painted, layer), width - t.px(36)) + "##" + title;
     if (button(c, label.c_str(),
                {.icon = icons::kBrush,
                 .look = chosen ? Look::kPrimary : Look::kNormal,

@@ -1,10 +1,12 @@
 // Inspector rows: a label, a control, and a dot if the value is not the default.
 #include "ui/widgets.h"
 
+#include <imgui_internal.h>  // giving up the active item
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/icons.h"
 
@@ -68,6 +70,34 @@ double from_unit(const SliderSpec& s, double u) {
     return std::clamp(std::round(v / step) * step, s.min, s.max);
 }
 
+// Of the last item drawn. `active`: the mouse has it.
+Change drag_slider(Ctx& c, const SliderSpec& s, double& value, bool active, float width) {
+    if (ImGui::IsItemActivated()) {
+        c.state.drag_start = value;
+        c.state.drag_moved = false;
+    }
+    if (active && ImGui::IsKeyPressed(256)) {
+        // As it was before the drag.
+        ImGui::ClearActiveID();
+        if (std::exchange(c.state.drag_moved, false)) c.drop_tried();
+        return Change::kNone;
+    }
+    if (active && ImGui::IsMouseDragging(0, c.theme.px(3))) {
+        // Relative to the start, so that a click alone changes nothing. Shift: a tenth of the
+        // speed.
+        const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
+        const double moved = fine * static_cast<double>(ImGui::GetMouseDragDelta(0, 0).x / width);
+        value = from_unit(s, std::clamp(to_unit(s, c.state.drag_start) + moved, 0.0, 1.0));
+        c.state.drag_value = value;
+        c.state.drag_moved = true;
+        return Change::kTrying;
+    }
+    if (!ImGui::IsItemDeactivated() || !c.state.drag_moved || !s.enabled) return Change::kNone;
+    value = c.state.drag_value;
+    c.state.drag_moved = false;
+    return Change::kDone;
+}
+
 }  // namespace
 
 Change slider(Ctx& c, const SliderSpec& s, double& value) {
@@ -121,25 +151,7 @@ Change slider(Ctx& c, const SliderSpec& s, double& value) {
         if (hovered || active) list.AddRect(min, max, faded(t.accent, 0.6f), t.radius);
         text_in(list, t.regular, {min.x + t.px(8), min.y}, max, s.enabled ? t.text : t.off,
                 shown.c_str(), 0);
-        if (ImGui::IsItemActivated()) {
-            c.state.drag_start = value;
-            c.state.drag_moved = false;
-        }
-        if (active && ImGui::IsMouseDragging(0, t.px(3))) {
-            // Relative to the start, so that a click alone changes nothing. Shift: a tenth of the
-            // speed.
-            const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
-            const double moved = fine * ImGui::GetMouseDragDelta(0, 0).x / (max.x - min.x);
-            value = from_unit(s, std::clamp(to_unit(s, c.state.drag_start) + moved, 0.0, 1.0));
-            c.state.drag_value = value;
-            c.state.drag_moved = true;
-            change = Change::kTrying;
-        }
-        if (ImGui::IsItemDeactivated() && c.state.drag_moved && s.enabled) {
-            value = c.state.drag_value;
-            c.state.drag_moved = false;
-            change = Change::kDone;
-        }
+        change = drag_slider(c, s, value, active, max.x - min.x);
         if (hovered && ImGui::IsMouseDoubleClicked(0)) {
             c.state.typing = name;
             c.state.typing_text = number_text(value, s.integer ? 0 : s.decimals);

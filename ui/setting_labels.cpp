@@ -12,14 +12,14 @@ namespace {
 using Entry = std::pair<std::string_view, std::string_view>;
 
 // Labels of sections, fields and menu entries that are not parameter sliders.
-constexpr std::array kLabels{Entry{setting::kAddRegion, "Regions ▸ +"},
+constexpr std::array kLabels{Entry{setting::kAddRegion, "Regions → +"},
                              Entry{setting::kBackend, "Backend"},
                              Entry{setting::kCryptoFiles, "Cryptomatte"},
                              Entry{setting::kExcludedLicences, "Exclude licences"},
-                             Entry{setting::kFormShape, "Form ▸ Draw"},
-                             Entry{setting::kFormSource, "Form ▸ Source"},
-                             Entry{setting::kFormStrokes, "Form ▸ Strokes"},
-                             Entry{setting::kFov, "Form ▸ Field of view"},
+                             Entry{setting::kFormShape, "Form → Draw"},
+                             Entry{setting::kFormSource, "Form → Source"},
+                             Entry{setting::kFormStrokes, "Form → Strokes"},
+                             Entry{setting::kFov, "Form → Field of view"},
                              Entry{setting::kFrames, "Frames"},
                              Entry{setting::kHoldout, "Holdouts"},
                              Entry{setting::kWarp, "Grid warp"},
@@ -36,13 +36,13 @@ constexpr std::array kLabels{Entry{setting::kAddRegion, "Regions ▸ +"},
                              Entry{setting::kOverwrite, "If files exist: Overwrite"},
                              Entry{setting::kPlane, "Tile"},
                              Entry{setting::kPlate, "Open"},
-                             Entry{setting::kPlateLayer, "Shot settings ▸ Layer"},
-                             Entry{setting::kPlateSpace, "Shot settings ▸ Colour space"},
+                             Entry{setting::kPlateLayer, "Shot settings → Layer"},
+                             Entry{setting::kPlateSpace, "Shot settings → Colour space"},
                              Entry{setting::kReferenceFrame, "Reference frames"},
                              Entry{setting::kSample, "Texture"},
                              Entry{setting::kSkipExisting, "If files exist: Skip"},
                              Entry{setting::kTemporalMode, "Temporal mode"},
-                             Entry{setting::kTextureSpace, "Shot settings ▸ Textures"},
+                             Entry{setting::kTextureSpace, "Shot settings → Textures"},
                              Entry{setting::kTrack, "Planar track"}};
 
 }  // namespace

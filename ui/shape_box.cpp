@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/viewer.h"
 #include "ui/viewer_handles.h"
@@ -21,6 +22,17 @@ Vec2 turned(Vec2 p, Vec2 pivot, float scale, float radians) {
 
 Vec2 middle_of(const Quad<float>& box) {
     return 0.25f * (box[0] + box[1] + box[2] + box[3]);
+}
+
+// Even-odd, so that a shape that crosses itself is what its matte is.
+bool is_inside(const std::vector<Vec2>& outline, Vec2 p) {
+    bool inside = false;
+    for (std::size_t k = 0, last = outline.size() - 1; k < outline.size(); last = k++) {
+        const Vec2 a = outline[k], b = outline[last];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y))
+            inside = !inside;
+    }
+    return inside;
 }
 
 }  // namespace
@@ -44,6 +56,26 @@ RotoShape turned_shape(RotoShape shape, Vec2 pivot, float scale, float radians) 
         p.feather_px *= scale;
     }
     return shape;
+}
+
+bool shape_inside(Ctx& c, const ViewMap& map, bool active, bool hovered) {
+    static constexpr const char* kId = "shape inside";
+    UiState& s = c.state;
+    const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);
+    if (s.handle_held == kId) {
+        const Vec2 by = mouse - std::exchange(s.shape_box.inside_at, mouse);
+        for (RotoPoint& point : s.shape.points)
+            point.at += by;
+        if (ImGui::IsMouseDown(0)) return false;
+        s.handle_held.clear();
+        return mouse != s.shape_box.start;
+    }
+    if (!hovered || any_handle_held(c) || !is_inside(outline_of(s.shape), mouse)) return false;
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+    if (!active || !ImGui::IsMouseClicked(0) || breaks_off()) return false;
+    s.handle_held = kId;
+    s.shape_box.start = s.shape_box.inside_at = mouse;
+    return false;
 }
 
 bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over) {

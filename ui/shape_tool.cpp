@@ -131,7 +131,8 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     if (!s.shape.points.empty()) {
         outline(c, map, outline_of(s.shape), true, c.theme.accent_hover);
         // Points first: they are smaller, and may lie near the box.
-        if (edit_points(c, map, hovered, over) || shape_box(c, map, hovered && !over, over)) {
+        if (edit_points(c, map, hovered, over) || shape_box(c, map, hovered && !over, over) ||
+            shape_inside(c, map, active, hovered && !over)) {
             c.emit(SetShape{s.shape});
             return;
         }
@@ -143,30 +144,53 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     s.shape_drawing = true;
 }
 
+namespace {
+
+void emit_scribbles(Ctx& c) {
+    ScribbleSelect out;
+    for (const Scribble& one : c.state.scribbles.lines)
+        (one.outside ? out.drop : out.keep).push_back(one.line);
+    if (!out.keep.empty()) c.emit(std::move(out));
+}
+
+// Lines whose step of the history was undone, also before it was there.
+void take_undone_away(ScribbleState& s, const SessionView& view) {
+    const int position = view.history_position;
+    for (Scribble& one : s.lines)
+        one.settled |= position >= one.step;
+    std::erase_if(s.lines, [&](const Scribble& one) {
+        return position < one.step && (one.settled || !view.matte_busy);
+    });
+}
+
+}  // namespace
+
 void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
     ScribbleState& s = c.state.scribbles;
     // Scribbles belong to one frame of one region.
     if (s.frame != c.view.frame || s.region != c.view.selected)
-        s = {c.view.frame, c.view.selected, {}, {}, false, false};
-    const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);
+        s = {c.view.frame, c.view.selected, {}, false};
     if (active && ImGui::IsMouseClicked(0)) {
         s.drawing = true;
-        s.dropping = subtracts();
-        (s.dropping ? s.drop : s.keep).push_back({mouse});
+        // The one before is a step of its own, which may still be on its way.
+        const int step = c.view.history_position + (c.view.matte_busy ? 2 : 1);
+        s.lines.push_back({{map.to_plate(ImGui::GetIO().MousePos)}, subtracts(), step, false});
     } else if (s.drawing) {
-        auto& line = (s.dropping ? s.drop : s.keep).back();
         for (const Vec2 point : path_on_plate(c, map))
-            line.push_back(point);
+            s.lines.back().line.push_back(point);
         if (!ImGui::IsMouseDown(0)) {
             s.drawing = false;
-            if (!s.keep.empty()) c.emit(ScribbleSelect{s.keep, s.drop});
+            emit_scribbles(c);
         }
+    } else {
+        take_undone_away(s, c.view);
     }
-    if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(256)) s.keep = s.drop = {};
-    for (const auto& line : s.keep)
-        outline(c, map, line, false, c.theme.good);
-    for (const auto& line : s.drop)
-        outline(c, map, line, false, c.theme.bad);
+    if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(256)) {
+        s.lines.clear();
+        s.drawing = false;
+    }
+    for (const Scribble& one : s.lines)
+        outline(c, map, one.line, false, one.outside ? c.theme.bad : c.theme.good);
 }
 
 void similar_tool(Ctx& c, const ViewMap& map, bool active) {

@@ -80,12 +80,19 @@ struct BrushState {
     bool resizing = false;
 };
 
+struct Scribble {
+    std::vector<Vec2> line;
+    bool outside = false;
+    /// The step of the history that has it, once that is there; undoing it takes the line away.
+    int step = 0;
+    bool settled = false;
+};
 /// Scribbles; they belong to one frame of one region.
 struct ScribbleState {
     int frame = 0;
     RegionId region = 0;
-    std::vector<std::vector<Vec2>> keep, drop;
-    bool drawing = false, dropping = false;
+    std::vector<Scribble> lines;
+    bool drawing = false;
 };
 
 /// Cached contents of the drawer, because filtering 15,000 cards takes longer than a frame.
@@ -199,6 +206,7 @@ struct ShapeBoxState {
     std::optional<Vec2> pivot;      ///< On the plate; unset: the middle of the box.
     std::optional<RotoShape> from;  ///< The shape when the drag began,
     Vec2 start{0, 0};               ///< the handle then,
+    Vec2 inside_at{0, 0};           ///< the mouse in the frame before, while it drags the inside,
     float scale = 1, radians = 0;   ///< and how far it has gone.
 };
 

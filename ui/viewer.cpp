@@ -9,6 +9,7 @@
 #include "ui/compare.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/viewer_handles.h"
 #include "ui/viewer_overlays.h"
 #include "ui/widgets.h"
 
@@ -273,7 +274,7 @@ void viewer(Ctx& c, ImVec2 size) {
                hovered);
     navigate(c, map, hovered, active, wiping);
     if (panes.size() == 1) draw_wipe(c, list, map);
-    if (!wiping) viewer_tools(c, map, hovered, active);
+    if (!wiping && !take_back_drag(c)) viewer_tools(c, map, hovered, active);
     draw_legend(c, list, min, max);
     draw_provenance(c, list, map, hovered);
     failure(c, list, min, max);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/viewer.h"
 #include "ui/widgets.h"
@@ -89,6 +90,23 @@ Vec2 arrow_step() {
 
 bool any_handle_held(const Ctx& c) {
     return !c.state.handle_held.empty();
+}
+
+bool take_back_drag(Ctx& c) {
+    UiState& s = c.state;
+    const bool transforms = s.transform.drag != TransformState::Drag::kNone;
+    if (!any_handle_held(c) && !transforms && !s.warp.box_from && !s.brush.lassoing) return false;
+    if (ImGui::GetIO().WantTextInput || !ImGui::IsKeyPressed(256)) return false;
+    s.handle_held.clear();
+    s.transform.drag = TransformState::Drag::kNone;
+    s.warp.before.reset();
+    s.warp.box_from.reset();
+    s.shape_box.from.reset();
+    s.shape_box.scale = 1;
+    s.shape_box.radians = 0;
+    if (std::exchange(s.brush.lassoing, false)) s.brush.outline.clear();
+    c.drop_tried();
+    return true;
 }
 
 // A click pins the texture in place; a drag moves it to where it belongs.

@@ -17,6 +17,9 @@ enum class Grip : std::uint8_t { kNone, kNear, kTaken, kHeld, kLetGo };
 Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool hovered, ImU32 color,
             bool filled = true);
 [[nodiscard]] bool any_handle_held(const Ctx& c);
+/// Esc takes back what is being dragged on the picture: all is as it was when the drag began.
+/// Returns true if something was.
+bool take_back_drag(Ctx& c);
 
 /// Alt, or Ctrl and Shift where the window manager keeps Alt: breaks handles, removes a point,
 /// begins another shape.
@@ -39,6 +42,9 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered);
 void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// The box that rotates and scales the shape. Returns true if a drag has ended that changed it.
 bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over);
+/// A drag inside of the shape, beside all handles, moves it. Returns true if one has ended that
+/// did.
+bool shape_inside(Ctx& c, const ViewMap& map, bool active, bool hovered);
 void warp_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// The outline of four corners.

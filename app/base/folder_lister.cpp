@@ -83,6 +83,8 @@ Expected<std::vector<FolderEntry>> list_folder(const std::string& folder) {
         out.push_back(std::move(entry));
     }
     if (error) {
+        if (error == std::errc::no_such_file_or_directory)
+            return fail(ErrorCode::kUnreadable, "There is no folder " + folder + ".");
         return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be read: " +
                                                 error.message() + ". Check its permissions.");
     }

@@ -33,13 +33,14 @@ class AnalysisCache : public AnalysisStore {
 [[nodiscard]] std::string cache_root(const AnalysisCacheOptions& options);
 
 /// Opens the cache for a shot. Each region has a folder named by a hash of everything that its
-/// analysis depends on: files of plate, mattes, holdouts and motion by name, size and time; colour
-/// spaces, quality, references; in paper mode also the texture. A changed placement or light
-/// strength therefore reuses the analysis; a changed file does not. An in-memory matte is
-/// identified by itself until mattes_written(). Blobs are compressed and have a checksum; a damaged
-/// one counts as missing. Several processes may share a folder. If the folder cannot be written, a
-/// temporary one is used and `warnings` says so; if its disk fills up later, the rest goes to a
-/// temporary folder and remarks() says so.
+/// analysis depends on: files of plate, mattes, holdouts and motion by name, size and time; painted
+/// mattes by their contents, so that a project may be saved elsewhere; colour spaces, quality,
+/// references; in paper mode also the texture. A changed placement or light strength therefore
+/// reuses the analysis; a changed file does not. An in-memory matte is identified by itself until
+/// mattes_written(). Blobs are compressed and have a checksum; a damaged one counts as missing.
+/// Several processes may share a folder. If the folder cannot be written, a temporary one is used
+/// and `warnings` says so; if its disk fills up later, the rest goes to a temporary folder and
+/// remarks() says so.
 [[nodiscard]] Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(
     const Shot& shot, const AnalysisCacheOptions& options, std::vector<std::string>& warnings);
 

@@ -8,6 +8,7 @@
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/core/hash.h"
+#include "engine/core/input_file.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -44,13 +45,18 @@ Status add_pattern(Hasher& hasher, const std::string& text) {
     return {};
 }
 
+// By its contents: saving a project elsewhere takes its painted mattes along, and their analysis is
+// worth keeping.
 void add_keyframe(Hasher& hasher, int frame, const MatteKeyframe& key,
                   const PaintedMattes& painted) {
     hasher.value(frame);
-    if (const auto unwritten = painted.find(key.path); unwritten != painted.end())
+    if (const auto unwritten = painted.find(key.path); unwritten != painted.end()) {
         hasher.text("in memory").text(key.path).image(*unwritten->second);
-    else
-        add_file(hasher, key.path);
+    } else if (const auto contents = hash_of_contents(key.path)) {
+        hasher.text("painted").value(contents->high).value(contents->low);
+    } else {
+        hasher.text("not there").text(key.path);
+    }
 }
 
 void add_settings(Hasher& hasher, const MatteSource& matte) {

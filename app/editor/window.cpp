@@ -69,9 +69,12 @@ void on_character(GLFWwindow* window, unsigned code) {
 void on_button(GLFWwindow* window, int button, int action, int) {
     WindowState& state = state_of(window);
     state.event = true;
-    double x = 0, y = 0;
-    glfwGetCursorPos(window, &x, &y);
-    state.input.move({static_cast<float>(x), static_cast<float>(y)});
+    // The moves before it say where it was pressed: by now the mouse may be elsewhere.
+    if (!state.input.knows_mouse()) {
+        double x = 0, y = 0;
+        glfwGetCursorPos(window, &x, &y);
+        state.input.move({static_cast<float>(x), static_cast<float>(y)});
+    }
     state.input.button(button, action == GLFW_PRESS, glfwGetTime());
 }
 
@@ -180,14 +183,31 @@ void loop(GLFWwindow* window, EditorApp& app, WindowState& state, SecondWindow& 
     }
 }
 
+// As large as was asked for in units of the interface, and no larger than the screen has room for.
+void fit_to_screen(GLFWwindow* window) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor) return;
+    int x = 0, y = 0, most_w = 0, most_h = 0, w = 0, h = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &most_w, &most_h);
+    glfwGetWindowSize(window, &w, &h);
+    if (most_w <= 0 || most_h <= 0 || (w <= most_w && h <= most_h)) return;
+    glfwSetWindowSize(window, std::min(w, most_w), std::min(h, most_h));
+}
+
 GLFWwindow* make_window(const EditorOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    const bool own_scale = options.ui_scale > 0;
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, own_scale ? GLFW_FALSE : GLFW_TRUE);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "weft");
-    return glfwCreateWindow(options.width, options.height, "Weft", nullptr, nullptr);
+    const double scale = own_scale ? options.ui_scale : 1;
+    GLFWwindow* window =
+        glfwCreateWindow(static_cast<int>(options.width * scale),
+                         static_cast<int>(options.height * scale), "Weft", nullptr, nullptr);
+    if (window) fit_to_screen(window);
+    return window;
 }
 
 }  // namespace

@@ -168,45 +168,4 @@ Matte feather_matte(const Matte& before, float px) {
     return from_mat(soft);
 }
 
-Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
-                        const Matte& drop) {
-    cv::Mat marks;
-    cv::max(mat_of(keep), mat_of(drop), marks);
-    cv::Rect box = cv::boundingRect(marks);
-    if (box.empty()) return before;
-    const int margin = std::max(box.width, box.height) / 2 + 16;
-    box =
-        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-        cv::Rect(0, 0, before.width(), before.height());
-    const double scale = std::min(1.0, 512.0 / std::max(box.width, box.height));
-    const cv::Size small(std::max(8, static_cast<int>(box.width * scale)),
-                         std::max(8, static_cast<int>(box.height * scale)));
-    const cv::Mat colours(picture.height(), picture.width(), CV_8UC3,
-                          const_cast<std::uint8_t*>(picture.data()),
-                          static_cast<std::size_t>(picture.stride()));
-    cv::Mat crop, inside, outside, labels(small, CV_8UC1, cv::Scalar(cv::GC_PR_BGD));
-    cv::resize(colours(box), crop, small, 0, 0, cv::INTER_AREA);
-    cv::resize(mat_of(keep)(box), inside, small, 0, 0, cv::INTER_AREA);
-    cv::resize(mat_of(drop)(box), outside, small, 0, 0, cv::INTER_AREA);
-    labels.setTo(cv::GC_FGD, inside > 127);
-    labels.setTo(cv::GC_BGD, outside > 127);
-    // Without outside scribbles, the border of the crop counts as outside.
-    if (cv::countNonZero(outside > 127) == 0) {
-        cv::rectangle(labels, cv::Rect(0, 0, small.width, small.height), cv::Scalar(cv::GC_BGD), 2);
-    }
-    if (cv::countNonZero(inside > 127) == 0) return before;
-    cv::Mat background, foreground;
-    // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
-    cv::setRNGSeed(1);
-    cv::grabCut(crop, labels, {}, background, foreground, 4, cv::GC_INIT_WITH_MASK);
-    cv::Mat found = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD), full;
-    cv::resize(found, full, box.size(), 0, 0, cv::INTER_CUBIC);
-    Matte out = before;
-    for (int y = 0; y < box.height; ++y) {
-        const std::uint8_t* from = full.ptr<std::uint8_t>(y);
-        std::copy_n(from, box.width, out.pixel(box.x, box.y + y));
-    }
-    return out;
-}
-
 }  // namespace weft

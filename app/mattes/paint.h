@@ -57,9 +57,5 @@ class Stroke {
 [[nodiscard]] Matte grow_matte(const Matte& before, float px);
 /// Softens the edge over about `px` on each side.
 [[nodiscard]] Matte feather_matte(const Matte& before, float px);
-/// Segments the picture from scribbles. `keep` and `drop` mark certain inside and outside (above
-/// 127). Computed on a crop around them, at up to 512 px; the rest of `before` is unchanged.
-[[nodiscard]] Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
-                                      const Matte& drop);
 
 }  // namespace weft

@@ -117,6 +117,8 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
     const auto start = Clock::now();
     const auto progress = [&](const ProgressEvent& event) {
         const auto shared = guarded.lock();
+        // A step that was begun before the shot was changed may end after it.
+        if (!shared->opened || shared->opened->analysis != work->analysis) return;
         shared->shown.analysing = true;
         shared->shown.done = static_cast<int>(event.done);
         shared->shown.total = static_cast<int>(event.total);

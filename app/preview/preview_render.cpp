@@ -245,6 +245,8 @@ bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& p
     if (!same_analysis) {
         shared->confidences.clear();
         shared->healths.clear();
+        shared->shown.done = shared->shown.total = 0;
+        shared->shown.seconds_left = 0;
         ++mattes;
     }
     const std::vector<int> range = now.range.empty() ? std::vector<int>{now.frame} : now.range;

@@ -105,8 +105,18 @@ void Session::carry_mattes() {
     preview_.carry(project, shelf_.unwritten(), playback_.frame());
 }
 
+// While a setting is dragged, the next request waits for the picture of the one before. It would
+// cancel that one, and nothing would be seen until the mouse rests.
+bool Session::awaits_dragged_picture() const {
+    constexpr double kPatienceS = 2;
+    const PicturePtr& shown =
+        preview_reading_.frame.stages[static_cast<std::size_t>(Stage::kFinal)];
+    return tried_ && !shown && dragged_at_s_ && now_s_ - *dragged_at_s_ < kPatienceS &&
+           view_.preview.state != PreviewView::State::kFailed;
+}
+
 void Session::request_preview() {
-    if (!request_pending_ || painting_.active()) return;
+    if (!request_pending_ || painting_.active() || awaits_dragged_picture()) return;
     if (!reader_) {
         request_pending_ = false;
         return;
@@ -145,6 +155,7 @@ void Session::request_preview() {
         request.fill.push_back(frames[static_cast<std::size_t>(k)]);
     if (!preview_.try_request(request)) return;  // retried in the next frame
     request_pending_ = false;
+    dragged_at_s_ = tried_ ? std::optional(now_s_) : std::nullopt;
     preview_reading_.frame = {};
     preview_reading_.rendered.clear();
 }

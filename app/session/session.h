@@ -106,6 +106,9 @@ class Session {
         work.reset();
     }
 
+    /// Drops a matte that is being worked out. Returns true if there was one.
+    bool abandon_change();
+
     // ---- the document's files (session_files.cpp) ----
     void save(const std::string& path);
     void save_version();
@@ -207,6 +210,7 @@ class Session {
     [[nodiscard]] std::string new_matte_path(RegionId region, int frame);
 
     // ---- preview, jobs ----
+    [[nodiscard]] bool awaits_dragged_picture() const;
     void request_preview();
     void carry_mattes();
     /// The document with only regions enabled that can be shown, at preview quality.
@@ -241,7 +245,8 @@ class Session {
     std::string path_;
     History history_;
     std::optional<Project> tried_;
-    std::uint64_t document_id_ = 0;  // counts the documents that were opened
+    std::optional<double> dragged_at_s_;  // of the last request, if it was for `tried_`
+    std::uint64_t document_id_ = 0;       // counts the documents that were opened
     std::uint64_t document_version_ = 1, shown_version_ = 0, requested_version_ = 0;
     std::vector<RecoveredProject> recoverable_;
     double look_for_recovery_s_ = 1;  // time of the next look; see find_more_recoverable()

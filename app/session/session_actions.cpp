@@ -25,6 +25,8 @@ struct Session::Actor {
         s.document_changed();
     }
     void operator()(const Undo&) const {
+        // A matte that is still worked out is what was done last.
+        if (s.abandon_change()) return;
         moved_in_history([&] { return s.history_.undo(); });
     }
     void operator()(const Redo&) const {
@@ -176,6 +178,7 @@ struct Session::Actor {
     template <class Move>
     void moved_in_history(Move&& move) const {
         s.end_stroke();
+        (void)s.abandon_change();
         s.tried_.reset();
         if (!move()) return;
         s.document_changed();

@@ -99,8 +99,7 @@ void Session::start_document(Project project, std::string path) {
     preview_.forget(document_id_);
     preview_reading_ = {};
     painting_.cancel();
-    abandon(changing_, [](Changing& one) { return std::move(one.matte); });
-    after_change_ = nullptr;
+    (void)abandon_change();
     abandon(fetching_, [](Fetching& one) { return std::move(one.path); });
     tried_.reset();
     shown_mattes_.clear();

@@ -247,6 +247,13 @@ void Session::change_matte(std::function<Matte(const Matte&)> change, std::strin
                        size = reader_->size()] { return change(matte ? *matte : Matte(size)); });
 }
 
+bool Session::abandon_change() {
+    const bool any = changing_.has_value();
+    abandon(changing_, [](Changing& one) { return std::move(one.matte); });
+    after_change_ = nullptr;
+    return any;
+}
+
 void Session::take_changed_matte() {
     if (!changing_ ||
         changing_->matte.wait_for(std::chrono::seconds(0)) != std::future_status::ready)

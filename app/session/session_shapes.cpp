@@ -4,6 +4,7 @@
 #include "app/base/background.h"
 #include "app/exchange/track_file.h"
 #include "app/mattes/matte_layer.h"
+#include "app/mattes/scribble_matte.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/form/planar_track.h"

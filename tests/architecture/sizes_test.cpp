@@ -82,7 +82,7 @@ const std::vector<Exception> kLongFunctions{
       {"ui/inspector_texture.cpp", "texture_inspector", 90},
       {"ui/jobs_page.cpp", "export_card", 85},
       {"ui/jobs_page.cpp", "job_row", 70},
-      {"ui/rows.cpp", "slider", 85},
+      {"ui/rows.cpp", "slider", 66},
       {"ui/shell.cpp", "Shell::layout", 125},
       {"ui/texture_drawer.cpp", "materials", 100},
       {"ui/timeline.cpp", "tracks", 70},

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 namespace weft::test {
@@ -25,9 +27,10 @@ void Desktop::SetUp() {
     for (const char* name : {"Xvfb", "xdotool"})
         if (!has_tool(name)) GTEST_SKIP() << name << " is not installed";
     display_ = ":" + std::to_string(700 + getpid() % 200);
+    const std::string size = screen() + "x24";
     server_ = fork();
     if (server_ == 0) {
-        execlp("Xvfb", "Xvfb", display_.c_str(), "-screen", "0", "1600x900x24", "-nolisten", "tcp",
+        execlp("Xvfb", "Xvfb", display_.c_str(), "-screen", "0", size.c_str(), "-nolisten", "tcp",
                nullptr);
         _exit(1);
     }
@@ -43,6 +46,15 @@ void Desktop::TearDown() {
 int Desktop::tool(const std::string& arguments) const {
     return std::system(
         ("DISPLAY=" + display_ + " xdotool " + arguments + " >/dev/null 2>&1").c_str());
+}
+
+std::string Desktop::answer(const std::string& arguments) const {
+    const std::string file = sandbox_.in("answer.txt");
+    // No other thread runs. NOLINTNEXTLINE(concurrency-mt-unsafe)
+    (void)std::system(
+        ("DISPLAY=" + display_ + " xdotool " + arguments + " >'" + file + "' 2>/dev/null").c_str());
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 bool Desktop::wait_for_window() const {

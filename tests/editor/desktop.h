@@ -17,12 +17,15 @@ void rest(double seconds);
 /// Until it holds, looking every half second. False: it never did.
 bool wait_until(const std::function<bool()>& holds, double patience_s);
 
-/// Xvfb at 1600×900 and xdotool; a test without them is skipped.
+/// Xvfb and xdotool; a test without them is skipped.
 class Desktop : public ::testing::Test {
   protected:
     void SetUp() override;
+    [[nodiscard]] virtual std::string screen() const { return "1600x900"; }
     void TearDown() override;
     int tool(const std::string& arguments) const;
+    /// What the tool prints.
+    [[nodiscard]] std::string answer(const std::string& arguments) const;
     [[nodiscard]] bool wait_for_window() const;
     /// Without a window manager nobody else gives the window the keyboard.
     void focus() const;

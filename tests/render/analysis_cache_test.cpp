@@ -88,6 +88,26 @@ TEST_F(AnalysisCache, AMatteInMemoryIsFoundAgainByItsFile) {
     EXPECT_EQ(analysed_steps(job), 0) << "a render finds it by the file";
 }
 
+// The editor takes painted mattes along when it saves a project under another name.
+TEST_F(AnalysisCache, APaintedMatteIsFoundAgainByItsContentsWhereverItLies) {
+    const auto painted_in = [&](const std::string& file, const std::string& out) {
+        JobSpec job = spec(out);
+        job.project.regions[0] = job.project.regions[0].with([&](Region& r) {
+            MatteSource painted;
+            painted.keyframes[1] = {in(file)};
+            r.matte = painted;
+            r.reference_frames = {1};
+        });
+        return job;
+    };
+    ASSERT_TRUE(write_matte(in("first.png"), card_matte(1), WriteRule::own()));
+    EXPECT_GE(analysed_steps(painted_in("first.png", "a")), kFrames);
+    fs::copy_file(in("first.png"), in("second.png"));
+    EXPECT_EQ(analysed_steps(painted_in("second.png", "b")), 0);
+    ASSERT_TRUE(write_matte(in("second.png"), card_matte(3), WriteRule::own()));
+    EXPECT_GE(analysed_steps(painted_in("second.png", "c")), kFrames);
+}
+
 TEST_F(AnalysisCache, ADamagedBlobIsMadeAgain) {
     analysed_steps(spec("first"));
     const fs::path blob = any_blob();

@@ -25,6 +25,12 @@ class AnalysisKeyTest : public ShotTest {
     std::string surface_after(const std::function<void(Region&)>& change) const {
         return keys_after(change).surface;
     }
+    // Painted mattes are known by their contents.
+    void write_different_mattes() const {
+        int frame = 0;
+        for (const char* name : {"a.png", "b.png", "c.png"})
+            ASSERT_TRUE(write_matte(in(name), card_matte(++frame), WriteRule::own()));
+    }
     static Zone zone(double value, MatteSource matte) {
         Zone out;
         out.value = value;
@@ -65,8 +71,7 @@ TEST_F(AnalysisKeyTest, OfZonesItNamesWhatIsPropagated) {
 }
 
 TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
-    for (const char* name : {"a.png", "b.png", "c.png"})
-        ASSERT_TRUE(write_matte(in(name), card_matte(1), WriteRule::own()));
+    write_different_mattes();
     const auto keys = [&](const std::map<int, std::string>& painted) {
         return keys_after([&](Region& r) {
             MatteSource matte;
@@ -94,8 +99,7 @@ TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
 }
 
 TEST_F(AnalysisKeyTest, AMatteDependsOnTheHoldoutsInFrontOfItAndNotTheyOnIt) {
-    for (const char* name : {"a.png", "b.png"})
-        ASSERT_TRUE(write_matte(in(name), card_matte(1), WriteRule::own()));
+    write_different_mattes();
     const auto keys = [&](const char* matte, const char* holdout) {
         return keys_after([&](Region& r) {
             MatteSource painted, front;

@@ -28,6 +28,22 @@ TEST_F(SessionByActions, AStrokeIsShownKeptAndUndone) {
     EXPECT_TRUE(region().matte->keyframes.empty());
 }
 
+TEST_F(SessionByActions, UndoDropsAMatteThatIsStillWorkedOut) {
+    open();
+    paint();
+    const std::string painted = region().matte->keyframes.at(1).path;
+    const int position = view().history_position;
+    act(ScribbleSelect{{{{30, 30}, {40, 34}}}, {{{4, 4}, {90, 4}}}});
+    act(Undo{});
+    update();
+    EXPECT_FALSE(view().matte_busy);
+    EXPECT_EQ(view().history_position, position) << "the stroke before is still there";
+    EXPECT_EQ(region().matte->keyframes.at(1).path, painted);
+    act(Undo{});
+    update();
+    EXPECT_TRUE(region().matte->keyframes.empty());
+}
+
 // The preview uses a stroke from memory, even if the disk fails.
 TEST_F(SessionByActions, AStrokeIsPreviewedEvenIfItCannotBeWritten) {
     fs::create_directories(folder_ / "state");

@@ -1,4 +1,6 @@
 // Habits of the hand: menus, modifiers, the wipe's line, and another shot.
+#include <algorithm>
+
 #include "tests/ui/canvas_fixture.h"
 
 namespace weft::test {
@@ -28,6 +30,19 @@ TEST_F(Habits, WhatIsTypedInTheSaveDialogReplacesTheProposedName) {
     robot->type("arch");
     robot->frames(2);
     EXPECT_EQ(browser.name, "arch") << "without a click into the field";
+}
+
+TEST_F(Habits, TheFileDialogListsEveryRecentFolderOnce) {
+    settings.recent = {"/a/shots/1.weft", "/a/shots/2.weft", "/b/shots/3.weft"};
+    robot->frames(2);
+    robot->key("Ctrl+Shift+S");
+    robot->frames(3);
+    const std::vector<DrawnItem>& items = shell->items();
+    EXPECT_EQ(std::count_if(items.begin(), items.end(),
+                            [](const DrawnItem& item) { return item.name.ends_with("/shots"); }),
+              2);
+    ASSERT_TRUE(robot->click("shots"));  // the last one
+    EXPECT_EQ(shell->state().browser.folder, "/b/shots");
 }
 
 TEST_F(Habits, AMenuIsClosedByItsNameAndByEsc) {

@@ -43,7 +43,7 @@ TEST_F(SettingLabels, AreInWhatAProjectLacks) {
     std::string all;
     for (const Issue& issue : validate(project))
         all += issue.text() + "\n";
-    EXPECT_THAT(all, HasSubstr("Add one (Regions ▸ +)"));
+    EXPECT_THAT(all, HasSubstr("Add one (Regions → +)"));
     Region region;
     region.id = 1;
     project.regions.emplace_back(region);

@@ -57,6 +57,7 @@ TEST_F(Tools, TheListOfCorrectionsRemovesAFrame) {
 
 TEST_F(Tools, ScribblesSayWhatIsInsideAndOutside) {
     go("Mask", Tool::kScribble);
+    view.matte_busy = true;  // the session works on it
     robot->stroke({on(50, 50), on(80, 60)});
     ASSERT_THAT(emitted<ScribbleSelect>(), SizeIs(1));
     EXPECT_THAT(emitted<ScribbleSelect>()[0].keep, SizeIs(1));
@@ -109,6 +110,20 @@ RotoShape box_shape() {
     for (const Vec2 at : {Vec2{100, 60}, Vec2{180, 60}, Vec2{180, 120}, Vec2{100, 120}})
         shape.points.push_back({at, {0, 0}, {0, 0}, 0});
     return shape;
+}
+
+TEST_F(Tools, AShapeIsMovedByADragInsideOfIt) {
+    view.shape = box_shape();
+    go("Mask", Tool::kShape);
+    robot->stroke({on(120, 80), on(125, 85), on(140, 90)});
+    const auto set = emitted<SetShape>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_NEAR(set[0].shape.points[0].at.x, 120, 0.6);
+    EXPECT_NEAR(set[0].shape.points[2].at.y, 130, 0.6);
+    clear();
+    click_at(on(130, 80));
+    robot->stroke({on(60, 80), on(70, 90)});
+    EXPECT_THAT(emitted<SetShape>(), IsEmpty()) << "neither by a click nor from beside it";
 }
 
 TEST_F(Tools, AShapeIsScaledAndTurnedAboutItsPivot) {

@@ -1,0 +1,203 @@
+#include "app/mattes/scribble_matte.h"
+
+#include <algorithm>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace weft {
+namespace {
+
+// Longest sides: where the whole crop is cut, and where the edge found there is cut again.
+constexpr int kCoarsePx = 192, kFinePx = 512;
+constexpr int kBorder = 2;  // pixels at the border of a crop that may be certain
+
+cv::Mat mat_of(const Matte& matte) {
+    return {matte.height(), matte.width(), CV_8UC1, const_cast<std::uint8_t*>(matte.data()),
+            static_cast<std::size_t>(matte.width())};
+}
+
+cv::Mat scaled(const cv::Mat& from, double scale) {
+    cv::Mat out;
+    const cv::Size size(std::max(8, static_cast<int>(from.cols * scale)),
+                        std::max(8, static_cast<int>(from.rows * scale)));
+    cv::resize(from, out, size, 0, 0, cv::INTER_AREA);
+    return out;
+}
+
+// A crop of the picture, of the scribbles and of the matte before, full size.
+struct Crop {
+    cv::Mat colours, inside, outside, before;
+    bool whole = false;    // it is the whole picture
+    bool painted = false;  // the matte before is not empty
+};
+
+// The longest side of a crop scaled to `px`, never enlarged.
+double scale_to(const Crop& crop, int px) {
+    return std::min(1.0, static_cast<double>(px) / std::max(crop.colours.cols, crop.colours.rows));
+}
+
+// What is certain: the scribbles, and at the border of the crop what lies beyond it. `labels` has
+// the rest.
+void add_certain(const Crop& crop, cv::Mat& labels) {
+    cv::Mat inside, outside, before;
+    cv::resize(crop.inside, inside, labels.size(), 0, 0, cv::INTER_AREA);
+    cv::resize(crop.outside, outside, labels.size(), 0, 0, cv::INTER_AREA);
+    cv::resize(crop.before, before, labels.size(), 0, 0, cv::INTER_AREA);
+    // Without outside scribbles, an unpainted border counts as outside.
+    const bool closed = cv::countNonZero(outside > 127) == 0;
+    if (closed || (crop.painted && !crop.whole)) {
+        cv::Mat border(labels.size(), CV_8UC1, cv::Scalar(0));
+        cv::rectangle(border, cv::Rect(0, 0, labels.cols, labels.rows), cv::Scalar(255), kBorder);
+        labels.setTo(cv::GC_BGD, border);
+        if (!crop.whole) labels.setTo(cv::GC_FGD, border & (before > 127));
+    }
+    labels.setTo(cv::GC_BGD, outside > 127);
+    labels.setTo(cv::GC_FGD, inside > 127);
+}
+
+// What is inside and hangs together with something that certainly is: other places of the same
+// colours are not the surface.
+cv::Mat inside_of(const cv::Mat& labels) {
+    const cv::Mat all = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
+    cv::Mat pieces;
+    const int count = cv::connectedComponents(all, pieces);
+    std::vector<bool> certain(static_cast<std::size_t>(count), false);
+    for (int y = 0; y < labels.rows; ++y)
+        for (int x = 0; x < labels.cols; ++x)
+            if (labels.at<std::uint8_t>(y, x) == cv::GC_FGD)
+                certain[static_cast<std::size_t>(pieces.at<int>(y, x))] = true;
+    cv::Mat out(labels.size(), CV_8UC1, cv::Scalar(0));
+    for (int y = 0; y < labels.rows; ++y)
+        for (int x = 0; x < labels.cols; ++x)
+            if (all.at<std::uint8_t>(y, x) != 0 &&
+                certain[static_cast<std::size_t>(pieces.at<int>(y, x))])
+                out.at<std::uint8_t>(y, x) = 255;
+    return out;
+}
+
+// A few mean colours of the pixels in `where`; none where there are no such pixels.
+std::vector<cv::Vec3f> colours_of(const cv::Mat& colours, const cv::Mat& where) {
+    std::vector<cv::Vec3f> all;
+    for (int y = 0; y < colours.rows; ++y)
+        for (int x = 0; x < colours.cols; ++x)
+            if (where.at<std::uint8_t>(y, x) != 0) all.emplace_back(colours.at<cv::Vec3b>(y, x));
+    constexpr std::size_t kMost = 4;
+    if (all.size() <= kMost) return all;
+    const cv::Mat samples(static_cast<int>(all.size()), 3, CV_32F, all.data());
+    const cv::TermCriteria enough(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 10, 0.5);
+    cv::Mat numbers, centres;
+    cv::kmeans(samples, kMost, numbers, enough, 1, cv::KMEANS_PP_CENTERS, centres);
+    std::vector<cv::Vec3f> out;
+    out.reserve(kMost);
+    for (int k = 0; k < centres.rows; ++k)
+        out.emplace_back(centres.ptr<float>(k));
+    return out;
+}
+
+double distance_to(const std::vector<cv::Vec3f>& centres, const cv::Vec3f& colour) {
+    double least = std::numeric_limits<double>::max();
+    for (const cv::Vec3f& centre : centres)
+        least = std::min(least, cv::norm(colour - centre));
+    return least;
+}
+
+// What is not certain is at first on the side whose colours are nearer (Li, Sun, Tang, Shum: Lazy
+// Snapping, 2004). Were all of it outside, the models would take a large surface for its ground.
+void guess_the_rest(const cv::Mat& colours, cv::Mat& labels) {
+    const auto inside = colours_of(colours, labels == cv::GC_FGD);
+    const auto outside = colours_of(colours, labels == cv::GC_BGD);
+    if (inside.empty() || outside.empty()) return;
+    for (int y = 0; y < labels.rows; ++y)
+        for (int x = 0; x < labels.cols; ++x) {
+            std::uint8_t& label = labels.at<std::uint8_t>(y, x);
+            const cv::Vec3f colour = colours.at<cv::Vec3b>(y, x);
+            if (label == cv::GC_PR_BGD &&
+                distance_to(inside, colour) < distance_to(outside, colour))
+                label = cv::GC_PR_FGD;
+        }
+}
+
+// The whole crop at a size at which a cut takes a moment.
+cv::Mat coarse_cut(const Crop& crop, cv::Mat& background, cv::Mat& foreground) {
+    const cv::Mat colours = scaled(crop.colours, scale_to(crop, kCoarsePx));
+    cv::Mat labels(colours.size(), CV_8UC1, cv::Scalar(cv::GC_PR_BGD));
+    add_certain(crop, labels);
+    guess_the_rest(colours, labels);
+    cv::grabCut(colours, labels, {}, background, foreground, 3, cv::GC_INIT_WITH_MASK);
+    return inside_of(labels);
+}
+
+// The same cut along the edge of `coarse` only, where the colours are finer.
+cv::Mat fine_cut(const Crop& crop, const cv::Mat& coarse, cv::Mat& background,
+                 cv::Mat& foreground) {
+    const cv::Mat colours = scaled(crop.colours, scale_to(crop, kFinePx));
+    cv::Mat found, inner, outer;
+    cv::resize(coarse, found, colours.size(), 0, 0, cv::INTER_LINEAR);
+    found = found > 127;
+    const int reach = 2 * (colours.cols / std::max(1, coarse.cols)) + 3;
+    const cv::Mat disc =
+        cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
+    cv::erode(found, inner, disc);
+    cv::dilate(found, outer, disc);
+    cv::Mat labels(colours.size(), CV_8UC1, cv::Scalar(cv::GC_PR_BGD));
+    labels.setTo(cv::GC_PR_FGD, found);
+    labels.setTo(cv::GC_FGD, inner);
+    labels.setTo(cv::GC_BGD, outer == 0);
+    add_certain(crop, labels);
+    const int inside = cv::countNonZero(inside_of(labels));
+    if (inside == 0 || inside == static_cast<int>(labels.total())) return found;
+    cv::grabCut(colours, labels, {}, background, foreground, 1, cv::GC_EVAL);
+    return inside_of(labels);
+}
+
+// Whether it goes on beyond the crop, as far as one can tell: its outermost pixels may be certain.
+bool reaches_border(const cv::Mat& found) {
+    cv::Mat border(found.size(), CV_8UC1, cv::Scalar(0));
+    cv::rectangle(border, cv::Rect(0, 0, found.cols, found.rows), cv::Scalar(255), 2 * kBorder + 1);
+    return cv::countNonZero(found & border) > 0;
+}
+
+cv::Rect box_around(const cv::Mat& marks) {
+    cv::Rect box = cv::boundingRect(marks);
+    const int margin = std::max(box.width, box.height) / 2 + 16;
+    box = cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin);
+    return box & cv::Rect({}, marks.size());
+}
+
+}  // namespace
+
+Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
+                        const Matte& drop) {
+    if (cv::countNonZero(mat_of(keep) > 127) == 0) return before;
+    const cv::Mat all(picture.height(), picture.width(), CV_8UC3,
+                      const_cast<std::uint8_t*>(picture.data()),
+                      static_cast<std::size_t>(picture.stride()));
+    const cv::Rect everything(0, 0, before.width(), before.height());
+    cv::Rect box = box_around(cv::max(mat_of(keep), mat_of(drop)));
+    const bool painted = cv::countNonZero(mat_of(before) > 127) > 0;
+    cv::Mat coarse, background, foreground;
+    Crop crop;
+    const auto cut = [&] {
+        crop = {all(box),          mat_of(keep)(box),
+                mat_of(drop)(box), mat_of(before)(box),
+                box == everything, painted};
+        // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
+        cv::setRNGSeed(1);
+        coarse = coarse_cut(crop, background, foreground);
+    };
+    cut();
+    if (!painted && !crop.whole && reaches_border(coarse)) {
+        box = everything;
+        cut();
+    }
+    const cv::Mat fine = fine_cut(crop, coarse, background, foreground);
+    cv::Mat full;
+    cv::resize(fine, full, box.size(), 0, 0, cv::INTER_CUBIC);
+    Matte out = before;
+    for (int y = 0; y < box.height; ++y)
+        std::copy_n(full.ptr<std::uint8_t>(y), box.width, out.pixel(box.x, box.y + y));
+    return out;
+}
+
+}  // namespace weft

@@ -1,0 +1,16 @@
+#pragma once
+// A matte from lines that lie surely inside and surely outside of a surface.
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// Segments the picture by graph cuts on colours (Rother, Kolmogorov, Blake: GrabCut, 2004). `keep`
+/// and `drop` mark certain inside and outside (above 127). Computed on a crop around them, at up to
+/// 512 px; the rest of `before` is unchanged, and the matte found goes on into it without a step at
+/// the border of the crop. Where nothing was painted before, a surface that reaches the border is
+/// looked for in the whole picture.
+[[nodiscard]] Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
+                                      const Matte& drop);
+
+}  // namespace weft

@@ -1,0 +1,74 @@
+// Mattes from scribbles: a surface of one colour on a ground of another.
+#include "app/mattes/scribble_matte.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace weft {
+namespace {
+
+constexpr Size kPlate{400, 300};
+constexpr Recti kSurface{60, 20, 340, 280};
+
+// Both grained, so that colours have a spread.
+ImageU8x3 plate() {
+    ImageU8x3 out(kPlate, 0);
+    for (int y = 0; y < kPlate.height; ++y)
+        for (int x = 0; x < kPlate.width; ++x) {
+            const bool inside = kSurface.contains(x, y);
+            const auto grain = static_cast<std::uint8_t>((x * 7 + y * 13) % 11);
+            std::uint8_t* p = out.pixel(x, y);
+            p[0] = static_cast<std::uint8_t>((inside ? 180 : 40) + grain);
+            p[1] = static_cast<std::uint8_t>((inside ? 60 : 90) + grain);
+            p[2] = static_cast<std::uint8_t>((inside ? 40 : 160) + grain);
+        }
+    return out;
+}
+
+Matte filled(const Recti& area) {
+    Matte out(kPlate);
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            out.at(x, y) = 255;
+    return out;
+}
+
+// Share of pixels that differ by more than half, in per cent.
+double percent_wrong(const Matte& found, const Matte& wanted) {
+    int wrong = 0;
+    for (int y = 0; y < kPlate.height; ++y)
+        for (int x = 0; x < kPlate.width; ++x)
+            wrong += std::abs(found.at(x, y) - wanted.at(x, y)) > 127 ? 1 : 0;
+    return 100.0 * wrong / (kPlate.width * kPlate.height);
+}
+
+TEST(ScribbleMatte, FindsASurfaceThatReachesFarBeyondItsLines) {
+    const Matte keep = filled({190, 140, 210, 146}), drop = filled({20, 140, 26, 160});
+    const Matte found = segment_scribbles(Matte(kPlate), plate(), keep, drop);
+    EXPECT_LT(percent_wrong(found, filled(kSurface)), 1);
+}
+
+TEST(ScribbleMatte, GoesOnIntoWhatWasPaintedWithoutAStep) {
+    // Painted roughly; the line is small, so that the crop ends within the surface.
+    const Matte before = filled({80, 40, 320, 260}), keep = filled({196, 140, 204, 146});
+    const Matte found = segment_scribbles(before, plate(), keep, Matte(kPlate));
+    for (int x = 80; x < 320; ++x)
+        EXPECT_GT(found.at(x, 143), 127) << x;
+    EXPECT_LT(percent_wrong(found, before), 1);
+}
+
+TEST(ScribbleMatte, LinesOutsideTakeAway) {
+    const Matte keep = filled({190, 140, 210, 146}), drop = filled({20, 20, 26, 280});
+    const Matte found = segment_scribbles(filled({10, 10, 390, 290}), plate(), keep, drop);
+    EXPECT_LT(found.at(40, 150), 128);
+    EXPECT_GT(found.at(80, 150), 127);
+}
+
+TEST(ScribbleMatte, WithoutALineInsideNothingChanges) {
+    const Matte before = filled({80, 40, 320, 260});
+    EXPECT_EQ(segment_scribbles(before, plate(), Matte(kPlate), filled({20, 20, 26, 60})), before);
+}
+
+}  // namespace
+}  // namespace weft
