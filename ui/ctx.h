@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/base/folder_lister.h"
+#include "app/base/frames_on_disk.h"
 #include "app/session/action.h"
 #include "app/session/editor_settings.h"
 #include "app/session/session_view.h"
@@ -34,6 +35,7 @@ struct Ctx {
     PictureHost& pictures;
     TextureShelf& textures;
     FolderLister& folders;
+    FramesOnDisk& written;  ///< Of the output that the Jobs page proposes.
     Commands& commands;
     std::vector<Action>& actions;
     std::vector<DrawnItem>* items = nullptr;  ///< Null: widgets are not recorded.

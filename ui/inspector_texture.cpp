@@ -4,6 +4,7 @@
 
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/viewer_handles.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
@@ -73,15 +74,6 @@ void bricks_controls(Ctx& c) {
                {.icon = icons::kRuler, .look = Look::kPrimary, .width = -1}))
         c.emit(ScaleByLine{c.state.measured->first, c.state.measured->second,
                            static_cast<double>(c.state.measured_count)});
-}
-
-std::vector<double> numbers_of(const std::array<Vec2, 4>& corners) {
-    std::vector<double> out;
-    for (const Vec2 corner : corners) {
-        out.push_back(static_cast<double>(corner.x));
-        out.push_back(static_cast<double>(corner.y));
-    }
-    return out;
 }
 
 // On the plane that was found, else around the region, else in the middle of the plate.

@@ -166,6 +166,22 @@ std::string in_words(const Ctx& c, const Issue& problem) {
     return problem.what + ". " + problem.what_to_do + ".";
 }
 
+// Before the render is asked for: afterwards it would only fail.
+void existing_frames_notice(Ctx& c, const std::vector<int>& frames) {
+    const ExportState& e = c.state.output;
+    const int there = count_existing(frames, c.written.of(e.output, ImGui::GetTime()));
+    if (there == 0) return;
+    const std::string what =
+        std::to_string(there) + " of " + std::to_string(frames.size()) + " frames exist already. ";
+    if (e.existing == 0)
+        banner(c, icons::kAlert, c.theme.warn,
+               what + "Skip or overwrite them, or version up (the arrow beside the path).");
+    else
+        banner(c, icons::kInformation, c.theme.warn,
+               what + (e.existing == 1 ? "They stay as they are." : "They will be overwritten."));
+    c.note("Existing: " + std::to_string(there));
+}
+
 void export_card(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;
     begin_panel(c, "Export", size, t.panel, true, t.px(16));
@@ -219,6 +235,7 @@ void export_card(Ctx& c, ImVec2 size) {
     project_parameter(c, "output.depth", "Depth");
     ImGui::Dummy({0, t.px(6)});
     const std::vector<int> frames = frames_of(c);
+    existing_frames_notice(c, frames);
     const double seconds = estimate(c, frames);
     ImGui::Dummy({0, t.px(4)});
     const Issue* problem = nullptr;

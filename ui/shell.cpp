@@ -111,9 +111,21 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     items_.clear();
     state_.status.clear();
     if (state_.document != view.document) begin_document(state_, view.document);
-    Ctx c{view,      state_,         settings_, theme_,   pictures_,
-          textures_, folders_,       commands_, actions_, recording_ ? &items_ : nullptr,
-          job_log,   dismiss_notice, act_now,   {}};
+    Ctx c{view,
+          state_,
+          settings_,
+          theme_,
+          pictures_,
+          textures_,
+          folders_,
+          written_,
+          commands_,
+          actions_,
+          recording_ ? &items_ : nullptr,
+          job_log,
+          dismiss_notice,
+          act_now,
+          {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");

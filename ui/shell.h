@@ -54,6 +54,7 @@ class Shell {
     Commands commands_;
     TextureShelf textures_;
     FolderLister folders_;
+    FramesOnDisk written_;
     std::vector<Action> actions_, dropped_;
     std::vector<DrawnItem> items_;
     bool recording_ = false;

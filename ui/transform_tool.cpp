@@ -58,7 +58,6 @@ Vec2 snapped_corner(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at, s
 bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovered) {
     if (!region.placement.corners_px) return false;
     static constexpr const char* kNames[] = {"corner 1", "corner 2", "corner 3", "corner 4"};
-    std::vector<double> numbers;
     std::array<Vec2, 4> at;
     for (std::size_t k = 0; k < 4; ++k) {
         const PlatePoint& p = (*region.placement.corners_px)[k];
@@ -72,10 +71,8 @@ bool place_corners(Ctx& c, const ViewMap& map, const Region& region, bool hovere
         held |= grip == Grip::kHeld;
         done |= grip == Grip::kLetGo;
         if (grip == Grip::kHeld || grip == Grip::kLetGo) at[k] = snapped_corner(c, map, at, k);
-        numbers.push_back(static_cast<double>(at[k].x));
-        numbers.push_back(static_cast<double>(at[k].y));
     }
-    const SetRegionParameter set{{region.id, {}}, "placement.corners_px", numbers};
+    const SetRegionParameter set{{region.id, {}}, "placement.corners_px", numbers_of(at)};
     if (done)
         c.edit(set);
     else if (held)
@@ -252,6 +249,19 @@ void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at) {
         list.AddLine(a, b, IM_COL32(0, 0, 0, 160), c.theme.px(3));
         list.AddLine(a, b, c.theme.accent_hover, c.theme.px(1.5f));
     }
+}
+
+std::vector<double> numbers_of(const std::array<Vec2, 4>& corners) {
+    constexpr double kPerPixel = 100;
+    const auto rounded = [](float v) {
+        return std::round(static_cast<double>(v) * kPerPixel) / kPerPixel;
+    };
+    std::vector<double> out;
+    for (const Vec2 corner : corners) {
+        out.push_back(rounded(corner.x));
+        out.push_back(rounded(corner.y));
+    }
+    return out;
 }
 
 std::optional<std::array<Vec2, 4>> corners_around_region(Ctx& c) {

@@ -49,6 +49,8 @@ void warp_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 /// The outline of four corners.
 void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at);
+/// x and y of each corner in turn, to a hundredth of a pixel: more digits only fill the field.
+[[nodiscard]] std::vector<double> numbers_of(const std::array<Vec2, 4>& corners);
 void form_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
 void scribble_tool(Ctx& c, const ViewMap& map, bool active);
 void similar_tool(Ctx& c, const ViewMap& map, bool active);

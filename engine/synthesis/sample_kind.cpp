@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace weft {
 namespace {
@@ -144,19 +145,34 @@ const char* kind_name(SampleKind kind) {
                                           : "stochastic";
 }
 
+namespace {
+
+// "26.0 px across", "17.8 px down", or with its angle above the rows.
+std::string step_in_words(glm::dvec2 step) {
+    constexpr double kStraight_deg = 2, kHalfTurn_deg = 180, kQuarter_deg = 90;
+    double angle = std::atan2(-step.y, step.x) * kHalfTurn_deg / std::numbers::pi;
+    if (angle < 0) angle += kHalfTurn_deg;
+    const double length = std::hypot(step.x, step.y);
+    if (std::min(angle, kHalfTurn_deg - angle) < kStraight_deg)
+        return fmt::format("{:.1f} px across", length);
+    if (std::abs(angle - kQuarter_deg) < kStraight_deg)
+        return fmt::format("{:.1f} px down", length);
+    return fmt::format("{:.1f} px at {:.0f}°", length, angle);
+}
+
+}  // namespace
+
 std::string reason_of(const SampleDescription& sample) {
     const SampleLattice& l = sample.lattice;
     const auto percent = [](double share) { return std::lround(100 * share); };
-    const auto px = [](double v) { return std::round(10 * v) / 10 + 0.0; };  // never "-0.0"
     switch (sample.kind) {
         case SampleKind::kPeriodic:
             if (l.count == 1)
                 return fmt::format("it repeats every {:.1f} px across, confidence {} %",
                                    std::hypot(l.steps[0].x, l.steps[0].y), percent(l.confidence));
-            return fmt::format(
-                "it repeats at steps of ({:.1f}, {:.1f}) and ({:.1f}, {:.1f}) px, confidence {} %",
-                px(l.steps[0].x), px(l.steps[0].y), px(l.steps[1].x), px(l.steps[1].y),
-                percent(l.confidence));
+            return fmt::format("it repeats every {} and every {}, confidence {} %",
+                               step_in_words(l.steps[0]), step_in_words(l.steps[1]),
+                               percent(l.confidence));
         case SampleKind::kPicture:
             if (sample.border < kPlainBorder)
                 return fmt::format("a plain border, with {} % of the variance inside it",

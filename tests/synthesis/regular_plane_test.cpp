@@ -325,7 +325,7 @@ TEST(SampleKind, IsSaidWithItsReason) {
     EXPECT_EQ(noise.kind, SampleKind::kStochastic);
     const SampleDescription bricks = describe_sample(brick_sample(96, 96, 32, 14));
     EXPECT_EQ(bricks.kind, SampleKind::kPeriodic);
-    EXPECT_NE(reason_of(bricks).find("repeats at steps of"), std::string::npos);
+    EXPECT_NE(reason_of(bricks).find("21.3 px at"), std::string::npos);
     EXPECT_STREQ(kind_name(bricks.kind), "periodic");
 
     ImageU8x3 disc = blob_sample(96, 96, 1), vignette = disc, halves = disc;

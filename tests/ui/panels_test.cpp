@@ -1,5 +1,9 @@
 // The panels on prepared views: the actions that they emit, and all states.
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <thread>
 
 #include "tests/ui/ui_harness.h"
 #include "ui/view_map.h"
@@ -165,6 +169,31 @@ TEST_F(PanelTest, TheRenderButtonSubmitsTheFramesThatItNames) {
     ASSERT_TRUE(robot->click("Render frames"));
     ASSERT_THAT(emitted<SubmitJob>(), SizeIs(1));
     EXPECT_EQ(emitted<SubmitJob>()[0].frames, "1002-1005");
+}
+
+TEST_F(PanelTest, FramesThatExistAreSaidBeforeTheyAreRendered) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(::testing::TempDir()) / "weft_existing_frames";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    for (const char* name : {"1002.png", "1003.png", "2000.png"})
+        std::ofstream(folder / name) << "x";
+    view.project.plate.path = "/frames/####.png";
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Jobs"));
+    shell->state().output.output = (folder / "####.png").string();
+    const auto said = [&] {
+        for (int frame = 0; frame < 500 && !robot->find("Export/Existing: 2"); ++frame) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            robot->frames(1);
+        }
+        return robot->find("Export/Existing: 2") != nullptr;
+    };
+    EXPECT_TRUE(said());
+    shell->state().output.output = (folder / "none" / "####.png").string();
+    robot->frames(2);
+    EXPECT_EQ(robot->find("Export/Existing: 2"), nullptr);
+    fs::remove_all(folder);
 }
 
 TEST_F(PanelTest, ScrubbingGoesToTheFrameUnderTheMouse) {
