@@ -180,9 +180,9 @@ void Session::apply_texture(const std::string& path, RegionId region) {
 
 // Copies a library texture beside the project, so that the project does not need the library.
 void Session::fetch_texture(const std::string& path, RegionId region) {
-    fetching_.emplace();
-    fetching_->region = region;
-    fetching_->path =
+    Fetching copy;
+    copy.region = region;
+    copy.path =
         in_background([path, folder = texture_folder(), library = options_.texture_library,
                        excluded = licence_list(
                            document().settings.excluded_licences)]() -> Expected<std::string> {
@@ -190,6 +190,7 @@ void Session::fetch_texture(const std::string& path, RegionId region) {
             WEFT_CHECK_OK(check_licences({texture.credit}, excluded));
             return keep_texture(texture, folder);
         });
+    fetching_ = std::move(copy);
 }
 
 void Session::take_texture() {
