@@ -69,10 +69,8 @@ void region_list(Ctx& c) {
             if (ImGui::InvisibleButton("##row", {name_w, h}) && !selected)
                 c.emit(SelectRegion{region.id});
             c.note(region.name);
-            if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
-                c.state.renaming = region.id;
-                c.state.rename_text = region.name;
-            }
+            if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) begin_renaming(c, region);
+            region_menu(c, region);
             if (ImGui::BeginDragDropSource()) {
                 ImGui::SetDragDropPayload("REGION", &region.id, sizeof region.id);
                 ImGui::TextUnformatted(region.name.c_str());

@@ -28,6 +28,9 @@ void welcome(Ctx& c, ImVec2 size);
 
 // Parts of the inspector.
 void region_list(Ctx& c);
+/// The menu of the right mouse button on the last item, the region's row.
+void region_menu(Ctx& c, const Region& region);
+void begin_renaming(Ctx& c, const Region& region);
 void mask_inspector(Ctx& c);
 void texture_inspector(Ctx& c);
 void motion_inspector(Ctx& c);

@@ -122,5 +122,38 @@ TEST_F(Habits, AnAutomaticReferenceFrameStaysWhenOneIsAdded) {
     EXPECT_EQ(std::get<std::vector<double>>(set[0].value), (std::vector<double>{1001, 1003}));
 }
 
+TEST_F(Habits, ARegionsRowHasAMenu) {
+    robot->frames(2);
+    const Region& first = *view.project.regions.front();
+    const auto open_menu = [&] {
+        const DrawnItem* row = robot->find("Regions/" + first.name);
+        ASSERT_NE(row, nullptr);
+        robot->move({(row->min.x + row->max.x) / 2, (row->min.y + row->max.y) / 2});
+        robot->press(1);
+        robot->release(1);
+        robot->frames(3);
+    };
+    view.selected = 0;
+    clear();
+    open_menu();
+    ASSERT_THAT(emitted<SelectRegion>(), SizeIs(1));
+    EXPECT_EQ(emitted<SelectRegion>()[0].region, first.id);
+    view.selected = first.id;
+    robot->frames(1);
+    clear();
+    ASSERT_TRUE(robot->click("Region menu/Delete"));
+    ASSERT_THAT(edits<RemoveRegion>(), SizeIs(1));
+    EXPECT_EQ(edits<RemoveRegion>()[0].region.id, first.id);
+    open_menu();
+    ASSERT_TRUE(robot->click("Region menu/Rename"));
+    robot->frames(2);
+    robot->key("Ctrl+A");
+    robot->type("door");
+    clear();
+    robot->key("Enter");
+    ASSERT_THAT(edits<RenameRegion>(), SizeIs(1));
+    EXPECT_EQ(edits<RenameRegion>()[0].name, "door");
+}
+
 }  // namespace
 }  // namespace weft::test
