@@ -18,23 +18,35 @@ constexpr float kClose_px = 0.8f, kCloseShare = 0.05f;  // of the motion: moves 
 constexpr float kStays = 0.9f, kMoves = 0.5f;
 constexpr int kFewest = 12;  // pixels whose motion is known
 constexpr float kFrames = 3;
+constexpr float kClearly_px = 2;  // outside, on the frame before
+constexpr float kNoPast = 0.8f;   // the share of an island that was
+// Log odds of the palette. Pieces of a coat that a shade had left, taken for a sleeve, have -0.2
+// and 0.3; what comes back from behind something 1.3 (a ball) and 3.5 to 3.8 (a drawn banner).
+constexpr double kOwn = 1;
 // 8-bit levels of difference from the keyframe. Those islands have 16 to 250; what was painted and
 // is only cut off by something in front of it looks as it did.
 constexpr float kAnother = 10;
 
 // A connected part of the matte.
 struct Part {
-    int size = 0, known = 0, with_background = 0;
+    int size = 0, known = 0, with_background = 0, from_outside = 0;
     float frames = 0;       // that it has stayed, the most of any of its pixels
-    double difference = 0;  // from the keyframe, sum, if it has stayed for long enough
+    double odds = 0;        // of the palette, for the surface, sum
+    double difference = 0;  // from the keyframe, sum, if it is doubtful
 
     [[nodiscard]] bool is_measured() const { return known >= kFewest; }
     [[nodiscard]] float share() const {
         return static_cast<float>(with_background) / static_cast<float>(known);
     }
     [[nodiscard]] bool has_stayed() const { return frames >= kFrames; }
-    [[nodiscard]] bool is_left_behind() const {
-        return has_stayed() && difference > static_cast<double>(kAnother) * size;
+    [[nodiscard]] bool has_no_past() const {
+        return size >= kFewest &&
+               static_cast<float>(from_outside) >= kNoPast * static_cast<float>(size) &&
+               odds < kOwn * size;
+    }
+    [[nodiscard]] bool is_doubtful() const { return has_stayed() || has_no_past(); }
+    [[nodiscard]] bool is_foreign() const {
+        return is_doubtful() && difference > static_cast<double>(kAnother) * size;
     }
 };
 
@@ -87,6 +99,11 @@ std::vector<Part> measure(const IslandInput& in, const cv::Mat& labels, int coun
                     std::max(part.frames, sample_bilinear(frames, static_cast<float>(x) + d[0],
                                                           static_cast<float>(y) + d[1]));
             }
+            // Where it was, as far as motion can be told: an island that appears has none.
+            const float was = sample_bilinear(in.prev_phi, static_cast<float>(x) + d[0],
+                                              static_cast<float>(y) + d[1]);
+            part.odds += static_cast<double>(in.palette.odds(in.frame.pixel(x, y)));
+            part.from_outside += was < -kClearly_px * in.unit_px;
             if (in.flow.valid.row(y)[x] == 0) continue;
             ++part.known;
             part.with_background += moves_with_background(in, x, y);
@@ -99,7 +116,7 @@ void compare_with_key(const IslandInput& in, const cv::Mat& labels, std::vector<
     for (int y = 0; y < labels.rows; ++y) {
         for (int x = 0; x < labels.cols; ++x) {
             Part& part = parts[static_cast<std::size_t>(labels.at<int>(y, x))];
-            if (part.has_stayed()) part.difference += key_difference(in, x, y);
+            if (part.is_doubtful()) part.difference += key_difference(in, x, y);
         }
     }
 }
@@ -121,17 +138,18 @@ Matte LeftBehind::advance(const IslandInput& in) {
         if (apart && part.is_measured()) part.frames = part.share() > kStays ? part.frames + 1 : 0;
     }
     largest->frames = 0;
-    if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.has_stayed(); }))
+    largest->from_outside = 0;
+    if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.is_doubtful(); }))
         compare_with_key(in, labels, parts);
     const bool any =
-        std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.is_left_behind(); });
+        std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.is_foreign(); });
     frames_ = ImageF1(in.phi.size());
     Matte out(any ? in.phi.size() : Size{});
     for (int y = 0; y < labels.rows; ++y) {
         for (int x = 0; x < labels.cols; ++x) {
             const Part& part = parts[static_cast<std::size_t>(labels.at<int>(y, x))];
             frames_.at(x, y) = part.frames;
-            if (part.is_left_behind()) out.at(x, y) = 255;
+            if (part.is_foreign()) out.at(x, y) = 255;
         }
     }
     return out;

@@ -296,11 +296,13 @@ void MatteWalker::State::take_changed(const Matte& inside, ImageF1& distance, Ma
     }
 }
 
-// What was uncovered and taken for surface goes out when it is left behind.
+// What was uncovered and taken for surface goes out when it is left behind, and an island that was
+// outside goes at once.
 void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_cur,
                                       ViewF2 background, ImageF1& distance, Matte& matte) {
-    const Matte islands = left_behind.advance({now, distance, prev_from_cur, background, key_frame,
-                                               key_phi, key_from_prev, scale.band_px / kBandUnits});
+    const Matte islands =
+        left_behind.advance({now, distance, phi, prev_from_cur, background, key_frame, key_phi,
+                             palette, key_from_prev, scale.band_px / kBandUnits});
     if (islands.empty()) return;
     Matte kept(distance.size());
     for (int y = 0; y < kept.height(); ++y) {

@@ -15,6 +15,7 @@ struct World {
     std::uint8_t island_level = 200;  // of its pixels; the surface has 90
     int surface_px = kStep_px;        // a frame
     int island_px = 0;                // a frame
+    bool was_there = true;            // the island, on the frame before
     LeftBehind left_behind;
 
     [[nodiscard]] static Recti surface(int t, int step_px) {
@@ -35,11 +36,19 @@ struct World {
     // What is dropped on frame t.
     Matte advance(int t) {
         const Recti square = surface(t, surface_px), rest = island(t);
-        ImageF1 phi(kFrame, -9.0f), key_phi(kFrame, -9.0f);
+        ImageF1 phi(kFrame, -9.0f), prev_phi(kFrame, -9.0f), key_phi(kFrame, -9.0f);
+        fill(prev_phi, surface(t - 1, surface_px), 9);
+        if (was_there) fill(prev_phi, island(t - 1), 3);
         fill(phi, square, 9);
         fill(phi, rest, 3);
         fill(key_phi, surface(0, surface_px), 9);
         ImageU8x3 frame(kFrame, 40), key(kFrame, 90);
+        ImageU8x3 painted(kFrame, 40);
+        for (int y = 0; y < kFrame.height; ++y)
+            for (int x = 0; x < kFrame.width; ++x)
+                for (int c = 0; c < 3 && key_phi.at(x, y) > 0; ++c)
+                    painted.at(x, y, c) = 90;
+        const SurfacePalette palette(painted, key_phi);
         FlowField flow(kFrame);
         ImageF2 still(kFrame), key_from_cur(kFrame);
         for (int y = 0; y < kFrame.height; ++y) {
@@ -55,7 +64,8 @@ struct World {
                     frame.at(x, y, c) = on_square ? std::uint8_t{90} : island_level;
             }
         }
-        return left_behind.advance({frame, phi, flow, still, key, key_phi, key_from_cur, 1});
+        return left_behind.advance(
+            {frame, phi, prev_phi, flow, still, key, key_phi, palette, key_from_cur, 1});
     }
 };
 
@@ -103,6 +113,19 @@ TEST(LeftBehind, AMoveBeginsTheCountAgain) {
     w.island_px = 0;
     EXPECT_TRUE(w.advance(4).empty());
     EXPECT_TRUE(w.advance(5).empty());
+}
+
+// A shade that leaves the coat behind a sleeve makes a piece of it look like the sleeve.
+TEST(LeftBehind, AnIslandThatWasOutsideBeforeIsDroppedAtOnce) {
+    World w;
+    w.was_there = false;
+    const Matte dropped = w.advance(1);
+    ASSERT_FALSE(dropped.empty());
+    EXPECT_NE(dropped.at(kIsland.x0 + 3, kIsland.y0 + 3), 0);
+    EXPECT_EQ(dropped.at(60, 50), 0);
+    // What was hidden comes back as it was.
+    w.island_level = 94;
+    EXPECT_TRUE(w.advance(2).empty());
 }
 
 }  // namespace
