@@ -1,5 +1,4 @@
 // What the right mouse button offers on a region's row.
-#include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
