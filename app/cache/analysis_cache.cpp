@@ -10,6 +10,7 @@
 #include <set>
 #include <shared_mutex>
 
+#include "app/base/guarded.h"
 #include "app/cache/analysis_key.h"
 #include "app/cache/blob_file.h"
 #include "engine/core/setting.h"
@@ -91,13 +92,26 @@ class DiskStore final : public AnalysisCache {
           private_root_(std::move(private_root)),
           may_overflow_(!private_root_ && !required) {}
 
-    // Returns true for an intact blob; a damaged one is computed again.
-    [[nodiscard]] bool has(const AnalysisKey& key) const override { return get(key).has_value(); }
+    // Returns true for an intact blob; a damaged one is computed again. What was found intact is
+    // asked for often, and not read again.
+    [[nodiscard]] bool has(const AnalysisKey& key) const override {
+        {
+            const std::shared_lock names(names_);
+            const std::string path = path_of(key).string();
+            std::error_code error;
+            if (intact_.lock()->contains(path) && fs::exists(path, error)) return true;
+        }
+        return get(key).has_value();
+    }
 
     [[nodiscard]] Status put(const AnalysisKey& key, const Bytes& bytes) override {
         const std::shared_lock names(names_);
         const fs::path path = path_of(key);
-        if (overflow_folder().empty() && write_blob(path.string(), bytes)) return {};
+        if (overflow_folder().empty() && write_blob(path.string(), bytes)) {
+            intact_.lock()->insert(path.string());
+            return {};
+        }
+        intact_.lock()->erase(path.string());
         if (const auto overflow = open_overflow();
             overflow && write_blob((*overflow / overflow_name(key)).string(), bytes))
             return {};
@@ -115,9 +129,14 @@ class DiskStore final : public AnalysisCache {
             if (auto bytes = read_blob((overflow / overflow_name(key)).string()))
                 return std::move(*bytes);
         }
-        auto bytes = read_blob(path_of(key).string());
-        if (!bytes) return missing(key);
-        return std::move(*bytes);
+        const std::string path = path_of(key).string();
+        auto bytes = read_blob(path);
+        if (bytes) {
+            intact_.lock()->insert(path);
+            return std::move(*bytes);
+        }
+        intact_.lock()->erase(path);
+        return missing(key);
     }
 
     void mattes_written(const Shot& shot) override {
@@ -203,6 +222,7 @@ class DiskStore final : public AnalysisCache {
     std::vector<RegionKeys> keys_;
     std::optional<TemporaryFolder> private_root_;  // deleted with the store
     bool may_overflow_ = false;
+    Guarded<std::set<std::string>> intact_;  // paths of blobs that were read or written
     mutable std::mutex mutex_;
     std::optional<TemporaryFolder> overflow_;  // used when the cache's disk is full
 };

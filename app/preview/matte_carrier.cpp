@@ -84,7 +84,8 @@ Expected<Matte> MatteCarrier::matte(RegionId region, int layer, int frame) const
         const Region& of = *shot->project.regions[shot->region_index[k]];
         const std::optional<int> stored = stored_layer(of, layer);
         if (of.id != region || !stored) continue;
-        if (auto found = newest_matte(*carried->store, static_cast<int>(k), *stored, frame))
+        if (auto found = newest_matte(*carried->store, static_cast<int>(k), *stored, frame,
+                                      shot->source->size()))
             return found;
         break;
     }

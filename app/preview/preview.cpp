@@ -127,7 +127,8 @@ Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame)
         const std::optional<int> kept =
             stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
         if (kept) {
-            if (auto found = newest_matte(*now->store, static_cast<int>(k), *kept, frame))
+            if (auto found = newest_matte(*now->store, static_cast<int>(k), *kept, frame,
+                                          now->shot->source->size()))
                 return found;
         }
     }

@@ -1,6 +1,7 @@
 // The analysis thread of the preview.
 #include "app/base/background.h"
 #include "app/preview/preview_impl.h"
+#include "engine/mask/plate_edge.h"
 #include "engine/pipeline/analyse.h"
 #include "engine/pipeline/focus_pass.h"
 #include "engine/pipeline/form_pass.h"
@@ -48,14 +49,18 @@ std::optional<int> stored_layer(const Region& region, int layer) {
     return painted;
 }
 
-Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer, int frame) {
+Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer, int frame,
+                             Size plate) {
     AnalysisKey key{region, frame, AnalysisKind::kMatte, layer};
     auto bytes = store.get(key);
     key.kind = AnalysisKind::kMatteForward;
     if (!bytes) bytes = store.get(key);
     if (!bytes) return tl::unexpected(bytes.error());
     WEFT_TRY(found, decode_matte(*bytes));
-    return std::move(found.matte);
+    const Size size = found.matte.size();
+    const Vec2 gain(static_cast<float>(plate.width) / static_cast<float>(size.width),
+                    static_cast<float>(plate.height) / static_cast<float>(size.height));
+    return enlarged(found.matte, gain, plate);
 }
 
 // What the artist has just painted is looked at before its texture is.

@@ -63,10 +63,10 @@ struct KeptProvisional {
 /// holdouts are counted among themselves. Nothing: not stored.
 [[nodiscard]] std::optional<int> stored_layer(const Region& region, int layer);
 
-/// A propagated matte as far as it is known: final, or carried from the keyframe before. Error:
-/// neither is there.
+/// A propagated matte as far as it is known, of size `plate`: final, or carried from the keyframe
+/// before. Error: neither is there.
 [[nodiscard]] Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer,
-                                           int frame);
+                                           int frame, Size plate);
 
 /// The track of a region's texture, before_from_now, in plate pixels. Error: not analysed, or the
 /// region's mode has no track.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/block_means.h"
+#include "engine/mask/plate_edge.h"
 #include "engine/motion/follow_size.h"
 #include "engine/pipeline/surface_track.h"
 
@@ -67,7 +68,8 @@ Expected<Bytes> DraftStore::get(const AnalysisKey& key) const {
         case AnalysisKind::kMatte:
         case AnalysisKind::kMatteForward: {
             WEFT_TRY(found, decode_matte(bytes));
-            return encode(StoredMatte{enlarged(found.matte, factor_, plate_), found.confidence});
+            return encode(StoredMatte{enlarged(found.matte, Vec2(static_cast<float>(factor_)), plate_),
+                                      found.confidence});
         }
         case AnalysisKind::kCoords:
         case AnalysisKind::kCoordsOneWay: {
@@ -78,38 +80,6 @@ Expected<Bytes> DraftStore::get(const AnalysisKey& key) const {
         default:
             return bytes;
     }
-}
-
-Matte enlarged(const Matte& matte, int factor, Size to) {
-    if (factor == 1) return matte;
-    Matte out(to);
-    const float step = 1 / static_cast<float>(factor);
-    // The place between two pixels' centres, and how far it is from the first.
-    const auto place = [&](int at, int length) {
-        const float p = std::clamp((static_cast<float>(at) + 0.5f) * step - 0.5f, 0.0f,
-                                   static_cast<float>(length - 1));
-        const int first = std::min(static_cast<int>(p), std::max(0, length - 2));
-        return std::pair(first, p - static_cast<float>(first));
-    };
-    parallel_rows(to.height, 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            const auto [j, v] = place(y, matte.height());
-            const std::uint8_t *a = matte.row(j),
-                               *b = matte.row(std::min(j + 1, matte.height() - 1));
-            for (int x = 0; x < to.width; ++x) {
-                const auto [i, u] = place(x, matte.width());
-                const int k = std::min(i + 1, matte.width() - 1);
-                const auto mean = [&, i = i, u = u](const std::uint8_t* row) {
-                    return (1 - u) * static_cast<float>(row[i]) + u * static_cast<float>(row[k]);
-                };
-                const float code = (1 - v) * mean(a) + v * mean(b);
-                const float steep = 127.5f + static_cast<float>(factor) * (code - 127.5f);
-                out.at(x, y) =
-                    static_cast<std::uint8_t>(std::lround(std::clamp(steep, 0.0f, 255.0f)));
-            }
-        }
-    });
-    return out;
 }
 
 }  // namespace weft

@@ -52,8 +52,4 @@ class DraftStore final : public AnalysisStore {
     MemoryAnalysisStore small_;
 };
 
-/// A matte of the reduced plate at the plate's size `to`: bilinear, with its edge as steep in
-/// pixels as it was.
-[[nodiscard]] Matte enlarged(const Matte& matte, int factor, Size to);
-
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/mask/matte_propagation.h"
+#include "engine/mask/plate_edge.h"
 #include "engine/motion/follow_size.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_zones.h"
@@ -183,18 +184,34 @@ Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& sto
     return holdout_matte(context.source, context.plan, store, job.region, frame);
 }
 
-// Advances a job's walker to this frame, which is one of `within`. On a keyframe the estimate is
-// the painted matte itself.
+// Empty if `matte` is.
+Matte followed(const Matte& matte, const SweepFrame& at) {
+    const Size size = at.views->followed_display().size();
+    return matte.empty() || matte.size() == size ? matte : reduced(matte, size);
+}
+
+// Advances a job's walker to this frame, which is one of `within`. The estimate is of
+// follow_size(); on a keyframe it is the painted matte itself.
 Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
                              const SweepFrame& at, const Matte& front) {
+    const ImageU8x3& plate = at.views->followed_display();
     if (!job.is_key(at.frame))
-        return job.walker->advance(at.views->display, at.prev_from_cur->get(), front);
+        return job.walker->advance(plate, at.prev_from_cur->get(), followed(front, at));
     WEFT_TRY(key, key_of(context.source, job, at.frame));
     if (length(within) > 1) {
-        job.walker.emplace(at.views->display, key, job.options, front);
+        job.walker.emplace(plate, followed(key, at), job.options, followed(front, at));
         job.options.soft_edges |= job.walker->has_soft_edges();
     }
     return MatteEstimate{std::move(key), 1.0f};
+}
+
+// An estimate at the plate's size.
+MatteEstimate of_plate(MatteEstimate estimate, const Job& job, const SweepFrame& at,
+                       const Matte& front) {
+    const ImageU8x3& plate = at.views->display;
+    if (estimate.matte.size() != plate.size())
+        estimate.matte = at_plate_size(estimate.matte, plate, front, job.options);
+    return estimate;
 }
 
 Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
@@ -212,8 +229,11 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
         WEFT_TRY(estimate, walk(context, job, within, at, front));
         if (at.frame == within.last) job.walker.reset();
         if (!job.reach.covers(at.frame, job.keys)) continue;
-        const auto kind = job.merged(at.frame) ? AnalysisKind::kMatteForward : AnalysisKind::kMatte;
-        WEFT_CHECK_OK(put(store, job, at.frame, kind, std::move(estimate)));
+        // What is merged on the way back stays as it was found.
+        WEFT_CHECK_OK(job.merged(at.frame) ? put(store, job, at.frame, AnalysisKind::kMatteForward,
+                                                 std::move(estimate))
+                                           : put(store, job, at.frame, AnalysisKind::kMatte,
+                                                 of_plate(std::move(estimate), job, at, front)));
     }
     return {};
 }
@@ -228,16 +248,19 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         if (at.frame == within.first) job.walker.reset();
         if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
         if (!job.merged(at.frame)) {
-            WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(estimate)));
+            WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
+                              of_plate(std::move(estimate), job, at, front)));
             continue;
         }
         WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward, job.layer}));
         WEFT_TRY(forward, decode_matte(bytes));
         const float position = static_cast<float>(at.frame - job.keys.front()) /
                                static_cast<float>(job.keys.back() - job.keys.front());
+        MatteEstimate both = merge_estimates({std::move(forward.matte), forward.confidence},
+                                             estimate, position, at.views->followed_display(),
+                                             job.options, followed(front, at));
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
-                          merge_estimates({std::move(forward.matte), forward.confidence}, estimate,
-                                          position, at.views->display, job.options, front)));
+                          of_plate(std::move(both), job, at, front)));
     }
     return {};
 }
@@ -259,15 +282,8 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
     using Visit =
         Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const SweepFrame&);
     const auto walk_mattes = [&](const SweepOptions& options, Visit visit) {
-        return sweep(context, options, [&](SweepFrame at) -> Status {
-            // Mattes are of the plate's size.
-            const Size plate = at.views->display.size();
-            if (!at.prev_from_cur || at.prev_from_cur->get().size() == plate)
-                return visit(context, store, jobs, at);
-            at.prev_from_cur = std::make_shared<const FrameMotion>(
-                [small = at.prev_from_cur, plate] { return resized(small->get(), plate); });
-            return visit(context, store, jobs, at);
-        });
+        return sweep(context, options,
+                     [&](const SweepFrame& at) { return visit(context, store, jobs, at); });
     };
     const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
     if (length(there) > 0)

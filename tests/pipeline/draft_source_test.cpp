@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/mask/plate_edge.h"
 #include "engine/pipeline/draft_analysis.h"
 #include "tests/pipeline/plate_sizes.h"
 
@@ -31,7 +32,7 @@ TEST(DraftSource, AnEnlargedMatteHasItsEdgeWhereItWasAndAsSteep) {
         return of;
     }();
     for (const int factor : {2, 4}) {
-        const Matte back = enlarged(*DraftSource(shot, factor).matte(0, 1), factor, full.size());
+        const Matte back = enlarged(*DraftSource(shot, factor).matte(0, 1), Vec2(factor), full.size());
         ASSERT_EQ(back.size(), full.size());
         int soft = 0;
         for (int x = 0; x < 61; ++x) {

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "engine/motion/follow_size.h"
+#include "tests/mask/moving_disc.h"
 
 namespace weft {
 namespace {
@@ -36,6 +40,42 @@ TEST_P(PlateSizes, FollowTheSameMotion) {
             for (std::size_t k = 0; k < places.size(); ++k)
                 EXPECT_LT(distance(places[k], smallest[k]), 0.1f) << size.width << " " << contrast;
         }
+    }
+}
+
+// Of frame 1, with the matte painted on frame 0 and, if `both`, on the last one.
+Matte carried(Size size, FlowQuality quality, bool both) {
+    MemoryShot shot = scene::shot_of(size, 0.8f, 1);
+    shot.keys[{0, 0}] = shot.mattes[{0, 0}];
+    ShotPlan plan = scene::plan_of(quality);
+    plan.regions[0].matte_keys = {0};
+    if (both) {
+        // What was painted first, moved by whole pixels of the smallest plate.
+        const int gain = size.width / scene::kSmallest.width;
+        Matte& moved = shot.keys[{0, 2}] = Matte(size);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const int u = std::min(x + 5 * gain, size.width - 1), v = std::max(y - 2 * gain, 0);
+                moved.at(x, y) = shot.keys[{0, 0}].at(u, v);
+            }
+        }
+        plan.regions[0].matte_keys = {0, 2};
+    }
+    shot.mattes.clear();
+    MemoryAnalysisStore store;
+    const Status done = analyse_shot(shot, plan, store, {}, {});
+    EXPECT_TRUE(done) << (done ? "" : done.error().text());
+    const auto bytes = store.get({0, 1, AnalysisKind::kMatte});
+    return bytes ? decode_matte(*bytes)->matte : Matte();
+}
+
+TEST_P(PlateSizes, CarryTheSameMatte) {
+    for (const bool both : {false, true}) {
+        const Matte smallest = carried(scene::kSmallest, GetParam(), both);
+        const Size size = both ? Size{1280, 720} : Size{1920, 1080};
+        const Matte found = carried(size, GetParam(), both);
+        ASSERT_EQ(found.size(), size);
+        EXPECT_GT(test::overlap(reduced(found, scene::kSmallest), smallest), 0.985) << both;
     }
 }
 
