@@ -19,30 +19,35 @@ constexpr float kStays = 0.9f, kMoves = 0.5f;
 constexpr int kFewest = 12;  // pixels whose motion is known
 constexpr float kFrames = 3;
 constexpr float kClearly_px = 2;  // outside, on the frame before
-constexpr float kNoPast = 0.8f;   // the share of an island that was
+constexpr float kNoPast = 0.8f;   // the share of an island that came from there
 // Log odds of the palette. Pieces of a coat that a shade had left, taken for a sleeve, have -0.2
 // and 0.3; what comes back from behind something 1.3 (a ball) and 3.5 to 3.8 (a drawn banner).
 constexpr double kOwn = 1;
+constexpr float kCell_px = 4;          // in which places of the keyframe are counted
+constexpr float kMissingShare = 0.5f;  // of an island's pixels; with less missing it is another's
 // 8-bit levels of difference from the keyframe. Those islands have 16 to 250; what was painted and
 // is only cut off by something in front of it looks as it did.
 constexpr float kAnother = 10;
 
 // A connected part of the matte.
 struct Part {
-    int size = 0, known = 0, with_background = 0, from_outside = 0;
+    int size = 0, known = 0, with_background = 0, from_outside = 0, newcomers = 0;
     float frames = 0;       // that it has stayed, the most of any of its pixels
     double odds = 0;        // of the palette, for the surface, sum
     double difference = 0;  // from the keyframe, sum, if it is doubtful
+    bool missed = true;     // may be a part of the surface that is missing
 
     [[nodiscard]] bool is_measured() const { return known >= kFewest; }
     [[nodiscard]] float share() const {
         return static_cast<float>(with_background) / static_cast<float>(known);
     }
     [[nodiscard]] bool has_stayed() const { return frames >= kFrames; }
+    [[nodiscard]] bool mostly(int pixels) const {
+        return size >= kFewest && static_cast<float>(pixels) >= kNoPast * static_cast<float>(size);
+    }
+    [[nodiscard]] bool came() const { return mostly(newcomers); }
     [[nodiscard]] bool has_no_past() const {
-        return size >= kFewest &&
-               static_cast<float>(from_outside) >= kNoPast * static_cast<float>(size) &&
-               odds < kOwn * size;
+        return (mostly(from_outside) && odds < kOwn * size) || (came() && !missed);
     }
     [[nodiscard]] bool is_doubtful() const { return has_stayed() || has_no_past(); }
     [[nodiscard]] bool is_foreign() const {
@@ -84,6 +89,41 @@ int label_parts(ViewF1 phi, cv::Mat& labels) {
     return cv::connectedComponents(inside, labels, 4, CV_32S);
 }
 
+Vec2i rounded(float x, float y) {
+    return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
+}
+
+// How many pixels of this frame the painted surface would fill beyond those that are seen of it.
+float missing_pixels(const IslandInput& in) {
+    const int cell = std::max(2, static_cast<int>(std::lround(kCell_px * in.unit_px)));
+    const int w = in.key_phi.width() / cell, h = in.key_phi.height() / cell;
+    cv::Mat seen(h, w, CV_8U, cv::Scalar(0));
+    int seen_px = 0;
+    for (int y = 0; y < in.phi.height(); ++y) {
+        for (int x = 0; x < in.phi.width(); ++x) {
+            if (in.phi.row(y)[x] <= 0 || in.entered.at(x, y) != 0) continue;
+            ++seen_px;
+            const float* k = in.key_from_cur.pixel(x, y);
+            const Vec2i at = rounded(k[0], k[1]) / cell;
+            if (at.x >= 0 && at.y >= 0 && at.x < w && at.y < h)
+                seen.at<std::uint8_t>(at.y, at.x) = 1;
+        }
+    }
+    // What is only stretched is not missing.
+    cv::morphologyEx(seen, seen, cv::MORPH_CLOSE, cv::Mat());
+    int painted = 0, found = 0;
+    for (int j = 0; j < h; ++j) {
+        for (int i = 0; i < w; ++i) {
+            if (in.key_phi.row(j * cell + cell / 2)[i * cell + cell / 2] <= 0) continue;
+            ++painted;
+            found += seen.at<std::uint8_t>(j, i);
+        }
+    }
+    if (found == 0) return static_cast<float>(painted * cell * cell);
+    return static_cast<float>(painted - found) * static_cast<float>(seen_px) /
+           static_cast<float>(found);
+}
+
 // `frames`: of the frame before.
 std::vector<Part> measure(const IslandInput& in, const cv::Mat& labels, int count, ViewF1 frames) {
     std::vector<Part> parts(static_cast<std::size_t>(count));
@@ -99,11 +139,12 @@ std::vector<Part> measure(const IslandInput& in, const cv::Mat& labels, int coun
                     std::max(part.frames, sample_bilinear(frames, static_cast<float>(x) + d[0],
                                                           static_cast<float>(y) + d[1]));
             }
+            part.odds += static_cast<double>(in.palette.odds(in.frame.pixel(x, y)));
             // Where it was, as far as motion can be told: an island that appears has none.
             const float was = sample_bilinear(in.prev_phi, static_cast<float>(x) + d[0],
                                               static_cast<float>(y) + d[1]);
-            part.odds += static_cast<double>(in.palette.odds(in.frame.pixel(x, y)));
             part.from_outside += was < -kClearly_px * in.unit_px;
+            part.newcomers += in.entered.at(x, y) != 0;
             if (in.flow.valid.row(y)[x] == 0) continue;
             ++part.known;
             part.with_background += moves_with_background(in, x, y);
@@ -138,7 +179,12 @@ Matte LeftBehind::advance(const IslandInput& in) {
         if (apart && part.is_measured()) part.frames = part.share() > kStays ? part.frames + 1 : 0;
     }
     largest->frames = 0;
-    largest->from_outside = 0;
+    largest->from_outside = largest->newcomers = 0;
+    if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.came(); })) {
+        const float missing = missing_pixels(in);
+        for (Part& part : parts)
+            part.missed = missing >= kMissingShare * static_cast<float>(part.size);
+    }
     if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.is_doubtful(); }))
         compare_with_key(in, labels, parts);
     const bool any =

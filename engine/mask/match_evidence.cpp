@@ -3,32 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "engine/core/parallel.h"
+#include "engine/mask/patch_difference.h"
 
 namespace weft {
 namespace {
 
-constexpr int kRadius = 2;  // 5×5 patches
 constexpr float kNoiseLevels =
     3;  // mean difference of an unchanged patch one frame later, 8-bit levels
 constexpr float kMatchWeight = 2;
-constexpr int kPatchValues = 3 * (2 * kRadius + 1) * (2 * kRadius + 1);
-
-// Sum of absolute differences; stops early once it cannot be the best.
-int patch_difference(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
-                     std::ptrdiff_t b_stride, int best) {
-    int sum = 0;
-    for (int v = -kRadius; v <= kRadius && sum < best; ++v) {
-        const std::uint8_t* p = a + v * a_stride - 3 * kRadius;
-        const std::uint8_t* q = b + v * b_stride - 3 * kRadius;
-        for (int i = 0; i < 3 * (2 * kRadius + 1); ++i)
-            sum += std::abs(p[i] - q[i]);
-    }
-    return sum;
-}
 
 struct BestMatches {
     int inside = std::numeric_limits<int>::max();
@@ -39,8 +24,10 @@ struct BestMatches {
 void search_around(const MatchInput& in, Vec2i at, Vec2i guess, BestMatches& best) {
     const int w = in.prev_frame.width(), h = in.prev_frame.height();
     const std::uint8_t* here = in.frame.pixel(at.x, at.y);
-    const int u0 = std::max(kRadius, guess.x - 1), u1 = std::min(w - 1 - kRadius, guess.x + 1);
-    for (int v = std::max(kRadius, guess.y - 1); v <= std::min(h - 1 - kRadius, guess.y + 1); ++v) {
+    const int u0 = std::max(kPatchRadius, guess.x - 1),
+              u1 = std::min(w - 1 - kPatchRadius, guess.x + 1);
+    for (int v = std::max(kPatchRadius, guess.y - 1);
+         v <= std::min(h - 1 - kPatchRadius, guess.y + 1); ++v) {
         for (int u = u0; u <= u1; ++u) {
             int& side = in.prev_phi.row(v)[u] > 0 ? best.inside : best.outside;
             side =
@@ -73,8 +60,8 @@ ImageF1 match_evidence(const MatchInput& in, float band_px) {
     ImageF1 odds(in.frame.size());
     const int w = in.frame.width(), h = in.frame.height();
     parallel_rows(h, 8, [&](int y0, int y1) {
-        for (int y = std::max(y0, kRadius); y < std::min(y1, h - kRadius); ++y) {
-            for (int x = kRadius; x < w - kRadius; ++x) {
+        for (int y = std::max(y0, kPatchRadius); y < std::min(y1, h - kPatchRadius); ++y) {
+            for (int x = kPatchRadius; x < w - kPatchRadius; ++x) {
                 if (std::abs(in.expected_phi.row(y)[x]) >= band_px) continue;
                 const BestMatches best = best_matches(in, x, y);
                 constexpr int kNone = std::numeric_limits<int>::max();

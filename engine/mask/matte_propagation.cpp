@@ -16,6 +16,7 @@
 #include "engine/mask/left_behind.h"
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/motion_sides.h"
+#include "engine/mask/newcomers.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
@@ -74,6 +75,19 @@ void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1&
     });
 }
 
+// Takes away what came from outside and moves with it.
+void add_foreign(const ImageF1& odds, ImageF1& near, ImageF1& wide) {
+    constexpr float kDoubtful = -1;
+    parallel_rows(odds.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < odds.width(); ++x) {
+                near.at(x, y) += odds.at(x, y);
+                wide.at(x, y) += std::min(0.0f, odds.at(x, y) - kDoubtful);
+            }
+        }
+    });
+}
+
 // Pixels of either; `a` may be empty.
 Matte either(const Matte& a, const Matte& b) {
     Matte both(b.size());
@@ -120,6 +134,7 @@ struct MatteWalker::State {
     FlatFills fills;
     MotionSides sides = {};
     Uncovered uncovered = {};
+    Newcomers newcomers = {};
     LeftBehind left_behind = {};
     bool soft_edges = false;  ///< Whether key_softness is anything but 0.
 
@@ -135,6 +150,7 @@ struct MatteWalker::State {
     RefinedBoundary find_boundary(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                   const FlowField& prev_from_cur, const Recti& area,
                                   const Matte& covered);
+    [[nodiscard]] float unit_px() const { return scale.band_px / kBandUnits; }
     [[nodiscard]] const ImageF1& seen_phi() const { return seen.empty() ? phi : seen; }
 };
 
@@ -219,9 +235,11 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
         plate.odds(part, shape.phi, surface_difference(growth, palette, scale.band_px), area);
     limit_growth(wide, growth, palette, kFarBands * scale.band_px);
     judge_uncovered(part, shape.uncovered, colors, palette, matched, wide);
-    add_sides(
-        sides.advance({phi, prev_from_cur, shape.outside_motion, area, scale.band_px / kBandUnits}),
-        shape.phi, matched, wide);
+    add_sides(sides.advance({phi, prev_from_cur, shape.outside_motion, area, unit_px()}), shape.phi,
+              matched, wide);
+    add_foreign(newcomers.advance({part, frame, phi, prev_from_cur, shape.outside_motion,
+                                   shape.uncovered.appearing, shape.phi, area, unit_px()}),
+                matched, wide);
     if (!covered.empty()) keep_hidden(matched, wide, shape.phi, covered, origin);
     return refine_boundary(part, shape.phi, colors, matched, wide, scale, options.steadiness);
 }
@@ -301,8 +319,8 @@ void MatteWalker::State::take_changed(const Matte& inside, ImageF1& distance, Ma
 void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_cur,
                                       ViewF2 background, ImageF1& distance, Matte& matte) {
     const Matte islands =
-        left_behind.advance({now, distance, phi, prev_from_cur, background, key_frame, key_phi,
-                             palette, key_from_prev, scale.band_px / kBandUnits});
+        left_behind.advance({now, distance, phi, newcomers.entered(), prev_from_cur, background,
+                             key_frame, key_phi, palette, key_from_prev, unit_px()});
     if (islands.empty()) return;
     Matte kept(distance.size());
     for (int y = 0; y < kept.height(); ++y) {
@@ -350,6 +368,10 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         paste(s.key_from_prev, key_from_cur, area);
         s.hidden.follow(found.phi, key_from_cur, area);
     }
+    if (area.empty())
+        s.newcomers = {};
+    else
+        s.newcomers.settle(phi);
     s.drop_islands(frame, prev_from_cur, background, phi, estimate.matte);
     s.take_back(frame, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);

@@ -50,7 +50,8 @@ float stiffness(const std::vector<MotionSample>& samples, const PlaneMotion& pie
                        kStiff);
 }
 
-// 1: moves as the surface does, -1: as what is around it; less where both move nearly alike.
+}  // namespace
+
 float side_of(Vec2 motion, Vec2 surface, Vec2 around, float unit_px) {
     const float apart = glm::length(surface - around);
     if (apart <= kTogether_px * unit_px) return 0;
@@ -58,8 +59,6 @@ float side_of(Vec2 motion, Vec2 surface, Vec2 around, float unit_px) {
     return smooth_step(apart / unit_px, kTogether_px, kApart_px) *
            std::clamp(nearer / apart, -1.0f, 1.0f);
 }
-
-}  // namespace
 
 ImageF1 MotionSides::advance(const SidesInput& in) {
     const std::vector<MotionSample> samples = samples_inside(in);

@@ -2,9 +2,14 @@
 // Which of two motions each pixel has followed so far: the surface's or that of what surrounds it.
 
 #include "engine/core/fields.h"
+#include "engine/core/geometry.h"
 #include "engine/core/image.h"
 
 namespace weft {
+
+/// 1: moves as the surface does, −1: as what is around it; less where both move nearly alike.
+/// Motions in pixels; `unit_px`: a pixel of 854×480.
+[[nodiscard]] float side_of(Vec2 motion, Vec2 surface, Vec2 around, float unit_px);
 
 /// Input of MotionSides::advance(). `outside_motion` (of the area's size) is the motion of what
 /// surrounds the surface, extended inwards; the others are of the frame's size.

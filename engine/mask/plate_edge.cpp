@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -11,14 +12,15 @@
 #include "engine/mask/matte_box.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
+#include "engine/motion/follow_size.h"
 
 namespace weft {
 namespace {
 
-constexpr float kLimitPx = 24;       // of the smaller matte: signed distances
-constexpr float kBandPx = 1.5f;      // of the smaller matte: how far its boundary may be off
-constexpr float kEdgeWidthPx = 1.5f; // of its antialiased edges
-constexpr float kWidestEdgePx = 20;  // of its soft ones
+constexpr float kLimitPx = 24;        // of the smaller matte: signed distances
+constexpr float kBandPx = 1.5f;       // of the smaller matte: how far its boundary may be off
+constexpr float kEdgeWidthPx = 1.5f;  // of its antialiased edges
+constexpr float kWidestEdgePx = 20;   // of its soft ones
 
 // The boundary to a fraction of a pixel: an antialiased edge says where it lies.
 ImageF1 boundary_of(ViewU8x1 matte) {
@@ -99,10 +101,9 @@ RefinedBoundary cut_again(ViewU8x3 part, const ImageF1& expected, const RefineSc
     for (ColorWindow& w : windows)
         w.source_centers = {w.center};
     const ImageF1 seen = hidden.empty() ? ImageF1() : seen_distance(expected, hidden);
-    LocalColorField colors(
-        std::move(windows),
-        {{part, hidden.empty() ? expected : seen, scale.band_px, 1.0f, 1.0f}},
-        scale.window_half_px, scale.sample_stride, part.size());
+    LocalColorField colors(std::move(windows),
+                           {{part, hidden.empty() ? expected : seen, scale.band_px, 1.0f, 1.0f}},
+                           scale.window_half_px, scale.sample_stride, part.size());
     colors.leave_out(hidden);
     ImageF1 near(part.size()), wide(part.size());
     if (!hidden.empty()) keep_hidden(near, wide, expected, hidden, {0, 0});
@@ -110,6 +111,10 @@ RefinedBoundary cut_again(ViewU8x3 part, const ImageF1& expected, const RefineSc
 }
 
 }  // namespace
+
+Size matte_size(Size plate) {
+    return bounded_size(plate, std::int64_t{1920} * 1080);
+}
 
 Matte at_plate_size(ViewU8x1 small, ViewU8x3 frame, ViewU8x1 in_front,
                     const MatteOptions& options) {
@@ -122,8 +127,8 @@ Matte at_plate_size(ViewU8x1 small, ViewU8x3 frame, ViewU8x1 in_front,
     const ImageF1 expected = enlarged_part(phi, by, area, by.gain());
     const ViewU8x3 part = frame.crop(area);
     const Matte hidden = in_front.empty() ? Matte() : hidden_part(in_front.crop(area));
-    RefinedBoundary found = cut_again(part, expected, scale_of(frame.size(), band_px), hidden,
-                                      options.steadiness);
+    RefinedBoundary found =
+        cut_again(part, expected, scale_of(frame.size(), band_px), hidden, options.steadiness);
     if (options.soft_edges) {
         const ImageF1 softness = enlarged_part(
             edge_softness(small, shape_without_strands(phi, 2 * kWidestEdgePx), kWidestEdgePx), by,

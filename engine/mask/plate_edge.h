@@ -1,12 +1,17 @@
 #pragma once
-// The edge of a matte at the plate's own size. Mattes are propagated at follow_size(); what a
-// larger plate adds is where exactly the edge lies, within a pixel or two of the smaller one.
+// The edge of a matte at the plate's own size. Mattes are propagated at matte_size(); what a larger
+// plate adds is where exactly the edge lies, within a pixel or two of the smaller one.
 
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
 #include "engine/mask/matte_propagation.h"
 
 namespace weft {
+
+/// The size at which mattes are propagated: the plate's own up to 1920×1080 pixels in all, else of
+/// its shape with as many. A matte's details are finer than what motion is measured by, so this is
+/// more than follow_size(); at half of it the gaps between a car's doors are lost.
+[[nodiscard]] Size matte_size(Size plate);
 
 /// A matte that was found on a smaller plate, at the size of `frame` (display-encoded, H×W×3, not
 /// smaller than `small` either way). The boundary is cut again along the edges of `frame`, no

@@ -1,20 +1,16 @@
 #include "engine/mask/shape_transport.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "engine/core/parallel.h"
 #include "engine/mask/signed_distance.h"
+#include "engine/mask/spread_motion.h"
 
 namespace weft {
 namespace {
 
-constexpr std::array<float, 3> kRadiiPx = {4, 12, 40};  // at 854×480
-constexpr float kWiderWeight = 0.03f;  // weight of each wider radius against the one before
 constexpr float kHiddenWeight = 0.005f;
 constexpr float kInconsistentWeight = 0.04f;  // weight of motion that failed the consistency check
 
@@ -22,38 +18,6 @@ float nearest_phi(ViewF1 phi, float x, float y) {
     const float u = std::clamp(x + 0.5f, 0.0f, static_cast<float>(phi.width()) - 0.5f);
     const float v = std::clamp(y + 0.5f, 0.0f, static_cast<float>(phi.height()) - 0.5f);
     return phi.row(static_cast<int>(v))[static_cast<int>(u)];
-}
-
-// Normalised convolution (Knutsson & Westin 1993) of the motion with the shape as its certainty, at
-// growing radii. A wider radius counts only where the narrower ones have no data.
-ImageF2 surface_motion(const cv::Mat& weighted, Vec2 fallback, float unit_px) {
-    const int w = weighted.cols, h = weighted.rows;
-    ImageF2 motion(w, h);
-    std::vector<cv::Mat> blurred;
-    for (const float radius : kRadiiPx) {
-        const int r = std::max(1, static_cast<int>(std::lround(radius * unit_px)));
-        cv::Mat b;
-        cv::boxFilter(weighted, b, CV_32F, cv::Size(2 * r + 1, 2 * r + 1), cv::Point(-1, -1), true,
-                      cv::BORDER_REPLICATE);
-        blurred.push_back(b);
-    }
-    const std::array<float, 3> say = {1.0f, kWiderWeight, kWiderWeight * kWiderWeight};
-    parallel_rows(h, 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < w; ++x) {
-                Vec2 sum = fallback * 1e-7f;
-                float weight = 1e-7f;
-                for (std::size_t i = 0; i < blurred.size(); ++i) {
-                    const auto& v = blurred[i].at<cv::Vec3f>(y, x);
-                    sum += say[i] * Vec2(v[1], v[2]);
-                    weight += say[i] * v[0];
-                }
-                motion.pixel(x, y)[0] = sum.x / weight;
-                motion.pixel(x, y)[1] = sum.y / weight;
-            }
-        }
-    });
-    return motion;
 }
 
 }  // namespace
@@ -86,12 +50,10 @@ namespace {
 TransportedShape measure_motion(ViewF1 prev_phi, const FlowField& prev_from_cur, const Recti& area,
                                 const RefineScale& scale, ViewU8x1 hidden) {
     const int w = area.width(), h = area.height();
-    cv::Mat weighted(h, w, CV_32FC3), around(h, w, CV_32FC3);
+    ImageF1 inside(w, h), around(w, h);
     Vec2 mean(0);
     float total = 0, beside = 0, trusted = 0;
     for (int y = 0; y < h; ++y) {
-        auto* out = weighted.ptr<cv::Vec3f>(y);
-        auto* outside = around.ptr<cv::Vec3f>(y);
         for (int x = 0; x < w; ++x) {
             const float* d = prev_from_cur.d.pixel(area.x0 + x, area.y0 + y);
             const bool valid = prev_from_cur.valid.row(area.y0 + y)[area.x0 + x] != 0;
@@ -101,9 +63,8 @@ TransportedShape measure_motion(ViewF1 prev_phi, const FlowField& prev_from_cur,
             const float unsure = behind ? kHiddenWeight : kInconsistentWeight;
             const float confidence = valid ? 1.0f : unsure;
             const float weight = phi <= 0 ? 0.0f : confidence;
-            const float other = phi <= 0 ? confidence : 0.0f;
-            out[x] = cv::Vec3f(weight, weight * d[0], weight * d[1]);
-            outside[x] = cv::Vec3f(other, other * d[0], other * d[1]);
+            inside.at(x, y) = weight;
+            around.at(x, y) = phi <= 0 ? confidence : 0.0f;
             mean += weight * Vec2(d[0], d[1]);
             total += weight;
             if (phi > 0 && phi < scale.band_px) {
@@ -114,9 +75,11 @@ TransportedShape measure_motion(ViewF1 prev_phi, const FlowField& prev_from_cur,
     }
     TransportedShape shape;
     shape.consistency = beside > 0 ? trusted / beside : 0.0f;
+    const ViewF2 motion = prev_from_cur.d.view().crop(area);
+    const float unit_px = scale.band_px / 10;
     shape.prev_from_cur =
-        surface_motion(weighted, total > 0 ? mean / total : Vec2(0), scale.band_px / 10);
-    shape.outside_motion = surface_motion(around, Vec2(0), scale.band_px / 10);
+        spread_motion(motion, inside, total > 0 ? mean / total : Vec2(0), unit_px);
+    shape.outside_motion = spread_motion(motion, around, Vec2(0), unit_px);
     return shape;
 }
 

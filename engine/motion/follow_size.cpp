@@ -35,10 +35,13 @@ float place_of(int at, float scale, int count) {
 }  // namespace
 
 Size follow_size(Size plate) {
-    constexpr std::int64_t kMost_px = std::int64_t{960} * 540;
+    return bounded_size(plate, std::int64_t{960} * 540);
+}
+
+Size bounded_size(Size plate, std::int64_t most_px) {
     const std::int64_t area = std::int64_t{plate.width} * plate.height;
-    if (area <= kMost_px) return plate;
-    const double scale = std::sqrt(static_cast<double>(kMost_px) / static_cast<double>(area));
+    if (area <= most_px) return plate;
+    const double scale = std::sqrt(static_cast<double>(most_px) / static_cast<double>(area));
     const auto side = [&](int extent) {
         return std::max(1, static_cast<int>(std::lround(scale * extent)));
     };

@@ -3,6 +3,8 @@
 // its plate is delivered, and a large plate is soft: beyond the bound its pixels cost time and say
 // nothing new about where the surface lies.
 
+#include <cstdint>
+
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
@@ -11,6 +13,9 @@ namespace weft {
 
 /// The plate's own size up to 960×540 pixels in all, else of about the same shape with as many.
 [[nodiscard]] Size follow_size(Size plate);
+
+/// The plate's own size up to `most_px` pixels in all, else of about the same shape with as many.
+[[nodiscard]] Size bounded_size(Size plate, std::int64_t most_px);
 
 /// A smaller picture of 8 bit: means over the area of each pixel. `to`: at most the picture's size.
 [[nodiscard]] Matte reduced(ViewU8x1 picture, Size to);

@@ -184,33 +184,39 @@ Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& sto
     return holdout_matte(context.source, context.plan, store, job.region, frame);
 }
 
-// Empty if `matte` is.
-Matte followed(const Matte& matte, const SweepFrame& at) {
-    const Size size = at.views->followed_display().size();
-    return matte.empty() || matte.size() == size ? matte : reduced(matte, size);
-}
+// A stop of the walks: picture and motion of matte_size().
+struct MatteStop {
+    int frame = 0;
+    const ImageU8x3& plate;   // of the plate's size
+    const ImageU8x3& walked;  // the same, or smaller
+    const FrameMotion* prev_from_cur = nullptr;
+
+    // Empty if `matte` is.
+    [[nodiscard]] Matte reduce(const Matte& matte) const {
+        return matte.empty() || matte.size() == walked.size() ? matte
+                                                              : reduced(matte, walked.size());
+    }
+};
 
 // Advances a job's walker to this frame, which is one of `within`. The estimate is of
-// follow_size(); on a keyframe it is the painted matte itself.
+// matte_size(); on a keyframe it is the painted matte itself.
 Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
-                             const SweepFrame& at, const Matte& front) {
-    const ImageU8x3& plate = at.views->followed_display();
+                             const MatteStop& at, const Matte& front) {
     if (!job.is_key(at.frame))
-        return job.walker->advance(plate, at.prev_from_cur->get(), followed(front, at));
+        return job.walker->advance(at.walked, at.prev_from_cur->get(), at.reduce(front));
     WEFT_TRY(key, key_of(context.source, job, at.frame));
     if (length(within) > 1) {
-        job.walker.emplace(plate, followed(key, at), job.options, followed(front, at));
+        job.walker.emplace(at.walked, at.reduce(key), job.options, at.reduce(front));
         job.options.soft_edges |= job.walker->has_soft_edges();
     }
     return MatteEstimate{std::move(key), 1.0f};
 }
 
 // An estimate at the plate's size.
-MatteEstimate of_plate(MatteEstimate estimate, const Job& job, const SweepFrame& at,
+MatteEstimate of_plate(MatteEstimate estimate, const Job& job, const MatteStop& at,
                        const Matte& front) {
-    const ImageU8x3& plate = at.views->display;
-    if (estimate.matte.size() != plate.size())
-        estimate.matte = at_plate_size(estimate.matte, plate, front, job.options);
+    if (estimate.matte.size() != at.plate.size())
+        estimate.matte = at_plate_size(estimate.matte, at.plate, front, job.options);
     return estimate;
 }
 
@@ -221,7 +227,7 @@ Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
 }
 
 Status visit_forward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
-                     const SweepFrame& at) {
+                     const MatteStop& at) {
     for (Job& job : jobs) {
         const FrameSpan within = job.forward();
         if (!holds(within, at.frame)) continue;
@@ -239,7 +245,7 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
 }
 
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
-                      const SweepFrame& at) {
+                      const MatteStop& at) {
     for (Job& job : jobs) {
         const FrameSpan within = job.backward();
         if (!holds(within, at.frame)) continue;
@@ -256,9 +262,9 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         WEFT_TRY(forward, decode_matte(bytes));
         const float position = static_cast<float>(at.frame - job.keys.front()) /
                                static_cast<float>(job.keys.back() - job.keys.front());
-        MatteEstimate both = merge_estimates({std::move(forward.matte), forward.confidence},
-                                             estimate, position, at.views->followed_display(),
-                                             job.options, followed(front, at));
+        MatteEstimate both =
+            merge_estimates({std::move(forward.matte), forward.confidence}, estimate, position,
+                            at.walked, job.options, at.reduce(front));
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
                           of_plate(std::move(both), job, at, front)));
     }
@@ -280,10 +286,16 @@ Status fill_the_rest(const PassContext& context, AnalysisStore& store,
 
 Status propagate(const PassContext& context, AnalysisStore& store, std::vector<Job> jobs) {
     using Visit =
-        Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const SweepFrame&);
+        Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const MatteStop&);
     const auto walk_mattes = [&](const SweepOptions& options, Visit visit) {
-        return sweep(context, options,
-                     [&](const SweepFrame& at) { return visit(context, store, jobs, at); });
+        return sweep(context, options, [&](const SweepFrame& at) -> Status {
+            const ImageU8x3& plate = at.views->display;
+            const Size size = matte_size(plate.size());
+            const ImageU8x3 smaller = size == plate.size() ? ImageU8x3() : reduced(plate, size);
+            const FrameMotion motion([&] { return resized(at.prev_from_cur->get(), size); });
+            return visit(context, store, jobs,
+                         {at.frame, plate, smaller.empty() ? plate : smaller, &motion});
+        });
     };
     const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
     if (length(there) > 0)

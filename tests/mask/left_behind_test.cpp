@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace weft {
 namespace {
 
@@ -16,6 +18,9 @@ struct World {
     int surface_px = kStep_px;        // a frame
     int island_px = 0;                // a frame
     bool was_there = true;            // the island, on the frame before
+    bool entered = false;             // it had come from outside
+    bool looks_own = false;           // it has the surface's colours, but not those of its place
+    int hidden_px = 0;                // of the surface's height
     LeftBehind left_behind;
 
     [[nodiscard]] static Recti surface(int t, int step_px) {
@@ -39,7 +44,9 @@ struct World {
         ImageF1 phi(kFrame, -9.0f), prev_phi(kFrame, -9.0f), key_phi(kFrame, -9.0f);
         fill(prev_phi, surface(t - 1, surface_px), 9);
         if (was_there) fill(prev_phi, island(t - 1), 3);
-        fill(phi, square, 9);
+        Recti seen = square;
+        seen.y0 += hidden_px;
+        fill(phi, seen, 9);
         fill(phi, rest, 3);
         fill(key_phi, surface(0, surface_px), 9);
         ImageU8x3 frame(kFrame, 40), key(kFrame, 90);
@@ -47,7 +54,7 @@ struct World {
         for (int y = 0; y < kFrame.height; ++y)
             for (int x = 0; x < kFrame.width; ++x)
                 for (int c = 0; c < 3 && key_phi.at(x, y) > 0; ++c)
-                    painted.at(x, y, c) = 90;
+                    painted.at(x, y, c) = looks_own && x % 2 == 0 ? island_level : 90;
         const SurfacePalette palette(painted, key_phi);
         FlowField flow(kFrame);
         ImageF2 still(kFrame), key_from_cur(kFrame);
@@ -64,8 +71,11 @@ struct World {
                     frame.at(x, y, c) = on_square ? std::uint8_t{90} : island_level;
             }
         }
+        Matte came(kFrame);
+        for (int y = rest.y0; y < rest.y1 && entered; ++y)
+            std::fill(came.row(y) + rest.x0, came.row(y) + rest.x1, std::uint8_t{255});
         return left_behind.advance(
-            {frame, phi, prev_phi, flow, still, key, key_phi, palette, key_from_cur, 1});
+            {frame, phi, prev_phi, came, flow, still, key, key_phi, palette, key_from_cur, 1});
     }
 };
 
@@ -126,6 +136,28 @@ TEST(LeftBehind, AnIslandThatWasOutsideBeforeIsDroppedAtOnce) {
     // What was hidden comes back as it was.
     w.island_level = 94;
     EXPECT_TRUE(w.advance(2).empty());
+}
+
+// The other sleeve of a coat, that comes into view beside the first.
+TEST(LeftBehind, ATwinThatCameFromOutsideIsDropped) {
+    World w;
+    w.looks_own = true;
+    w.island_px = kStep_px;
+    EXPECT_TRUE(w.advance(1).empty()) << "it was there from the first";
+    w.entered = true;
+    const Matte dropped = w.advance(2);
+    ASSERT_FALSE(dropped.empty());
+    EXPECT_NE(dropped.at(kIsland.x0 + 3 + 2 * kStep_px, kIsland.y0 + 3), 0);
+    EXPECT_EQ(dropped.at(70, 60), 0);
+}
+
+// What was behind something comes back beside it.
+TEST(LeftBehind, ItStaysIfAsMuchOfTheSurfaceIsMissing) {
+    World w;
+    w.looks_own = w.entered = true;
+    w.island_px = kStep_px;
+    w.hidden_px = 20;
+    expect_kept(w);
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ TEST(DraftSource, AnEnlargedMatteHasItsEdgeWhereItWasAndAsSteep) {
         return of;
     }();
     for (const int factor : {2, 4}) {
-        const Matte back = enlarged(*DraftSource(shot, factor).matte(0, 1), Vec2(factor), full.size());
+        const Matte back =
+            enlarged(*DraftSource(shot, factor).matte(0, 1), Vec2(factor), full.size());
         ASSERT_EQ(back.size(), full.size());
         int soft = 0;
         for (int x = 0; x < 61; ++x) {

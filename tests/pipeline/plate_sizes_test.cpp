@@ -72,7 +72,7 @@ Matte carried(Size size, FlowQuality quality, bool both) {
 TEST_P(PlateSizes, CarryTheSameMatte) {
     for (const bool both : {false, true}) {
         const Matte smallest = carried(scene::kSmallest, GetParam(), both);
-        const Size size = both ? Size{1280, 720} : Size{1920, 1080};
+        const Size size = both ? Size{2560, 1440} : Size{1280, 720};
         const Matte found = carried(size, GetParam(), both);
         ASSERT_EQ(found.size(), size);
         EXPECT_GT(test::overlap(reduced(found, scene::kSmallest), smallest), 0.985) << both;
