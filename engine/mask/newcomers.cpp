@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+#include <vector>
 
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
@@ -30,6 +31,8 @@ constexpr float kMost = 4;        // log odds of it
 constexpr float kOwn = 2;         // from which on a newcomer is none any more
 constexpr float kWeight = 2;      // since colours speak against it; with 3 walls lose more
 constexpr float kAgree = 0.3f;    // deviation of the surface's motion, of what it is told from
+// Of the surface, to tell whether a part goes as a newcomer does.
+constexpr float kEvery_px = 6, kPart = 0.1f, kTogether_px = 0.8f;
 // How many times less the picture must change along another motion than along the surface's.
 constexpr float kAlike = 1.2f, kAnother = 2;
 constexpr float kNoise = 3;  // 8-bit levels
@@ -87,6 +90,25 @@ Vec2 pixel_of(ViewF2 field, int x, int y) {
 // Where a pixel was on the frame before.
 Vec2 place_before(const FlowField& flow, int x, int y) {
     return Vec2(x, y) + pixel_of(flow.d, x, y);
+}
+
+// Motions of some of the pixels that have a weight.
+std::vector<Vec2> some_motions(ViewF2 motion, ViewF1 weight, float unit_px) {
+    const int step = std::max(2, static_cast<int>(std::lround(kEvery_px * unit_px)));
+    std::vector<Vec2> out;
+    for (int y = 0; y < weight.height(); y += step) {
+        for (int x = 0; x < weight.width(); x += step)
+            if (weight.row(y)[x] > 0) out.push_back(pixel_of(motion, x, y));
+    }
+    return out;
+}
+
+// Whether a part of the surface goes as a newcomer does, though another is nearer.
+bool any_part_goes(const std::vector<Vec2>& surface, Vec2 motion, float within) {
+    const auto close = std::count_if(surface.begin(), surface.end(), [&](Vec2 of_surface) {
+        return glm::length(of_surface - motion) < within;
+    });
+    return static_cast<float>(close) > kPart * static_cast<float>(surface.size());
 }
 
 // The squares of a motion's lengths, and 1.
@@ -153,6 +175,7 @@ void Newcomers::judge(const NewcomersInput& in, const Matte& thick) {
     const ViewF2 motion = in.flow.d.view().crop(in.area);
     const ImageF1 weight = trusted(in);
     const ImageF2 surface = spread_motion(motion, weight, Vec2(0), in.unit_px);
+    const std::vector<Vec2> all = some_motions(motion, weight, in.unit_px);
     const ImageF2 squares = spread_motion(squared(motion), weight, Vec2(0), in.unit_px);
     parallel_rows(in.area.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -172,6 +195,7 @@ void Newcomers::judge(const NewcomersInput& in, const Matte& thick) {
                     continue;
                 float now =
                     side_of(moved, of_surface, pixel_of(in.outside_motion, x, y), in.unit_px);
+                if (now < 0 && any_part_goes(all, moved, kTogether_px * in.unit_px)) continue;
                 if (now < 0) now *= speaks_against(in, {fx, fy}, of_surface, moved);
                 float& sum = odds_.at(fx, fy);
                 sum = std::clamp(kMemory * sum + now, -kMost, kMost);
