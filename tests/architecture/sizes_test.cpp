@@ -80,7 +80,6 @@ const std::vector<Exception> kLongFunctions{
       {"ui/inspector_motion.cpp", "motion_inspector", 95},
       {"ui/inspector_parts.cpp", "lamps_controls", 70},
       {"ui/inspector_texture.cpp", "texture_inspector", 90},
-      {"ui/jobs_page.cpp", "export_card", 85},
       {"ui/jobs_page.cpp", "job_row", 70},
       {"ui/rows.cpp", "slider", 66},
       {"ui/shell.cpp", "Shell::layout", 125},
@@ -120,7 +119,6 @@ const std::vector<LongFile> kLongFiles{
     {"bench/study/study_html.cpp", "one page, section by section"},
     {"engine/motion/surface_fit.cpp", "one solver, whose equations share their sums"},
     {"texture_db/starter/grounds.cpp", "one family of recipes"},
-    {"ui/jobs_page.cpp", "one page from top to bottom"},
 };
 
 const LongFunction* exception_for(std::string_view path, std::string_view name) {

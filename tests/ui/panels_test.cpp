@@ -196,6 +196,26 @@ TEST_F(PanelTest, FramesThatExistAreSaidBeforeTheyAreRendered) {
     fs::remove_all(folder);
 }
 
+TEST_F(PanelTest, APathThatNoFramesCanBeWrittenToIsSaidBeforeTheyAreRendered) {
+    view.project.plate.path = "/frames/####.png";
+    view.issues.clear();
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Top/Jobs"));
+    EXPECT_EQ(robot->find("Export/Output problem"), nullptr);
+    for (const char* path : {"/out/shot.mov", "/out/shot.png"}) {
+        shell->state().output.output = path;
+        robot->frames(2);
+        EXPECT_NE(robot->find("Export/Output problem"), nullptr) << path;
+        clear();
+        robot->click("Render frames");
+        robot->frames(2);
+        EXPECT_THAT(emitted<SubmitJob>(), IsEmpty()) << path;
+    }
+    shell->state().output.output = "/out/####.png";
+    robot->frames(2);
+    EXPECT_EQ(robot->find("Export/Output problem"), nullptr);
+}
+
 TEST_F(PanelTest, ScrubbingGoesToTheFrameUnderTheMouse) {
     robot->frames(2);
     const DrawnItem* scrub = robot->find("Timeline/Scrub");
