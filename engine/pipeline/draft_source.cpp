@@ -68,8 +68,9 @@ Expected<Bytes> DraftStore::get(const AnalysisKey& key) const {
         case AnalysisKind::kMatte:
         case AnalysisKind::kMatteForward: {
             WEFT_TRY(found, decode_matte(bytes));
-            return encode(StoredMatte{enlarged(found.matte, Vec2(static_cast<float>(factor_)), plate_),
-                                      found.confidence});
+            return encode(
+                StoredMatte{enlarged(found.matte, Vec2(static_cast<float>(factor_)), plate_),
+                            found.confidence});
         }
         case AnalysisKind::kCoords:
         case AnalysisKind::kCoordsOneWay: {
