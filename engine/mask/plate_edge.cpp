@@ -137,7 +137,7 @@ Matte at_plate_size(ViewU8x1 small, ViewU8x3 frame, ViewU8x1 in_front,
         Matte known(area.size());
         for (int y = 0; y < known.height(); ++y)
             for (int x = 0; x < known.width(); ++x)
-                known.at(x, y) = static_cast<std::uint8_t>(coverage.at(x, y) + 0.5f);
+                known.at(x, y) = static_cast<std::uint8_t>(std::lround(coverage.at(x, y)));
         found.matte = with_soft_edges(part, found.phi, softness, std::move(found.matte), known, 1);
     }
     for (int y = 0; y < area.height(); ++y)
