@@ -132,7 +132,11 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
 }
 
 TextureCard TextureShelf::details(const TextureCard& card) {
-    if (!card.path.starts_with("db:") || !library()) return card;
+    return card.path.starts_with("db:") && library() ? looked_up(card) : card;
+}
+
+// What is known of it by now; the rest is asked for.
+TextureCard TextureShelf::looked_up(const TextureCard& card) {
     const std::lock_guard lock(mutex_);
     if (const auto found = details_.find(card.path); found != details_.end()) return found->second;
     const bool asked = looking_up_ == card.path || unknown_.contains(card.path) ||
@@ -149,7 +153,13 @@ TextureCard TextureShelf::details(const TextureCard& card) {
 std::string TextureShelf::name_of_texture(const std::string& path) {
     TextureCard card;
     card.path = library_name_of(path);
+    const bool is_kept = !card.path.empty() && card.path != path;
     if (!card.path.empty()) card = details(card);
+    // The library may be still opening, or be another one than the project's textures came from.
+    if (card.name.empty() && is_kept) {
+        card.path = path;
+        card = looked_up(card);
+    }
     return card.name.empty() ? fs::path(path).filename().string() : card.name;
 }
 

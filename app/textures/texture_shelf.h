@@ -127,7 +127,7 @@ class TextureShelf {
     /// Everything known about a card; author, licence and tags of a library texture arrive later.
     [[nodiscard]] TextureCard details(const TextureCard& card);
     /// Display name of a texture; for a library texture, also one copied to a file, its name in the
-    /// library.
+    /// library or, without that, in the credit beside the file. The file's name until it is known.
     [[nodiscard]] std::string name_of_texture(const std::string& path);
     /// Result of a search; null while in progress, or without a library.
     [[nodiscard]] std::shared_ptr<const TextureAnswer> search(const TextureQuery& question);
@@ -173,6 +173,8 @@ class TextureShelf {
     void serve_queue();
     [[nodiscard]] ThumbnailRequest next_thumbnail();
     void make_thumbnail(const ThumbnailRequest& request);
+    [[nodiscard]] TextureCard looked_up(const TextureCard& card);
+    [[nodiscard]] std::optional<TextureCard> card_of(const std::string& path) const;
     void look_up(const std::string& path);
     [[nodiscard]] std::vector<PicturePtr> trim();
 

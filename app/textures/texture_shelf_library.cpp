@@ -237,15 +237,21 @@ void TextureShelf::serve_imports() {
 }
 
 // Runs in the queue's thread.
-void TextureShelf::look_up(const std::string& path) {
-    const auto info = library_->info(path.substr(3));
-    if (!info) {
-        const std::lock_guard lock(mutex_);
-        unknown_.insert(path);
-        return;
-    }
+std::optional<TextureCard> TextureShelf::card_of(const std::string& path) const {
     TextureCard card;
     card.path = path;
+    if (!path.starts_with("db:")) {
+        const auto credit = read_texture_credit(path);
+        if (!credit || credit->name.empty()) return std::nullopt;
+        card.name = shown_name(credit->name);
+        card.material = shown_name(credit->material);
+        card.author = credit->author;
+        card.licence = credit->licence;
+        card.source = credit->source;
+        return card;
+    }
+    const auto info = library_->info(path.substr(3));
+    if (!info) return std::nullopt;
     card.name = shown_name(info->name);
     card.material = shown_name(info->material);
     card.tags = info->tags;
@@ -254,8 +260,17 @@ void TextureShelf::look_up(const std::string& path) {
     card.source = info->package.empty() ? info->source : info->package;
     card.size = info->original_size;
     if (const auto scale = original_scale(library_path_, info->id)) card.original_scale = *scale;
+    return card;
+}
+
+void TextureShelf::look_up(const std::string& path) {
+    auto card = card_of(path);
     const std::lock_guard lock(mutex_);
-    details_[path] = std::move(card);
+    if (!card) {
+        unknown_.insert(path);
+        return;
+    }
+    details_[path] = std::move(*card);
     ++changes_;
 }
 

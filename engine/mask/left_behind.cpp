@@ -96,7 +96,8 @@ Vec2i rounded(float x, float y) {
 // How many pixels of this frame the painted surface would fill beyond those that are seen of it.
 float missing_pixels(const IslandInput& in) {
     const int cell = std::max(2, static_cast<int>(std::lround(kCell_px * in.unit_px)));
-    const int w = in.key_phi.width() / cell, h = in.key_phi.height() / cell;
+    const int w = (in.key_phi.width() + cell - 1) / cell;
+    const int h = (in.key_phi.height() + cell - 1) / cell;
     cv::Mat seen(h, w, CV_8U, cv::Scalar(0));
     int seen_px = 0;
     for (int y = 0; y < in.phi.height(); ++y) {
@@ -114,7 +115,9 @@ float missing_pixels(const IslandInput& in) {
     int painted = 0, found = 0;
     for (int j = 0; j < h; ++j) {
         for (int i = 0; i < w; ++i) {
-            if (in.key_phi.row(j * cell + cell / 2)[i * cell + cell / 2] <= 0) continue;
+            const int x = std::min(i * cell + cell / 2, in.key_phi.width() - 1);
+            const int y = std::min(j * cell + cell / 2, in.key_phi.height() - 1);
+            if (in.key_phi.row(y)[x] <= 0) continue;
             ++painted;
             found += seen.at<std::uint8_t>(j, i);
         }

@@ -55,16 +55,16 @@ bool appears(const NewcomersInput& in, int x, int y) {
 float difference_along(const NewcomersInput& in, Vec2i at, Vec2 motion) {
     const Vec2i to = at + Vec2i(static_cast<int>(std::lround(motion.x)),
                                 static_cast<int>(std::lround(motion.y)));
-    const auto lies_in = [](Vec2i p, Size size) {
+    const auto has_patch = [](Vec2i p, Size size) {
         return p.x >= kPatchRadius && p.y >= kPatchRadius && p.x < size.width - kPatchRadius &&
                p.y < size.height - kPatchRadius;
     };
     const Vec2i here = at - Vec2i(in.area.x0, in.area.y0);
-    if (!lies_in(here, in.area.size())) return 0;
+    if (!has_patch(here, in.area.size())) return 0;
     int least = 255 * kPatchValues;
     for (int v = to.y - 1; v <= to.y + 1; ++v) {
         for (int u = to.x - 1; u <= to.x + 1; ++u) {
-            if (!lies_in({u, v}, in.prev_frame.size())) continue;
+            if (!has_patch({u, v}, in.prev_frame.size())) continue;
             const int difference =
                 patch_difference(in.frame.pixel(here.x, here.y), in.frame.stride(),
                                  in.prev_frame.pixel(u, v), in.prev_frame.stride(), least);
@@ -90,6 +90,11 @@ Vec2 pixel_of(ViewF2 field, int x, int y) {
 // Where a pixel was on the frame before.
 Vec2 place_before(const FlowField& flow, int x, int y) {
     return Vec2(x, y) + pixel_of(flow.d, x, y);
+}
+
+bool lies_in(Vec2 p, Size size) {
+    return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(size.width - 1) &&
+           p.y <= static_cast<float>(size.height - 1);
 }
 
 // Motions of some of the pixels that have a weight.
@@ -134,8 +139,8 @@ void Newcomers::carry(const NewcomersInput& in) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < size.width; ++x) {
                 const Vec2 p = place_before(in.flow, x, y);
-                const bool was_out =
-                    sample_bilinear(in.prev_phi, p.x, p.y) < -kClearly_px * in.unit_px;
+                const bool was_out = lies_in(p, size) && sample_bilinear(in.prev_phi, p.x, p.y) <
+                                                             -kClearly_px * in.unit_px;
                 const bool has_none = appears(in, x, y);
                 if (was_out) entered.at(x, y) = 255;
                 if (was_out || has_none) doubted.at(x, y) = 255;

@@ -33,8 +33,8 @@ class Newcomers {
     [[nodiscard]] ImageF1 advance(const NewcomersInput& in);
     /// The boundary that was found on that frame, of the frame's size.
     void settle(ViewF1 phi);
-    /// 255 where what is inside was clearly outside on an earlier frame, as far as motion can tell;
-    /// of the frame's size. Empty before the first frame.
+    /// 255 where what is inside was clearly outside on an earlier frame, as far as motion can tell,
+    /// and in the picture; of the frame's size. Empty before the first frame.
     [[nodiscard]] const Matte& entered() const { return entered_; }
 
   private:

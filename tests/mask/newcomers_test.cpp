@@ -150,5 +150,25 @@ TEST(Newcomers, KnowWhatCameFromOutside) {
     EXPECT_NE(fresh.entered().at(45, 45), 0);
 }
 
+// As a camera that zooms out or turns shows more of a wall behind posts.
+TEST(Newcomers, WhatComesIntoThePictureHasNotEntered) {
+    const ImageU8x3 picture = World().frame(0);
+    ImageF1 before(kFrame, -9.0f), now(kFrame, -9.0f);
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < 20; ++x)
+            now.at(x, y) = 5;
+    }
+    FlowField from_outside(kFrame);
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x)
+            from_outside.d.at(x, y, 0) = -20;
+    }
+    Newcomers newcomers;
+    (void)newcomers.advance({picture, picture, before, from_outside, ImageF2(kFrame), Matte(kFrame),
+                             now, rect_of(kFrame), 1});
+    newcomers.settle(now);
+    EXPECT_EQ(newcomers.entered().at(10, 45), 0);
+}
+
 }  // namespace
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <thread>
 
@@ -165,6 +166,20 @@ TEST_F(TextureShelfTest, RepeatedRequestsMakeAThumbnailOnce) {
 TEST_F(TextureShelfTest, RepeatedRequestsLookUpDetailsOnce) {
     const TextureCard card = shelf_->cards()->front();
     EXPECT_EQ(arrivals_of([&] { return !shelf_->details(card).author.empty(); }), 1u);
+}
+
+// Another machine may have none of the project's textures in its library.
+TEST_F(TextureShelfTest, AKeptTextureHasTheNameOfItsCredit) {
+    const std::string path = (folder_ / ("db_" + std::string(32, 'a') + ".png")).string();
+    std::ofstream(path) << "x";
+    EXPECT_TRUE(shelf_->name_of_texture(path).starts_with("db_"));
+    ASSERT_TRUE(settle());
+    const std::string named = (folder_ / ("db_" + std::string(32, 'b') + ".png")).string();
+    std::ofstream(named) << "x";
+    std::ofstream(named + ".credit.json") << R"({"name": "basket_brick-24", "material": "brick"})";
+    EXPECT_TRUE(wait([&] { return shelf_->name_of_texture(named) == "Basket brick 24"; }));
+    TextureShelf without_library;
+    EXPECT_TRUE(wait([&] { return without_library.name_of_texture(named) == "Basket brick 24"; }));
 }
 
 }  // namespace
