@@ -148,6 +148,18 @@ RefineScale::RefineScale(Size frame) {
     limit_px = 4 * band_px;
 }
 
+void place_by_coverage(ImageF1& phi, ViewU8x1 matte) {
+    for (int y = 0; y < phi.height(); ++y) {
+        float* d = phi.row(y);
+        const std::uint8_t* m = matte.row(y);
+        for (int x = 0; x < phi.width(); ++x) {
+            if (m[x] == 0 || m[x] == 255) continue;
+            const float place = (static_cast<float>(m[x]) / 255 - 0.5f) * kEdgeWidthPx;
+            d[x] = std::clamp(place, d[x] - 0.75f, d[x] + 0.75f);
+        }
+    }
+}
+
 std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px) {
     std::vector<ColorWindow> windows;
     Image<std::uint8_t, 1> taken(phi.size());
@@ -181,17 +193,8 @@ RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const Local
     hold_steady(result.phi, expected_phi, scale.band_px, steadiness);
     result.matte = edge_alpha(frame, result.phi, kEdgeWidthPx);
     result.evidence = weigh(expected_phi, result.phi, evidence, scale.band_px);
-    // The soft edge gives the boundary's position to a fraction of a pixel, so that slow motion is
-    // not lost to rounding when it is propagated.
-    for (int y = 0; y < frame.height(); ++y) {
-        float* phi = result.phi.row(y);
-        const std::uint8_t* m = result.matte.row(y);
-        for (int x = 0; x < frame.width(); ++x) {
-            if (m[x] == 0 || m[x] == 255) continue;
-            const float place = (static_cast<float>(m[x]) / 255 - 0.5f) * kEdgeWidthPx;
-            phi[x] = std::clamp(place, phi[x] - 0.75f, phi[x] + 0.75f);
-        }
-    }
+    // So that slow motion is not lost to rounding when it is propagated.
+    place_by_coverage(result.phi, result.matte);
     return result;
 }
 

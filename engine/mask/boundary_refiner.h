@@ -33,6 +33,10 @@ struct RefinedBoundary {
     BoundaryEvidence evidence;
 };
 
+/// Moves a boundary to where the antialiased edge of its matte says that it lies, by 0.75 px at
+/// most. `phi`: its signed distance, pixels, of the size of `matte`.
+void place_by_coverage(ImageF1& phi, ViewU8x1 matte);
+
 /// Places windows along the zero line of `phi`, about `step_px` apart, in scan order.
 [[nodiscard]] std::vector<ColorWindow> place_windows(ViewF1 phi, int step_px);
 

@@ -350,6 +350,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
         s.sides = {};
+        s.newcomers = {};
     } else {
         const TransportedShape shape = transport_shape({s.phi, s.seen_phi()}, prev_from_cur, area,
                                                        s.scale, s.uncovered, covered);
@@ -367,11 +368,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         paste(phi, found.phi, area);
         paste(s.key_from_prev, key_from_cur, area);
         s.hidden.follow(found.phi, key_from_cur, area);
-    }
-    if (area.empty())
-        s.newcomers = {};
-    else
         s.newcomers.settle(phi);
+    }
     s.drop_islands(frame, prev_from_cur, background, phi, estimate.matte);
     s.take_back(frame, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);

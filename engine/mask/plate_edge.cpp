@@ -17,23 +17,13 @@
 namespace weft {
 namespace {
 
-constexpr float kLimitPx = 24;        // of the smaller matte: signed distances
-constexpr float kBandPx = 1.5f;       // of the smaller matte: how far its boundary may be off
-constexpr float kEdgeWidthPx = 1.5f;  // of its antialiased edges
-constexpr float kWidestEdgePx = 20;   // of its soft ones
+constexpr float kLimitPx = 24;       // of the smaller matte: signed distances
+constexpr float kBandPx = 1.5f;      // of the smaller matte: how far its boundary may be off
+constexpr float kWidestEdgePx = 20;  // of its soft ones
 
-// The boundary to a fraction of a pixel: an antialiased edge says where it lies.
 ImageF1 boundary_of(ViewU8x1 matte) {
     ImageF1 phi = smooth_distance(signed_distance(inside_of(matte), kLimitPx), 2);
-    for (int y = 0; y < phi.height(); ++y) {
-        for (int x = 0; x < phi.width(); ++x) {
-            const std::uint8_t code = matte.row(y)[x];
-            if (code == 0 || code == 255) continue;
-            float& d = phi.at(x, y);
-            const float place = (static_cast<float>(code) / 255 - 0.5f) * kEdgeWidthPx;
-            d = std::clamp(place, d - 0.75f, d + 0.75f);
-        }
-    }
+    place_by_coverage(phi, matte);
     return phi;
 }
 
@@ -74,16 +64,16 @@ ImageF1 as_floats(ViewU8x1 matte) {
     return out;
 }
 
-// What may differ from the enlarged matte: all of it, and as far as a soft edge reaches.
+// Where the plate may show any of the matte.
 Recti area_of(ViewU8x1 small, const Enlargement& by, Size large) {
-    const Recti box = matte_box(small);
+    const Recti box = matte_box(small, 1);
     if (box.empty()) return box;
-    const float margin = kWidestEdgePx / 2;
+    constexpr float kMargin = 2 * kBandPx + 1;
     const auto at = [&](int v, float per, float more) {
         return static_cast<int>(std::lround((static_cast<float>(v) + more) / per));
     };
-    return Recti{at(box.x0, by.per_x, -margin), at(box.y0, by.per_y, -margin),
-                 at(box.x1, by.per_x, margin), at(box.y1, by.per_y, margin)}
+    return Recti{at(box.x0, by.per_x, -kMargin), at(box.y0, by.per_y, -kMargin),
+                 at(box.x1, by.per_x, kMargin), at(box.y1, by.per_y, kMargin)}
         .intersected(rect_of(large));
 }
 
@@ -105,8 +95,11 @@ RefinedBoundary cut_again(ViewU8x3 part, const ImageF1& expected, const RefineSc
                            {{part, hidden.empty() ? expected : seen, scale.band_px, 1.0f, 1.0f}},
                            scale.window_half_px, scale.sample_stride, part.size());
     colors.leave_out(hidden);
-    ImageF1 near(part.size()), wide(part.size());
-    if (!hidden.empty()) keep_hidden(near, wide, expected, hidden, {0, 0});
+    ImageF1 near, wide;
+    if (!hidden.empty()) {
+        near = wide = ImageF1(part.size());
+        keep_hidden(near, wide, expected, hidden, {0, 0});
+    }
     return refine_boundary(part, expected, colors, near, ViewF1(), scale, steadiness);
 }
 

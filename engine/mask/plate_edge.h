@@ -15,9 +15,10 @@ namespace weft {
 
 /// A matte that was found on a smaller plate, at the size of `frame` (display-encoded, H×W×3, not
 /// smaller than `small` either way). The boundary is cut again along the edges of `frame`, no
-/// farther from the enlarged one than a pixel and a half of `small`; where `in_front` (H×W, what
-/// passes in front; may be empty) hides it, it stays. With `options.soft_edges` edges that are soft
-/// in `small` follow the strands in `frame`. Pure; the same for any number of threads.
+/// farther from the enlarged one than a pixel and a half of `small` and one of `frame`; where
+/// `in_front` (H×W, what passes in front; may be empty) hides it, it stays. With
+/// `options.soft_edges` edges that are soft in `small` follow the strands in `frame`. Pure; the
+/// same for any number of threads.
 [[nodiscard]] Matte at_plate_size(ViewU8x1 small, ViewU8x3 frame, ViewU8x1 in_front,
                                   const MatteOptions& options);
 

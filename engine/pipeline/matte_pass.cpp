@@ -191,22 +191,23 @@ struct MatteStop {
     const ImageU8x3& walked;  // the same, or smaller
     const FrameMotion* prev_from_cur = nullptr;
 
-    // Empty if `matte` is.
-    [[nodiscard]] Matte reduce(const Matte& matte) const {
-        return matte.empty() || matte.size() == walked.size() ? matte
-                                                              : reduced(matte, walked.size());
+    // `matte` of the plate's size as it is walked, which is kept in `smaller` if it is reduced.
+    [[nodiscard]] const Matte& reduce(const Matte& matte, Matte& smaller) const {
+        if (matte.empty() || matte.size() == walked.size()) return matte;
+        return smaller = reduced(matte, walked.size());
     }
 };
 
 // Advances a job's walker to this frame, which is one of `within`. The estimate is of
-// matte_size(); on a keyframe it is the painted matte itself.
+// matte_size(), as `front` is; on a keyframe it is the painted matte itself.
 Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
                              const MatteStop& at, const Matte& front) {
     if (!job.is_key(at.frame))
-        return job.walker->advance(at.walked, at.prev_from_cur->get(), at.reduce(front));
+        return job.walker->advance(at.walked, at.prev_from_cur->get(), front);
     WEFT_TRY(key, key_of(context.source, job, at.frame));
     if (length(within) > 1) {
-        job.walker.emplace(at.walked, at.reduce(key), job.options, at.reduce(front));
+        Matte smaller;
+        job.walker.emplace(at.walked, at.reduce(key, smaller), job.options, front);
         job.options.soft_edges |= job.walker->has_soft_edges();
     }
     return MatteEstimate{std::move(key), 1.0f};
@@ -232,7 +233,9 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
         const FrameSpan within = job.forward();
         if (!holds(within, at.frame)) continue;
         WEFT_TRY(front, in_front_of(context, store, job, at.frame));
-        WEFT_TRY(estimate, walk(context, job, within, at, front));
+        Matte smaller;
+        const Matte& walked_front = at.reduce(front, smaller);
+        WEFT_TRY(estimate, walk(context, job, within, at, walked_front));
         if (at.frame == within.last) job.walker.reset();
         if (!job.reach.covers(at.frame, job.keys)) continue;
         // What is merged on the way back stays as it was found.
@@ -250,7 +253,9 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         const FrameSpan within = job.backward();
         if (!holds(within, at.frame)) continue;
         WEFT_TRY(front, in_front_of(context, store, job, at.frame));
-        WEFT_TRY(estimate, walk(context, job, within, at, front));
+        Matte smaller;
+        const Matte& walked_front = at.reduce(front, smaller);
+        WEFT_TRY(estimate, walk(context, job, within, at, walked_front));
         if (at.frame == within.first) job.walker.reset();
         if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
         if (!job.merged(at.frame)) {
@@ -264,7 +269,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
                                static_cast<float>(job.keys.back() - job.keys.front());
         MatteEstimate both =
             merge_estimates({std::move(forward.matte), forward.confidence}, estimate, position,
-                            at.walked, job.options, at.reduce(front));
+                            at.walked, job.options, walked_front);
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
                           of_plate(std::move(both), job, at, front)));
     }
@@ -292,9 +297,11 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
             const ImageU8x3& plate = at.views->display;
             const Size size = matte_size(plate.size());
             const ImageU8x3 smaller = size == plate.size() ? ImageU8x3() : reduced(plate, size);
-            const FrameMotion motion([&] { return resized(at.prev_from_cur->get(), size); });
+            const FrameMotion larger([&] { return resized(at.prev_from_cur->get(), size); });
+            const bool as_followed = at.views->followed().size() == size;
             return visit(context, store, jobs,
-                         {at.frame, plate, smaller.empty() ? plate : smaller, &motion});
+                         {at.frame, plate, smaller.empty() ? plate : smaller,
+                          as_followed ? at.prev_from_cur.get() : &larger});
         });
     };
     const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);

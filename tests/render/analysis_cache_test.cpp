@@ -126,6 +126,28 @@ TEST_F(AnalysisCache, ADamagedBlobIsMadeAgain) {
     }
 }
 
+// What was found intact is not read again to know that; it is as soon as it is wanted.
+TEST_F(AnalysisCache, ABlobThatIsDamagedOrGoneMeanwhileIsMissed) {
+    const JobSpec job = spec("out");
+    analysed_steps(job);
+    const auto shot = open_shot(job.project);
+    ASSERT_TRUE(shot) << shot.error().text();
+    std::vector<std::string> warnings;
+    const auto store = open_analysis_cache(**shot, job.cache, warnings);
+    ASSERT_TRUE(store) << store.error().text();
+    const AnalysisKey key{0, 3, AnalysisKind::kCoords};
+    ASSERT_TRUE((*store)->has(key));
+    const auto bytes = (*store)->get(key);
+    ASSERT_TRUE(bytes);
+    fs::resize_file(any_blob(), fs::file_size(any_blob()) / 2);
+    EXPECT_FALSE((*store)->get(key));
+    EXPECT_FALSE((*store)->has(key)) << "so it is computed again";
+    ASSERT_TRUE((*store)->put(key, *bytes));
+    EXPECT_TRUE((*store)->has(key));
+    fs::remove(any_blob());
+    EXPECT_FALSE((*store)->has(key));
+}
+
 // Names that cannot be replaced stand for a disk that is full: nothing can be written there.
 TEST_F(AnalysisCache, ACacheThatCannotBeWrittenAnyMoreIsAWarning) {
     analysed_steps(spec("first"));

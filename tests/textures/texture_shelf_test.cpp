@@ -174,6 +174,7 @@ TEST_F(TextureShelfTest, AKeptTextureHasTheNameOfItsCredit) {
     std::ofstream(path) << "x";
     EXPECT_TRUE(shelf_->name_of_texture(path).starts_with("db_"));
     ASSERT_TRUE(settle());
+    EXPECT_TRUE(shelf_->name_of_texture(path).starts_with("db_")) << "it has no credit";
     const std::string named = (folder_ / ("db_" + std::string(32, 'b') + ".png")).string();
     std::ofstream(named) << "x";
     std::ofstream(named + ".credit.json") << R"({"name": "basket_brick-24", "material": "brick"})";
