@@ -12,8 +12,8 @@ std::optional<std::string> output_problem(const std::string& output, std::size_t
     WriteOptions options;
     options.depth = default_depth(output, options.depth);
     if (!check_format(output, options))
-        return "The result is written as pictures: end the path with .png, .jpg, .tif, .exr or "
-               ".dpx. A movie for review is written beside them.";
+        return "The result is an image sequence: end the path with .png, .jpg, .tif, .exr or .dpx. "
+               "For a movie as well, tick Write review movie.";
     if (pattern->is_single() && frames > 1)
         return "The path has no frame number. Write it like shots/####.png.";
     return std::nullopt;

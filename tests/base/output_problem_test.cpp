@@ -19,8 +19,8 @@ TEST(OutputProblem, PatternsOfPicturesHaveNone) {
 TEST(OutputProblem, SaysWhatIsMissing) {
     EXPECT_THAT(output_problem("", 40), Optional(HasSubstr("where")));
     EXPECT_THAT(output_problem("one.png", 40), Optional(HasSubstr("no frame number")));
-    EXPECT_THAT(output_problem("out.mov", 40), Optional(HasSubstr("as pictures")));
-    EXPECT_THAT(output_problem("out/####", 40), Optional(HasSubstr("as pictures")));
+    EXPECT_THAT(output_problem("out.mov", 40), Optional(HasSubstr("image sequence")));
+    EXPECT_THAT(output_problem("out/####", 40), Optional(HasSubstr("image sequence")));
     EXPECT_NE(output_problem("####_%04d.png", 40), std::nullopt) << "two frame numbers";
 }
 
