@@ -281,6 +281,8 @@ void add_tool_commands(std::vector<Command>& out) {
     add("tool.pan", "Pan", icons::kCursor, "A", Tool::kPan);
     add("tool.brush", "Brush", icons::kBrush, "B", Tool::kBrush);
     add("tool.eraser", "Eraser", icons::kEraser, "E", Tool::kEraser);
+    add("tool.confirm", "Confirm edge: it is right here", icons::kCheckCircle, "Shift+E",
+        Tool::kConfirm);
     add("tool.lasso", "Lasso", icons::kLasso, "Q", Tool::kLasso);
     add("tool.polygon", "Polygon", icons::kShape, "P", Tool::kPolygon);
     add("tool.shape", "Roto shape", icons::kCurve, "N", Tool::kShape);

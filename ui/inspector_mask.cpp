@@ -33,6 +33,10 @@ void shape_card(Ctx& c, const KeyedShape& shape) {
         c.commands.run("tool.shape", c);
 }
 
+std::string frame_count(std::size_t frames) {
+    return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+}
+
 void matte_source_card(Ctx& c, const Region& region) {
     const Theme& t = c.theme;
     const MatteSource matte = c.view.painted_source();
@@ -74,6 +78,10 @@ void matte_source_card(Ctx& c, const Region& region) {
     info_row(c, "Keyframes", std::to_string(matte.keyframes.size()));
     const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
     const bool key_here = matte.keyframes.contains(c.view.frame);
+    const bool part_here = !key_here && matte.confirmed.contains(c.view.frame);
+    if (!matte.confirmed.empty())
+        info_row(c, "Confirmed in part", frame_count(matte.confirmed.size()),
+                 "Frames on which parts of the matte are confirmed or corrected");
     if (button(c, "Add keyframe",
                {.enabled = !key_here,
                 .tip = "Makes this frame's matte a keyframe that you can correct",
@@ -81,8 +89,8 @@ void matte_source_card(Ctx& c, const Region& region) {
                 .width = half}))
         c.emit(KeyMatteHere{});
     ImGui::SameLine();
-    if (button(c, "Remove keyframe",
-               {.enabled = key_here,
+    if (button(c, part_here ? "Remove confirmed###remove_key" : "Remove keyframe###remove_key",
+               {.enabled = key_here || part_here,
                 .tip = "Propagates the neighbouring keyframes to this frame again",
                 .width = half}))
         c.edit(without_layer_key(region, c.view.matte_layer, c.view.frame));
@@ -220,28 +228,44 @@ void painted_edge_section(Ctx& c, const MatteSource& matte) {
     section_gap(c);
 }
 
+void brush_row(Ctx& c, const SliderSpec& spec, float& value) {
+    double v = static_cast<double>(value);
+    if (slider(c, spec, v) != Change::kNone) value = static_cast<float>(v);
+}
+
+void size_row(Ctx& c, Brush& brush) {
+    brush_row(c,
+              {.label = "Size",
+               .unit = "px",
+               .tip = "Brush radius. [ and ]",
+               .min = 1,
+               .max = 400,
+               .standard = 24,
+               .decimals = 0,
+               .logarithmic = true,
+               .typed_min = 0.5,
+               .typed_max = 2000},
+              brush.radius_px);
+}
+
+void confirm_rows(Ctx& c) {
+    size_row(c, c.state.brush.brush);
+    wrapped(c,
+            "Paint along the edge where it is right on this frame. It is kept there and propagated "
+            "from there; the rest stays as it is. Ctrl takes the mark away.",
+            c.theme.quiet);
+}
+
 }  // namespace
 
 void brush_rows(Ctx& c) {
     Brush& b = c.state.brush.brush;
-    const auto row = [&](SliderSpec spec, float& value) {
-        double v = static_cast<double>(value);
-        if (slider(c, spec, v) != Change::kNone) value = static_cast<float>(v);
-    };
-    row({.label = "Size",
-         .unit = "px",
-         .tip = "Brush radius. [ and ]",
-         .min = 1,
-         .max = 400,
-         .standard = 24,
-         .decimals = 0,
-         .logarithmic = true,
-         .typed_min = 0.5,
-         .typed_max = 2000},
-        b.radius_px);
-    row({.label = "Hardness", .tip = "1 is a hard edge. Shift+[ and Shift+]", .standard = 0.8},
+    size_row(c, b);
+    brush_row(
+        c, {.label = "Hardness", .tip = "1 is a hard edge. Shift+[ and Shift+]", .standard = 0.8},
         b.hardness);
-    row({.label = "Opacity", .tip = "Opacity of the whole stroke", .standard = 1}, b.opacity);
+    brush_row(c, {.label = "Opacity", .tip = "Opacity of the whole stroke", .standard = 1},
+              b.opacity);
     pressure_row(c, b);
     quiet(c, "Ctrl subtracts, Shift draws a line");
 }
@@ -250,14 +274,21 @@ void mask_inspector(Ctx& c) {
     const Region* region = c.view.selected_region();
     if (!region) return no_region(c);
     const Theme& t = c.theme;
-    const bool painting = c.state.tool == Tool::kBrush || c.state.tool == Tool::kEraser;
-    if (section(c, painting                       ? "Brush"
+    const bool painting = paints(c.state.tool);
+    if (section(c, c.state.tool == Tool::kConfirm ? "Confirm edge"
+                   : painting                     ? "Brush"
                    : c.state.tool == Tool::kFlood ? "Select by colour"
                    : c.state.tool == Tool::kShape ? "Shape"
                                                   : "Tool")) {
         const PanelName panel(c, "Brush");
-        if (painting) {
+        if (c.state.tool == Tool::kConfirm) {
+            confirm_rows(c);
+        } else if (painting) {
             brush_rows(c);
+            checkbox(c, "Correct only where painted", c.state.brush.here_only,
+                     "On frames to which the matte is propagated, strokes count where they are "
+                     "painted, and the rest is propagated as before. Off: the whole frame becomes "
+                     "a keyframe");
         } else if (c.state.tool == Tool::kFlood) {
             double tolerance = c.state.brush.tolerance;
             if (slider(c,

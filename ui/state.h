@@ -25,6 +25,7 @@ enum class Tool : std::uint8_t {
     kPan,
     kBrush,
     kEraser,
+    kConfirm,  ///< Says where a propagated matte is right.
     kLasso,
     kPolygon,
     kShape,
@@ -40,6 +41,11 @@ enum class Tool : std::uint8_t {
     kKeep,   ///< Locks or regenerates patches of the texture.
     kCrypto  ///< Picks objects of a Cryptomatte.
 };
+
+/// Whether strokes of the brush are drawn with it.
+[[nodiscard]] constexpr bool paints(Tool tool) {
+    return tool == Tool::kBrush || tool == Tool::kEraser || tool == Tool::kConfirm;
+}
 
 enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBySide, kFourUp };
 
@@ -73,6 +79,7 @@ struct CompareState {
 struct BrushState {
     Brush brush;
     int tolerance = 24;
+    bool here_only = false;  ///< Strokes count where they are painted only (StrokeKind::kHere).
     std::optional<Vec2> line_from;  ///< End of the last stroke; Shift draws a line from it.
     std::vector<Vec2> outline;      ///< Points of an unfinished lasso or polygon.
     bool outline_subtracts = false;

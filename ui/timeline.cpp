@@ -161,6 +161,9 @@ void tracks(Ctx& c, ImDrawList& list, const FrameScale& scale, float top, float 
         if (mark.reference)
             list.AddTriangleFilled({x, keys_y - r}, {x + r, keys_y + r}, {x - r, keys_y + r},
                                    t.warn);
+        if (mark.confirmed)
+            list.AddQuad({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y}, t.good,
+                         t.px(1.5f));
         if (mark.matte_key)
             list.AddQuadFilled({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y},
                                t.text);

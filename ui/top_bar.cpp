@@ -267,7 +267,7 @@ void tool_strip(Ctx& c, ImVec2 size) {
     // Tools of this workspace; shortcuts of tools work everywhere.
     static const std::vector<const char*> kTools[] = {
         {"tool.pan", "tool.brush", "tool.eraser", "tool.lasso", "tool.polygon", "tool.shape",
-         "tool.flood", "tool.scribble", "tool.crypto", "tool.snap"},
+         "tool.flood", "tool.scribble", "tool.confirm", "tool.crypto", "tool.snap"},
         {"tool.pan", "tool.place", "tool.warp", "tool.form", "tool.measure", "tool.similar",
          "tool.snap"},
         {"tool.pan", "tool.pin", "tool.place"},

@@ -69,6 +69,26 @@ static void draw_onion(Ctx& c, ImDrawList& list, const ViewMap& map) {
     }
 }
 
+// What is confirmed of the painted matte on this frame.
+static void draw_confirmed(Ctx& c, ImDrawList& list, const ViewMap& map) {
+    const RegionMatteView& area = c.view.confirmed;
+    if (area.pixels.empty()) return;
+    MatteDraw draw;
+    draw.pixels = area.pixels;
+    draw.key = 4'000'002;  // beyond the keyframes
+    draw.version = area.version;
+    draw.changed = area.changed;
+    draw.min = map.to_screen({0, 0});
+    draw.max = map.to_screen({static_cast<float>(c.view.plate.size.width),
+                              static_cast<float>(c.view.plate.size.height)});
+    draw.clip_min = map.min;
+    draw.clip_max = map.max;
+    draw.color = c.theme.good;
+    draw.opacity = c.state.tool == Tool::kConfirm ? 0.3f : 0.15f;
+    draw.outline = false;
+    c.pictures.draw(list, draw);
+}
+
 // In the Motion workspace zones show while one is painted.
 static bool paints_motion_zone(const Ctx& c) {
     return c.state.workspace == Workspace::kMotion && is_zone_layer(c.view.matte_layer);
@@ -110,6 +130,7 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     if (in_mask || paints_motion_zone(c)) draw_layers(c, list, map, v.zones, IM_COL32_WHITE);
     if (!in_mask) return;
     draw_layers(c, list, map, v.holdouts, c.theme.bad);
+    draw_confirmed(c, list, map);
     draw_onion(c, list, map);
 }
 

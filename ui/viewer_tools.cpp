@@ -164,8 +164,11 @@ std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map) {
 
 void brush_input(Ctx& c, const ViewMap& map, bool active) {
     if (c.view.plate.size.empty()) return;
-    if (c.state.tool != Tool::kBrush && c.state.tool != Tool::kEraser) return;
+    if (!paints(c.state.tool)) return;
     BrushState& b = c.state.brush;
+    const StrokeKind kind = c.state.tool == Tool::kConfirm ? StrokeKind::kConfirm
+                            : b.here_only                  ? StrokeKind::kHere
+                                                           : StrokeKind::kKeyframe;
     const ImGuiIO& io = ImGui::GetIO();
     const Vec2 at = map.to_plate(io.MousePos);
     const float pressure = c.state.pen_pressure.value_or(1.0f);
@@ -173,10 +176,10 @@ void brush_input(Ctx& c, const ViewMap& map, bool active) {
     if (!b.painting && active && ImGui::IsMouseClicked(0)) {
         b.painting = true;
         if (io.KeyShift && b.line_from) {
-            strokes.emplace_back(BeginStroke{brush_now(c), *b.line_from, pressure});
+            strokes.emplace_back(BeginStroke{brush_now(c), *b.line_from, pressure, kind});
             strokes.emplace_back(ContinueStroke{at, pressure});
         } else {
-            strokes.emplace_back(BeginStroke{brush_now(c), at, pressure});
+            strokes.emplace_back(BeginStroke{brush_now(c), at, pressure, kind});
         }
     } else if (b.painting) {
         for (const Vec2 point : path_on_plate(c, map))
@@ -201,6 +204,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return;
         case Tool::kBrush:
         case Tool::kEraser:
+        case Tool::kConfirm:
             return paint(c, map, hovered);
         case Tool::kLasso:
             return lasso(c, map, active);

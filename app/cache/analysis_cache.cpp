@@ -170,12 +170,16 @@ class DiskStore final : public AnalysisCache {
     }
     [[nodiscard]] static bool all_written(const Shot& shot, std::size_t index) {
         const Region& region = *shot.project.regions[shot.region_index[index]];
+        const auto is_there = [&](const std::string& path) {
+            std::error_code error;
+            return !shot.painted.contains(path) || fs::exists(path, error);
+        };
         const auto written = [&](const MatteSource& source) {
             return std::all_of(source.keyframes.begin(), source.keyframes.end(),
-                               [&](const auto& key) {
-                                   std::error_code error;
-                                   return !shot.painted.contains(key.second.path) ||
-                                          fs::exists(key.second.path, error);
+                               [&](const auto& key) { return is_there(key.second.path); }) &&
+                   std::all_of(source.confirmed.begin(), source.confirmed.end(),
+                               [&](const auto& edge) {
+                                   return is_there(edge.second.path) && is_there(edge.second.area);
                                });
         };
         return written(*region.matte) &&

@@ -47,15 +47,24 @@ Status add_pattern(Hasher& hasher, const std::string& text) {
 
 // By its contents: saving a project elsewhere takes its painted mattes along, and their analysis is
 // worth keeping.
-void add_keyframe(Hasher& hasher, int frame, const MatteKeyframe& key,
-                  const PaintedMattes& painted) {
+void add_painted(Hasher& hasher, int frame, const std::string& path, const PaintedMattes& painted) {
     hasher.value(frame);
-    if (const auto unwritten = painted.find(key.path); unwritten != painted.end()) {
-        hasher.text("in memory").text(key.path).image(*unwritten->second);
-    } else if (const auto contents = hash_of_contents(key.path)) {
+    if (const auto unwritten = painted.find(path); unwritten != painted.end()) {
+        hasher.text("in memory").text(path).image(*unwritten->second);
+    } else if (const auto contents = hash_of_contents(path)) {
         hasher.text("painted").value(contents->high).value(contents->low);
     } else {
-        hasher.text("not there").text(key.path);
+        hasher.text("not there").text(path);
+    }
+}
+
+// What is confirmed on the frames of [first, last).
+void add_confirmed(Hasher& hasher, const MatteSource& matte, int first, int last,
+                   const PaintedMattes& painted) {
+    for (const auto& [frame, edge] : matte.confirmed) {
+        if (frame < first || frame >= last || matte.keyframes.contains(frame)) continue;
+        add_painted(hasher.text("confirmed"), frame, edge.path, painted);
+        add_painted(hasher, frame, edge.area, painted);
     }
 }
 
@@ -73,7 +82,9 @@ void add_settings(Hasher& hasher, const MatteSource& matte) {
 Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& painted) {
     WEFT_CHECK_OK(add_pattern(hasher, matte.files));
     for (const auto& [frame, key] : matte.keyframes)
-        add_keyframe(hasher, frame, key, painted);
+        add_painted(hasher, frame, key.path, painted);
+    add_confirmed(hasher, matte, std::numeric_limits<int>::min(), std::numeric_limits<int>::max(),
+                  painted);
     if (!matte.shape.empty()) {
         add_shape(hasher.text("shape"), matte.shape);
         if (matte.shape.follow != ShapeFollow::kNone) add_file(hasher, matte.shape.track);
@@ -116,12 +127,18 @@ Expected<RegionKeys::Layer> matte_keys(const Shot& shot, const MatteSource& matt
     for (auto after = first;; ++after) {
         Hasher hasher;
         hasher.value(same.high).value(same.low).value(after == first).value(after == end);
+        int from = std::numeric_limits<int>::min(), to = std::numeric_limits<int>::max();
         if (after != first) {
             const auto& [frame, key] = *std::prev(after);
             out.keyframes.push_back(frame);
-            add_keyframe(hasher, frame, key, painted);
+            add_painted(hasher, frame, key.path, painted);
+            from = frame;
         }
-        if (after != end) add_keyframe(hasher, after->first, after->second, painted);
+        if (after != end) {
+            add_painted(hasher, after->first, after->second.path, painted);
+            to = after->first;
+        }
+        add_confirmed(hasher, matte, from, to, painted);
         out.stretches.push_back(hasher.finish().hex());
         if (after == end) return out;
     }

@@ -12,7 +12,8 @@ namespace weft {
 /// Keys of everything that the parts of a region's analysis depend on, 32 hexadecimal digits each.
 struct RegionKeys {
     /// The mattes that are propagated from the keyframes of one layer. A matte depends on the
-    /// keyframes before and after it only, so a stroke leaves all others as they are.
+    /// keyframes before and after it and on what is confirmed between them only, so a stroke leaves
+    /// all others as they are.
     struct Layer {
         std::vector<int> keyframes;  ///< Ascending, at least one.
         /// From each keyframe to the next one, in front of them the frames before the first.

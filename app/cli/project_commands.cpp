@@ -46,7 +46,10 @@ Json region_json(const Region& region) {
     Json keys = Json::array();
     for (const auto& [frame, key] : region.matte->keyframes)
         keys.push_back(frame);
-    out["matte"] = {{"files", region.matte->files}, {"keyframes", keys}};
+    Json confirmed = Json::array();
+    for (const auto& [frame, edge] : region.matte->confirmed)
+        confirmed.push_back(frame);
+    out["matte"] = {{"files", region.matte->files}, {"keyframes", keys}, {"confirmed", confirmed}};
     out["holdouts"] = region.holdouts->size();
     out["zones"] = region.zones->size();
     out["texture"] = region.texture.plane.empty() ? region.texture.sample : region.texture.plane;

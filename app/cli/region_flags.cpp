@@ -115,6 +115,13 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command
+            .add_option("--matte-confirmed", confirmed_,
+                        "Parts of a propagated matte that are right on a frame: the frame's matte "
+                        "and the area in which it is (30=matte.png,area.png, repeatable)")
+            ->type_name("FRAME=MATTE,AREA")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        command
             .add_option(
                 "--holdout", holdouts_,
                 "Matte of what passes in front of the surface: a pattern, painted keyframes "
@@ -192,7 +199,8 @@ bool ProjectFlags::given(std::string_view key) const {
 }
 
 bool ProjectFlags::gives_region() const {
-    return !mattes_.empty() || !holdouts_.empty() || !zones_.empty() || !crypto_files_.empty() ||
+    return !mattes_.empty() || !confirmed_.empty() || !holdouts_.empty() || !zones_.empty() ||
+           !crypto_files_.empty() ||
            std::any_of(region_.begin(), region_.end(),
                        [](const Given<Region>& g) { return g.is_given(); });
 }
@@ -207,11 +215,19 @@ Status ProjectFlags::apply(Region& region) const {
         MatteSource matte = *region.matte;  // keeps channel, value and inversion
         matte.files.clear();
         matte.keyframes.clear();
+        matte.confirmed.clear();
         matte.shape = {};
         matte.select.crypto.clear();
         for (const std::string& text : mattes_)
             WEFT_CHECK_OK(add_matte_text(matte, text));
         if (!matte.select.crypto.empty()) matte.files = crypto_files_;
+        region.matte = matte;
+    }
+    if (!confirmed_.empty()) {
+        MatteSource matte = *region.matte;
+        matte.confirmed.clear();
+        for (const std::string& text : confirmed_)
+            WEFT_CHECK_OK(add_confirmed_text(matte, text));
         region.matte = matte;
     }
     if (!holdouts_.empty()) {

@@ -46,7 +46,7 @@ class ProjectFlags {
 
     std::list<Given<Project>> project_;  // a list: CLI11 keeps pointers to the entries
     std::list<Given<Region>> region_;
-    std::vector<std::string> mattes_, holdouts_, zones_;
+    std::vector<std::string> mattes_, confirmed_, holdouts_, zones_;
     std::string crypto_files_;
 };
 

@@ -179,6 +179,14 @@ Json region_schema() {
          {{"type", "object"},
           {"properties", {{"frame", any_of_type("integer")}, {"path", any_of_type("string")}}},
           {"required", {"frame", "path"}}}}};
+    matte["properties"]["confirmed"] = {{"type", "array"},
+                                        {"items",
+                                         {{"type", "object"},
+                                          {"properties",
+                                           {{"frame", {{"type", "integer"}}},
+                                            {"path", {{"type", "string"}}},
+                                            {"area", {{"type", "string"}}}}},
+                                          {"required", {"frame", "path", "area"}}}}};
     matte["properties"]["shape"] = keyed_shape();
     region["properties"]["matte"] = matte;
     region["properties"]["holdouts"] = {{"type", "array"}, {"items", matte}};

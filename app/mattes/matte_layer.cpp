@@ -57,6 +57,7 @@ Edit without_layer_key(const Region& region, int layer, int frame) {
         std::vector<Zone> zones = *region.zones;
         if (const std::size_t at = zone_index(layer); at < zones.size()) {
             zones[at].matte.keyframes.erase(frame);
+            zones[at].matte.confirmed.erase(frame);
             if (zones[at].matte.empty()) zones.erase(zones.begin() + zone_of_layer(layer));
         }
         return SetZones{ref, std::move(zones)};
@@ -64,6 +65,7 @@ Edit without_layer_key(const Region& region, int layer, int frame) {
     std::vector<MatteSource> holdouts = *region.holdouts;
     if (const std::size_t at = holdout_index(layer); at < holdouts.size()) {
         holdouts[at].keyframes.erase(frame);
+        holdouts[at].confirmed.erase(frame);
         if (holdouts[at].empty()) holdouts.erase(holdouts.begin() + layer - 1);
     }
     return SetHoldouts{ref, std::move(holdouts)};

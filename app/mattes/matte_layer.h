@@ -16,7 +16,8 @@ namespace weft {
 /// one, a zone with the kind and the value of `begun`.
 [[nodiscard]] Edit set_layer(const Region& region, int layer, MatteSource source,
                              const Zone& begun = {});
-/// The edit that removes a painted keyframe; a holdout or zone without keyframes is removed too.
+/// The edit that removes a painted keyframe, or what is confirmed on a frame; a holdout or zone
+/// without keyframes is removed too.
 [[nodiscard]] Edit without_layer_key(const Region& region, int layer, int frame);
 /// "wall", "holdout 2 of wall" or "zone 1 of wall".
 [[nodiscard]] std::string layer_name(const Region& region, int layer);

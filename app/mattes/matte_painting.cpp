@@ -77,9 +77,9 @@ std::optional<MattePainting::Finished> MattePainting::end() {
         update();
         std::this_thread::yield();
     }
-    const Current done = *std::exchange(stroke_, std::nullopt);
+    const Current done = std::move(*std::exchange(stroke_, std::nullopt));
     if (!done.stroke || done.stroke->touched().empty()) return std::nullopt;
-    return Finished{done.place, done.canvas};
+    return Finished{done.place, done.canvas, std::make_shared<const Matte>(done.stroke->covered())};
 }
 
 std::optional<MattePainting::Shown> MattePainting::at(const MattePlace& place) const {

@@ -16,6 +16,7 @@ namespace weft {
 struct MattePlace {
     RegionId region = 0;
     int layer = 0, frame = 0;
+    bool confirmed = false;  ///< What is confirmed of it there, instead of the matte.
     bool operator==(const MattePlace&) const = default;
 };
 
@@ -39,6 +40,7 @@ class MattePainting {
     struct Finished {
         MattePlace place;
         MattePtr matte;
+        MattePtr covered;  ///< 255 where the stroke painted.
     };
     /// Ends the stroke and returns the new matte; nothing if the stroke changed nothing. Waits for
     /// the copy if points are queued.

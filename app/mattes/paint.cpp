@@ -84,6 +84,17 @@ Stroke::Stroke(std::shared_ptr<const Matte> before, const Brush& brush)
     if (!coverage_) throw std::bad_alloc();
 }
 
+Matte Stroke::covered() const {
+    Matte out(before_->size());
+    for (int y = touched_.y0; y < touched_.y1; ++y) {
+        const std::uint8_t* row =
+            coverage_.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width());
+        for (int x = touched_.x0; x < touched_.x1; ++x)
+            out.at(x, y) = row[x] > 0 ? 255 : 0;
+    }
+    return out;
+}
+
 Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
     const float press = std::clamp(pressure, 0.05f, 1.0f);
     const float radius = std::max(0.5f, brush_.radius_px * (brush_.pressure_size ? press : 1.0f));

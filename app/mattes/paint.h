@@ -31,6 +31,8 @@ class Stroke {
     /// the radius, the opacity or both, as the brush says. Returns the changed part of `matte`.
     Recti move_to(Vec2 to, float pressure, Matte& matte);
     [[nodiscard]] const Recti& touched() const { return touched_; }
+    /// 255 where the stroke painted, else 0; of the matte's size.
+    [[nodiscard]] Matte covered() const;
 
   private:
     struct Release {

@@ -36,6 +36,7 @@ RegionPlan divided(const RegionPlan& full, int factor) {
     RegionPlan plan = full;
     // The source below has a matte for every frame.
     plan.matte_keys.clear();
+    plan.matte_confirmed.clear();
     plan.matte_edge = divided(plan.matte_edge, factor);
     for (MatteEdgePlan& edge : plan.given_holdout_edges)
         edge = divided(edge, factor);

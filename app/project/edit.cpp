@@ -164,12 +164,15 @@ Expected<Project> apply_one(const Project& project, const SetMatteKeyframe& edit
 
 Expected<Project> apply_one(const Project& project, const RemoveMatteKeyframe& edit) {
     return with_region(project, edit.region, [&](Region& region) -> Status {
-        if (!region.matte->keyframes.contains(edit.frame))
+        if (!region.matte->keyframes.contains(edit.frame) &&
+            !region.matte->confirmed.contains(edit.frame))
             return fail(ErrorCode::kUsage,
                         fmt::format("Region '{}' has no matte keyframe on frame {}",
                                     shown(edit.region), edit.frame));
-        region.matte =
-            region.matte.with([&](MatteSource& matte) { matte.keyframes.erase(edit.frame); });
+        region.matte = region.matte.with([&](MatteSource& matte) {
+            matte.keyframes.erase(edit.frame);
+            matte.confirmed.erase(edit.frame);
+        });
         return {};
     });
 }

@@ -53,6 +53,10 @@ Leaf<MatteSource> map_matte(const Leaf<MatteSource>& matte, const auto& map) {
         map(m.frozen_files);
         for (auto& [frame, key] : m.keyframes)
             map(key.path);
+        for (auto& [frame, edge] : m.confirmed) {
+            map(edge.path);
+            map(edge.area);
+        }
         map(m.shape.track);
     });
 }
@@ -128,6 +132,25 @@ Status add_matte_text(MatteSource& matte, std::string_view text) {
     return {};
 }
 
+Status add_confirmed_text(MatteSource& matte, std::string_view text) {
+    const std::size_t equals = text.find('='), comma = text.rfind(',');
+    const bool three = equals != std::string_view::npos && comma != std::string_view::npos &&
+                       comma > equals + 1 && comma + 1 < text.size();
+    int frame = 0;
+    const char* const end = text.data() + (three ? equals : 0);
+    const auto [stop, error] = std::from_chars(text.data(), end, frame);
+    if (!three || error != std::errc() || stop != end || !is_frame_number(frame))
+        return fail(ErrorCode::kUsage, "'" + std::string(text) +
+                                           "' is not a confirmed part of a matte; write "
+                                           "FRAME=MATTE,AREA");
+    ConfirmedEdge edge{std::string(text.substr(equals + 1, comma - equals - 1)),
+                       std::string(text.substr(comma + 1))};
+    if (!matte.confirmed.emplace(frame, std::move(edge)).second)
+        return fail(ErrorCode::kUsage, "Parts of frame " + std::to_string(frame) +
+                                           " are confirmed twice; give one area for all of them");
+    return {};
+}
+
 Project map_paths(const Project& project,
                   const std::function<std::string(const std::string&)>& visit) {
     const auto map = [&](std::string& path) {
@@ -187,6 +210,9 @@ std::size_t own_bytes(const MatteSource& matte) {
     for (const auto& [frame, key] : matte.keyframes)
         bytes += kMapNodeBytes + sizeof frame + sizeof key + heap_bytes_of(key.path, key.extra) +
                  (key.shape ? key.shape->points.capacity() * sizeof(RotoPoint) : 0);
+    for (const auto& [frame, edge] : matte.confirmed)
+        bytes += kMapNodeBytes + sizeof frame + sizeof edge +
+                 heap_bytes_of(edge.path, edge.area, edge.extra);
     bytes += heap_bytes(matte.shape.track);
     for (const auto& [frame, shape] : matte.shape.keys)
         bytes += kMapNodeBytes + sizeof frame + sizeof shape +

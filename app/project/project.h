@@ -123,10 +123,20 @@ struct MatteKeyframe {
     bool operator==(const MatteKeyframe&) const = default;
 };
 
+/// Parts of a propagated matte that are confirmed on a frame: inside of the area it is as here.
+struct ConfirmedEdge {
+    std::string path;  ///< The frame's whole matte, as it was when a part was confirmed.
+    std::string area;  ///< An image of the plate's size: what is confirmed is above half.
+    Extras extra = {};
+    bool operator==(const ConfirmedEdge&) const = default;
+};
+
 /// A matte over time: a file for each frame, or painted keyframes that are propagated.
 struct MatteSource {
     std::string files;                       ///< Pattern; empty: keyframes.
     std::map<int, MatteKeyframe> keyframes;  ///< By frame number.
+    /// By frame number; on a keyframe they say nothing, since all of it is right.
+    std::map<int, ConfirmedEdge> confirmed;
     /// A roto shape over time, from which every frame's matte is drawn: no files, no keyframes.
     KeyedShape shape;
     MatteSelect select;
@@ -384,6 +394,9 @@ struct Project {
 /// Adds a --matte or --holdout value: "12=a.png" is a painted keyframe, any other text a pattern.
 /// Errors: Usage when both kinds are given, or two of one kind contradict each other.
 [[nodiscard]] Status add_matte_text(MatteSource& matte, std::string_view text);
+/// Adds confirmed parts of a matte as --matte-confirmed takes them: FRAME=MATTE,AREA. Errors:
+/// Usage.
+[[nodiscard]] Status add_confirmed_text(MatteSource& matte, std::string_view text);
 
 /// Replaces every path of the project (plate, mattes, textures, motion, light, output) by the
 /// result of `visit`, in the file's order. Empty paths are skipped.

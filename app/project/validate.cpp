@@ -72,6 +72,9 @@ void check_matte(Finder& find, std::string_view key, const MatteSource& matte) {
         if (painted.path.empty())
             find.error(key, fmt::format("The keyframe of frame {} has no path", frame),
                        "Set it or remove the keyframe");
+    if (!matte.confirmed.empty() && matte.keyframes.empty())
+        find.error(key, "Parts of it are confirmed, but it has no painted keyframe",
+                   "Paint a keyframe, or remove what is confirmed");
     if (!matte.shape.empty()) check_keyed_shape(find, key, matte);
     if (matte.propagate_from && matte.propagate_to && *matte.propagate_from > *matte.propagate_to)
         find.error(key,

@@ -156,10 +156,17 @@ struct SelectMatteLayer {
     double zone_value = 0;
     bool operator==(const SelectMatteLayer&) const = default;
 };
+/// What a stroke does on a frame to which the matte is propagated.
+enum class StrokeKind : std::uint8_t {
+    kKeyframe,  ///< The whole frame becomes a keyframe.
+    kHere,      ///< It counts where it was painted; the rest is propagated as before.
+    kConfirm    ///< Says where the propagated matte is right.
+};
 struct BeginStroke {
     Brush brush;
     Vec2 at{0, 0};
     float pressure = 1;
+    StrokeKind kind = StrokeKind::kKeyframe;
     bool operator==(const BeginStroke&) const = default;
 };
 struct ContinueStroke {

@@ -158,6 +158,7 @@ class Session {
     [[nodiscard]] std::optional<MattePtr> matte_to_paint_on();
     void prepare_stroke();
     void begin_stroke(const BeginStroke& action);
+    void begin_painting(const BeginStroke& action);
     void end_stroke();
     void keep_matte(MattePtr matte, const MattePlace& place, const std::string& label,
                     const std::optional<RotoShape>& shape = {});
@@ -175,6 +176,19 @@ class Session {
     }
     void paint_instead();
     [[nodiscard]] std::string beside_project(const std::string& path) const;
+
+    // ---- confirmed parts of mattes (session_confirmed.cpp) ----
+    struct Confirming {
+        MattePtr matte;  ///< Of the whole frame, as it is shown.
+        MattePtr area;   ///< What is confirmed of it.
+    };
+    /// Null: nothing is confirmed there, or it is still being read.
+    [[nodiscard]] MattePtr confirmed_area(const Region& region, int layer, int frame);
+    [[nodiscard]] std::optional<Confirming> confirming_here();
+    void begin_confirming(const BeginStroke& action);
+    void keep_stroke_here(const MattePainting::Finished& done);
+    void keep_confirmed(const Confirming& now, const MattePlace& place, const std::string& what);
+    void show_confirmed();
 
     // ---- segmented and drawn mattes (session_shapes.cpp) ----
     void scribble(const ScribbleSelect& action);
@@ -276,7 +290,8 @@ class Session {
     Zone begun_zone_;  // what a stroke beyond the last zone adds
     std::set<RegionId> locked_;
     MattePainting painting_;
-    bool mattes_unwritten_ = false;  // as of the last update
+    std::optional<Confirming> confirming_;  // before the stroke, if it counts in part only
+    bool mattes_unwritten_ = false;         // as of the last update
     struct Shown {
         EdgedMatte edged;
         MattePtr matte;  // as the view shows it

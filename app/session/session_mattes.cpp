@@ -28,6 +28,8 @@ std::string keys_text(const MatteSource& matte) {
     Hasher hasher;
     for (const auto& [frame, key] : matte.keyframes)
         hasher.value(frame).text(key.path);
+    for (const auto& [frame, edge] : matte.confirmed)
+        hasher.value(frame).text(edge.path).text(edge.area);
     hasher.value(matte.steadiness)
         .value(static_cast<int>(matte.propagate_direction))
         .value(matte.propagate_from.value_or(-1))
@@ -110,6 +112,14 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
         }
     }
     out.keep = shelf_.get(name, read);
+    // Until it is propagated again, a frame with a confirmed part shows what was seen there then.
+    if (const auto edge = source.confirmed.find(frame);
+        !out.keep && out.kind == RegionMatteView::Kind::kPropagated &&
+        edge != source.confirmed.end()) {
+        const std::string path = resolve_path(dir, edge->second.path);
+        out.keep = shelf_.get(
+            path, [path, select = source.select, size] { return read_matte(path, select, size); });
+    }
     if (!out.keep) {
         out.error = shelf_.error(name);
         const bool propagated = out.kind == RegionMatteView::Kind::kPropagated;
@@ -180,9 +190,21 @@ void Session::prepare_stroke() {
 
 void Session::begin_stroke(const BeginStroke& action) {
     end_stroke();
+    confirming_.reset();
     if (!open_ || !may_paint()) return;
+    if (action.kind == StrokeKind::kConfirm)
+        begin_confirming(action);
+    else
+        begin_painting(action);
+}
+
+void Session::begin_painting(const BeginStroke& action) {
     const auto before = matte_to_paint_on();
     if (!before) return;
+    const auto& keys = layer_source(*painted_region(), layer_).keyframes;
+    const bool here =
+        action.kind == StrokeKind::kHere && !keys.empty() && !keys.contains(playback_.frame());
+    if (here && !(confirming_ = confirming_here())) return;
     playback_.stop();
     painting_.begin(painted_place(), *before, reader_->size(), action.brush);
     painting_.move_to(action.at, action.pressure);
@@ -192,6 +214,9 @@ void Session::end_stroke() {
     const auto done = painting_.end();
     const Region* region = done ? region_by_id(document(), done->place.region) : nullptr;
     if (!region) return;
+    if (done->place.confirmed)
+        return keep_confirmed({confirming_->matte, done->matte}, done->place, "Confirm edge of ");
+    if (confirming_) return keep_stroke_here(*done);
     keep_matte(done->matte, done->place,
                "Paint " + layer_name(*region, done->place.layer) + " on frame " +
                    std::to_string(done->place.frame));
@@ -225,6 +250,7 @@ void Session::keep_matte(MattePtr matte, const MattePlace& place, const std::str
     // The shape of an older keyframe does not describe the new matte.
     MatteSource source = layer_source(*target, place.layer);
     source.keyframes[place.frame] = {beside_project(path), shape};
+    source.confirmed.erase(place.frame);
     auto changed =
         apply_edit(history_.current(), set_layer(*target, place.layer, source, begun_zone_));
     if (!changed) {
@@ -298,6 +324,7 @@ void Session::copy_keyframe(int from, int to) {
     // Files never change once written, so both keyframes may use the same one.
     MatteSource source = layer_source(*region, layer_);
     source.keyframes[to] = {source.keyframes.at(from).path, {}};
+    source.confirmed.erase(to);
     edit(set_layer(*region, layer_, source, begun_zone_), true);
 }
 

@@ -127,6 +127,7 @@ void Session::follow_shape(const FollowShape& action) {
     if (!action.track.empty()) shape->track = beside_project(action.track);
     MatteSource matte = source;
     matte.keyframes.clear();
+    matte.confirmed.clear();
     matte.frozen.clear();
     matte.frozen_files.clear();
     matte.shape = std::move(*shape);

@@ -170,6 +170,7 @@ void Session::show_mattes() {
             view_.zones.push_back(matte_of(*region, layer, playback_.frame()));
     }
     show_onion_skin();
+    show_confirmed();
     prepare_stroke();
 }
 
@@ -243,6 +244,8 @@ void Session::show_marks() {
         }
         if (!region) continue;
         const MatteSource& layer = layer_source(*region, layer_);
+        mark.confirmed =
+            !layer.keyframes.contains(frames[k]) && layer.confirmed.contains(frames[k]);
         mark.matte_key =
             layer.keyframes.contains(frames[k]) || layer.shape.keys.contains(frames[k]);
         mark.reference =

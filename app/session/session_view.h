@@ -62,6 +62,7 @@ struct FrameMarks {
     /// a pop; 1 or more is one. Below 0: not known.
     float pop = -1;
     std::string pop_text = {};  ///< What steps, and by how much: "sharpness 12%".
+    bool confirmed = false;     ///< Parts of the selected region's matte are confirmed here.
 };
 
 /// A region's matte on the current frame.
@@ -151,6 +152,8 @@ struct SessionView {
     /// Keyframes of the painted layer before and after the frame; empty without onion skin.
     std::vector<RegionMatteView> onion;
     bool onion_skin = false;
+    /// What is confirmed of the painted layer on the frame; without pixels: nothing.
+    RegionMatteView confirmed;
     int matte_layer = 0;  ///< As SelectMatteLayer::layer.
     Zone begun_zone;      ///< What a stroke beyond the last zone adds.
     bool painting = false, matte_busy = false;

@@ -24,6 +24,9 @@ Status check_named_frames(const Region& region, const FrameReader& plate) {
         WEFT_CHECK_OK(check(
             frame, "The painted matte's frame ",
             "Give the matte the number of a frame of the plate" + by({{setting::kMatte}}) + "."));
+    for (const auto& [frame, edge] : region.matte->confirmed)
+        WEFT_CHECK_OK(check(frame, "The frame of a confirmed part of the matte ",
+                            "Confirm parts on frames of the plate only."));
     for (const MatteSource& holdout : *region.holdouts) {
         for (const auto& [frame, key] : holdout.keyframes)
             WEFT_CHECK_OK(check(

@@ -47,6 +47,15 @@ class ProjectSource final : public ShotSource {
         return ShotSource::holdout_key(region, painted, frame);
     }
 
+    [[nodiscard]] Expected<ConfirmedPart> confirmed_part(int region, int layer,
+                                                         int frame) const override {
+        const MatteSource& source = painted_layer(region, layer);
+        const ConfirmedEdge& edge = source.confirmed.at(frame);
+        WEFT_TRY(matte, read_painted(source.select, edge.path));
+        WEFT_TRY(area, read_painted({}, edge.area));
+        return ConfirmedPart{std::move(matte), std::move(area)};
+    }
+
     [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override {
         std::optional<Matte> all;
         for (const MatteSource& holdout : *at(region).holdouts) {
@@ -161,9 +170,21 @@ class ProjectSource final : public ShotSource {
         return read_matte(watched(path_on(pattern, frame)), source.select, size());
     }
     [[nodiscard]] Expected<Matte> read_keyframe(const MatteSource& source, int frame) const {
-        const std::string& path = source.keyframes.at(frame).path;
-        if (painted_.contains(path)) return read_matte(path, source.select, size(), painted_);
-        return read_matte(watched(path), source.select, size());
+        return read_painted(source.select, source.keyframes.at(frame).path);
+    }
+    [[nodiscard]] Expected<Matte> read_painted(const MatteSelect& select,
+                                               const std::string& path) const {
+        if (painted_.contains(path)) return read_matte(path, select, size(), painted_);
+        return read_matte(watched(path), select, size());
+    }
+    // A layer of the analysis: holdouts from files have no number there.
+    [[nodiscard]] const MatteSource& painted_layer(int region, int layer) const {
+        const Region& of = at(region);
+        if (is_zone_layer(layer))
+            return of.zones->at(static_cast<std::size_t>(zone_of_layer(layer))).matte;
+        for (const MatteSource& holdout : *of.holdouts)
+            if (layer > 0 && !holdout.by_frame() && --layer == 0) return holdout;
+        return *of.matte;
     }
     // Returns `path` after telling `inputs_` that it will be read.
     [[nodiscard]] std::string watched(std::string path) const {

@@ -23,6 +23,13 @@ MatteReach reach_of(const MatteSource& matte) {
     return reach;
 }
 
+std::vector<int> confirmed_frames(const MatteSource& matte) {
+    std::vector<int> frames;
+    for (const auto& [frame, edge] : matte.confirmed)
+        if (!matte.keyframes.contains(frame)) frames.push_back(frame);
+    return frames;
+}
+
 PaintedMatte painted_matte(const MatteSource& matte) {
     PaintedMatte painted;
     for (const auto& [frame, key] : matte.keyframes)
@@ -30,6 +37,7 @@ PaintedMatte painted_matte(const MatteSource& matte) {
     painted.steadiness = static_cast<float>(matte.steadiness);
     painted.reach = reach_of(matte);
     painted.edge = project_edge(matte.edge);
+    painted.confirmed = confirmed_frames(matte);
     return painted;
 }
 
@@ -105,6 +113,7 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
     }
     for (const auto& [frame, key] : matte.keyframes)
         plan.matte_keys.push_back(frame);
+    if (!matte.keyframes.empty()) plan.matte_confirmed = confirmed_frames(matte);
     plan.matte_steadiness = static_cast<float>(matte.steadiness);
     plan.matte_reach = reach_of(matte);
     plan.matte_edge = project_edge(matte.edge);

@@ -66,6 +66,13 @@ void BackgroundPlate::update(ViewU8x3 frame, ViewF1 phi) {
     });
 }
 
+void BackgroundPlate::forget(ViewU8x1 where) {
+    for (int y = 0; y < where.height(); ++y) {
+        for (int x = 0; x < where.width(); ++x)
+            if (where.row(y)[x] != 0) known_.at(x, y) = 0;
+    }
+}
+
 void BackgroundPlate::move(ViewF2 background_from_cur) {
     const int w = picture_.width(), h = picture_.height();
     cv::Mat map(h, w, CV_32FC2);

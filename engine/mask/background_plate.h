@@ -26,6 +26,8 @@ class BackgroundPlate {
 
     /// Adds what lies outside the found shape.
     void update(ViewU8x3 frame, ViewF1 phi);
+    /// What is not 0 here was taken for background by mistake, on the frame of the last update.
+    void forget(ViewU8x1 where);
 
   private:
     ImageU8x3 picture_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -25,9 +26,43 @@ Recti joint_bounds(ViewF1 before, ViewF1 after) {
     return box;
 }
 
-// Two estimates of a shape, combined over an area. `share` is the later one's weight.
+float known(float confidence) {
+    return std::max(confidence, 1e-3f);
+}
+
+// The weight of the later estimate by pixel. What was confirmed is as certain as since then.
+ImageF1 shares_of(const MatteEstimate& from_before, const MatteEstimate& from_after,
+                  const MergePlace& place, Size size) {
+    ImageF1 shares = merge_positions(place, from_before.since, from_after.since, size);
+    const auto confidence = [](const MatteEstimate& e, int x, int y) {
+        const bool confirmed = !e.since.empty() && e.since.at(x, y) != kNeverConfirmed;
+        return known(confirmed ? e.since_confidence : e.confidence);
+    };
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const float position = shares.at(x, y);
+            // Squared: a walk with half the confidence is more than twice as likely to be wrong.
+            const float before = confidence(from_before, x, y);
+            const float after = confidence(from_after, x, y);
+            const float before_weight = (1 - position) * before * before;
+            const float after_weight = position * after * after;
+            shares.at(x, y) = after_weight / (before_weight + after_weight);
+        }
+    }
+    return shares;
+}
+
+// Without confirmed parts it is the same everywhere.
+float usual_share(const ImageF1& shares, bool confirmed) {
+    if (!confirmed) return shares.at(0, 0);
+    const std::size_t pixels = shares.size_bytes() / sizeof(float);
+    const double sum = std::accumulate(shares.data(), shares.data() + pixels, 0.0);
+    return static_cast<float>(sum / static_cast<double>(pixels));
+}
+
+// Two estimates of a shape, combined over an area. `shares` are the later one's weights.
 struct JointShape {
-    JointShape(ViewF1 before_phi, ViewF1 after_phi, float share, float band_px)
+    JointShape(ViewF1 before_phi, ViewF1 after_phi, ViewF1 shares, float band_px)
         : before(before_phi),
           after(after_phi),
           expected(before.size()),
@@ -36,6 +71,7 @@ struct JointShape {
         for (int y = 0; y < before.height(); ++y) {
             for (int x = 0; x < before.width(); ++x) {
                 const float a = before.row(y)[x], b = after.row(y)[x];
+                const float share = shares.row(y)[x];
                 const bool same = (a > 0) == (b > 0);
                 const float blend = a + share * (b - a);
                 // Where they disagree nothing is settled, even far from the blended boundary.
@@ -58,7 +94,7 @@ struct JointShape {
 
 // Edges are soft where either estimate has a soft edge.
 Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, ViewU8x1 after,
-             const JointShape& joint, float share, const MatteOptions& options) {
+             const JointShape& joint, ViewF1 shares, const MatteOptions& options) {
     if (!options.soft_edges) return found.matte;
     constexpr float kWidestPx = 20;
     const auto softness_of = [](ViewU8x1 matte, ViewF1 phi) {
@@ -71,36 +107,45 @@ Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, View
         for (int x = 0; x < frame.width(); ++x) {
             softness.at(x, y) = std::max(softness.at(x, y), other.at(x, y));
             const float a = before.row(y)[x], b = after.row(y)[x];
-            expected.at(x, y) = static_cast<std::uint8_t>(a + share * (b - a) + 0.5f);
+            expected.at(x, y) = static_cast<std::uint8_t>(a + shares.row(y)[x] * (b - a) + 0.5f);
         }
     }
     return with_soft_edges(frame, found.phi, softness, found.matte, expected, options.steadiness);
 }
 
+// What only one walk knows of stays as that has it.
+void keep_single(Matte& merged, const MatteEstimate& before, const MatteEstimate& after,
+                 const ImageF1& shares) {
+    for (int y = 0; y < merged.height(); ++y) {
+        for (int x = 0; x < merged.width(); ++x) {
+            if (shares.at(x, y) <= 0) merged.at(x, y) = before.matte.at(x, y);
+            if (shares.at(x, y) >= 1) merged.at(x, y) = after.matte.at(x, y);
+        }
+    }
+}
+
 }  // namespace
 
 MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstimate& from_after,
-                              float position, ViewU8x3 frame, const MatteOptions& options,
+                              const MergePlace& place, ViewU8x3 frame, const MatteOptions& options,
                               ViewU8x1 in_front) {
-    if (position <= 0) return from_before;
-    if (position >= 1) return from_after;
-    // Squared: a walk with half the confidence is more than twice as likely to be wrong.
-    const float before = std::max(from_before.confidence, 1e-3f);
-    const float after = std::max(from_after.confidence, 1e-3f);
-    const float before_weight = (1 - position) * before * before;
-    const float after_weight = position * after * after;
-    const float share = after_weight / (before_weight + after_weight);
-
+    const bool confirmed = !from_before.since.empty() || !from_after.since.empty();
+    if (!confirmed && place.before && place.frame <= *place.before) return from_before;
+    if (!confirmed && place.after && place.frame >= *place.after) return from_after;
+    const ImageF1 shares = shares_of(from_before, from_after, place, frame.size());
     const RefineScale scale(frame.size());
     const ImageF1 phi_before = signed_distance(inside_of(from_before.matte), scale.limit_px);
     const ImageF1 phi_after = signed_distance(inside_of(from_after.matte), scale.limit_px);
-    MatteEstimate merged{Matte(frame.size()), (1 - share) * before + share * after};
+    const float share = usual_share(shares, confirmed);
+    MatteEstimate merged{Matte(frame.size()), (1 - share) * known(from_before.confidence) +
+                                                  share * known(from_after.confidence)};
     const Recti bounds = joint_bounds(phi_before, phi_after);
     if (bounds.empty()) return merged;
     const int margin = static_cast<int>(scale.band_px) + scale.window_half_px + 4;
     const Recti area = bounds.grown(margin).intersected(rect_of(frame.size()));
 
-    const JointShape joint(phi_before.view().crop(area), phi_after.view().crop(area), share,
+    const ViewF1 shares_here = shares.view().crop(area);
+    const JointShape joint(phi_before.view().crop(area), phi_after.view().crop(area), shares_here,
                            scale.band_px);
     const ViewU8x3 part = frame.crop(area);
     std::vector<ColorWindow> windows = place_windows(joint.expected, scale.window_step_px);
@@ -115,11 +160,12 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
     const RefinedBoundary found = refine_boundary(part, joint.expected, colors, joint.side_odds,
                                                   ViewF1(), scale, options.steadiness);
     const Matte matte = soften(part, found, from_before.matte.view().crop(area),
-                               from_after.matte.view().crop(area), joint, share, options);
+                               from_after.matte.view().crop(area), joint, shares_here, options);
     for (int y = 0; y < area.height(); ++y) {
         std::copy(matte.row(y), matte.row(y) + area.width(),
                   merged.matte.pixel(area.x0, area.y0 + y));
     }
+    if (confirmed) keep_single(merged.matte, from_before, from_after, shares);
     // Two independent walks that end at the same shape confirm each other.
     const auto agreement = static_cast<float>(joint.agreeing / joint.either);
     merged.confidence += (1 - merged.confidence) * agreement * agreement * agreement;

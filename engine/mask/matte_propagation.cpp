@@ -60,34 +60,6 @@ Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     return bounds.grown(margin).intersected(rect_of(frame));
 }
 
-// Adds which motion the pixels have followed: to the evidence near the boundary, and deeper inside,
-// where it clearly says outside, to what reopens a decided part.
-void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1& wide) {
-    constexpr float kWeight = 0.5f, kClearly = -1;
-    parallel_rows(sides.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < sides.width(); ++x) {
-                const float side = sides.at(x, y);
-                near.at(x, y) += kWeight * side;
-                if (phi.at(x, y) > 0) wide.at(x, y) += kWeight * std::min(0.0f, side - kClearly);
-            }
-        }
-    });
-}
-
-// Takes away what came from outside and moves with it.
-void add_foreign(const ImageF1& odds, ImageF1& near, ImageF1& wide) {
-    constexpr float kDoubtful = -1;
-    parallel_rows(odds.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < odds.width(); ++x) {
-                near.at(x, y) += odds.at(x, y);
-                wide.at(x, y) += std::min(0.0f, odds.at(x, y) - kDoubtful);
-            }
-        }
-    });
-}
-
 // Pixels of either; `a` may be empty.
 Matte either(const Matte& a, const Matte& b) {
     Matte both(b.size());
@@ -136,7 +108,9 @@ struct MatteWalker::State {
     Uncovered uncovered = {};
     Newcomers newcomers = {};
     LeftBehind left_behind = {};
-    bool soft_edges = false;  ///< Whether key_softness is anything but 0.
+    ConfirmedPlaces confirmed = {};
+    float since_confidence = 1;  ///< Of what was confirmed last.
+    bool soft_edges = false;     ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
@@ -237,9 +211,9 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
     judge_uncovered(part, shape.uncovered, colors, palette, matched, wide);
     add_sides(sides.advance({phi, prev_from_cur, shape.outside_motion, area, unit_px()}), shape.phi,
               matched, wide);
-    add_foreign(newcomers.advance({part, frame, phi, prev_from_cur, shape.outside_motion,
-                                   shape.uncovered.appearing, shape.phi, area, unit_px()}),
-                matched, wide);
+    add_newcomers(newcomers.advance({part, frame, phi, prev_from_cur, shape.outside_motion,
+                                     shape.uncovered.appearing, shape.phi, area, unit_px()}),
+                  matched, wide);
     if (!covered.empty()) keep_hidden(matched, wide, shape.phi, covered, origin);
     return refine_boundary(part, shape.phi, colors, matched, wide, scale, options.steadiness);
 }
@@ -330,6 +304,35 @@ void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_c
     take_changed(kept, distance, matte);
 }
 
+MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
+    State& s = *state_;
+    const Matte right = with_confirmed(s.last, part);
+    Matte inside(right.size()), wrong(right.size());
+    bool any = false;
+    for (int y = 0; y < right.height(); ++y) {
+        for (int x = 0; x < right.width(); ++x) {
+            const bool was = s.phi.at(x, y) > 0;
+            const bool is = part.area.at(x, y) > 127 ? right.at(x, y) > 127 : was;
+            inside.at(x, y) = is ? 255 : 0;
+            if (is == was) continue;
+            wrong.at(x, y) = 255;
+            any = true;
+        }
+    }
+    if (any) {
+        s.take_changed(inside, s.phi, s.last);
+        if (!s.seen.empty()) s.seen = s.phi;
+        s.plate.forget(wrong);
+        s.plate.update(s.frame, s.seen_phi());
+        s.sides.forget(wrong);
+        s.newcomers.forget(wrong);
+    }
+    s.last = with_confirmed(std::move(s.last), part);
+    s.confirmed.add(part.area);
+    s.since_confidence = 1;
+    return {s.last, s.confidence, s.confirmed.since(), 1};
+}
+
 bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
@@ -349,6 +352,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.hidden.move(background);
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
+        s.confirmed.clear();
         s.sides = {};
         s.newcomers = {};
     } else {
@@ -364,6 +368,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         const float risk = (1 - e.separability) + (1 - e.certainty) + 0.5f * (1 - e.steadiness) +
                            0.5f * (1 - shape.consistency);
         s.confidence *= std::exp(-0.1f * risk);
+        s.since_confidence *= std::exp(-0.1f * risk);
+        s.confirmed.move(shape.prev_from_cur, area);
         paste(estimate.matte, s.soften(part, found, key_from_cur, shape.prev_from_cur, area), area);
         paste(phi, found.phi, area);
         paste(s.key_from_prev, key_from_cur, area);
@@ -374,6 +380,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.take_back(frame, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);
     estimate.confidence = s.confidence;
+    estimate.since = s.confirmed.since();
+    estimate.since_confidence = s.since_confidence;
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
     s.plate.update(frame, s.seen_phi());

@@ -5,12 +5,16 @@
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
+#include "engine/mask/confirmed_part.h"
 
 namespace weft {
 
 struct MatteEstimate {
     Matte matte;
     float confidence = 1;  ///< 0–1: how certain the boundary is; 1 on the keyframe itself.
+    /// Where and for how long a confirmed part of the walk's has been carried; empty: none has.
+    FramesSince since = {};
+    float since_confidence = 1;  ///< As `confidence`, but 1 where the last part was confirmed.
 };
 
 struct MatteOptions {
@@ -40,6 +44,11 @@ class MatteWalker {
     [[nodiscard]] MatteEstimate advance(ViewU8x3 frame, const FlowField& prev_from_cur,
                                         ViewU8x1 in_front = {});
 
+    /// Sets right what is confirmed on the walk's last frame, which has the part's size, and goes
+    /// on from there. Returns that frame's matte. On the frame that the walk begins with, it says
+    /// what of the painted matte is known.
+    [[nodiscard]] MatteEstimate confirm(const ConfirmedPart& part);
+
     /// Whether the keyframe's edge is soft anywhere: hair, fur, motion blur.
     [[nodiscard]] bool has_soft_edges() const;
 
@@ -48,11 +57,13 @@ class MatteWalker {
     std::unique_ptr<State> state_;
 };
 
-/// Two estimates of one frame, from the keyframe before and the one after it. `position` in [0, 1]
-/// is where the frame lies between them (0: at `from_before`'s keyframe). `in_front` as above.
+/// Two estimates of one frame, from the keyframe before and the one after it, between which it lies
+/// at `place`. Where parts were confirmed on the way these count as well, and what only one walk
+/// knows of stays as that walk has it. `in_front` as above.
 [[nodiscard]] MatteEstimate merge_estimates(const MatteEstimate& from_before,
-                                            const MatteEstimate& from_after, float position,
-                                            ViewU8x3 frame, const MatteOptions& options = {},
+                                            const MatteEstimate& from_after,
+                                            const MergePlace& place, ViewU8x3 frame,
+                                            const MatteOptions& options = {},
                                             ViewU8x1 in_front = {});
 
 }  // namespace weft

@@ -86,11 +86,31 @@ ImageF1 MotionSides::advance(const SidesInput& in) {
     return out;
 }
 
+void MotionSides::forget(ViewU8x1 where) {
+    for (int y = 0; y < odds_.height(); ++y) {
+        for (int x = 0; x < odds_.width(); ++x)
+            if (where.row(area_.y0 + y)[area_.x0 + x] != 0) odds_.at(x, y) = 0;
+    }
+}
+
 float MotionSides::last(float x, float y) const {
     x -= static_cast<float>(area_.x0), y -= static_cast<float>(area_.y0);
     const bool known = x >= 0 && y >= 0 && x <= static_cast<float>(odds_.width() - 1) &&
                        y <= static_cast<float>(odds_.height() - 1);
     return known ? sample_bilinear(odds_, x, y) : 0;
+}
+
+void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1& wide) {
+    constexpr float kWeight = 0.5f, kClearly = -1;
+    parallel_rows(sides.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < sides.width(); ++x) {
+                const float side = sides.at(x, y);
+                near.at(x, y) += kWeight * side;
+                if (phi.at(x, y) > 0) wide.at(x, y) += kWeight * std::min(0.0f, side - kClearly);
+            }
+        }
+    });
 }
 
 }  // namespace weft

@@ -32,6 +32,9 @@ class MotionSides {
     /// known. Parallel over rows; deterministic.
     ImageF1 advance(const SidesInput& input);
 
+    /// Nothing has been followed at the pixels of the last frame that are not 0 here.
+    void forget(ViewU8x1 where);
+
     static constexpr float kMost = 4;
 
   private:
@@ -40,5 +43,10 @@ class MotionSides {
     ImageF1 odds_;  ///< Of the last frame …
     Recti area_;    ///< … over this part of it.
 };
+
+/// Adds what MotionSides::advance() says to the log odds near the boundary, and deeper inside,
+/// where it clearly says outside, to what reopens a decided part (`wide`). `phi`: the expected
+/// signed distance, px. All of one size.
+void add_sides(const ImageF1& sides, const ImageF1& phi, ImageF1& near, ImageF1& wide);
 
 }  // namespace weft

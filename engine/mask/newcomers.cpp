@@ -291,4 +291,26 @@ void Newcomers::settle(ViewF1 phi) {
     });
 }
 
+void Newcomers::forget(ViewU8x1 where) {
+    for (int y = 0; y < entered_.height(); ++y) {
+        for (int x = 0; x < entered_.width(); ++x) {
+            if (where.row(y)[x] == 0) continue;
+            entered_.at(x, y) = doubted_.at(x, y) = 0;
+            odds_.at(x, y) = 0;
+        }
+    }
+}
+
+void add_newcomers(const ImageF1& odds, ImageF1& near, ImageF1& wide) {
+    constexpr float kDoubtful = -1;
+    parallel_rows(odds.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < odds.width(); ++x) {
+                near.at(x, y) += odds.at(x, y);
+                wide.at(x, y) += std::min(0.0f, odds.at(x, y) - kDoubtful);
+            }
+        }
+    });
+}
+
 }  // namespace weft

@@ -33,6 +33,8 @@ class Newcomers {
     [[nodiscard]] ImageF1 advance(const NewcomersInput& in);
     /// The boundary that was found on that frame, of the frame's size.
     void settle(ViewF1 phi);
+    /// Of the pixels of that frame that are not 0 here it is known on which side they are.
+    void forget(ViewU8x1 where);
     /// 255 where what is inside was clearly outside on an earlier frame, as far as motion can tell,
     /// and in the picture; of the frame's size. Empty before the first frame.
     [[nodiscard]] const Matte& entered() const { return entered_; }
@@ -48,5 +50,9 @@ class Newcomers {
     Matte doubted_;  ///< 255 where it is not known yet by whose motion a newcomer goes.
     ImageF1 odds_;   ///< For inside, by motion.
 };
+
+/// Adds what Newcomers::advance() says to the log odds near the boundary, and what it clearly says
+/// to those that reopen a decided part (`wide`). All of one size.
+void add_newcomers(const ImageF1& odds, ImageF1& near, ImageF1& wide);
 
 }  // namespace weft

@@ -62,11 +62,10 @@ Expected<Bytes> MemoryAnalysisStore::get(const AnalysisKey& key) const {
 }
 
 Bytes encode(const StoredMatte& m) {
-    return ByteWriter()
-        .value(m.matte.size())
-        .value(m.confidence)
-        .raw(m.matte.data(), m.matte.size_bytes())
-        .take();
+    ByteWriter out;
+    out.value(m.matte.size()).value(m.confidence).raw(m.matte.data(), m.matte.size_bytes());
+    if (!m.since.empty()) out.value(m.since_confidence).raw(m.since.data(), m.since.size_bytes());
+    return out.take();
 }
 
 namespace {
@@ -215,7 +214,12 @@ Expected<StoredMatte> decode_matte(const Bytes& bytes) {
     reader.value(size).value(out.confidence);
     if (!reader.ok() || !sane(size) || !reader.holds(area(size), 1)) return damaged("matte");
     out.matte = Matte(size);
-    if (!reader.raw(out.matte.data(), out.matte.size_bytes()).complete()) return damaged("matte");
+    reader.raw(out.matte.data(), out.matte.size_bytes());
+    if (reader.complete()) return out;
+    if (!reader.ok() || !reader.holds(area(size), sizeof(std::uint16_t))) return damaged("matte");
+    out.since = FramesSince(size);
+    reader.value(out.since_confidence).raw(out.since.data(), out.since.size_bytes());
+    if (!reader.complete()) return damaged("matte");
     return out;
 }
 

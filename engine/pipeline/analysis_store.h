@@ -15,6 +15,7 @@
 #include "engine/form/form_map.h"
 #include "engine/lighting/shading.h"
 #include "engine/lighting/still_surface.h"
+#include "engine/mask/confirmed_part.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {
@@ -71,10 +72,13 @@ class MemoryAnalysisStore final : public AnalysisStore {
     std::map<AnalysisKey, Bytes> blobs_;
 };
 
-/// A propagated matte with its confidence, 0–1.
+/// A propagated matte with its confidence, 0–1. What is kept for the walk back (kMatteForward) has
+/// the places that were confirmed, too (MatteEstimate::since).
 struct StoredMatte {
     Matte matte;
     float confidence = 1;
+    FramesSince since = {};
+    float since_confidence = 1;
 };
 
 [[nodiscard]] Bytes encode(const StoredMatte& matte);

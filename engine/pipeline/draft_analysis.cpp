@@ -11,14 +11,19 @@
 namespace weft {
 namespace {
 
+std::vector<int> frames_in(const std::vector<int>& frames, FrameSpan span) {
+    std::vector<int> inside;
+    std::copy_if(frames.begin(), frames.end(), std::back_inserter(inside),
+                 [&](int frame) { return frame >= span.first && frame <= span.last; });
+    return inside;
+}
+
 // The keyframes that the frames of `span` are reached from soonest. In one direction of time they
 // may come from far away.
 std::vector<int> nearest_keys(const std::vector<int>& keys, const MatteReach& reach,
                               FrameSpan span) {
     if (reach.direction != PropagationDirection::kBoth) return keys;
-    std::vector<int> inside;
-    std::copy_if(keys.begin(), keys.end(), std::back_inserter(inside),
-                 [&](int key) { return key >= span.first && key <= span.last; });
+    std::vector<int> inside = frames_in(keys, span);
     if (!inside.empty() || keys.empty()) return inside;
     const auto distance = [&](int key) {
         return std::min(std::abs(key - span.first), std::abs(key - span.last));
@@ -39,8 +44,11 @@ void shorten(RegionPlan& region, int frame) {
     const FrameSpan span{std::min(frame, reference), std::max(frame, reference)};
     region.reference_frames = {reference};
     region.matte_keys = nearest_keys(region.matte_keys, region.matte_reach, span);
-    for (PaintedMatte& holdout : region.painted_holdouts)
+    region.matte_confirmed = frames_in(region.matte_confirmed, span);
+    for (PaintedMatte& holdout : region.painted_holdouts) {
         holdout.keys = nearest_keys(holdout.keys, holdout.reach, span);
+        holdout.confirmed = frames_in(holdout.confirmed, span);
+    }
 }
 
 // What is in pixels of the plate.

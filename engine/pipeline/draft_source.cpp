@@ -50,6 +50,11 @@ Expected<Matte> DraftSource::holdout_key(int region, int painted, int frame) con
     return reduced(source_.holdout_key(region, painted, frame));
 }
 
+Expected<ConfirmedPart> DraftSource::confirmed_part(int region, int layer, int frame) const {
+    WEFT_TRY(full, source_.confirmed_part(region, layer, frame));
+    return ConfirmedPart{block_means(full.matte, factor_), block_means(full.area, factor_)};
+}
+
 Expected<std::optional<Matte>> DraftSource::holdout(int region, int frame) const {
     WEFT_TRY(full, source_.holdout(region, frame));
     if (!full) return std::optional<Matte>();

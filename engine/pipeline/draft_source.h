@@ -21,6 +21,8 @@ class DraftSource final : public ShotSource {
     [[nodiscard]] Expected<Matte> matte(int region, int frame) const override;
     [[nodiscard]] Expected<Matte> matte_key(int region, int frame) const override;
     [[nodiscard]] Expected<Matte> holdout_key(int region, int painted, int frame) const override;
+    [[nodiscard]] Expected<ConfirmedPart> confirmed_part(int region, int layer,
+                                                         int frame) const override;
     [[nodiscard]] Expected<std::optional<Matte>> holdout(int region, int frame) const override;
     [[nodiscard]] Expected<FlowField> motion(int region, int frame) const override;
 

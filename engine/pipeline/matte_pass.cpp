@@ -6,74 +6,15 @@
 #include <optional>
 #include <utility>
 
-#include "engine/mask/matte_propagation.h"
 #include "engine/mask/plate_edge.h"
 #include "engine/motion/follow_size.h"
-#include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/matte_stretch.h"
 #include "engine/pipeline/region_zones.h"
 
 namespace weft {
 namespace {
 
-// One stretch of a painted matte, a region's, a holdout's or a zone's: from a keyframe to the next
-// one, or beyond the first or last one. Nothing outside of a stretch changes its mattes.
-struct Job {
-    int region = 0, layer = 0;  // as in AnalysisKey
-    std::vector<int> keys;      // one or two
-    MatteReach reach;
-    FrameSpan own;  // the frames whose mattes it makes; a keyframe goes with the next
-    MatteOptions options;
-    std::optional<MatteWalker> walker;
-
-    [[nodiscard]] bool is_key(int frame) const {
-        return std::binary_search(keys.begin(), keys.end(), frame);
-    }
-    [[nodiscard]] bool between_keys(int frame) const {
-        return frame > keys.front() && frame < keys.back();
-    }
-    // Between two keys, propagation in both directions gives two estimates to merge.
-    [[nodiscard]] bool merged(int frame) const {
-        return reach.direction == PropagationDirection::kBoth && between_keys(frame) &&
-               !is_key(frame);
-    }
-    // A holdout, which is in front of the region's other mattes.
-    [[nodiscard]] bool in_front() const { return layer > 0; }
-    // All frames that it needs: its own, and its keyframes.
-    [[nodiscard]] FrameSpan needed() const {
-        return {std::min(own.first, keys.front()), std::max(own.last, keys.back())};
-    }
-    // The frames that the walk visits in each direction, from the keyframe on; empty: none.
-    [[nodiscard]] FrameSpan forward() const {
-        if (!is_key(own.first)) return kNone;
-        const int last = reach.forward() ? std::min(own.last, reach.last) : own.first;
-        return {own.first, std::max(own.first, last)};
-    }
-    [[nodiscard]] FrameSpan backward() const {
-        const int first = std::max(is_key(own.first) ? own.first + 1 : own.first, reach.first);
-        return reach.backward() && first < keys.back() ? FrameSpan{first, keys.back()} : kNone;
-    }
-    static constexpr FrameSpan kNone{0, -1};
-};
-
-bool holds(FrameSpan span, int frame) {
-    return frame >= span.first && frame <= span.last;
-}
-
-// The stretches of one painted matte.
-std::vector<Job> stretches(int region, int layer, const PaintedMatte& painted, FrameSpan span) {
-    std::vector<Job> out;
-    const auto add = [&](std::vector<int> keys, int first, int last) {
-        if (first > last) return;
-        const MatteOptions options{painted.steadiness, false};
-        out.push_back({region, layer, std::move(keys), painted.reach, {first, last}, options, {}});
-    };
-    const std::vector<int>& keys = painted.keys;
-    add({keys.front()}, span.first, keys.front() - 1);
-    for (std::size_t k = 0; k + 1 < keys.size(); ++k)
-        add({keys[k], keys[k + 1]}, keys[k], keys[k + 1] - 1);
-    add({keys.back()}, keys.back(), span.last);
-    return out;
-}
+using Job = MatteStretch;
 
 bool overlap(FrameSpan a, FrameSpan b) {
     return a.first <= b.last && b.first <= a.last;
@@ -99,7 +40,13 @@ void add_jobs(const ShotPlan& plan, const AnalysisStore& store, std::size_t k, W
     };
     const auto no_other = [](const Job&) { return false; };
     if (region.propagated())
-        add(0, {region.matte_keys, region.matte_steadiness, region.matte_reach}, no_other, behind);
+        add(0,
+            {region.matte_keys,
+             region.matte_steadiness,
+             region.matte_reach,
+             {},
+             region.matte_confirmed},
+            no_other, behind);
     for (int zone = 0; zone < static_cast<int>(region.zones.size()); ++zone)
         if (const ZonePlan& planned = region.zones[static_cast<std::size_t>(zone)];
             planned.propagated())
@@ -131,6 +78,7 @@ bool known_in_time(const std::vector<Job>& jobs) {
         return std::all_of(jobs.begin(), jobs.end(), [&](const Job& job) {
             if (job.in_front() || job.region != holdout.region) return true;
             return everywhere && holdout.keys.size() == 1 && job.keys.size() == 1 &&
+                   holdout.confirmed.empty() && job.confirmed.empty() &&
                    holdout.keys.front() <= job.keys.front();
         });
     });
@@ -166,10 +114,6 @@ FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
     return all;
 }
 
-int length(FrameSpan span) {
-    return span.last - span.first + 1;
-}
-
 Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
     if (is_zone_layer(job.layer))
         return source.zone_key(job.region, zone_of_layer(job.layer), frame);
@@ -198,33 +142,51 @@ struct MatteStop {
     }
 };
 
-// Advances a job's walker to this frame, which is one of `within`. The estimate is of
-// matte_size(), as `front` is; on a keyframe it is the painted matte itself.
-Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within,
-                             const MatteStop& at, const Matte& front) {
-    if (!job.is_key(at.frame))
-        return job.walker->advance(at.walked, at.prev_from_cur->get(), front);
-    WEFT_TRY(key, key_of(context.source, job, at.frame));
-    if (length(within) > 1) {
-        Matte smaller;
-        job.walker.emplace(at.walked, at.reduce(key, smaller), job.options, front);
-        job.options.soft_edges |= job.walker->has_soft_edges();
-    }
-    return MatteEstimate{std::move(key), 1.0f};
+// Begins a job's walk with a painted matte of the plate's size.
+void begin(Job& job, const MatteStop& at, const Matte& painted, const Matte& front) {
+    Matte smaller;
+    job.walker.emplace(at.walked, at.reduce(painted, smaller), job.options, front);
+    job.options.soft_edges |= job.walker->has_soft_edges();
 }
 
-// An estimate at the plate's size.
-MatteEstimate of_plate(MatteEstimate estimate, const Job& job, const MatteStop& at,
-                       const Matte& front) {
+// Advances a job's walker to this frame, which is one of `within`, on the way that begins at
+// `start`. The estimate is of matte_size(), as `front` is; on a keyframe it is the painted matte
+// itself.
+Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within, int start,
+                             const MatteStop& at, const Matte& front) {
+    if (job.is_key(at.frame)) {
+        WEFT_TRY(key, key_of(context.source, job, at.frame));
+        if (length(within) > 1) begin(job, at, key, front);
+        return MatteEstimate{std::move(key), 1.0f};
+    }
+    if (!job.is_confirmed(at.frame))
+        return job.walker->advance(at.walked, at.prev_from_cur->get(), front);
+    WEFT_TRY(part, context.source.confirmed_part(job.region, job.layer, at.frame));
+    if (at.frame == start)
+        begin(job, at, part.matte, front);
+    else
+        (void)job.walker->advance(at.walked, at.prev_from_cur->get(), front);
+    Matte matte, area;
+    return job.walker->confirm({at.reduce(part.matte, matte), at.reduce(part.area, area)});
+}
+
+// The matte of a frame from its estimate, at the plate's size and with what is confirmed.
+Expected<MatteEstimate> of_plate(const PassContext& context, MatteEstimate estimate, const Job& job,
+                                 const MatteStop& at, const Matte& front) {
     if (estimate.matte.size() != at.plate.size())
         estimate.matte = at_plate_size(estimate.matte, at.plate, front, job.options);
-    return estimate;
+    if (job.is_confirmed(at.frame)) {
+        WEFT_TRY(part, context.source.confirmed_part(job.region, job.layer, at.frame));
+        estimate.matte = with_confirmed(std::move(estimate.matte), part);
+    }
+    return MatteEstimate{std::move(estimate.matte), estimate.confidence};
 }
 
 Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
            MatteEstimate estimate) {
     return store.put({job.region, frame, kind, job.layer},
-                     encode(StoredMatte{std::move(estimate.matte), estimate.confidence}));
+                     encode(StoredMatte{std::move(estimate.matte), estimate.confidence,
+                                        std::move(estimate.since), estimate.since_confidence}));
 }
 
 Status visit_forward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
@@ -235,16 +197,27 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
         WEFT_TRY(front, in_front_of(context, store, job, at.frame));
         Matte smaller;
         const Matte& walked_front = at.reduce(front, smaller);
-        WEFT_TRY(estimate, walk(context, job, within, at, walked_front));
+        WEFT_TRY(estimate, walk(context, job, within, within.first, at, walked_front));
         if (at.frame == within.last) job.walker.reset();
         if (!job.reach.covers(at.frame, job.keys)) continue;
         // What is merged on the way back stays as it was found.
-        WEFT_CHECK_OK(job.merged(at.frame) ? put(store, job, at.frame, AnalysisKind::kMatteForward,
-                                                 std::move(estimate))
-                                           : put(store, job, at.frame, AnalysisKind::kMatte,
-                                                 of_plate(std::move(estimate), job, at, front)));
+        if (job.merged(at.frame)) {
+            WEFT_CHECK_OK(
+                put(store, job, at.frame, AnalysisKind::kMatteForward, std::move(estimate)));
+            continue;
+        }
+        WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
+        WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(found)));
     }
     return {};
+}
+
+// What the walk forwards has found.
+Expected<MatteEstimate> found_forward(const AnalysisStore& store, const Job& job, int frame) {
+    WEFT_TRY(bytes, store.get({job.region, frame, AnalysisKind::kMatteForward, job.layer}));
+    WEFT_TRY(stored, decode_matte(bytes));
+    return MatteEstimate{std::move(stored.matte), stored.confidence, std::move(stored.since),
+                         stored.since_confidence};
 }
 
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
@@ -255,23 +228,17 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         WEFT_TRY(front, in_front_of(context, store, job, at.frame));
         Matte smaller;
         const Matte& walked_front = at.reduce(front, smaller);
-        WEFT_TRY(estimate, walk(context, job, within, at, walked_front));
+        WEFT_TRY(estimate, walk(context, job, within, within.last, at, walked_front));
         if (at.frame == within.first) job.walker.reset();
         if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
-        if (!job.merged(at.frame)) {
-            WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
-                              of_plate(std::move(estimate), job, at, front)));
-            continue;
+        if (job.merged(at.frame)) {
+            WEFT_TRY(forward, found_forward(store, job, at.frame));
+            estimate =
+                merge_estimates(forward, estimate, {at.frame, job.key_before(), job.key_after()},
+                                at.walked, job.options, walked_front);
         }
-        WEFT_TRY(bytes, store.get({job.region, at.frame, AnalysisKind::kMatteForward, job.layer}));
-        WEFT_TRY(forward, decode_matte(bytes));
-        const float position = static_cast<float>(at.frame - job.keys.front()) /
-                               static_cast<float>(job.keys.back() - job.keys.front());
-        MatteEstimate both =
-            merge_estimates({std::move(forward.matte), forward.confidence}, estimate, position,
-                            at.walked, job.options, walked_front);
-        WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte,
-                          of_plate(std::move(both), job, at, front)));
+        WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
+        WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(found)));
     }
     return {};
 }

@@ -18,6 +18,7 @@ void leave_look_out(RegionPlan& region) {
 void leave_region_out(RegionPlan& region) {
     region.temporal = TemporalMode::kNone;
     region.matte_keys.clear();
+    region.matte_confirmed.clear();
     region.painted_holdouts.clear();
 }
 

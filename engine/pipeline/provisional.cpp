@@ -104,6 +104,7 @@ class FrameFiller {
     void leave_out(int index) {
         RegionPlan& region = region_at(index);
         region.matte_keys = {frame_};
+        region.matte_confirmed.clear();
         region.has_holdout = false;
         region.painted_holdouts.clear();
         region.zones.clear();
@@ -155,11 +156,17 @@ class FrameFiller {
         return true;
     }
 
-    // The matte of one layer, if it is known on the frame: propagated already, or painted there.
+    // The matte of one layer, if it is known on the frame: propagated already, or painted there, or
+    // as it was when a part of it was confirmed there.
     template <class ReadKey>
     Expected<bool> fill_painted(const AnalysisKey& key, const std::vector<int>& painted_on,
-                                ReadKey&& read) {
+                                const std::vector<int>& confirmed_on, ReadKey&& read) {
         if (store_.has(key)) return true;
+        if (std::binary_search(confirmed_on.begin(), confirmed_on.end(), key.frame)) {
+            WEFT_TRY(part, source_.confirmed_part(key.region, key.layer, key.frame));
+            store_.put_beneath(key, encode(StoredMatte{std::move(part.matte), 1.0f}));
+            return true;
+        }
         if (!std::binary_search(painted_on.begin(), painted_on.end(), key.frame)) {
             const std::size_t holdouts = region_at(key.region).painted_holdouts.size();
             return fill_from_earlier(key, [&](const RegionPlan& then) {
@@ -175,12 +182,14 @@ class FrameFiller {
         const RegionPlan& region = region_at(index);
         if (region.propagated()) {
             WEFT_TRY(there, fill_painted({index, frame, AnalysisKind::kMatte}, region.matte_keys,
+                                         region.matte_confirmed,
                                          [&] { return source_.matte_key(index, frame); }));
             if (!there) return false;
         }
         for (int k = 0; k < static_cast<int>(region.painted_holdouts.size()); ++k) {
-            WEFT_TRY(there, fill_painted({index, frame, AnalysisKind::kMatte, k + 1},
-                                         region.painted_holdouts[static_cast<std::size_t>(k)].keys,
+            const PaintedMatte& holdout = region.painted_holdouts[static_cast<std::size_t>(k)];
+            WEFT_TRY(there, fill_painted({index, frame, AnalysisKind::kMatte, k + 1}, holdout.keys,
+                                         holdout.confirmed,
                                          [&] { return source_.holdout_key(index, k, frame); }));
             if (!there) return false;
         }
@@ -194,7 +203,7 @@ class FrameFiller {
             const ZonePlan& zone = zones[static_cast<std::size_t>(k)];
             if (!zone.propagated()) continue;
             const AnalysisKey key{index, frame_, AnalysisKind::kMatte, zone_layer(k)};
-            const auto there = fill_painted(key, zone.painted.keys,
+            const auto there = fill_painted(key, zone.painted.keys, zone.painted.confirmed,
                                             [&] { return source_.zone_key(index, k, frame_); });
             if (!there || !*there)
                 store_.put_beneath(key, encode(StoredMatte{Matte(source_.size()), 1.0f}));

@@ -35,6 +35,11 @@ Expected<Matte> ShotSource::holdout_key(int /*region*/, int /*painted*/, int fra
                 "No holdout is painted on frame " + std::to_string(frame) + ".");
 }
 
+Expected<ConfirmedPart> ShotSource::confirmed_part(int /*region*/, int /*layer*/, int frame) const {
+    return fail(ErrorCode::kMissingFrames,
+                "No part of a matte is confirmed on frame " + std::to_string(frame) + ".");
+}
+
 Expected<Matte> ShotSource::given_holdout(int region, int /*given*/, int frame) const {
     WEFT_TRY(all, holdout(region, frame));
     if (all) return std::move(*all);
@@ -114,11 +119,19 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
         add(std::min(span.last + kCalm_frames, std::max(run.end - 1, span.last)));
     }
     std::for_each(region.reference_frames.begin(), region.reference_frames.end(), add);
-    std::for_each(region.matte_keys.begin(), region.matte_keys.end(), add);
-    for (const PaintedMatte& holdout : region.painted_holdouts)
-        std::for_each(holdout.keys.begin(), holdout.keys.end(), add);
-    for (const ZonePlan& zone : region.zones)
-        std::for_each(zone.painted.keys.begin(), zone.painted.keys.end(), add);
+    const auto add_all = [&](const std::vector<int>& frames) {
+        std::for_each(frames.begin(), frames.end(), add);
+    };
+    add_all(region.matte_keys);
+    add_all(region.matte_confirmed);
+    for (const PaintedMatte& holdout : region.painted_holdouts) {
+        add_all(holdout.keys);
+        add_all(holdout.confirmed);
+    }
+    for (const ZonePlan& zone : region.zones) {
+        add_all(zone.painted.keys);
+        add_all(zone.painted.confirmed);
+    }
     std::for_each(region.light_evidence.begin(), region.light_evidence.end(), add);
     std::for_each(region.gloss_evidence.begin(), region.gloss_evidence.end(), add);
     std::for_each(region.grain_frames.begin(), region.grain_frames.end(), add);

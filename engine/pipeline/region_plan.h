@@ -56,6 +56,8 @@ struct PaintedMatte {
     float steadiness = 0.5f;
     MatteReach reach;
     MatteEdgePlan edge = {};  ///< For the composite; what is propagated is the matte without it.
+    /// Frames on which parts of the propagated matte are confirmed, ascending, none of them a key.
+    std::vector<int> confirmed = {};
 };
 
 /// A part of a region in which a setting has another value.
@@ -75,6 +77,7 @@ struct RegionPlan {
     std::uint64_t random_key = 0;  ///< Stable id of the region; enters the keys of random numbers.
     // Mattes: frame by frame, or painted on these frames (ascending) and propagated.
     std::vector<int> matte_keys;
+    std::vector<int> matte_confirmed;  ///< As PaintedMatte::confirmed.
     [[nodiscard]] bool propagated() const { return !matte_keys.empty(); }
     float matte_steadiness = 0.5f;  ///< Of propagated mattes, 0–1.
     MatteReach matte_reach;

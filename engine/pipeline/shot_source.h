@@ -10,6 +10,7 @@
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/form/view_camera.h"
+#include "engine/mask/confirmed_part.h"
 
 namespace weft {
 
@@ -34,6 +35,10 @@ class ShotSource {
     /// A painted key of a holdout (RegionPlan::painted_holdouts). A source without any need not
     /// override it.
     [[nodiscard]] virtual Expected<Matte> holdout_key(int region, int painted, int frame) const;
+    /// What is confirmed of a painted matte (PaintedMatte::confirmed; `layer` as in AnalysisKey). A
+    /// source without any need not override it.
+    [[nodiscard]] virtual Expected<ConfirmedPart> confirmed_part(int region, int layer,
+                                                                 int frame) const;
     /// The maximum of the region's holdouts that come from files; empty if it has none.
     [[nodiscard]] virtual Expected<std::optional<Matte>> holdout(int region, int frame) const = 0;
     /// One of them (RegionPlan::given_holdout_edges). A source whose holdouts have no edge tools

@@ -100,7 +100,7 @@ TEST(PropagationOnClips, DancerFromOneKeyframeAndFromTwo) {
     for (int t = 2; t <= 8; ++t) {
         const auto& a = before[static_cast<std::size_t>(t - 1)];
         const auto& b = after[static_cast<std::size_t>(9 - t)];
-        const auto merged = merge_estimates(a, b, static_cast<float>(t) / 10, clip.frame(t));
+        const auto merged = merge_estimates(a, b, {t, 0, 10}, clip.frame(t));
         one += test::overlap(a.matte, clip.mask(t)) / 7;
         two += test::overlap(merged.matte, clip.mask(t)) / 7;
     }

@@ -149,8 +149,8 @@ TEST(MatteWalker, GivesTheSameBytesOnAnyNumberOfThreads) {
 TEST(MergeEstimates, AKeyframesMatteIsReturnedAsItIs) {
     const DiscScene scene;
     const MatteEstimate before{scene.matte(0), 1}, after{scene.matte(9), 0.4f};
-    EXPECT_EQ(merge_estimates(before, after, 0, scene.frame(0)).matte, before.matte);
-    EXPECT_EQ(merge_estimates(before, after, 1, scene.frame(9)).matte, after.matte);
+    EXPECT_EQ(merge_estimates(before, after, {0, 0, 9}, scene.frame(0)).matte, before.matte);
+    EXPECT_EQ(merge_estimates(before, after, {9, 0, 9}, scene.frame(9)).matte, after.matte);
 }
 
 // Two estimates that miss the disc by some pixels on either side: the average of their alphas would
@@ -161,7 +161,7 @@ TEST(MergeEstimates, TwoDisplacedEdgesBecomeOne) {
     left.start.x -= 4;
     right.start.x += 4;
     const MatteEstimate merged =
-        merge_estimates({left.matte(0), 0.8f}, {right.matte(0), 0.8f}, 0.5f, scene.frame(0));
+        merge_estimates({left.matte(0), 0.8f}, {right.matte(0), 0.8f}, {1, 0, 2}, scene.frame(0));
     EXPECT_GT(overlap(merged.matte, scene.matte(0)), 0.96);
     int ghosts = 0;  // partial pixels far from the true edge
     for (int y = 0; y < scene.size.height; ++y) {
@@ -179,7 +179,7 @@ TEST(MergeEstimates, TheSurerEstimateDecides) {
     DiscScene wrong = scene;
     wrong.start += Vec2(9, 5);
     const MatteEstimate merged =
-        merge_estimates({scene.matte(0), 0.9f}, {wrong.matte(0), 0.1f}, 0.5f, scene.frame(0));
+        merge_estimates({scene.matte(0), 0.9f}, {wrong.matte(0), 0.1f}, {1, 0, 2}, scene.frame(0));
     EXPECT_GT(overlap(merged.matte, scene.matte(0)), 0.96);
     EXPECT_LT(merged.confidence, 0.95f);
 }

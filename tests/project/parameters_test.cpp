@@ -273,6 +273,19 @@ TEST(Parameters, AnUnknownNameGetsTheNearest) {
     EXPECT_THAT(found.error().message, HasSubstr("placement.scale"));
 }
 
+TEST(MatteText, ConfirmedPartsHaveAMatteAndAnArea) {
+    MatteSource matte;
+    ASSERT_TRUE(add_confirmed_text(matte, "30=a.png,area.png"));
+    ASSERT_TRUE(add_confirmed_text(matte, "-3=m=1,2.png,b.png"));
+    EXPECT_EQ(matte.confirmed.at(30), (ConfirmedEdge{"a.png", "area.png"}));
+    EXPECT_EQ(matte.confirmed.at(-3), (ConfirmedEdge{"m=1,2.png", "b.png"}));
+    EXPECT_FALSE(add_confirmed_text(matte, "30=b.png,c.png")) << "twice on one frame";
+    for (const char* text : {"", "31", "31=", "31=a.png", "31=,b.png", "31=a.png,", "a.png,b.png",
+                             "=a.png,b.png", "3x=a.png,b.png", "999999999=a.png,b.png"})
+        EXPECT_FALSE(add_confirmed_text(matte, text)) << text;
+    EXPECT_EQ(matte.confirmed.size(), 2u);
+}
+
 TEST(MatteText, KeyframesAndPatterns) {
     MatteSource matte;
     ASSERT_TRUE(add_matte_text(matte, "12=a.png"));

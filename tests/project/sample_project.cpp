@@ -12,6 +12,7 @@ Region full_region() {
     MatteSource matte;
     matte.keyframes = {
         {-5, {"mattes/a.png", {}}}, {12, {"mattes/b.png", {}}}, {100, {"mattes/c.png", {}}}};
+    matte.confirmed = {{30, {"mattes/d.png", "mattes/d_area.png"}}};
     matte.select = {4, "R", true, "Wall,Door"};
     matte.steadiness = 0.75;
     matte.frozen = {10, 11};

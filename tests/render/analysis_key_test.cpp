@@ -98,6 +98,35 @@ TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
     EXPECT_EQ(before.all().size(), 3u + 4u) << "surface, form, focus and mattes";
 }
 
+TEST_F(AnalysisKeyTest, WhatIsConfirmedNamesTheMattesUpToTheKeyframesAround) {
+    write_different_mattes();
+    const auto keys = [&](const std::map<int, ConfirmedEdge>& confirmed) {
+        return keys_after([&](Region& r) {
+            MatteSource matte;
+            for (const int frame : {1, 3, 5})
+                matte.keyframes[frame] = {in("a.png")};
+            matte.confirmed = confirmed;
+            r.matte = matte;
+            r.reference_frames = {1};
+        });
+    };
+    const RegionKeys before = keys({});
+    const auto changed = [&](const RegionKeys& other) {
+        std::vector<int> out;
+        for (int frame = 1; frame <= kFrames; ++frame) {
+            const AnalysisKey key{0, frame, AnalysisKind::kMatte};
+            if (before.of(key) != other.of(key)) out.push_back(frame);
+        }
+        return out;
+    };
+    const RegionKeys four = keys({{4, {in("b.png"), in("c.png")}}});
+    EXPECT_EQ(changed(four), (std::vector<int>{3, 4}));
+    EXPECT_NE(four.surface, before.surface);
+    EXPECT_EQ(changed(keys({{6, {in("b.png"), in("c.png")}}})), (std::vector<int>{5, 6}));
+    EXPECT_NE(keys({{4, {in("b.png"), in("b.png")}}}).surface, four.surface) << "another area";
+    EXPECT_EQ(keys({{3, {in("b.png"), in("c.png")}}}), before) << "all of a keyframe counts";
+}
+
 TEST_F(AnalysisKeyTest, AMatteDependsOnTheHoldoutsInFrontOfItAndNotTheyOnIt) {
     write_different_mattes();
     const auto keys = [&](const char* matte, const char* holdout) {

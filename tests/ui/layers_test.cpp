@@ -93,6 +93,41 @@ TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
     EXPECT_EQ(session->view().matte_layer, 0);
 }
 
+TEST_F(PaintedLayers, AnEdgeIsConfirmedAndCorrectedOnAPropagatedFrame) {
+    open();
+    session->act(GoToFrame{3});
+    ASSERT_TRUE(wait([&] {
+        const auto& m = session->view().mattes;
+        return session->view().frame == 3 && m.size() == 1 && m[0].keep;
+    }));
+    robot->key("Shift+E");
+    robot->frames(2);
+    EXPECT_EQ(shell->state().tool, Tool::kConfirm);
+    robot->stroke({at(20, 20), at(40, 22)});
+    robot->frames(3);
+    ASSERT_TRUE(region().matte->confirmed.contains(3));
+    EXPECT_THAT(region().matte->keyframes, SizeIs(1));
+    EXPECT_TRUE(session->view().marks[2].confirmed);
+    ASSERT_TRUE(robot->click("Matte/Remove confirmed"));
+    robot->frames(3);
+    EXPECT_THAT(region().matte->confirmed, IsEmpty());
+
+    robot->key("B");
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Brush/Correct only where painted"));
+    robot->frames(2);
+    robot->stroke({at(50, 50), at(60, 50)});
+    robot->frames(3);
+    EXPECT_TRUE(region().matte->confirmed.contains(3));
+    EXPECT_THAT(region().matte->keyframes, SizeIs(1));
+    ASSERT_TRUE(robot->click("Brush/Correct only where painted"));
+    robot->frames(2);
+    robot->stroke({at(50, 50), at(60, 50)});
+    robot->frames(3);
+    EXPECT_THAT(region().matte->keyframes, SizeIs(2)) << "the whole frame";
+    EXPECT_THAT(region().matte->confirmed, IsEmpty());
+}
+
 TEST_F(PaintedLayers, DirectionAndRangeAreChosenInTheInspector) {
     open();
     ASSERT_TRUE(robot->click("Propagation/Forwards"));

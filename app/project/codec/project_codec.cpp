@@ -96,6 +96,29 @@ Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json, const st
     return out;
 }
 
+Expected<std::map<int, ConfirmedEdge>> read_confirmed(const Json& json, const std::string& path) {
+    if (!json.is_array())
+        return fail_at(
+            path, fmt::format("This is {}, but must be a list of confirmed parts", type_of(json)));
+    std::map<int, ConfirmedEdge> out;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        ConfirmedEdge edge;
+        for (const auto& [key, file] : {std::pair{"path", &edge.path}, {"area", &edge.area}}) {
+            WEFT_TRY(text, object.text(key));
+            if (text.empty() || text.find('\0') != std::string::npos)
+                return fail_at(object.path_of(key), "This must be the path of an image");
+            *file = std::move(text);
+        }
+        edge.extra = object.rest();
+        if (!out.emplace(static_cast<int>(frame), std::move(edge)).second)
+            return fail_at(object.path(),
+                           fmt::format("Frame {} is listed twice; remove one of them", frame));
+    }
+    return out;
+}
+
 Expected<std::map<int, std::vector<CorrectionPin>>> read_corrections(const Json& json,
                                                                      const std::string& path) {
     if (!json.is_array())
@@ -142,6 +165,10 @@ Expected<MatteSource> read_matte_source(const Json& json, const std::string& pat
     if (const Json* keyframes = object.take("keyframes")) {
         WEFT_TRY(keys, read_keyframes(*keyframes, object.path_of("keyframes")));
         matte.keyframes = std::move(keys);
+    }
+    if (const Json* confirmed = object.take("confirmed")) {
+        WEFT_TRY(parts, read_confirmed(*confirmed, object.path_of("confirmed")));
+        matte.confirmed = std::move(parts);
     }
     if (const Json* shape = object.take("shape")) {
         WEFT_TRY(read, read_keyed_shape(*shape, object.path_of("shape")));
@@ -317,6 +344,14 @@ OrderedJson write_matte_source(const MatteSource& matte) {
             if (key.shape) entry["shape"] = write_shape(*key.shape);
             if (key.shape_between) entry["shape_between"] = true;
             write_extras(entry, key.extra);
+            list.push_back(std::move(entry));
+        }
+    }
+    if (!matte.confirmed.empty()) {
+        OrderedJson& list = object["confirmed"] = OrderedJson::array();
+        for (const auto& [frame, edge] : matte.confirmed) {
+            OrderedJson entry{{"frame", frame}, {"path", edge.path}, {"area", edge.area}};
+            write_extras(entry, edge.extra);
             list.push_back(std::move(entry));
         }
     }
