@@ -248,6 +248,13 @@ void size_row(Ctx& c, Brush& brush) {
               brush.radius_px);
 }
 
+// Whether the tool changes the matte of a frame in part.
+bool corrects(Tool tool) {
+    constexpr Tool kAll[] = {Tool::kBrush,   Tool::kEraser, Tool::kLasso,
+                             Tool::kPolygon, Tool::kFlood,  Tool::kScribble};
+    return std::find(std::begin(kAll), std::end(kAll), tool) != std::end(kAll);
+}
+
 void confirm_rows(Ctx& c) {
     size_row(c, c.state.brush.brush);
     wrapped(c,
@@ -285,10 +292,6 @@ void mask_inspector(Ctx& c) {
             confirm_rows(c);
         } else if (painting) {
             brush_rows(c);
-            checkbox(c, "Correct only where painted", c.state.brush.here_only,
-                     "On frames to which the matte is propagated, strokes count where they are "
-                     "painted, and the rest is propagated as before. Off: the whole frame becomes "
-                     "a keyframe");
         } else if (c.state.tool == Tool::kFlood) {
             double tolerance = c.state.brush.tolerance;
             if (slider(c,
@@ -325,6 +328,11 @@ void mask_inspector(Ctx& c) {
         } else {
             quiet(c, "Drag to pan the viewer");
         }
+        if (corrects(c.state.tool))
+            checkbox(c, "Correct only where painted", c.state.brush.here_only,
+                     "On frames to which the matte is propagated, what you change counts there "
+                     "only, and the rest is propagated as before. Off: the whole frame becomes a "
+                     "keyframe");
         section_gap(c);
     }
     if (section(c, "Matte")) {

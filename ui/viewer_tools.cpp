@@ -61,7 +61,7 @@ void draw_outline(Ctx& c, const ViewMap& map, const Vec2* rubber) {
 
 void finish_outline(Ctx& c) {
     BrushState& b = c.state.brush;
-    if (b.outline.size() > 2) c.emit(FillPolygon{b.outline, b.outline_subtracts});
+    if (b.outline.size() > 2) c.emit(FillPolygon{b.outline, b.outline_subtracts, b.here_only});
     b.outline.clear();
     b.lassoing = false;
 }
@@ -212,7 +212,8 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return polygon(c, map, hovered, active);
         case Tool::kFlood:
             if (active && ImGui::IsMouseClicked(0) && c.state.viewer.pixel)
-                c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance, subtracts()});
+                c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance, subtracts(),
+                                   c.state.brush.here_only});
             return;
         case Tool::kPlace:
             return transform_tool(c, map, hovered, active);

@@ -165,6 +165,16 @@ Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolera
     return merged(before, inner, subtract);
 }
 
+Matte changed_area(const Matte& before, const Matte& after) {
+    constexpr int kAround_px = 4;
+    cv::Mat changed, wide;
+    cv::compare(mat_of(before), mat_of(after), changed, cv::CMP_NE);
+    cv::dilate(
+        changed, wide,
+        cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround_px + 1, 2 * kAround_px + 1}));
+    return from_mat(wide);
+}
+
 Matte grow_matte(const Matte& before, float px) {
     const cv::Mat distance = signed_distance(before);
     cv::Mat codes;

@@ -55,6 +55,9 @@ class Stroke {
 /// colour at `seed`.
 [[nodiscard]] Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolerance,
                                  bool subtract);
+/// 255 where two mattes of one size differ and a few pixels around, so that the new edge lies
+/// inside; else 0.
+[[nodiscard]] Matte changed_area(const Matte& before, const Matte& after);
 /// Grows (px > 0) or shrinks (px < 0) the matte.
 [[nodiscard]] Matte grow_matte(const Matte& before, float px);
 /// Softens the edge over about `px` on each side.

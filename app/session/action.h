@@ -177,15 +177,18 @@ struct ContinueStroke {
 struct EndStroke {
     bool operator==(const EndStroke&) const = default;
 };
+// `here_only`: as StrokeKind::kHere, where the matte changes.
 struct FillPolygon {
     std::vector<Vec2> points;
     bool subtract = false;
+    bool here_only = false;
     bool operator==(const FillPolygon&) const = default;
 };
 struct FloodSelect {
     Vec2i at{0, 0};
     int tolerance = 24;
     bool subtract = false;
+    bool here_only = false;
     bool operator==(const FloodSelect&) const = default;
 };
 struct GrowMatte {
@@ -202,6 +205,7 @@ struct ClearMatte {
 /// Finds a surface from lines that lie surely inside and surely outside of it.
 struct ScribbleSelect {
     std::vector<std::vector<Vec2>> keep, drop;
+    bool here_only = false;
     bool operator==(const ScribbleSelect&) const = default;
 };
 /// The matte of this frame is what lies inside the shape.

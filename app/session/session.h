@@ -162,7 +162,8 @@ class Session {
     void end_stroke();
     void keep_matte(MattePtr matte, const MattePlace& place, const std::string& label,
                     const std::optional<RotoShape>& shape = {});
-    void change_matte(std::function<Matte(const Matte&)> change, std::string label);
+    void change_matte(std::function<Matte(const Matte&)> change, std::string label,
+                      bool here_only = false);
     void take_changed_matte();
     /// Returns true if a matte is being changed; then `action` follows, if the artist is still
     /// there.
@@ -186,7 +187,10 @@ class Session {
     [[nodiscard]] MattePtr confirmed_area(const Region& region, int layer, int frame);
     [[nodiscard]] std::optional<Confirming> confirming_here();
     void begin_confirming(const BeginStroke& action);
-    void keep_stroke_here(const MattePainting::Finished& done);
+    /// Whether a change of the painted frame counts where it is made only: not of a keyframe.
+    [[nodiscard]] bool counts_in_part(bool here_only) const;
+    void keep_here(MattePtr matte, const Matte& changed, const Confirming& before,
+                   const MattePlace& place, const std::string& what);
     void keep_confirmed(const Confirming& now, const MattePlace& place, const std::string& what);
     void show_confirmed();
 
@@ -304,6 +308,7 @@ class Session {
         MattePlace place;
         std::string label;
         std::optional<RotoShape> shape;  // shape that the matte is drawn from
+        std::optional<Confirming> part;  // before the change, if it counts in part only
     };
     std::optional<Changing> changing_;
     /// A scribble or shape that came while the one before was worked out; the newest counts.

@@ -113,7 +113,7 @@ struct Session::Actor {
     void operator()(const EndStroke&) const { s.end_stroke(); }
     void operator()(const FillPolygon& a) const {
         s.change_matte([a](const Matte& m) { return fill_polygon(m, a.points, a.subtract); },
-                       a.subtract ? "Subtract shape" : "Add shape");
+                       a.subtract ? "Subtract shape" : "Add shape", a.here_only);
     }
     void operator()(const FloodSelect& a) const {
         const PicturePtr picture = s.view_.plate_picture;
@@ -122,7 +122,7 @@ struct Session::Actor {
             [a, picture](const Matte& m) {
                 return flood_select(m, shrink(*picture, 1 << 20), a.at, a.tolerance, a.subtract);
             },
-            a.subtract ? "Subtract colour" : "Add colour");
+            a.subtract ? "Subtract colour" : "Add colour", a.here_only);
     }
     void operator()(const ScribbleSelect& a) const { s.scribble(a); }
     void operator()(const SetShape& a) const { s.set_shape(a.shape); }

@@ -67,14 +67,17 @@ void Session::begin_confirming(const BeginStroke& action) {
     painting_.move_to(action.at, action.pressure);
 }
 
-// A stroke that counts where it was painted only.
-void Session::keep_stroke_here(const MattePainting::Finished& done) {
-    Matte area = *confirming_->area;
-    const Matte& covered = *done.covered;
-    std::transform(area.data(), area.data() + area.size_bytes(), covered.data(), area.data(),
+bool Session::counts_in_part(bool here_only) const {
+    const auto& keys = layer_source(*painted_region(), layer_).keyframes;
+    return here_only && !keys.empty() && !keys.contains(playback_.frame());
+}
+
+void Session::keep_here(MattePtr matte, const Matte& changed, const Confirming& before,
+                        const MattePlace& place, const std::string& what) {
+    Matte area = *before.area;
+    std::transform(area.data(), area.data() + area.size_bytes(), changed.data(), area.data(),
                    [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
-    keep_confirmed({done.matte, std::make_shared<const Matte>(std::move(area))}, done.place,
-                   "Correct ");
+    keep_confirmed({std::move(matte), std::make_shared<const Matte>(std::move(area))}, place, what);
 }
 
 void Session::keep_confirmed(const Confirming& now, const MattePlace& place,

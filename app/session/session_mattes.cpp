@@ -201,10 +201,8 @@ void Session::begin_stroke(const BeginStroke& action) {
 void Session::begin_painting(const BeginStroke& action) {
     const auto before = matte_to_paint_on();
     if (!before) return;
-    const auto& keys = layer_source(*painted_region(), layer_).keyframes;
-    const bool here =
-        action.kind == StrokeKind::kHere && !keys.empty() && !keys.contains(playback_.frame());
-    if (here && !(confirming_ = confirming_here())) return;
+    if (counts_in_part(action.kind == StrokeKind::kHere) && !(confirming_ = confirming_here()))
+        return;
     playback_.stop();
     painting_.begin(painted_place(), *before, reader_->size(), action.brush);
     painting_.move_to(action.at, action.pressure);
@@ -216,7 +214,8 @@ void Session::end_stroke() {
     if (!region) return;
     if (done->place.confirmed)
         return keep_confirmed({confirming_->matte, done->matte}, done->place, "Confirm edge of ");
-    if (confirming_) return keep_stroke_here(*done);
+    if (confirming_)
+        return keep_here(done->matte, *done->covered, *confirming_, done->place, "Correct ");
     keep_matte(done->matte, done->place,
                "Paint " + layer_name(*region, done->place.layer) + " on frame " +
                    std::to_string(done->place.frame));
@@ -260,12 +259,16 @@ void Session::keep_matte(MattePtr matte, const MattePlace& place, const std::str
     commit(std::move(*changed), label);
 }
 
-void Session::change_matte(std::function<Matte(const Matte&)> change, std::string label) {
+void Session::change_matte(std::function<Matte(const Matte&)> change, std::string label,
+                           bool here_only) {
     end_stroke();
     if (!open_ || !may_paint()) return;
     auto before = matte_to_paint_on();
     if (!before) return;
+    std::optional<Confirming> part;
+    if (counts_in_part(here_only) && !(part = confirming_here())) return;
     changing_.emplace();
+    changing_->part = std::move(part);
     changing_->place = painted_place();
     changing_->label = std::move(label);
     changing_->matte =
@@ -286,8 +289,13 @@ void Session::take_changed_matte() {
         return;
     Changing done = std::move(*changing_);
     changing_.reset();
-    keep_matte(std::make_shared<const Matte>(done.matte.get()), done.place,
-               done.label + " on frame " + std::to_string(done.place.frame), done.shape);
+    const auto matte = std::make_shared<const Matte>(done.matte.get());
+    if (done.part)
+        keep_here(matte, changed_area(*done.part->matte, *matte), *done.part, done.place,
+                  done.label + ", ");
+    else
+        keep_matte(matte, done.place, done.label + " on frame " + std::to_string(done.place.frame),
+                   done.shape);
     if (const auto next = std::exchange(after_change_, nullptr)) next();
 }
 

@@ -38,7 +38,7 @@ void Session::scribble(const ScribbleSelect& action) {
                                      drawn(action.keep, before.size()),
                                      drawn(action.drop, before.size()));
         },
-        "Scribble");
+        "Scribble", action.here_only);
 }
 
 void Session::set_shape(const RotoShape& shape) {

@@ -111,6 +111,23 @@ TEST_F(ConfirmEdge, ACorrectionCountsWhereItWasPainted) {
     })) << "it is propagated from there";
 }
 
+TEST_F(ConfirmEdge, AnOutlineCountsWhereItChangesTheMatte) {
+    open_propagated();
+    const Matte before = *view().mattes[0].keep;
+    act(FillPolygon{{{70, 44}, {90, 44}, {90, 60}, {70, 60}}, false, true});
+    ASSERT_TRUE(wait([&] { return confirmed().contains(3); }));
+    EXPECT_EQ(region().matte->keyframes.size(), 1u);
+    const Matte matte = file(confirmed().at(3).path), area = file(confirmed().at(3).area);
+    EXPECT_EQ(matte.at(80, 50), 255);
+    EXPECT_EQ(area.at(80, 50), 255);
+    EXPECT_EQ(area.at(80, 42), 255) << "the new edge lies inside";
+    EXPECT_EQ(area.at(80, 36), 0);
+    EXPECT_EQ(matte.at(40, 32), before.at(40, 32));
+    act(FillPolygon{{{70, 44}, {90, 44}, {90, 60}, {70, 60}}, true, false});
+    ASSERT_TRUE(wait([&] { return region().matte->keyframes.contains(3); }));
+    EXPECT_TRUE(confirmed().empty());
+}
+
 TEST_F(ConfirmEdge, AKeyframeReplacesItAndAStrokeOnAKeyframeStaysOne) {
     open_propagated();
     stroke(StrokeKind::kConfirm, {24, 30}, {30, 30});

@@ -22,6 +22,12 @@ class PaintedLayers : public SessionTest {
         robot->frames(3);
     }
     [[nodiscard]] const Region& region() const { return *session->view().project.regions.back(); }
+    // Of the inspector, over which the mouse is.
+    void to_the_end() {
+        ASSERT_TRUE(robot->hover("Light zones"));
+        robot->wheel(-30);
+        robot->frames(3);
+    }
     void paint_holdout() {
         ASSERT_TRUE(robot->click("Holdouts"));
         robot->wheel(-30);
@@ -162,8 +168,10 @@ TEST_F(PaintedLayers, ALightZoneIsPaintedAndItsValueChanges) {
     EXPECT_EQ(region().zones->front().value, 0.0);
     EXPECT_TRUE(region().zones->front().matte.keyframes.contains(1));
     EXPECT_THAT(session->view().zones, SizeIs(1));
+    to_the_end();
     ASSERT_TRUE(robot->click("Light zones/Back to the matte"));
     robot->frames(2);
+    to_the_end();
     EXPECT_EQ(session->view().matte_layer, 0);
     ASSERT_TRUE(robot->drag("Light zones/Light", {20, 0}));
     robot->frames(3);
@@ -185,8 +193,10 @@ TEST_F(PaintedLayers, WhatIsLightAndWhatIsPaintIsPainted) {
     ASSERT_THAT(*region().zones, SizeIs(1));
     EXPECT_EQ(region().zones->front().kind, ZoneKind::kDetail);
     EXPECT_EQ(region().zones->front().value, 1.0);
+    to_the_end();
     ASSERT_TRUE(robot->click("Light zones/Back to the matte"));
     robot->frames(2);
+    to_the_end();
     ASSERT_TRUE(robot->click("Light zones/Paint: this is paint"));
     robot->frames(3);
     robot->stroke({at(20, 25), at(30, 40)});
