@@ -72,6 +72,9 @@ void transport(Ctx& c, ImVec2 size) {
         else if (shape == 1)
             list.AddTriangleFilled({at.x, at.y - r}, {at.x + r, at.y + r}, {at.x - r, at.y + r},
                                    color);
+        else if (shape == 3)
+            list.AddQuad({at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y},
+                         color, t.px(1.5f));
         else
             list.AddRectFilled({at.x - r, at.y - t.px(2)}, {at.x + r, at.y + t.px(2)}, color);
         right -= t.px(30);
@@ -87,6 +90,8 @@ void transport(Ctx& c, ImVec2 size) {
     legend("Result", t.good, 2);
     legend("Plate in memory", faded(t.accent, 0.8f), 2);
     legend("Reference frame", t.warn, 1);
+    if (known([](const FrameMarks& m) { return m.confirmed; }))
+        legend("Confirmed in part", t.good, 3);
     legend("Painted matte", t.text, 0);
 }
 
