@@ -79,7 +79,8 @@ struct CompareState {
 struct BrushState {
     Brush brush;
     int tolerance = 24;
-    bool here_only = false;  ///< Strokes count where they are painted only (StrokeKind::kHere).
+    /// Corrections of propagated frames count where they are made only (StrokeKind::kHere).
+    bool here_only = true;
     std::optional<Vec2> line_from;  ///< End of the last stroke; Shift draws a line from it.
     std::vector<Vec2> outline;      ///< Points of an unfinished lasso or polygon.
     bool outline_subtracts = false;

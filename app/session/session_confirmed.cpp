@@ -68,8 +68,12 @@ void Session::begin_confirming(const BeginStroke& action) {
 }
 
 bool Session::counts_in_part(bool here_only) const {
-    const auto& keys = layer_source(*painted_region(), layer_).keyframes;
-    return here_only && !keys.empty() && !keys.contains(playback_.frame());
+    const MatteSource& source = layer_source(*painted_region(), layer_);
+    const std::vector<int>& frozen = source.frozen;
+    const int frame = playback_.frame();
+    // What is painted on a frozen frame takes its place.
+    return here_only && !source.keyframes.empty() && !source.keyframes.contains(frame) &&
+           std::find(frozen.begin(), frozen.end(), frame) == frozen.end();
 }
 
 void Session::keep_here(MattePtr matte, const Matte& changed, const Confirming& before,
