@@ -161,6 +161,8 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
     state_->clearance_px = clearance_of(phi, state_->key_softness);
 }
 
+MatteWalker::MatteWalker(const MatteWalker& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
 MatteWalker::~MatteWalker() = default;
 MatteWalker::MatteWalker(MatteWalker&&) noexcept = default;
 MatteWalker& MatteWalker::operator=(MatteWalker&&) noexcept = default;

@@ -33,6 +33,9 @@ class MatteWalker {
     MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options = {},
                 ViewU8x1 in_front = {});
     ~MatteWalker();
+    /// A copy walks on by itself.
+    MatteWalker(const MatteWalker& other);
+    MatteWalker& operator=(const MatteWalker& other) { return *this = MatteWalker(other); }
     MatteWalker(MatteWalker&&) noexcept;
     MatteWalker& operator=(MatteWalker&&) noexcept;
 

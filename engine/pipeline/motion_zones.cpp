@@ -7,6 +7,7 @@
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_zones.h"
+#include "engine/pipeline/surface_job.h"
 #include "engine/temporal/correction.h"
 
 namespace weft {
@@ -62,7 +63,11 @@ Expected<Bytes> ZonedAnalysis::get(const AnalysisKey& key) const {
 
 Expected<LatticeField> ZonedAnalysis::followed(const AnalysisKey& key) const {
     WEFT_TRY(bytes, store_.get(key));
-    return decode_lattice(bytes);
+    WEFT_TRY(field, decode_lattice(bytes));
+    // Where parts are followed by themselves fields are finer, but not on all frames.
+    const int usual =
+        SurfaceTrack::spacing_for(field.full_size(), motion_of(region_of(plan_, key.region)));
+    return field.spacing() < usual ? field.resampled(usual) : field;
 }
 
 Expected<LatticeField> ZonedAnalysis::placed_on(int region, int frame) const {

@@ -308,12 +308,16 @@ class Follower {
 
     // Between two references the tracks from both are stored. Their difference is spread over the
     // interval; where it is too large for that, both are stored for a seam to choose.
-    Status blend(SurfaceJob& job, int frame, const Matte& visible, const LatticeField& mine) {
+    Status blend(SurfaceJob& job, int frame, const Matte& visible, const LatticeField& found) {
         if (!job.coords) return {};
         const auto after = std::upper_bound(job.references.begin(), job.references.end(), frame);
         const float smooth = smooth_rise(position_between(job, frame, *(after - 1), *after));
         WEFT_TRY(bytes, store_.get({job.region, frame, AnalysisKind::kCoordsOneWay}));
         WEFT_TRY(other, decode_lattice(bytes));
+        // One may follow parts by themselves, on a finer lattice.
+        const int spacing = std::min(other.spacing(), found.spacing());
+        const LatticeField mine = found.spacing() == spacing ? found : found.resampled(spacing);
+        if (other.spacing() != spacing) other = other.resampled(spacing);
         // Walking backwards, the walker comes from the reference after.
         const LatticeField& from_before = walking_back() ? other : mine;
         const LatticeField& from_after = walking_back() ? mine : other;

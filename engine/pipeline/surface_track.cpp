@@ -93,7 +93,8 @@ const Matte& SurfaceTrack::luma_of(const PlateViews& views) const {
 }
 
 LatticeField SurfaceTrack::in_plate(const LatticeField& field) const {
-    return resized(field, plate_, spacing_px_);
+    const int spacing = (field.spacing() * plate_.width + followed_.width / 2) / followed_.width;
+    return resized(field, plate_, std::max(1, spacing));
 }
 
 void SurfaceTrack::take_over() {

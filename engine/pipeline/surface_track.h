@@ -53,6 +53,8 @@ class SurfaceTrack {
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;
     [[nodiscard]] const LatticeField& prev_from_cur() const;
+    /// As SurfaceWalker's; fields are finer where there are any.
+    [[nodiscard]] int part_count() const { return walker_.part_count(); }
     /// Null unless a seam hides that the texture returned to its shape.
     [[nodiscard]] const LatticeField* stretched() const;
     [[nodiscard]] std::vector<LatticeField> take_found_late();

@@ -1,20 +1,27 @@
 #include "engine/pipeline/walk_memory.h"
 
+#include "engine/motion/follow_size.h"
+
 namespace weft {
 namespace {
 
-// Four 8-bit pictures, two of floats inside the surface, some lattices.
+// Four 8-bit pictures and one of three channels, two of floats inside the surface, raw motion, some
+// lattices.
 std::size_t bytes_of(const WalkStep& step) {
-    constexpr std::size_t kEachPixel = 12;
+    constexpr std::size_t kEachPixel = 24;
     const Size size = step.frame->size();
     return kEachPixel * static_cast<std::size_t>(size.width) *
            static_cast<std::size_t>(size.height);
 }
 
-// Its lattices, and those of its anchors. Frames are mostly those of steps that are kept.
+// Its lattices, and those of its anchors. Frames are mostly those of steps that are kept; those of
+// parts are not, nor are the pictures by which their mattes are carried.
 std::size_t bytes_of(const SurfaceTrack& track) {
-    constexpr std::size_t kLattices = 30;
-    return kLattices * track.ref_from_cur().nodes().size_bytes();
+    constexpr std::size_t kLattices = 30, kEachPixelOfPart = 120;
+    const Size size = follow_size(track.ref_from_cur().full_size());
+    return kLattices * track.ref_from_cur().nodes().size_bytes() +
+           kEachPixelOfPart * static_cast<std::size_t>(track.part_count()) *
+               static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
 }
 
 }  // namespace

@@ -51,10 +51,11 @@ LatticeField by_outline(const StepFrame& prev, const StepFrame& cur, int spacing
                             fit_surface_motion(motion.d, motion.valid, fit));
 }
 
-Matte copy_of(ViewU8x1 v) {
-    Matte out(v.size());
+template <int C>
+Image<std::uint8_t, C> copy_of(ImageView<const std::uint8_t, C> v) {
+    Image<std::uint8_t, C> out(v.size());
     for (int y = 0; y < v.height(); ++y)
-        std::copy(v.row(y), v.row(y) + v.width(), out.row(y));
+        std::copy_n(v.row(y), out.stride(), out.row(y));
     return out;
 }
 
@@ -220,8 +221,13 @@ StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent, ViewU8x3 display,
                      const StepFrame* before)
     : StepFrame(luma, visible, extent) {
+    display_ = copy_of(display);
     axis_ = before ? before->axis_ : color_axis(display, visible);
     if (axis_) color_ = weft::color_picture(display, *axis_);
+}
+
+std::shared_ptr<const StepFrame> StepFrame::part(ViewU8x1 visible, const StepFrame* before) const {
+    return std::make_shared<const StepFrame>(luma_, visible, visible, display_, before);
 }
 
 const RegistrationPicture& StepFrame::picture() const {
@@ -245,6 +251,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
     StepEvidence out;
+    out.raw = std::make_shared<const FlowField>(prev_from_cur);
     out.by_picture = flat_or_bent(prev, cur, prev_from_cur, spacing_px);
     // Where the surface is found again almost everywhere, nothing is left to be explained; but
     // shades alone are found again, too, and leave its colours behind.
@@ -259,6 +266,7 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
         kEnough) {
         add_lines(prev, cur, prev_from_cur, spacing_px, out);
+        out.parts = find_moving_parts(prev_from_cur, now.visible);
         return out;
     }
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found

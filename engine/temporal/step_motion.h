@@ -7,6 +7,7 @@
 
 #include "engine/motion/color_picture.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/motion/moving_parts.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/motion/outline_register.h"
 
@@ -30,12 +31,19 @@ class StepFrame {
     [[nodiscard]] bool has_color() const { return !color_.empty(); }
     /// The colours (color_picture()) as 8-bit luma; empty if there are none.
     [[nodiscard]] ViewU8x1 color() const { return color_; }
+    /// The plate as displayed; empty if it was not given.
+    [[nodiscard]] const ImageU8x3& display() const { return display_; }
+    /// The same frame as a walk along a part of the surface sees it. `visible`: the part, H×W;
+    /// `before`: as above.
+    [[nodiscard]] std::shared_ptr<const StepFrame> part(ViewU8x1 visible,
+                                                        const StepFrame* before) const;
     /// As picture(), of the colours. Call it only if there are any.
     [[nodiscard]] const RegistrationPicture& color_picture() const;
     [[nodiscard]] const OutlineShape& outline() const;
 
   private:
     Matte luma_, extent_, visible_, color_;
+    ImageU8x3 display_;
     std::optional<ColorAxis> axis_;
     mutable std::once_flag picture_made_, color_picture_made_, outline_made_;
     mutable std::optional<RegistrationPicture> picture_, color_picture_;
@@ -59,6 +67,10 @@ struct StepEvidence {
     /// everywhere.
     std::optional<LatticeField> by_color = {};
     double color_lead = 0;  ///< Before what luma finds, as colours judge it, standard errors.
+    /// Parts that seem to move by themselves (find_moving_parts()), where structure stands out; and
+    /// the plate's raw motion, from which they are told.
+    MovingParts parts = {};
+    std::shared_ptr<const FlowField> raw = {};
 };
 
 /// How far motion that was fitted to two pictures leads before the outline's, in standard errors

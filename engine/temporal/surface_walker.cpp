@@ -98,6 +98,22 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
     }
 }
 
+// Takes the step if the surface has parts that move by themselves.
+bool SurfaceWalker::State::advance_parts(const SurfaceWalker& whole, const WalkStep& to) {
+    if (is_part || lost || !to.evidence.raw) return false;
+    if (!parts.any()) {
+        parts.look(whole, last, to, options);
+        if (!parts.any()) return false;
+        stretched = {};
+        hiding_left = 0;
+    }
+    parts.advance(to, options);
+    last = to.frame;
+    ref_from_cur = parts.ref_from_cur();
+    prev_from_cur = parts.prev_from_cur();
+    return true;
+}
+
 // What shows little but its outline is laid on the outline of the reference frame, where corners
 // come to lie on corners. A thing that turned away from it has no such motion: cars lose and gain
 // parts of their outline.
@@ -161,6 +177,7 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
         s.follow(to.evidence.by_picture);
         return keep();
     }
+    if (s.advance_parts(*this, to)) return s.ref_from_cur;
     const bool hiding = s.hiding_left > 0;
     const std::int64_t visible_px = visible_pixels(visible);
     const bool was_hidden = s.hidden_for > 0 && s.searched_for == 0;
@@ -207,11 +224,32 @@ void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField 
     s.last = std::make_shared<StepFrame>(luma, visible, visible);
 }
 
+void SurfaceWalker::become_part() {
+    State& s = *state_;
+    s.is_part = true;
+    s.largest_px = 0;
+    s.steady_step = {};
+    // No seam hides the change of a part's texture.
+    s.hide_reanchoring = false;
+    s.hiding_left = 0;
+    s.stretched = {};
+}
+
+int SurfaceWalker::part_count() const {
+    return state_->parts.count();
+}
+
 void SurfaceWalker::hold() {
+    state_->parts.hold();
     state_->prev_from_cur = LatticeField(state_->frame_size(), state_->options.spacing_px);
 }
 
 void SurfaceWalker::anchor_here(const LatticeField* ref_from_here) {
+    if (state_->parts.any()) {
+        state_->parts.anchor_here(ref_from_here);
+        state_->ref_from_cur = state_->parts.ref_from_cur();
+        return;
+    }
     state_->lost = false;
     state_->hidden_for = 0;
     state_->searched.clear();

@@ -33,8 +33,9 @@ struct WalkStep {
 /// first the reference frame itself: by a homography where one explains the picture, else by a
 /// smooth field (register_planar(), register_lattice()). Where either is blurred by motion, both
 /// are compared blurred alike (ExposureMatch); what a step has lost is searched again (LostPlaces).
-/// When too little of the anchor is visible,
-/// the current frame becomes the next anchor. Not thread-safe; several walkers may run in several
+/// When too little of the anchor is visible, the current frame becomes the next anchor. A body
+/// with joints is divided into parts, each with a walk of its own (JointedParts); the fields then
+/// have a finer spacing. Not thread-safe; several walkers may run in several
 /// threads.
 class SurfaceWalker {
   public:
@@ -76,6 +77,11 @@ class SurfaceWalker {
     /// anchor. Nothing is estimated or registered.
     void advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,
                        LatticeField anchor_from_cur);
+    /// From now on this is the walk of a part of the surface that it has followed so far: it is not
+    /// divided by itself, and nothing of the whole's size is expected of it.
+    void become_part();
+    /// How many parts of the surface are followed by themselves (JointedParts); 0: it has none.
+    [[nodiscard]] int part_count() const;
     /// Goes on to a frame that shows the same drawing as the frame before: nothing moves.
     void hold();
     /// Makes the current frame the anchor; for further reference frames. With `ref_from_here` the

@@ -9,6 +9,7 @@
 
 #include "engine/temporal/anchors.h"
 #include "engine/temporal/exposure_match.h"
+#include "engine/temporal/jointed_parts.h"
 #include "engine/temporal/lost_places.h"
 #include "engine/temporal/step_motion.h"
 #include "engine/temporal/surface_walker.h"
@@ -33,6 +34,10 @@ struct SurfaceWalker::State {
     ExposureMatch exposure;
     LostPlaces lost_places;
     int since_older_tried = 0;  // frames
+
+    // Once any is found, they walk in place of the whole.
+    JointedParts parts;
+    bool is_part = false;  // parts are told by the walk of the whole
 
     // After the texture was released to its own shape: its previous track, continued for the
     // frames over which a seam hides the change.
@@ -101,6 +106,7 @@ struct SurfaceWalker::State {
     void search(const std::shared_ptr<const StepFrame>& cur, std::int64_t visible_px);
     void register_frame(const std::shared_ptr<const StepFrame>& cur);
     void register_drawing(const StepFrame& cur);
+    bool advance_parts(const SurfaceWalker& whole, const WalkStep& to);
     bool try_others(const StepFrame& cur, int generation_below, double share_above);
 };
 

@@ -34,7 +34,7 @@ RegionPlan pinned(float dx) {
     return region;
 }
 
-std::shared_ptr<WalkMemory> memory(std::size_t bytes = 64 << 20) {
+std::shared_ptr<WalkMemory> memory(std::size_t bytes = 256 << 20) {
     return std::make_shared<WalkMemory>(bytes);
 }
 
@@ -82,7 +82,7 @@ TEST(WalkMemory, DropsWhatWasNotUsedForLongest) {
     const Matte inside = box_matte(kRegionBox);
     const WalkStep step{step_frame(views, inside, inside, nullptr), {}};
     const auto key = [](std::uint64_t k) { return Hash128{0, k}; };
-    const std::size_t each = 12 * kShotSize.width * kShotSize.height;
+    const std::size_t each = 24 * kShotSize.width * kShotSize.height;
     WalkMemory walks(3 * each);
     for (int k = 0; k < 3; ++k)
         walks.keep_step(key(static_cast<std::uint64_t>(k)), k + 1, k, step);
