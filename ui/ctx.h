@@ -7,10 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "app/base/editor_settings.h"
 #include "app/base/folder_lister.h"
 #include "app/base/frames_on_disk.h"
 #include "app/session/action.h"
-#include "app/session/editor_settings.h"
 #include "app/session/session_view.h"
 #include "app/textures/texture_shelf.h"
 #include "ui/commands.h"

@@ -37,6 +37,36 @@ std::string frame_count(std::size_t frames) {
     return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
 }
 
+void keyframe_rows(Ctx& c, const Region& region, const MatteSource& matte) {
+    info_row(c, "Keyframes", std::to_string(matte.keyframes.size()));
+    const float half = std::floor((ImGui::GetContentRegionAvail().x - c.theme.gap) * 0.5f);
+    const bool key_here = matte.keyframes.contains(c.view.frame);
+    const bool part_here = !key_here && matte.confirmed.contains(c.view.frame);
+    if (!matte.confirmed.empty())
+        info_row(c, "Confirmed in part", frame_count(matte.confirmed.size()),
+                 "Frames on which parts of the matte are confirmed or corrected");
+    if (button(c, "Add keyframe",
+               {.enabled = !key_here,
+                .tip = "Makes this frame's matte a keyframe that you can correct",
+                .command = "region.key",
+                .width = half}))
+        c.emit(KeyMatteHere{});
+    ImGui::SameLine();
+    if (button(c, part_here ? "Remove confirmed###remove_key" : "Remove keyframe###remove_key",
+               {.enabled = key_here || part_here,
+                .tip = "Propagates the neighbouring keyframes to this frame again",
+                .width = half}))
+        c.edit(without_layer_key(region, c.view.matte_layer, c.view.frame));
+    auto before = matte.keyframes.lower_bound(c.view.frame);
+    const bool can_copy = before != matte.keyframes.begin() && !key_here;
+    if (button(c, "Copy previous keyframe",
+               {.icon = icons::kCopy,
+                .enabled = can_copy,
+                .tip = "Copies the nearest earlier keyframe's matte to this frame",
+                .width = -1}))
+        c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
+}
+
 void matte_source_card(Ctx& c, const Region& region) {
     const Theme& t = c.theme;
     const MatteSource matte = c.view.painted_source();
@@ -75,33 +105,7 @@ void matte_source_card(Ctx& c, const Region& region) {
         }
         return;
     }
-    info_row(c, "Keyframes", std::to_string(matte.keyframes.size()));
-    const float half = std::floor((ImGui::GetContentRegionAvail().x - t.gap) * 0.5f);
-    const bool key_here = matte.keyframes.contains(c.view.frame);
-    const bool part_here = !key_here && matte.confirmed.contains(c.view.frame);
-    if (!matte.confirmed.empty())
-        info_row(c, "Confirmed in part", frame_count(matte.confirmed.size()),
-                 "Frames on which parts of the matte are confirmed or corrected");
-    if (button(c, "Add keyframe",
-               {.enabled = !key_here,
-                .tip = "Makes this frame's matte a keyframe that you can correct",
-                .command = "region.key",
-                .width = half}))
-        c.emit(KeyMatteHere{});
-    ImGui::SameLine();
-    if (button(c, part_here ? "Remove confirmed###remove_key" : "Remove keyframe###remove_key",
-               {.enabled = key_here || part_here,
-                .tip = "Propagates the neighbouring keyframes to this frame again",
-                .width = half}))
-        c.edit(without_layer_key(region, c.view.matte_layer, c.view.frame));
-    auto before = matte.keyframes.lower_bound(c.view.frame);
-    const bool can_copy = before != matte.keyframes.begin() && !key_here;
-    if (button(c, "Copy previous keyframe",
-               {.icon = icons::kCopy,
-                .enabled = can_copy,
-                .tip = "Copies the nearest earlier keyframe's matte to this frame",
-                .width = -1}))
-        c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
+    keyframe_rows(c, region, matte);
 }
 
 // What pen pressure controls.

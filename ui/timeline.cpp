@@ -10,6 +10,19 @@
 namespace weft::ui {
 namespace {
 
+enum class Mark { kDiamond, kTriangle, kHollow, kBar };
+
+void draw_mark(const Theme& t, ImDrawList& list, Mark mark, ImVec2 at, float r, ImU32 color) {
+    const ImVec2 top(at.x, at.y - r), right(at.x + r, at.y), low(at.x, at.y + r);
+    const ImVec2 left(at.x - r, at.y);
+    if (mark == Mark::kDiamond) list.AddQuadFilled(top, right, low, left, color);
+    if (mark == Mark::kTriangle)
+        list.AddTriangleFilled(top, {at.x + r, at.y + r}, {at.x - r, at.y + r}, color);
+    if (mark == Mark::kHollow) list.AddQuad(top, right, low, left, color, t.px(1.5f));
+    if (mark == Mark::kBar)
+        list.AddRectFilled({at.x - r, at.y - t.px(2)}, {at.x + r, at.y + t.px(2)}, color);
+}
+
 const char* mode_name(PlayMode mode) {
     return mode == PlayMode::kLoop ? "Loop" : mode == PlayMode::kPingPong ? "Ping-pong" : "Once";
 }
@@ -59,40 +72,30 @@ void transport(Ctx& c, ImVec2 size) {
     }
     // The legend of the rows, right-aligned.
     float right = origin.x + size.x - t.px(12);
-    const auto legend = [&](const char* text, ImU32 color, int shape) {
+    const auto legend = [&](const char* text, ImU32 color, Mark shape) {
         const float w = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text).x;
         right -= w;
         if (right < x + t.px(30)) return;
         text_in(list, t.small, {right, origin.y}, {right + w, origin.y + size.y}, t.quiet, text, 0);
         const ImVec2 at(right - t.px(10), origin.y + size.y * 0.5f);
         const float r = t.px(4);
-        if (shape == 0)
-            list.AddQuadFilled({at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r},
-                               {at.x - r, at.y}, color);
-        else if (shape == 1)
-            list.AddTriangleFilled({at.x, at.y - r}, {at.x + r, at.y + r}, {at.x - r, at.y + r},
-                                   color);
-        else if (shape == 3)
-            list.AddQuad({at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y},
-                         color, t.px(1.5f));
-        else
-            list.AddRectFilled({at.x - r, at.y - t.px(2)}, {at.x + r, at.y + t.px(2)}, color);
+        draw_mark(t, list, shape, at, r, color);
         right -= t.px(30);
     };
     const auto known = [&](auto&& has) { return std::any_of(v.marks.begin(), v.marks.end(), has); };
-    if (!v.to_correct.empty()) legend("Correct", t.bad, 1);
+    if (!v.to_correct.empty()) legend("Correct", t.bad, Mark::kTriangle);
     if (known([](const FrameMarks& m) { return m.flicker >= 0; }))
-        legend("Flicker", heat_color(0.7f), 2);
+        legend("Flicker", heat_color(0.7f), Mark::kBar);
     if (known([](const FrameMarks& m) { return m.seam >= 0; }))
-        legend("Seams", heat_color(0.6f), 2);
+        legend("Seams", heat_color(0.6f), Mark::kBar);
     if (known([](const FrameMarks& m) { return m.drift >= 0; }))
-        legend("Drift", heat_color(0.5f), 2);
-    legend("Result", t.good, 2);
-    legend("Plate in memory", faded(t.accent, 0.8f), 2);
-    legend("Reference frame", t.warn, 1);
+        legend("Drift", heat_color(0.5f), Mark::kBar);
+    legend("Result", t.good, Mark::kBar);
+    legend("Plate in memory", faded(t.accent, 0.8f), Mark::kBar);
+    legend("Reference frame", t.warn, Mark::kTriangle);
     if (known([](const FrameMarks& m) { return m.confirmed; }))
-        legend("Confirmed in part", t.good, 3);
-    legend("Painted matte", t.text, 0);
+        legend("Confirmed in part", t.good, Mark::kHollow);
+    legend("Painted matte", t.text, Mark::kDiamond);
 }
 
 int nice_step(float frames_per_label) {
@@ -163,15 +166,9 @@ void tracks(Ctx& c, ImDrawList& list, const FrameScale& scale, float top, float 
                                heat_color(1.0f - mark.confidence));
         }
         const float r = t.px(5);
-        if (mark.reference)
-            list.AddTriangleFilled({x, keys_y - r}, {x + r, keys_y + r}, {x - r, keys_y + r},
-                                   t.warn);
-        if (mark.confirmed)
-            list.AddQuad({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y}, t.good,
-                         t.px(1.5f));
-        if (mark.matte_key)
-            list.AddQuadFilled({x, keys_y - r}, {x + r, keys_y}, {x, keys_y + r}, {x - r, keys_y},
-                               t.text);
+        if (mark.reference) draw_mark(t, list, Mark::kTriangle, {x, keys_y}, r, t.warn);
+        if (mark.confirmed) draw_mark(t, list, Mark::kHollow, {x, keys_y}, r, t.good);
+        if (mark.matte_key) draw_mark(t, list, Mark::kDiamond, {x, keys_y}, r, t.text);
     }
     // A thin strip for each known measure, from the bottom up.
     float strip_y = confident ? heat_y - t.px(5) : heat_y + t.px(1);

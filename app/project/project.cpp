@@ -140,12 +140,11 @@ Status add_confirmed_text(MatteSource& matte, std::string_view text) {
     const char* const end = text.data() + (three ? equals : 0);
     const auto [stop, error] = std::from_chars(text.data(), end, frame);
     if (!three || error != std::errc() || stop != end || !is_frame_number(frame))
-        return fail(ErrorCode::kUsage, "'" + std::string(text) +
-                                           "' is not a confirmed part of a matte; write "
-                                           "FRAME=MATTE,AREA");
-    ConfirmedEdge edge{std::string(text.substr(equals + 1, comma - equals - 1)),
-                       std::string(text.substr(comma + 1))};
-    if (!matte.confirmed.emplace(frame, std::move(edge)).second)
+        return fail(ErrorCode::kUsage,
+                    "'" + std::string(text) + "' is no confirmed part; write FRAME=MATTE,AREA");
+    const std::string_view path = text.substr(equals + 1, comma - equals - 1);
+    const ConfirmedEdge edge{std::string(path), std::string(text.substr(comma + 1))};
+    if (!matte.confirmed.emplace(frame, edge).second)
         return fail(ErrorCode::kUsage, "Parts of frame " + std::to_string(frame) +
                                            " are confirmed twice; give one area for all of them");
     return {};

@@ -287,6 +287,7 @@ void Session::update(double now_s) {
     show_strip();
     part("marks");
     show_marks();
+    mark_confirmed();
     part("jobs");
     watch_jobs();
     view_.notices = notices_;

@@ -12,6 +12,7 @@
 
 #include "app/base/background.h"
 #include "app/base/background_tasks.h"
+#include "app/base/editor_settings.h"
 #include "app/base/frame_clock.h"
 #include "app/exchange/move_project.h"
 #include "app/mattes/edged_matte.h"
@@ -22,7 +23,6 @@
 #include "app/project/history.h"
 #include "app/session/action.h"
 #include "app/session/collect_run.h"
-#include "app/session/editor_settings.h"
 #include "app/session/job_desk.h"
 #include "app/session/recovery.h"
 #include "app/session/session_view.h"
@@ -153,6 +153,7 @@ class Session {
     [[nodiscard]] MattePlace painted_place() const {
         return {selected_, layer_, playback_.frame()};
     }
+    static void show_stroke(const MattePainting::Shown& stroke, RegionMatteView& out);
     [[nodiscard]] bool may_paint();
     /// Null: an empty matte. Nothing: not loaded yet.
     [[nodiscard]] std::optional<MattePtr> matte_to_paint_on();
@@ -184,6 +185,7 @@ class Session {
         MattePtr area;   ///< What is confirmed of it.
     };
     /// Null: nothing is confirmed there, or it is still being read.
+    [[nodiscard]] MattePtr confirmed_matte(const MatteSource& source, int frame);
     [[nodiscard]] MattePtr confirmed_area(const Region& region, int layer, int frame);
     [[nodiscard]] std::optional<Confirming> confirming_here();
     void begin_confirming(const BeginStroke& action);
@@ -193,6 +195,7 @@ class Session {
                    const MattePlace& place, const std::string& what);
     void keep_confirmed(const Confirming& now, const MattePlace& place, const std::string& what);
     void show_confirmed();
+    void mark_confirmed();
 
     // ---- segmented and drawn mattes (session_shapes.cpp) ----
     void scribble(const ScribbleSelect& action);

@@ -18,6 +18,28 @@ bool any_confirmed(const Matte& area) {
 
 }  // namespace
 
+void Session::mark_confirmed() {
+    const Region* region = painted_region();
+    if (!region || view_.marks.empty()) return;
+    const MatteSource& source = layer_source(*region, layer_);
+    const std::vector<int>& frames = view_.plate.frames;
+    for (const auto& [frame, edge] : source.confirmed) {
+        const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
+        if (at != frames.end() && *at == frame && !source.keyframes.contains(frame))
+            view_.marks[static_cast<std::size_t>(at - frames.begin())].confirmed = true;
+    }
+}
+
+// Until it is propagated again, a frame with a confirmed part shows what was seen there then.
+MattePtr Session::confirmed_matte(const MatteSource& source, int frame) {
+    const auto edge = source.confirmed.find(frame);
+    if (edge == source.confirmed.end()) return {};
+    const std::string path = resolve_path(project_dir(path_), edge->second.path);
+    return shelf_.get(path, [path, select = source.select, size = reader_->size()] {
+        return read_matte(path, select, size);
+    });
+}
+
 MattePtr Session::confirmed_area(const Region& region, int layer, int frame) {
     const MatteSource& source = layer_source(region, layer);
     const auto edge = source.confirmed.find(frame);
@@ -117,13 +139,7 @@ void Session::show_confirmed() {
     out.frame = playback_.frame();
     MattePlace place = painted_place();
     place.confirmed = true;
-    if (const auto stroke = painting_.at(place)) {
-        out.kind = RegionMatteView::Kind::kPainted;
-        out.pixels = stroke->pixels;
-        out.version = stroke->version;
-        out.changed = stroke->changed;
-        return;
-    }
+    if (const auto stroke = painting_.at(place)) return show_stroke(*stroke, out);
     out.keep = confirmed_area(*region, layer_, out.frame);
     constexpr int kPlace = 3;  // among those of show_onion_skin()
     Shown& shown = shown_mattes_[{region->id, layer_, kPlace}];

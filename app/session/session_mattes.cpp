@@ -64,10 +64,7 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
     out.layer = layer;
     out.frame = frame;
     if (const auto stroke = painting_.at({region.id, layer, frame})) {
-        out.kind = RegionMatteView::Kind::kPainted;
-        out.pixels = stroke->pixels;
-        out.version = stroke->version;
-        out.changed = stroke->changed;
+        show_stroke(*stroke, out);
         return out;
     }
     const MatteSource& source = layer_source(region, layer);
@@ -112,14 +109,8 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
         }
     }
     out.keep = shelf_.get(name, read);
-    // Until it is propagated again, a frame with a confirmed part shows what was seen there then.
-    if (const auto edge = source.confirmed.find(frame);
-        !out.keep && out.kind == RegionMatteView::Kind::kPropagated &&
-        edge != source.confirmed.end()) {
-        const std::string path = resolve_path(dir, edge->second.path);
-        out.keep = shelf_.get(
-            path, [path, select = source.select, size] { return read_matte(path, select, size); });
-    }
+    if (!out.keep && out.kind == RegionMatteView::Kind::kPropagated)
+        out.keep = confirmed_matte(source, frame);
     if (!out.keep) {
         out.error = shelf_.error(name);
         const bool propagated = out.kind == RegionMatteView::Kind::kPropagated;
@@ -134,6 +125,13 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
     out.version = shown.version;
     out.pixels = visible->view();
     return out;
+}
+
+void Session::show_stroke(const MattePainting::Shown& stroke, RegionMatteView& out) {
+    out.kind = RegionMatteView::Kind::kPainted;
+    out.pixels = stroke.pixels;
+    out.version = stroke.version;
+    out.changed = stroke.changed;
 }
 
 bool Session::may_paint() {

@@ -244,8 +244,6 @@ void Session::show_marks() {
         }
         if (!region) continue;
         const MatteSource& layer = layer_source(*region, layer_);
-        mark.confirmed =
-            !layer.keyframes.contains(frames[k]) && layer.confirmed.contains(frames[k]);
         mark.matte_key =
             layer.keyframes.contains(frames[k]) || layer.shape.keys.contains(frames[k]);
         mark.reference =

@@ -76,7 +76,6 @@ const std::vector<Exception> kLongFunctions{
       {"ui/inspector.cpp", "region_list", 100},
       {"ui/inspector_light.cpp", "light_inspector", 80},
       {"ui/inspector_mask.cpp", "mask_inspector", 110},
-      {"ui/inspector_mask.cpp", "matte_source_card", 65},
       {"ui/inspector_motion.cpp", "motion_inspector", 95},
       {"ui/inspector_parts.cpp", "lamps_controls", 70},
       {"ui/inspector_texture.cpp", "texture_inspector", 90},
@@ -114,7 +113,6 @@ struct LongFile {
 };
 
 const std::vector<LongFile> kLongFiles{
-    {"app/project/project.h", "the document, one struct for each group of settings", 405},
     {"app/project/parameter_values.cpp", "each kind of value: its check, its text, its JSON"},
     {"bench/study/study_html.cpp", "one page, section by section"},
     {"engine/motion/surface_fit.cpp", "one solver, whose equations share their sums"},

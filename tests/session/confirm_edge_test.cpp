@@ -100,10 +100,8 @@ TEST_F(ConfirmEdge, ACorrectionCountsWhereItWasPainted) {
     EXPECT_EQ(area.at(40, 32), 0);
     // It shows at once, and stays when the frame has been propagated again.
     EXPECT_EQ(view().mattes[0].pixels.at(80, 50), 255);
-    ASSERT_TRUE(wait([&] {
-        return view().mattes[0].keep && view().mattes[0].keep->at(80, 50) == 255 &&
-               true;
-    }));
+    ASSERT_TRUE(
+        wait([&] { return view().mattes[0].keep && view().mattes[0].keep->at(80, 50) == 255; }));
     act(GoToFrame{4});
     EXPECT_TRUE(wait([&] {
         return view().frame == 4 && view().mattes[0].keep &&

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/session/editor_settings.h"
+#include "app/base/editor_settings.h"
 #include "app/session/recovery.h"
 
 namespace weft {

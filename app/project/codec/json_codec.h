@@ -83,6 +83,14 @@ void write_extras(OrderedJson& object, const Extras& extra);
 [[nodiscard]] Expected<RotoShape> read_shape(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_shape(const RotoShape& shape);
 // Over time: {"follow": "planar", "track": path, "keys": [{"frame", "points"}, …]}.
+// The painted frames of a matte, [{"frame", "path"}, …], and what is confirmed on other frames,
+// [{"frame", "path", "area"}, …].
+[[nodiscard]] Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json,
+                                                                    const std::string& path);
+[[nodiscard]] OrderedJson write_keyframes(const std::map<int, MatteKeyframe>& keyframes);
+[[nodiscard]] Expected<std::map<int, ConfirmedEdge>> read_confirmed(const Json& json,
+                                                                    const std::string& path);
+[[nodiscard]] OrderedJson write_confirmed(const std::map<int, ConfirmedEdge>& confirmed);
 [[nodiscard]] Expected<KeyedShape> read_keyed_shape(const Json& value, const std::string& path);
 [[nodiscard]] OrderedJson write_keyed_shape(const KeyedShape& shape);
 /// Returns true for an empty string or list, or an unset value.

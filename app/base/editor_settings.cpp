@@ -1,4 +1,4 @@
-#include "app/session/editor_settings.h"
+#include "app/base/editor_settings.h"
 
 #include <cstdlib>
 #include <filesystem>
