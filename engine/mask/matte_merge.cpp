@@ -107,7 +107,8 @@ Matte soften(ViewU8x3 frame, const RefinedBoundary& found, ViewU8x1 before, View
         for (int x = 0; x < frame.width(); ++x) {
             softness.at(x, y) = std::max(softness.at(x, y), other.at(x, y));
             const float a = before.row(y)[x], b = after.row(y)[x];
-            expected.at(x, y) = static_cast<std::uint8_t>(a + shares.row(y)[x] * (b - a) + 0.5f);
+            expected.at(x, y) =
+                static_cast<std::uint8_t>(std::lround(a + shares.row(y)[x] * (b - a)));
         }
     }
     return with_soft_edges(frame, found.phi, softness, found.matte, expected, options.steadiness);

@@ -10,7 +10,6 @@ namespace weft {
 namespace {
 
 using test::DiscScene;
-using test::overlap;
 
 Matte filled(Size size, const Recti& box) {
     Matte out(size);
