@@ -15,6 +15,8 @@ bool is_small(Size size) {
 
 }  // namespace
 
+MattePainting::Current::Current() = default;
+
 MattePainting::Copy MattePainting::copy_of(const Key& key) {
     Copy out;
     out.before = key.before ? key.before : std::make_shared<const Matte>(key.size);

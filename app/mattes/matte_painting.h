@@ -73,6 +73,7 @@ class MattePainting {
         float pressure = 1;
     };
     struct Current {
+        Current();  // defined where this class is complete, as its initializers need
         MattePlace place;
         Key key;
         Brush brush;
