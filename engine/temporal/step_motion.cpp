@@ -263,10 +263,13 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
         (!found || registration_agreement(prev.color_picture(), cur.color_picture(),
                                           out.by_picture) < kLeftBehind))
         add_color(prev, cur, quality, spacing_px, out);
-    if (structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur) >=
-        kEnough) {
+    const float structure =
+        structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur);
+    // A drawn fill shows no parts (0.0), a figure on a large, soft plate does (0.9 to 1.2).
+    constexpr float kShowsParts = 0.8f;
+    if (structure >= kShowsParts) out.parts = find_moving_parts(prev_from_cur, now.visible);
+    if (structure >= kEnough) {
         add_lines(prev, cur, prev_from_cur, spacing_px, out);
-        out.parts = find_moving_parts(prev_from_cur, now.visible);
         return out;
     }
     // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found

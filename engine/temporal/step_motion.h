@@ -67,8 +67,8 @@ struct StepEvidence {
     /// everywhere.
     std::optional<LatticeField> by_color = {};
     double color_lead = 0;  ///< Before what luma finds, as colours judge it, standard errors.
-    /// Parts that seem to move by themselves (find_moving_parts()), where structure stands out; and
-    /// the plate's raw motion, from which they are told.
+    /// Parts that seem to move by themselves (find_moving_parts()), where there is some structure,
+    /// and the plate's raw motion, from which they are told.
     MovingParts parts = {};
     std::shared_ptr<const FlowField> raw = {};
 };
