@@ -9,6 +9,7 @@
 #include "engine/motion/surface_fit.h"
 #include "engine/temporal/joined_field.h"
 #include "engine/temporal/part_outlines.h"
+#include "engine/temporal/stretch_limit.h"
 
 namespace weft {
 namespace {
@@ -147,6 +148,7 @@ void JointedParts::advance(const WalkStep& to, const SurfaceWalkerOptions& optio
         static_cast<void>(part.walker.take_found_late());
         part.last = next[k].frame;
     });
+    give_up_lost(next);
     owner_ = Image<std::uint8_t, 1>(to.frame->size(), kNobody);
     for (std::size_t k = 0; k < next.size(); ++k) {
         for (int y = 0; y < owner_.height(); ++y) {
@@ -154,6 +156,27 @@ void JointedParts::advance(const WalkStep& to, const SurfaceWalkerOptions& optio
                 if (next[k].matte.at(x, y) >= 128) owner_.at(x, y) = static_cast<std::uint8_t>(k);
             }
         }
+    }
+}
+
+// A part that has all but gone, or whose texture is stretched or squeezed too far to be its own, is
+// the body's again: what is left of it must not smear.
+void JointedParts::give_up_lost(std::vector<Next>& next) {
+    constexpr std::int64_t kFewest_px = 150;  // of a frame 480 wide
+    const std::int64_t unit = std::max(1, next[0].matte.width() / 480);
+    for (std::size_t k = parts_.size() - 1; k > 0; --k) {
+        const Matte& matte = next[k].matte;
+        const auto area = std::count_if(matte.data(), matte.data() + matte.size_bytes(),
+                                        [](std::uint8_t code) { return code >= 128; });
+        if (area >= kFewest_px * unit * unit &&
+            !relaxed_stretch(parts_[k].walker.ref_from_cur(), matte))
+            continue;
+        for (int y = 0; y < matte.height(); ++y) {
+            for (int x = 0; x < matte.width(); ++x)
+                next[0].matte.at(x, y) = std::max(next[0].matte.at(x, y), matte.at(x, y));
+        }
+        parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(k));
+        next.erase(next.begin() + static_cast<std::ptrdiff_t>(k));
     }
 }
 

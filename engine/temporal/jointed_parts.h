@@ -60,6 +60,7 @@ class JointedParts {
                                               const SurfaceWalkerOptions& options) const;
     void split(std::size_t part, std::vector<Next>& next, const WalkStep& to,
                const SurfaceWalkerOptions& options);
+    void give_up_lost(std::vector<Next>& next);
     [[nodiscard]] LatticeField joined(const std::vector<LatticeField>& fields) const;
 
     std::vector<Part> parts_;       // the body first
