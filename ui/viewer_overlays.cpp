@@ -22,25 +22,34 @@ void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, 
     text_in(list, t.small, {at.x + t.px(icon ? 24 : 8), at.y}, max, color, text.c_str(), 0);
 }
 
+// Drawn over the whole plate. `key`: of its texture.
+static MatteDraw over_plate(const Ctx& c, const ViewMap& map, const RegionMatteView& matte,
+                            std::uint64_t key) {
+    MatteDraw draw;
+    draw.pixels = matte.pixels;
+    draw.key = key;
+    draw.version = matte.version;
+    draw.changed = matte.changed;
+    draw.min = map.to_screen({0, 0});
+    draw.max = map.to_screen({static_cast<float>(c.view.plate.size.width),
+                              static_cast<float>(c.view.plate.size.height)});
+    draw.clip_min = map.min;
+    draw.clip_max = map.max;
+    return draw;
+}
+
 // Holdouts or zones of the selected region.
 static void draw_layers(Ctx& c, ImDrawList& list, const ViewMap& map,
                         const std::vector<RegionMatteView>& layers, ImU32 color) {
     const SessionView& v = c.view;
     for (const RegionMatteView& layer : layers) {
         if (layer.pixels.empty()) continue;
-        MatteDraw draw;
-        draw.pixels = layer.pixels;
         constexpr std::uint64_t kHoldouts = 2'000'000, kZones = 3'000'000;  // beyond the regions
-        draw.key = is_zone_layer(layer.layer)
-                       ? kZones + static_cast<std::uint64_t>(zone_of_layer(layer.layer))
-                       : kHoldouts + static_cast<std::uint64_t>(layer.layer);
-        draw.version = layer.version;
-        draw.changed = layer.changed;
-        draw.min = map.to_screen({0, 0});
-        draw.max = map.to_screen(
-            {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
-        draw.clip_min = map.min;
-        draw.clip_max = map.max;
+        const std::uint64_t key =
+            is_zone_layer(layer.layer)
+                ? kZones + static_cast<std::uint64_t>(zone_of_layer(layer.layer))
+                : kHoldouts + static_cast<std::uint64_t>(layer.layer);
+        MatteDraw draw = over_plate(c, map, layer, key);
         draw.color = color;
         draw.outline = layer.layer == v.matte_layer;
         draw.opacity = draw.outline ? 0.45f : 0.22f;
@@ -53,15 +62,8 @@ static void draw_onion(Ctx& c, ImDrawList& list, const ViewMap& map) {
     for (const RegionMatteView& key : c.view.onion) {
         if (key.pixels.empty()) continue;
         const bool before = key.frame < c.view.frame;
-        MatteDraw draw;
-        draw.pixels = key.pixels;
-        draw.key = before ? 4'000'000 : 4'000'001;  // beyond the regions, holdouts and zones
-        draw.version = key.version;
-        draw.min = map.to_screen({0, 0});
-        draw.max = map.to_screen({static_cast<float>(c.view.plate.size.width),
-                                  static_cast<float>(c.view.plate.size.height)});
-        draw.clip_min = map.min;
-        draw.clip_max = map.max;
+        // Beyond the regions, holdouts and zones.
+        MatteDraw draw = over_plate(c, map, key, before ? 4'000'000 : 4'000'001);
         draw.color = before ? c.theme.accent_hover : c.theme.warn;
         draw.opacity = 0.1f;
         draw.outline = true;
@@ -73,16 +75,7 @@ static void draw_onion(Ctx& c, ImDrawList& list, const ViewMap& map) {
 static void draw_confirmed(Ctx& c, ImDrawList& list, const ViewMap& map) {
     const RegionMatteView& area = c.view.confirmed;
     if (area.pixels.empty()) return;
-    MatteDraw draw;
-    draw.pixels = area.pixels;
-    draw.key = 4'000'002;  // beyond the keyframes
-    draw.version = area.version;
-    draw.changed = area.changed;
-    draw.min = map.to_screen({0, 0});
-    draw.max = map.to_screen({static_cast<float>(c.view.plate.size.width),
-                              static_cast<float>(c.view.plate.size.height)});
-    draw.clip_min = map.min;
-    draw.clip_max = map.max;
+    MatteDraw draw = over_plate(c, map, area, 4'000'002);  // beyond the keyframes
     draw.color = c.theme.good;
     draw.opacity = c.state.tool == Tool::kConfirm ? 0.3f : 0.15f;
     draw.outline = false;
@@ -99,24 +92,13 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     // No outline in Review, where it would disturb judging the edge.
     if (c.state.workspace == Workspace::kReview) return;
     const bool in_mask = c.state.workspace == Workspace::kMask;
-    const ImVec2 min = map.to_screen({0, 0});
-    const ImVec2 max = map.to_screen(
-        {static_cast<float>(v.plate.size.width), static_cast<float>(v.plate.size.height)});
     for (const RegionMatteView& matte : v.mattes) {
         const Region* region = region_by_id(v.project, matte.region);
         if (!region || matte.pixels.empty()) continue;
         if (v.solo != 0 && v.solo != matte.region) continue;
         const bool selected = matte.region == v.selected;
         if (!in_mask && !selected) continue;
-        MatteDraw draw;
-        draw.pixels = matte.pixels;
-        draw.key = matte.region;
-        draw.version = matte.version;
-        draw.changed = matte.changed;
-        draw.min = min;
-        draw.max = max;
-        draw.clip_min = map.min;
-        draw.clip_max = map.max;
+        MatteDraw draw = over_plate(c, map, matte, matte.region);
         draw.color = region_color(region->color, region->id);
         // Only the outline while working on the texture, because a coloured matte would falsify
         // colours.

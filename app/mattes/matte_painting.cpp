@@ -79,9 +79,10 @@ std::optional<MattePainting::Finished> MattePainting::end() {
         update();
         std::this_thread::yield();
     }
-    const Current done = std::move(*std::exchange(stroke_, std::nullopt));
+    Current done = std::move(*std::exchange(stroke_, std::nullopt));
     if (!done.stroke || done.stroke->touched().empty()) return std::nullopt;
-    return Finished{done.place, done.canvas, std::make_shared<const Matte>(done.stroke->covered())};
+    return Finished{done.place, done.canvas,
+                    std::make_shared<const Stroke>(std::move(*done.stroke))};
 }
 
 std::optional<MattePainting::Shown> MattePainting::at(const MattePlace& place) const {

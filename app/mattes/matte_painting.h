@@ -40,7 +40,7 @@ class MattePainting {
     struct Finished {
         MattePlace place;
         MattePtr matte;
-        MattePtr covered;  ///< 255 where the stroke painted.
+        std::shared_ptr<const Stroke> stroke;  ///< Says where it painted.
     };
     /// Ends the stroke and returns the new matte; nothing if the stroke changed nothing. Waits for
     /// the copy if points are queued.

@@ -4,16 +4,20 @@
 #include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "engine/mask/confirmed_part.h"
 #include "engine/media/image_files.h"
 
 namespace weft {
 namespace {
 
-constexpr std::uint8_t kConfirmed = 128;
-
 bool any_confirmed(const Matte& area) {
-    return std::any_of(area.data(), area.data() + area.size_bytes(),
-                       [](std::uint8_t code) { return code >= kConfirmed; });
+    return std::any_of(area.data(), area.data() + area.size_bytes(), is_confirmed);
+}
+
+// On such a frame all of the matte counts.
+bool is_whole(const MatteSource& source, int frame) {
+    return source.keyframes.contains(frame) ||
+           std::find(source.frozen.begin(), source.frozen.end(), frame) != source.frozen.end();
 }
 
 }  // namespace
@@ -74,9 +78,10 @@ void Session::begin_confirming(const BeginStroke& action) {
         return notify(NoticeKind::kWarning,
                       "Paint a keyframe first. Then confirm edges on the frames it is propagated "
                       "to.");
-    if (source.keyframes.contains(playback_.frame()))
+    if (is_whole(source, playback_.frame()))
         return notify(NoticeKind::kInfo,
-                      "This frame is a keyframe: its whole matte counts as right already.");
+                      "This frame is a keyframe or frozen: its whole matte counts as right "
+                      "already.");
     confirming_ = confirming_here();
     if (!confirming_) return;
     playback_.stop();
@@ -91,11 +96,7 @@ void Session::begin_confirming(const BeginStroke& action) {
 
 bool Session::counts_in_part(bool here_only) const {
     const MatteSource& source = layer_source(*painted_region(), layer_);
-    const std::vector<int>& frozen = source.frozen;
-    const int frame = playback_.frame();
-    // What is painted on a frozen frame takes its place.
-    return here_only && !source.keyframes.empty() && !source.keyframes.contains(frame) &&
-           std::find(frozen.begin(), frozen.end(), frame) == frozen.end();
+    return here_only && !source.keyframes.empty() && !is_whole(source, playback_.frame());
 }
 
 void Session::keep_here(MattePtr matte, const Matte& changed, const Confirming& before,

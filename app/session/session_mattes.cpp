@@ -213,7 +213,8 @@ void Session::end_stroke() {
     if (done->place.confirmed)
         return keep_confirmed({confirming_->matte, done->matte}, done->place, "Confirm edge of ");
     if (confirming_)
-        return keep_here(done->matte, *done->covered, *confirming_, done->place, "Correct ");
+        return keep_here(done->matte, done->stroke->covered(), *confirming_, done->place,
+                         "Correct ");
     keep_matte(done->matte, done->place,
                "Paint " + layer_name(*region, done->place.layer) + " on frame " +
                    std::to_string(done->place.frame));

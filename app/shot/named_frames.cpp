@@ -24,16 +24,22 @@ Status check_named_frames(const Region& region, const FrameReader& plate) {
         WEFT_CHECK_OK(check(
             frame, "The painted matte's frame ",
             "Give the matte the number of a frame of the plate" + by({{setting::kMatte}}) + "."));
-    for (const auto& [frame, edge] : region.matte->confirmed)
-        WEFT_CHECK_OK(check(frame, "The frame of a confirmed part of the matte ",
-                            "Confirm parts on frames of the plate only."));
+    const auto check_confirmed = [&](const MatteSource& matte) -> Status {
+        for (const auto& [frame, edge] : matte.confirmed)
+            WEFT_CHECK_OK(check(frame, "The frame of a confirmed part of a matte ",
+                                "Confirm parts on frames of the plate only."));
+        return {};
+    };
+    WEFT_CHECK_OK(check_confirmed(*region.matte));
     for (const MatteSource& holdout : *region.holdouts) {
+        WEFT_CHECK_OK(check_confirmed(holdout));
         for (const auto& [frame, key] : holdout.keyframes)
             WEFT_CHECK_OK(check(
                 frame, "The painted holdout's frame ",
                 "Give it the number of a frame of the plate" + by({{setting::kHoldout}}) + "."));
     }
     for (const Zone& zone : *region.zones) {
+        WEFT_CHECK_OK(check_confirmed(zone.matte));
         for (const auto& [frame, key] : zone.matte.keyframes)
             WEFT_CHECK_OK(
                 check(frame, "The painted zone's frame ",

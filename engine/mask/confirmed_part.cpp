@@ -9,8 +9,6 @@
 namespace weft {
 namespace {
 
-constexpr std::uint8_t kConfirmed = 128;
-
 // A walk without a known frame has no say.
 float position_of(const MergePlace& place) {
     if (!place.after) return 0;
@@ -26,7 +24,7 @@ float position_of(const MergePlace& place) {
 Matte with_confirmed(Matte matte, const ConfirmedPart& part) {
     for (int y = 0; y < matte.height(); ++y) {
         for (int x = 0; x < matte.width(); ++x)
-            if (part.area.at(x, y) >= kConfirmed) matte.at(x, y) = part.matte.at(x, y);
+            if (is_confirmed(part.area.at(x, y))) matte.at(x, y) = part.matte.at(x, y);
     }
     return matte;
 }
@@ -35,7 +33,7 @@ void ConfirmedPlaces::add(ViewU8x1 area) {
     if (since_.empty()) since_ = FramesSince(area.size(), kNeverConfirmed);
     for (int y = 0; y < area.height(); ++y) {
         for (int x = 0; x < area.width(); ++x)
-            if (area.row(y)[x] >= kConfirmed) since_.at(x, y) = 0;
+            if (is_confirmed(area.row(y)[x])) since_.at(x, y) = 0;
     }
 }
 

@@ -16,6 +16,11 @@ struct ConfirmedPart {
     Matte area;
 };
 
+/// Whether a code of an area says so.
+[[nodiscard]] constexpr bool is_confirmed(std::uint8_t code) {
+    return code > 127;
+}
+
 /// `matte` with the part's codes inside of its area; all of one size.
 [[nodiscard]] Matte with_confirmed(Matte matte, const ConfirmedPart& part);
 

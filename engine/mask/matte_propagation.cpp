@@ -117,6 +117,7 @@ struct MatteWalker::State {
     void take_back(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const;
+    void see_again();
     void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
                       ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
@@ -306,15 +307,22 @@ void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_c
     take_changed(kept, distance, matte);
 }
 
+// The boundary has changed; what is hidden stays so.
+void MatteWalker::State::see_again() {
+    for (int y = 0; y < seen.height(); ++y) {
+        for (int x = 0; x < seen.width(); ++x)
+            if (seen.at(x, y) != 0) seen.at(x, y) = phi.at(x, y);
+    }
+}
+
 MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     State& s = *state_;
-    const Matte right = with_confirmed(s.last, part);
-    Matte inside(right.size()), wrong(right.size());
+    Matte inside(s.last.size()), wrong(s.last.size());
     bool any = false;
-    for (int y = 0; y < right.height(); ++y) {
-        for (int x = 0; x < right.width(); ++x) {
+    for (int y = 0; y < inside.height(); ++y) {
+        for (int x = 0; x < inside.width(); ++x) {
             const bool was = s.phi.at(x, y) > 0;
-            const bool is = part.area.at(x, y) > 127 ? right.at(x, y) > 127 : was;
+            const bool is = is_confirmed(part.area.at(x, y)) ? part.matte.at(x, y) > 127 : was;
             inside.at(x, y) = is ? 255 : 0;
             if (is == was) continue;
             wrong.at(x, y) = 255;
@@ -323,7 +331,7 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     }
     if (any) {
         s.take_changed(inside, s.phi, s.last);
-        if (!s.seen.empty()) s.seen = s.phi;
+        s.see_again();
         s.plate.forget(wrong);
         s.plate.update(s.frame, s.seen_phi());
         s.sides.forget(wrong);

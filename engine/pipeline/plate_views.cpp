@@ -58,7 +58,7 @@ PlateViews make_views(const ImageF3& plate, const ColorTransform& display_from_p
     const Size followed = follow_size(plate.size());
     if (followed != plate.size()) {
         views.small_luma = reduced(views.luma, followed);
-        views.small_display = reduced(views.display, followed);
+        views.small_display = std::make_shared<const ImageU8x3>(reduced(views.display, followed));
     }
     return views;
 }

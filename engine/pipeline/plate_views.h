@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 // The plate as the analysis sees it: display-encoded, 8 bit.
 
 #include "engine/color/color_space.h"
@@ -12,13 +14,13 @@ struct PlateViews {
     Matte finite;       ///< 255 where all components are finite, else 0; empty: everywhere.
     // At follow_size(); empty if that is the plate's.
     Matte small_luma;
-    ImageU8x3 small_display;
+    std::shared_ptr<const ImageU8x3> small_display;  ///< Walks keep it; null instead of empty.
 
     /// The luma that surfaces are followed by, of follow_size().
     [[nodiscard]] const Matte& followed() const { return small_luma.empty() ? luma : small_luma; }
     /// The colours of the same size.
     [[nodiscard]] const ImageU8x3& followed_display() const {
-        return small_display.empty() ? display : small_display;
+        return small_display ? *small_display : display;
     }
 };
 

@@ -109,8 +109,10 @@ SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& bef
             walks = context_.plan.keep_walks ? walks : nullptr, key = before.key, frame = at.frame,
             previous = before.number](SurfaceStop& s) {
         static_cast<void>(s.step->frame->picture());  // the walk registers it
-        if (prev && motion)
+        if (prev && motion) {
             s.step->evidence = step_evidence(*prev, *s.step->frame, motion->get(), quality);
+            s.step->evidence.raw = {motion, &motion->get()};
+        }
         if (walks && (!prev || motion)) walks->keep_step(key, frame, previous, *s.step);
         return Status{};
     };

@@ -52,9 +52,11 @@ SurfaceWalker walker_at(const PlateViews& views, const Matte& visible, const Mat
 std::shared_ptr<const StepFrame> step_frame(const PlateViews& views, const Matte& visible,
                                             const Matte& extent, const StepFrame* prev) {
     const Size followed = views.followed().size();
-    return std::make_shared<const StepFrame>(views.followed(), Followed(visible, followed),
-                                             Followed(extent, followed), views.followed_display(),
-                                             prev);
+    return std::make_shared<const StepFrame>(
+        views.followed(), Followed(visible, followed), Followed(extent, followed),
+        views.small_display ? views.small_display
+                            : std::make_shared<const ImageU8x3>(views.display),
+        prev);
 }
 
 StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,

@@ -51,11 +51,10 @@ LatticeField by_outline(const StepFrame& prev, const StepFrame& cur, int spacing
                             fit_surface_motion(motion.d, motion.valid, fit));
 }
 
-template <int C>
-Image<std::uint8_t, C> copy_of(ImageView<const std::uint8_t, C> v) {
-    Image<std::uint8_t, C> out(v.size());
+Matte copy_of(ViewU8x1 v) {
+    Matte out(v.size());
     for (int y = 0; y < v.height(); ++y)
-        std::copy_n(v.row(y), out.stride(), out.row(y));
+        std::copy(v.row(y), v.row(y) + v.width(), out.row(y));
     return out;
 }
 
@@ -218,12 +217,17 @@ void MotionChoice::note_lines(double lead) {
 StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent)
     : luma_(copy_of(luma)), extent_(copy_of(extent)), visible_(copy_of(visible)) {}
 
-StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent, ViewU8x3 display,
-                     const StepFrame* before)
+StepFrame::StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent,
+                     std::shared_ptr<const ImageU8x3> display, const StepFrame* before)
     : StepFrame(luma, visible, extent) {
-    display_ = copy_of(display);
-    axis_ = before ? before->axis_ : color_axis(display, visible);
-    if (axis_) color_ = weft::color_picture(display, *axis_);
+    display_ = std::move(display);
+    axis_ = before ? before->axis_ : color_axis(*display_, visible);
+    if (axis_) color_ = weft::color_picture(*display_, *axis_);
+}
+
+const ImageU8x3& StepFrame::display() const {
+    static const ImageU8x3 kNone;
+    return display_ ? *display_ : kNone;
 }
 
 std::shared_ptr<const StepFrame> StepFrame::part(ViewU8x1 visible, const StepFrame* before) const {
@@ -251,7 +255,6 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     constexpr float kEnough = 1.25f;
     const OutlineView before = prev.view(), now = cur.view();
     StepEvidence out;
-    out.raw = std::make_shared<const FlowField>(prev_from_cur);
     out.by_picture = flat_or_bent(prev, cur, prev_from_cur, spacing_px);
     // Where the surface is found again almost everywhere, nothing is left to be explained; but
     // shades alone are found again, too, and leave its colours behind.

@@ -19,10 +19,11 @@ class StepFrame {
   public:
     /// `luma`, `visible` (the matte without holdouts), `extent` (the full matte): H×W.
     StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent);
-    /// With `display`, sRGB codes, H×W: its colours too, if the surface has any. `before`: the
-    /// frame that the walk comes from, whose axis is kept; null: this one begins the walk.
-    StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent, ViewU8x3 display,
-              const StepFrame* before);
+    /// With `display`, sRGB codes, H×W, which is shared: its colours too, if the surface has any.
+    /// `before`: the frame that the walk comes from, whose axis is kept; null: this one begins the
+    /// walk.
+    StepFrame(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 extent,
+              std::shared_ptr<const ImageU8x3> display, const StepFrame* before);
 
     [[nodiscard]] Size size() const { return luma_.size(); }
     [[nodiscard]] OutlineView view() const { return {luma_, extent_, visible_}; }
@@ -32,7 +33,7 @@ class StepFrame {
     /// The colours (color_picture()) as 8-bit luma; empty if there are none.
     [[nodiscard]] ViewU8x1 color() const { return color_; }
     /// The plate as displayed; empty if it was not given.
-    [[nodiscard]] const ImageU8x3& display() const { return display_; }
+    [[nodiscard]] const ImageU8x3& display() const;
     /// The same frame as a walk along a part of the surface sees it. `visible`: the part, H×W;
     /// `before`: as above.
     [[nodiscard]] std::shared_ptr<const StepFrame> part(ViewU8x1 visible,
@@ -43,7 +44,7 @@ class StepFrame {
 
   private:
     Matte luma_, extent_, visible_, color_;
-    ImageU8x3 display_;
+    std::shared_ptr<const ImageU8x3> display_;
     std::optional<ColorAxis> axis_;
     mutable std::once_flag picture_made_, color_picture_made_, outline_made_;
     mutable std::optional<RegistrationPicture> picture_, color_picture_;
@@ -68,7 +69,7 @@ struct StepEvidence {
     std::optional<LatticeField> by_color = {};
     double color_lead = 0;  ///< Before what luma finds, as colours judge it, standard errors.
     /// Parts that seem to move by themselves (find_moving_parts()), where there is some structure,
-    /// and the plate's raw motion, from which they are told.
+    /// and the plate's raw motion, from which they are told (set by who has it; null: no parts).
     MovingParts parts = {};
     std::shared_ptr<const FlowField> raw = {};
 };

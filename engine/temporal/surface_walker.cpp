@@ -162,6 +162,7 @@ const LatticeField& SurfaceWalker::advance(ViewU8x1 luma, ViewU8x1 visible,
                                 ? exact_evidence(*cur, prev_from_cur, s.options.spacing_px)
                                 : gather_evidence(*s.last, *cur, prev_from_cur, s.options.quality,
                                                   s.options.spacing_px);
+    if (!s.options.exact_motion) evidence.raw = std::make_shared<const FlowField>(prev_from_cur);
     return advance({std::move(cur), std::move(evidence)});
 }
 

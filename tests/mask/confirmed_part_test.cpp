@@ -131,6 +131,11 @@ TEST_F(HalfPainted, GoesOnFromWhatIsConfirmed) {
                                static_cast<int>(scene.center(8).y) - 12),
               4);
     EXPECT_GT(with[7].since_confidence, with[7].confidence);
+    // Where the picture marks the edge, it stays where it was to a tenth of a pixel.
+    for (int y = 0; y < scene.size.height; ++y) {
+        for (int x = 0; x < static_cast<int>(scene.center(8).x) - 14; ++x)
+            ASSERT_NEAR(with[7].matte.at(x, y), plain[7].matte.at(x, y), 25) << x << ", " << y;
+    }
 }
 
 TEST_F(HalfPainted, AWalkBackKnowsOnlyWhatWasConfirmed) {

@@ -45,7 +45,8 @@ class JointedScene {
     }
     [[nodiscard]] std::shared_ptr<const StepFrame> frame(int t, const StepFrame* before) const {
         const ImageU8x3 picture = display(t);
-        return std::make_shared<const StepFrame>(luma_of(picture), matte(t), matte(t), picture,
+        return std::make_shared<const StepFrame>(luma_of(picture), matte(t), matte(t),
+                                                 std::make_shared<const ImageU8x3>(picture),
                                                  before);
     }
     /// prev_from_cur of frame `t` as the pictures show it.

@@ -368,7 +368,8 @@ TEST(StepMotion, FollowsColoursUnderMovingShades) {
     };
     ImageU8x3 colors = display(0);
     Matte last = luma_of(colors);
-    auto start = std::make_shared<const StepFrame>(last, matte, matte, colors, nullptr);
+    auto start = std::make_shared<const StepFrame>(
+        last, matte, matte, std::make_shared<const ImageU8x3>(colors), nullptr);
     ASSERT_TRUE(start->has_color());
     SurfaceWalker walker(start, {});
     std::shared_ptr<const StepFrame> before = start;
@@ -376,7 +377,8 @@ TEST(StepMotion, FollowsColoursUnderMovingShades) {
     for (int t = 1; t <= kSteps; ++t) {
         colors = display(t);
         const Matte luma = luma_of(colors);
-        auto now = std::make_shared<const StepFrame>(luma, matte, matte, colors, before.get());
+        auto now = std::make_shared<const StepFrame>(
+            luma, matte, matte, std::make_shared<const ImageU8x3>(colors), before.get());
         StepEvidence evidence =
             gather_evidence(*before, *now, flow_between(luma, last), FlowQuality::kFinal, 8);
         ASSERT_TRUE(evidence.by_color) << t;
