@@ -124,4 +124,11 @@ FlowField motion_behind(const FlowField& measured, const Matte& hidden, const Im
     return flow;
 }
 
+void move_seen(ImageF1& seen, ViewF1 phi) {
+    for (int y = 0; y < seen.height(); ++y) {
+        for (int x = 0; x < seen.width(); ++x)
+            if (seen.at(x, y) != 0) seen.at(x, y) = phi.row(y)[x];
+    }
+}
+
 }  // namespace weft

@@ -12,6 +12,9 @@ namespace weft {
 
 /// A signed distance with 0, neither inside nor outside, where `hidden`; both have one size.
 [[nodiscard]] ImageF1 seen_distance(const ImageF1& phi, const Matte& hidden);
+/// Of another boundary: what was hidden in `seen` stays so. An empty `seen` stays empty; else both
+/// have one size.
+void move_seen(ImageF1& seen, ViewF1 phi);
 
 /// Where `hidden`, which is of the frame's size, the shape stays as expected: the log odds of an
 /// area at `origin` become decisive near the boundary and 0 further off. `expected_phi`: signed

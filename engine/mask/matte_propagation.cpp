@@ -117,7 +117,6 @@ struct MatteWalker::State {
     void take_back(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const;
-    void see_again();
     void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
                       ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
@@ -307,14 +306,6 @@ void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_c
     take_changed(kept, distance, matte);
 }
 
-// The boundary has changed; what is hidden stays so.
-void MatteWalker::State::see_again() {
-    for (int y = 0; y < seen.height(); ++y) {
-        for (int x = 0; x < seen.width(); ++x)
-            if (seen.at(x, y) != 0) seen.at(x, y) = phi.at(x, y);
-    }
-}
-
 MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     State& s = *state_;
     Matte inside(s.last.size()), wrong(s.last.size());
@@ -331,7 +322,7 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     }
     if (any) {
         s.take_changed(inside, s.phi, s.last);
-        s.see_again();
+        move_seen(s.seen, s.phi);
         s.plate.forget(wrong);
         s.plate.update(s.frame, s.seen_phi());
         s.sides.forget(wrong);

@@ -76,6 +76,16 @@ Kept walk(const Crossing& scene, bool knows_bar) {
     return kept;
 }
 
+TEST(HiddenPart, StaysHiddenWhenTheBoundaryMoves) {
+    ImageF1 seen(3, 1), phi(3, 1, -2.0f), none;
+    seen.at(0, 0) = 4;
+    move_seen(seen, phi);
+    EXPECT_EQ(seen.at(0, 0), -2);
+    EXPECT_EQ(seen.at(1, 0), 0);
+    move_seen(none, phi);
+    EXPECT_TRUE(none.empty());
+}
+
 TEST(HiddenPart, ASurfaceStaysWholeBehindWhatPasses) {
     const Crossing scene;
     const Kept knowing = walk(scene, true), unknowing = walk(scene, false);
