@@ -143,7 +143,7 @@ struct Page {
 // says how far the search for suggestions is. In Motion the path of the
 // demo's motion passes begins with the folder of the sources; in Jobs the output lies in the
 // sandbox, whose name is drawn.
-const Page kPages[] = {{"mask", "Mask", {272, 104, 320, 112}},
+const Page kPages[] = {{"mask", "Mask", {272, 112, 320, 120}},
                        {"texture", "Texture", {168, 92, 320, 104}},
                        {"motion", "Motion", {272, 136, 320, 152}},
                        {"light", "Seams & Light", {}, 8},
