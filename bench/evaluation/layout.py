@@ -28,6 +28,10 @@ def corpus_folder():
     return Path(os.environ.get("WEFT_CORPUS") or os.path.join(cache, "weft-corpus"))
 
 
+FIGURE = "figure"  # the surface that is all parts of a body together (figure.py); these parts, by family:
+FIGURES = {"body": ("torso", "skirt", "sleeve", "other sleeve"), "walker": ("coat", "near sleeve", "far sleeve")}
+
+
 class Scene:
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -59,6 +63,16 @@ class Scene:
     @property
     def surfaces(self):
         return [p for p in self.parts if p["surface"]]
+
+    @property
+    def figure(self):
+        """The parts that are one body, which an artist would mask together; none where the scene shows no body."""
+        return [p for p in self.parts if p["name"] in FIGURES.get(self.facts["family"], ())]
+
+    def coverage_files(self, surface, frame):
+        """The files whose sum is the coverage of the surface of that name."""
+        names = [p["name"] for p in self.figure] if surface == FIGURE else [surface]
+        return [self.file(frame, "coverage", n, ending="png") for n in names]
 
     def pattern(self, *names, ending="exr"):
         """The files of a sequence, as weft's options take it."""

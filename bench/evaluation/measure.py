@@ -4,12 +4,13 @@ import shutil
 import traceback
 from pathlib import Path
 
+import figure
 from drawn import DrawnSurface
 from film import FilmSurface
 from rendered import RenderedSurface
 from runs import RunFailed, Runs
 
-VERSION = 3  # of the measures: a surface measured by another one is measured again
+VERSION = 4  # of the measures: a surface measured by another one is measured again
 
 
 def surface_folder(work, scene, name):
@@ -19,14 +20,14 @@ def surface_folder(work, scene, name):
 
 def measure_scene(scene, weft, work, only=None):
     """{name, family, seed, verified, surfaces, failures}; `only`: the names of the surfaces to measure."""
-    surfaces = [p for p in scene.surfaces if only is None or p["name"] in only]
+    surfaces = [p for p in measured_of(scene) if only is None or p["name"] in only]
     found = {"name": scene.name, "family": scene.facts["family"], "seed": scene.facts["seed"],
              "verified": verified(scene), "surfaces": [], "failures": []}
     for part in surfaces:
         folder = surface_folder(work, scene, part["name"])
         shutil.rmtree(folder, ignore_errors=True)
         try:
-            record, failures = measure_surface(kind_of(scene)(scene, part, Runs(weft, folder)))
+            record, failures = measure_surface(kind_of(scene, part)(scene, part, Runs(weft, folder)))
         except Exception as error:
             record, failures = {"name": part["name"]}, [failure("truth", error)]
         found["surfaces"].append(record)
@@ -34,6 +35,11 @@ def measure_scene(scene, weft, work, only=None):
     found["failures"] = without_folders(found["failures"], {str(weft): "weft", str(work): "WORK",
                                                             str(scene.folder.parent): "CORPUS"})
     return found
+
+
+def measured_of(scene):
+    """What is measured of a scene: its surfaces, and its body as one."""
+    return scene.surfaces + figure.of_scene(scene)
 
 
 def without_folders(failures, names):
@@ -44,7 +50,9 @@ def without_folders(failures, names):
     return json.loads(text)
 
 
-def kind_of(scene):
+def kind_of(scene, part):
+    if "parts" in part:
+        return figure.FigureSurface
     if scene.facts.get("film"):
         return FilmSurface
     return DrawnSurface if scene.drawn else RenderedSurface

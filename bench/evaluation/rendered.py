@@ -28,15 +28,22 @@ class RenderedSurface:
                 "points": ("draft", "final", *points.BASELINES), "form": (None,), "tiled": (None,), "matte": mattes.PAINTED}
 
     def __init__(self, scene, part, runs):
-        self.scene, self.runs, self.truth = scene, runs, SurfaceTruth(scene, part)
+        self.scene, self.runs, self.truth = scene, runs, self.truth_of(scene, part)
         self.name, self.last = part["name"], max(scene.frames)
         self.plate = scene.pattern("plate", ending="png")
-        self.matte_options = ("--matte", self.truth.coverage_pattern)
+        self.matte_options = ("--matte", self.write_matte())
         self.true_motion = ("--motion", scene.pattern("data"), "--motion-convention", "blender")
         self.texture = textures.followed(runs.work.parent.parent / "followed.png")
         self.tile = textures.tile_of(scene) or self.texture
         self.moving = True  # its true motion is known
         self.followed = {}
+
+    def truth_of(self, scene, part):
+        return SurfaceTruth(scene, part)
+
+    def write_matte(self):
+        """The pattern of the true matte's files."""
+        return self.truth.coverage_pattern
 
     def render(self, name, *options, **how):
         return self.runs.render(name, self.plate, (*self.matte_options, *options), **how)
@@ -143,7 +150,7 @@ class RenderedSurface:
 
     def tidy(self):
         """Leaves the pictures that sheets show."""
-        for name in ("cache", "uv", "matte-loose", "matte-three", "light-draft", "light-draft-layers", "light-final-layers", "followed-draft",
+        for name in ("cache", "uv", "coverage", "matte-loose", "matte-three", "light-draft", "light-draft-layers", "light-final-layers", "followed-draft",
                      "followed-draft-layers", "followed-final", "followed-final-layers", "tiled-layers"):
             shutil.rmtree(self.runs.work / name, ignore_errors=True)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import jsonschema
 
-from measure import VERSION
+from measure import VERSION, measured_of
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCHEMA_FILE = ROOT / "docs" / "schemas" / "corpus-results.schema.json"
@@ -72,7 +72,7 @@ def to_measure(results, scene):
     now, found = stamp(results, scene), record_of(results, scene.name)
     failed = {f["surface"] for f in found["failures"]} if found else set()
     done = {s["name"] for s in found["surfaces"] if s["of"] == now} - failed if found else set()
-    return [p["name"] for p in scene.surfaces if p["name"] not in done]
+    return [p["name"] for p in measured_of(scene) if p["name"] not in done]
 
 
 def record_of(results, name):
@@ -83,14 +83,14 @@ def put(results, scene, measured):
     """Adds what measure_scene returned; surfaces that it did not measure stay."""
     now, before = stamp(results, scene), record_of(results, scene.name)
     fresh = {s["name"] for s in measured["surfaces"]}
-    there = {p["name"] for p in scene.surfaces}
+    there = {p["name"] for p in measured_of(scene)}
     surfaces = [{**s, "of": now} for s in measured["surfaces"]]
     failures = list(measured["failures"])
     if before:
         surfaces += [s for s in before["surfaces"] if s["name"] in there - fresh]
         failures += [f for f in before["failures"] if f["surface"] in there - fresh]
         results["scenes"].remove(before)
-    order = [p["name"] for p in scene.surfaces]
+    order = [p["name"] for p in measured_of(scene)]
     surfaces.sort(key=lambda s: order.index(s["name"]))
     results["scenes"].append({**measured, "surfaces": surfaces, "failures": failures})
     results["scenes"].sort(key=lambda s: (s["family"], s["seed"]))

@@ -5,7 +5,7 @@ import OpenImageIO as oiio
 import fields
 import images
 import tables
-from measure import surface_folder
+from measure import measured_of, surface_folder
 
 FONT = "DejaVuSans"
 CELL_WIDTH = 320
@@ -21,7 +21,7 @@ def scene_sheet(scene, work, path):
     frames = [f for f in scene.frames if scene.file(f, "grey").is_file()] or list(scene.frames)
     frames = [frames[k] for k in sorted({int(round(k)) for k in np.linspace(0, len(frames) - 1, COLUMNS)})]
     rows = [("%s: the plate, frames %s" % (scene.name, ", ".join(map(str, frames))), [plate(scene, f) for f in frames])]
-    for part in scene.surfaces:
+    for part in measured_of(scene):
         views = Views(scene, surface_folder(work, scene, part["name"]), part["name"])
         rows += [(part["name"] + ": " + what, [view(f) for f in frames])
                  for what, view in (("the tile, as delivered", views.delivered), ("true grey", views.true_grey),
@@ -91,7 +91,7 @@ class Views:
         return np.median(true[inside]) / max(np.median(result[inside]), 1e-6) if inside.any() else 1
 
     def coverage(self, frame):
-        return images.grey(self.scene.file(frame, "coverage", self.name, ending="png"))
+        return sum(images.grey(f) for f in self.scene.coverage_files(self.name, frame))
 
     def true_tile(self, frame):
         return shown(self.scene.file(frame, "tiled"))

@@ -3,6 +3,8 @@ from pathlib import Path
 
 import numpy as np
 
+from layout import FIGURE
+
 BEGIN, END = "<!-- corpus:begin -->", "<!-- corpus:end -->"
 WORST = 10
 
@@ -82,13 +84,18 @@ def surfaces_of(results):
     return [(scene, surface) for scene in results["scenes"] for surface in scene["surfaces"]]
 
 
+def family_of(scene, surface):
+    """A body measured as one region is a family of its own."""
+    return FIGURE if surface["name"] == FIGURE else scene["family"]
+
+
 def by_family(results, columns):
     """Median and worst over each family's surfaces."""
-    families = list(dict.fromkeys(scene["family"] for scene in results["scenes"]))
+    families = list(dict.fromkeys(family_of(scene, s) for scene, s in surfaces_of(results)))
     rows = []
     for family in families + ["all"]:
         chosen = [s for scene, s in surfaces_of(results)
-                  if family in (scene["family"], "all") and columns[0].value(s) is not None]
+                  if family in (family_of(scene, s), "all") and columns[0].value(s) is not None]
         if chosen:
             rows.append([family, str(len(chosen))] + [both(column, chosen) for column in columns])
     return table(["family", "surfaces"] + [c.title for c in columns], rows)

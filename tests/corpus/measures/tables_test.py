@@ -32,6 +32,12 @@ class Tables(unittest.TestCase):
         self.assertIn("| room | 3 | 2.00 / 9.00 |", tables.by_family(found, tables.TABLES["Motion"]))
         self.assertIn("| room | 3 | 0.800 / 0.500 |", tables.by_family(found, tables.TABLES["Matte"]))
 
+    def test_a_body_as_one_region_is_a_family_of_its_own(self):
+        found = header(scenes=scenes(surface("torso", 1.0), surface("figure", 5.0)))
+        rows = tables.by_family(found, tables.TABLES["Motion"])
+        self.assertIn("| room | 1 | 1.00 / 1.00 |", rows)
+        self.assertIn("| figure | 1 | 5.00 / 5.00 |", rows)
+
     def test_the_worst_come_first_and_what_was_not_measured_is_left_out(self):
         found = header(scenes=scenes(surface("a", 1.0), surface("b", None), surface("c", 9.0)))
         rows = tables.worst(found, tables.TABLES["Motion"]).splitlines()[2:]
@@ -69,7 +75,7 @@ class Results(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         facts = {"family": "room", "seed": 1}
-        self.scene = SimpleNamespace(name="room-1", facts=facts, surfaces=[{"name": "wall"}, {"name": "floor"}])
+        self.scene = SimpleNamespace(name="room-1", facts=facts, figure=[], surfaces=[{"name": "wall"}, {"name": "floor"}])
         self.measured = {"name": "room-1", "family": "room", "seed": 1, "verified": True, "failures": [],
                          "surfaces": [{"name": "floor", "matte": {"one": {"iou": 0.5}}}]}
 
