@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <initializer_list>
 #include <limits>
 
 #include "engine/core/parallel.h"
@@ -20,8 +22,14 @@ struct BestMatches {
     int outside = std::numeric_limits<int>::max();
 };
 
-// The best patches of both sides around one guess of where the pixel was.
-void search_around(const MatchInput& in, Vec2i at, Vec2i guess, BestMatches& best) {
+bool beside(Vec2i a, Vec2i b) {
+    return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1;
+}
+
+// The best patches of both sides around one guess of where the pixel was. What lies around one of
+// the `earlier` guesses was compared already.
+void search_around(const MatchInput& in, Vec2i at, Vec2i guess,
+                   std::initializer_list<Vec2i> earlier, BestMatches& best) {
     const int w = in.prev_frame.width(), h = in.prev_frame.height();
     const std::uint8_t* here = in.frame.pixel(at.x, at.y);
     const int u0 = std::max(kPatchRadius, guess.x - 1),
@@ -29,6 +37,10 @@ void search_around(const MatchInput& in, Vec2i at, Vec2i guess, BestMatches& bes
     for (int v = std::max(kPatchRadius, guess.y - 1);
          v <= std::min(h - 1 - kPatchRadius, guess.y + 1); ++v) {
         for (int u = u0; u <= u1; ++u) {
+            if (std::any_of(earlier.begin(), earlier.end(), [&](Vec2i before) {
+                    return beside(before, {u, v});
+                }))
+                continue;
             int& side = in.prev_phi.row(v)[u] > 0 ? best.inside : best.outside;
             side =
                 std::min(side, patch_difference(here, in.frame.stride(), in.prev_frame.pixel(u, v),
@@ -48,9 +60,9 @@ BestMatches best_matches(const MatchInput& in, int x, int y) {
     const Vec2i b = guess(in.outside_motion.pixel(x, y));
     const Vec2i c = guess(in.flow.pixel(here.x, here.y));
     BestMatches best;
-    search_around(in, Vec2i(x, y), a, best);
-    if (b != a) search_around(in, Vec2i(x, y), b, best);
-    if (c != a && c != b) search_around(in, Vec2i(x, y), c, best);
+    search_around(in, Vec2i(x, y), a, {}, best);
+    if (b != a) search_around(in, Vec2i(x, y), b, {a}, best);
+    if (c != a && c != b) search_around(in, Vec2i(x, y), c, {a, b}, best);
     return best;
 }
 

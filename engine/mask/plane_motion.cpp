@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr float kLeastScalePx = 0.1f;
+// The terms that say something of each coordinate; the others are 0.
+constexpr std::array<std::array<std::size_t, 5>, 2> kTermsOf = {{{0, 1, 2, 6, 7}, {3, 4, 5, 6, 7}}};
 
 }  // namespace
 
@@ -39,13 +41,10 @@ std::array<PlaneMotion::Terms, 2> PlaneMotion::rows(double px, double py) const 
     return {{{1, x, y, 0, 0, 0, x * x, x * y}, {0, 0, 0, 1, x, y, x * y, y * y}}};
 }
 
-Vec2 PlaneMotion::at(double x, double y) const {
-    const auto r = rows(x, y);
-    double u = 0, v = 0;
-    for (std::size_t i = 0; i < kTerms; ++i) {
-        u += p_[i] * r[0][i];
-        v += p_[i] * r[1][i];
-    }
+Vec2 PlaneMotion::at(double px, double py) const {
+    const double x = (px - centre_x_) * unit_, y = (py - centre_y_) * unit_;
+    const double u = p_[0] + p_[1] * x + p_[2] * y + p_[6] * (x * x) + p_[7] * (x * y);
+    const double v = p_[3] + p_[4] * x + p_[5] * y + p_[6] * (x * y) + p_[7] * (y * y);
     return {static_cast<float>(u), static_cast<float>(v)};
 }
 
@@ -56,12 +55,11 @@ void PlaneMotion::fit(const std::vector<MotionSample>& samples) {
         const auto of_sample = rows(s.x, s.y);
         for (std::size_t k = 0; k < 2; ++k) {
             const double d = static_cast<double>(k == 0 ? s.d.x : s.d.y);
-            for (std::size_t i = 0; i < kTerms; ++i) {
+            for (const std::size_t i : kTermsOf[k]) {
                 const double w = static_cast<double>(s.weight) * of_sample[k][i];
                 b[static_cast<int>(i)] += w * d;
-                for (std::size_t j = 0; j < kTerms; ++j) {
+                for (const std::size_t j : kTermsOf[k])
                     a(static_cast<int>(i), static_cast<int>(j)) += w * of_sample[k][j];
-                }
             }
         }
     }
