@@ -46,6 +46,12 @@ class AnchorSet {
     /// How the present anchor's frame moves, found later.
     void set_motion(LatticeField motion) { anchors_[present_].motion = std::move(motion); }
     void use(std::size_t index) { present_ = index; }
+    /// Replaces each anchor's frame by what `changed` makes of the anchor.
+    template <class Change>
+    void change_frames(const Change& changed) {
+        for (Anchor& anchor : anchors_)
+            anchor.frame = changed(std::as_const(anchor));
+    }
     /// Drops all anchors, because their mapping to the reference frame is no longer valid.
     void clear() { anchors_.clear(); }
     [[nodiscard]] bool empty() const { return anchors_.empty(); }

@@ -1,6 +1,7 @@
 #include "engine/temporal/jointed_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/core/parallel.h"
@@ -8,6 +9,7 @@
 #include "engine/motion/photometric_register.h"
 #include "engine/motion/surface_fit.h"
 #include "engine/temporal/joined_field.h"
+#include "engine/temporal/part_islands.h"
 #include "engine/temporal/part_outlines.h"
 #include "engine/temporal/stretch_limit.h"
 
@@ -47,12 +49,36 @@ bool is_borne_out(const StepFrame& prev, const StepFrame& alone, const LatticeFi
            before_smooth.gain > demands.smooth_gain && before_smooth.errors > demands.smooth_errors;
 }
 
+void add_to(Matte& all, const Matte& one) {
+    for (int y = 0; y < all.height(); ++y) {
+        for (int x = 0; x < all.width(); ++x)
+            all.at(x, y) = std::max(all.at(x, y), one.at(x, y));
+    }
+}
+
 void take_away(Matte& from, const Matte& part) {
     for (int y = 0; y < from.height(); ++y) {
         for (int x = 0; x < from.width(); ++x) {
             if (part.at(x, y) != 0) from.at(x, y) = 0;
         }
     }
+}
+
+// Where a part was before the step by which it was found, 255 or 0.
+Matte on_the_frame_before(const PartOutline& part) {
+    const Size size = part.matte.size();
+    const ImageF2 way = inverse(part.motion).dense(rect_of(size));
+    Matte out(size);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const float* d = way.pixel(x, y);
+            const int u = x + static_cast<int>(std::lround(d[0]));
+            const int v = y + static_cast<int>(std::lround(d[1]));
+            if (u >= 0 && v >= 0 && u < size.width && v < size.height)
+                out.at(x, y) = part.matte.at(u, v);
+        }
+    }
+    return out;
 }
 
 }  // namespace
@@ -94,14 +120,26 @@ std::vector<JointedParts::Next> JointedParts::carried(const WalkStep& to) {
             next[owner].matte.at(x, y) = 255;
         }
     }
+    for (std::size_t k = 1; k < next.size(); ++k)
+        drop_islands(k, next);
     return next;
 }
 
+// What has come off a part is the body's.
+void JointedParts::drop_islands(std::size_t part, std::vector<Next>& next) {
+    Matte& matte = next[part].matte;
+    Matte islands = part_islands(matte);
+    if (islands.empty()) return;
+    take_away(matte, islands);
+    add_to(next[0].matte, islands);
+    static_cast<void>(parts_[part].matte->confirm({matte, std::move(islands)}));
+}
+
 // The parts of a part.
-std::vector<Matte> JointedParts::found_in(const Part& part, const Next& now,
-                                          const FlowField& prev_from_cur,
-                                          const SurfaceWalkerOptions& options) const {
-    std::vector<Matte> out;
+std::vector<PartOutline> JointedParts::found_in(const Part& part, const Next& now,
+                                                const FlowField& prev_from_cur,
+                                                const SurfaceWalkerOptions& options) const {
+    std::vector<PartOutline> out;
     if (now.evidence.parts.count == 0) return out;
     PartOutlines found = part_outlines(*part.last, *now.frame, prev_from_cur, now.evidence.parts,
                                        options.spacing_px);
@@ -109,22 +147,28 @@ std::vector<Matte> JointedParts::found_in(const Part& part, const Next& now,
         const auto alone = now.frame->part(one.matte, part.last.get());
         if (is_borne_out(*part.last, *alone, one.motion, found.body_motion, now.evidence.by_picture,
                          any() ? kFurther : kFirst))
-            out.push_back(std::move(one.matte));
+            out.push_back(std::move(one));
     }
     return out;
 }
 
 void JointedParts::split(std::size_t part, std::vector<Next>& next, const WalkStep& to,
                          const SurfaceWalkerOptions& options) {
-    std::vector<Matte> found = found_in(parts_[part], next[part], *to.evidence.raw, options);
-    found.resize(std::min(found.size(), kMostParts - parts_.size()));
+    std::vector<PartOutline> found = found_in(parts_[part], next[part], *to.evidence.raw, options);
+    if (found.size() > kMostParts - parts_.size())
+        found.erase(found.begin() + static_cast<std::ptrdiff_t>(kMostParts - parts_.size()),
+                    found.end());
     if (found.empty()) return;
-    for (Matte& matte : found) {
-        take_away(next[part].matte, matte);
+    // Where it looks for itself again, no arm is in front of it.
+    Matte others(to.frame->size(), 255);
+    for (PartOutline& one : found) {
+        take_away(next[part].matte, one.matte);
+        take_away(others, on_the_frame_before(one));
         parts_.push_back(
-            {parts_[part].walker, parts_[part].last, MatteWalker(to.frame->display(), matte)});
-        next.push_back({std::move(matte), nullptr, {}});
+            {parts_[part].walker, parts_[part].last, MatteWalker(to.frame->display(), one.matte)});
+        next.push_back({std::move(one.matte), nullptr, {}});
     }
+    parts_[part].walker.keep_on_anchors(others);
     if (parts_[part].matte) parts_[part].matte = MatteWalker(to.frame->display(), next[part].matte);
     next[part].frame = nullptr;
 }
@@ -171,10 +215,7 @@ void JointedParts::give_up_lost(std::vector<Next>& next) {
         if (area >= kFewest_px * unit * unit &&
             !relaxed_stretch(parts_[k].walker.ref_from_cur(), matte))
             continue;
-        for (int y = 0; y < matte.height(); ++y) {
-            for (int x = 0; x < matte.width(); ++x)
-                next[0].matte.at(x, y) = std::max(next[0].matte.at(x, y), matte.at(x, y));
-        }
+        add_to(next[0].matte, matte);
         parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(k));
         next.erase(next.begin() + static_cast<std::ptrdiff_t>(k));
     }

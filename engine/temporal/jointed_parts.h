@@ -9,6 +9,7 @@
 #include "engine/core/image.h"
 #include "engine/mask/matte_propagation.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/temporal/part_outlines.h"
 #include "engine/temporal/step_motion.h"
 #include "engine/temporal/surface_walker.h"
 
@@ -55,11 +56,12 @@ class JointedParts {
     };
 
     [[nodiscard]] std::vector<Next> carried(const WalkStep& to);
-    [[nodiscard]] std::vector<Matte> found_in(const Part& part, const Next& now,
-                                              const FlowField& prev_from_cur,
-                                              const SurfaceWalkerOptions& options) const;
+    [[nodiscard]] std::vector<PartOutline> found_in(const Part& part, const Next& now,
+                                                    const FlowField& prev_from_cur,
+                                                    const SurfaceWalkerOptions& options) const;
     void split(std::size_t part, std::vector<Next>& next, const WalkStep& to,
                const SurfaceWalkerOptions& options);
+    void drop_islands(std::size_t part, std::vector<Next>& next);
     void give_up_lost(std::vector<Next>& next);
     [[nodiscard]] LatticeField joined(const std::vector<LatticeField>& fields) const;
 

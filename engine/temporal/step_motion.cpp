@@ -231,6 +231,7 @@ const ImageU8x3& StepFrame::display() const {
 }
 
 std::shared_ptr<const StepFrame> StepFrame::part(ViewU8x1 visible, const StepFrame* before) const {
+    if (!display_) return std::make_shared<const StepFrame>(luma_, visible, visible);
     return std::make_shared<const StepFrame>(luma_, visible, visible, display_, before);
 }
 

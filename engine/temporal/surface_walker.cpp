@@ -236,6 +236,27 @@ void SurfaceWalker::become_part() {
     s.stretched = {};
 }
 
+void SurfaceWalker::keep_on_anchors(ViewU8x1 own) {
+    State& s = *state_;
+    const Size size = s.frame_size();
+    s.anchors.change_frames([&](const Anchor& anchor) {
+        const ImageF2 to_last = inverse(s.predicted(anchor)).dense(rect_of(size));
+        const ViewU8x1 visible = anchor.frame->view().visible;
+        Matte kept(size);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const float* d = to_last.pixel(x, y);
+                const int u =
+                    std::clamp(x + static_cast<int>(std::lround(d[0])), 0, size.width - 1);
+                const int v =
+                    std::clamp(y + static_cast<int>(std::lround(d[1])), 0, size.height - 1);
+                kept.at(x, y) = own.at(u, v) != 0 ? visible.at(x, y) : std::uint8_t{0};
+            }
+        }
+        return anchor.frame->part(kept, anchor.frame.get());
+    });
+}
+
 int SurfaceWalker::part_count() const {
     return state_->parts.count();
 }

@@ -80,6 +80,9 @@ class SurfaceWalker {
     /// From now on this is the walk of a part of the surface that it has followed so far: it is not
     /// divided by itself, and nothing of the whole's size is expected of it.
     void become_part();
+    /// What the earlier frames against which it registers show beside `own` is no longer of this
+    /// surface. `own`: its part of the last frame, H×W, 255 or 0.
+    void keep_on_anchors(ViewU8x1 own);
     /// How many parts of the surface are followed by themselves (JointedParts); 0: it has none.
     [[nodiscard]] int part_count() const;
     /// Goes on to a frame that shows the same drawing as the frame before: nothing moves.
