@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/motion/stripes.h"
 #include "engine/motion/wide_search.h"
 
 namespace weft {
@@ -29,8 +30,12 @@ Candidate search(const Anchor& anchor, const StepFrame& cur, const Pictures& see
     const WideSearch wide =
         search_around({seen.there, anchor.frame->view().visible}, {seen.here, cur.view().visible},
                       seen.luma, found.anchor_from_cur, missed, quality);
-    return {register_against(anchor, cur, by_color, wide.anchor_from_cur, quality),
-            wide.known_share};
+    // Along stripes anything is found again, by shades at the latest.
+    const OutlineView there = anchor.frame->view();
+    const Stripes stripes = stripes_of(there.luma, there.visible);
+    const LatticeField initial =
+        changed_across_stripes(wide.anchor_from_cur, found.anchor_from_cur, stripes);
+    return {register_against(anchor, cur, by_color, initial, quality), wide.known_share};
 }
 
 // Whether a candidate is the same paint. Shades that move over a faint surface are found again,

@@ -161,21 +161,45 @@ double picture_lead(const RegistrationPicture& before, const RegistrationPicture
 
 namespace {
 
+// A shade that moves over stripes takes the plate's motion along, for the stripes do not hold it,
+// and finds itself again there in every frame. That motion leaves the outline behind; the one that
+// is freed of light keeps to it. By how much more the plate's departs, as standard errors for the
+// freed one.
+double shade_lead(const OutlineView& now, const StepEvidence& step, const LatticeField& outline,
+                  const Stripes& stripes) {
+    constexpr double kMost = 6;
+    constexpr float kNone_px = 2, kClear_px = 6;  // a step, of a frame 480 wide
+    const auto departure = [&](const LatticeField& motion) {
+        return departure_along_stripes(motion, outline, now.visible, now.extent, stripes);
+    };
+    const float more = departure(step.by_picture) - departure(*step.by_freed);
+    const float unit = static_cast<float>(now.visible.width()) / 480;
+    return kMost * static_cast<double>(smooth_step(more / unit, kNone_px, kClear_px));
+}
+
 // Along stripes raw motion says nothing, but follows noise, or stands still.
 void add_lines(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
                int spacing_px, StepEvidence& out) {
     const OutlineView now = cur.view();
     const Stripes stripes = stripes_of(now.luma, now.visible);
     if (!(stripes.share > 0)) return;
+    const LatticeField outline = by_outline(prev, cur, spacing_px);
+    const auto occluded_by = [&](const LatticeField& picture) {
+        return occluded_share(now.luma, now.extent, outline, picture, prev_from_cur, stripes.along);
+    };
+    // A shade confuses what an outline moves with: of a cloth under one 0 to 0.43.
+    constexpr double kMostlyOwn = 0.5;
+    if (out.by_freed && occluded_by(*out.by_freed) < kMostlyOwn) {
+        *out.freed_lead += shade_lead(now, out, outline, stripes);
+        out.by_freed = kept_along_stripes(*out.by_freed, outline, now.extent, stripes);
+    }
     const bool freed = out.by_freed && *out.freed_lead > 0;
     const LatticeField& picture = freed ? *out.by_freed : out.by_picture;
-    const LatticeField outline = by_outline(prev, cur, spacing_px);
     out.by_lines = along_stripes(picture, outline, now.extent, stripes);
     // Along its lines a picture finds itself again anywhere.
     out.lines_lead = lead_of(prev.picture(), cur.picture(), picture, *out.by_lines, kOfTheFit);
     constexpr double kMostOfIt = 4;
-    const double occluded =
-        occluded_share(now.luma, now.extent, outline, picture, prev_from_cur, stripes.along);
+    const double occluded = occluded_by(picture);
     if (out.lines_lead != 0) out.lines_lead += against_outline(occluded, kMostOfIt);
 }
 

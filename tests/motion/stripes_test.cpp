@@ -77,5 +77,58 @@ TEST(Stripes, OnlyTheMotionAlongThemIsTakenFromTheOutline) {
         << "the frame's border is no edge";
 }
 
+LatticeField uniform(Vec2 d) {
+    LatticeField out(kFrame, 8);
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i)
+            out.set_node(i, j, d);
+    }
+    return out;
+}
+
+// A region with upright stripes whose lower edge shows.
+Matte with_lower_edge() {
+    Matte out(kFrame);
+    for (int y = 0; y < 90; ++y)
+        std::fill(out.row(y), out.row(y) + kFrame.width, std::uint8_t{255});
+    return out;
+}
+constexpr Stripes kUpright{{0, 1}, 1};
+
+TEST(Stripes, HowFarAMotionLeavesTheOutlineIsTold) {
+    const Matte region = with_lower_edge();
+    const LatticeField outline = uniform({0, 1});
+    EXPECT_NEAR(departure_along_stripes(uniform({4, 11}), outline, region, region, kUpright), 10,
+                0.3f);
+    EXPECT_NEAR(departure_along_stripes(uniform({4, 1}), outline, region, region, kUpright), 0,
+                0.1f)
+        << "across them the picture tells";
+    EXPECT_EQ(departure_along_stripes(uniform({4, 11}), outline, Matte(kFrame), region, kUpright),
+              0)
+        << "nothing is visible";
+}
+
+TEST(Stripes, WhatSlidesFarAlongThemIsHeldByTheOutline) {
+    const Matte region = with_lower_edge();
+    const LatticeField outline = uniform({0, 0});
+    // A shade drags one half by 9 px a step, here a large one; the other moves by itself.
+    LatticeField dragged = uniform({2, 1});
+    for (int j = 0; j < dragged.nodes().height(); ++j) {
+        for (int i = 0; i < dragged.nodes().width(); ++i)
+            if (dragged.node_position(i, j).x > 100) dragged.set_node(i, j, {2, 9});
+    }
+    const LatticeField kept = kept_along_stripes(dragged, outline, region, kUpright);
+    EXPECT_EQ(kept.at({40, 40}), dragged.at({40, 40}));
+    EXPECT_LT(distance(kept.at({160, 40}), {2, 0}), 0.3f);
+}
+
+TEST(Stripes, ChangesCountAcrossThem) {
+    const LatticeField before = uniform({1, 1}), now = uniform({4, 7});
+    EXPECT_LT(distance(changed_across_stripes(now, before, kUpright).at({90, 30}), {4, 1}), 1e-4f);
+    EXPECT_LT(distance(changed_across_stripes(now, before, {{0, 1}, 0.5f}).at({90, 30}), {4, 4}),
+              1e-4f);
+    EXPECT_EQ(changed_across_stripes(now, before, {{0, 1}, 0}).nodes(), now.nodes());
+}
+
 }  // namespace
 }  // namespace weft
