@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <optional>
 
@@ -112,6 +113,19 @@ Stripes stripes_of(ViewU8x1 luma, ViewU8x1 visible) {
     const double ratio = (mean - apart) / (mean + apart);
     return {Vec2(glm::normalize(along)),
             static_cast<float>(std::clamp((kNoLines - ratio) / (kNoLines - kLines), 0.0, 1.0))};
+}
+
+Stripes stripes_of(const RegistrationPicture& picture) {
+    constexpr float kMiddle = 128, kDeviation = 40;  // codes
+    Matte codes(picture.value.size()), inside(picture.value.size());
+    for (int y = 0; y < codes.height(); ++y) {
+        for (int x = 0; x < codes.width(); ++x) {
+            const float code = kMiddle + kDeviation * picture.value.at(x, y);
+            codes.at(x, y) = static_cast<std::uint8_t>(std::clamp(code, 0.0f, 255.0f));
+            inside.at(x, y) = picture.inside.at(x, y) >= 0.5f ? 255 : 0;
+        }
+    }
+    return stripes_of(codes, inside);
 }
 
 LatticeField along_stripes(const LatticeField& field, const LatticeField& outline, ViewU8x1 extent,

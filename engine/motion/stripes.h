@@ -4,6 +4,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/motion/photometric_register.h"
 
 namespace weft {
 
@@ -18,6 +19,8 @@ struct Stripes {
 /// in full below 0.06, not at all above 0.12. Luma 8 bit, `visible` as a matte, H×W. Pure;
 /// deterministic.
 [[nodiscard]] Stripes stripes_of(ViewU8x1 luma, ViewU8x1 visible);
+/// The same of what registration compares: of the paint, without bands of light and shade.
+[[nodiscard]] Stripes stripes_of(const RegistrationPicture& picture);
 
 /// `field` with the motion along the stripes taken from that of the region's outline, as far as
 /// `stripes` says: what `outline` has where the edge of `extent` (H×W, the frame's border is none)

@@ -25,17 +25,17 @@ struct Candidate {
     double known_share = 0;
 };
 
-Candidate search(const Anchor& anchor, const StepFrame& cur, const Pictures& seen, bool by_color,
+// Along stripes shades are found again wherever they have gone.
+Candidate search(const Anchor& anchor, const StepFrame& cur, const Pictures& seen, FoundBy by,
                  const Registered& found, MissedBy missed, FlowQuality quality) {
     const WideSearch wide =
         search_around({seen.there, anchor.frame->view().visible}, {seen.here, cur.view().visible},
                       seen.luma, found.anchor_from_cur, missed, quality);
-    // Along stripes anything is found again, by shades at the latest.
-    const OutlineView there = anchor.frame->view();
-    const Stripes stripes = stripes_of(there.luma, there.visible);
     const LatticeField initial =
-        changed_across_stripes(wide.anchor_from_cur, found.anchor_from_cur, stripes);
-    return {register_against(anchor, cur, by_color, initial, quality), wide.known_share};
+        by.freed ? changed_across_stripes(wide.anchor_from_cur, found.anchor_from_cur,
+                                          stripes_of(seen.there))
+                 : wide.anchor_from_cur;
+    return {register_against(anchor, cur, by.color, initial, quality), wide.known_share};
 }
 
 // Whether a candidate is the same paint. Shades that move over a faint surface are found again,
@@ -73,9 +73,8 @@ double LostPlaces::noise() const {
                           : std::max(kOfRounding, *std::min_element(steps_.begin(), steps_.end()));
 }
 
-std::optional<Registered> LostPlaces::find(const Anchor& anchor, const StepFrame& cur,
-                                           bool by_color, const Registered& found,
-                                           FlowQuality quality) {
+std::optional<Registered> LostPlaces::find(const Anchor& anchor, const StepFrame& cur, FoundBy by,
+                                           const Registered& found, FlowQuality quality) {
     constexpr double kLittle = 1.05;       // of the noise
     constexpr double kAnyStructure = 0.3;  // in correlation; less is grain
     constexpr double kPlaneAlone = 1.5;    // of the noise: planes do not lose parts
@@ -83,14 +82,14 @@ std::optional<Registered> LostPlaces::find(const Anchor& anchor, const StepFrame
     const double noise = this->noise();
     const double little = found.planar ? kPlaneAlone : kLittle;
     if (found.fit.residual < little * noise || --waiting_ > 0) return std::nullopt;
-    const Pictures seen = pictures_of(anchor, cur, by_color);
+    const Pictures seen = pictures_of(anchor, cur, by.color);
     if (registration_agreement(seen.there, seen.here, found.anchor_from_cur) < kAnyStructure)
         return std::nullopt;
     std::optional<Registered> best;
     for (const MissedBy missed : {MissedBy::kSurface, MissedBy::kParts, MissedBy::kSurface}) {
         const Registered& before = best ? *best : found;
         if (before.fit.residual < kLittle * noise) break;
-        Candidate wider = search(anchor, cur, seen, by_color, before, missed, quality);
+        Candidate wider = search(anchor, cur, seen, by, before, missed, quality);
         if (!convinces(wider, missed, before, noise)) continue;
         const LatticeField& now = wider.registered.anchor_from_cur;
         if (registration_lead(seen.there, seen.here, now, before.anchor_from_cur).errors > 0)

@@ -8,6 +8,12 @@
 
 namespace weft {
 
+/// What a walk goes by.
+struct FoundBy {
+    bool color = false;  ///< Colours, not luma.
+    bool freed = false;  ///< Motion freed of light, as under shades that move.
+};
+
 /// Registration reaches a pixel or two. Where a fold or a quick turn made a step miss by more, that
 /// part of the surface is lost from then on. It shows: the anchor leaves more unexplained than the
 /// noise does, which the walk's own steps tell. Then the surface is looked for around
@@ -17,11 +23,12 @@ class LostPlaces {
   public:
     /// `step`: the fit of the present frame under the step to it from the frame before.
     void note(const RegistrationFit& step);
-    /// A better registration than `found`, from a wider search; null where `found` leaves little
+    /// A better registration than `found`, from a wider search, `by` what the walk goes by; null
+    /// where `found` leaves little
     /// unexplained, or nothing better was found. After searches in vain the next frames are not
     /// searched.
     [[nodiscard]] std::optional<Registered> find(const Anchor& anchor, const StepFrame& cur,
-                                                 bool by_color, const Registered& found,
+                                                 FoundBy by, const Registered& found,
                                                  FlowQuality quality);
 
   private:

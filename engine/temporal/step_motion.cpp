@@ -190,8 +190,9 @@ void add_lines(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
     // A shade confuses what an outline moves with: of a cloth under one 0 to 0.43.
     constexpr double kMostlyOwn = 0.5;
     if (out.by_freed && occluded_by(*out.by_freed) < kMostlyOwn) {
-        *out.freed_lead += shade_lead(now, out, outline, stripes);
-        out.by_freed = kept_along_stripes(*out.by_freed, outline, now.extent, stripes);
+        const Stripes painted = stripes_of(cur.picture());
+        *out.freed_lead += shade_lead(now, out, outline, painted);
+        out.by_freed = kept_along_stripes(*out.by_freed, outline, now.extent, painted);
     }
     const bool freed = out.by_freed && *out.freed_lead > 0;
     const LatticeField& picture = freed ? *out.by_freed : out.by_picture;

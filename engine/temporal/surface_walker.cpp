@@ -67,7 +67,8 @@ Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
                                       few));
     if (!choice.by_color()) exposure.learn(anchor, cur, prev_from_cur, anchor_from_cur);
     Registered found = against(anchor, cur, prev_from_cur, anchor_from_cur);
-    auto wider = lost_places.find(anchor, cur, choice.by_color(), found, options.quality);
+    auto wider =
+        lost_places.find(anchor, cur, {choice.by_color(), choice.freed()}, found, options.quality);
     return wider ? std::move(*wider) : std::move(found);
 }
 

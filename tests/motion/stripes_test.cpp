@@ -43,6 +43,18 @@ TEST(Stripes, StructureInTwoDirectionsIsNone) {
     EXPECT_EQ(stripes_of(Matte(kFrame), whole()).share, 0) << "a flat fill";
 }
 
+TEST(Stripes, BandsOfShadeAreNotPaint) {
+    const WaveTexture texture(3);
+    const Matte shaded = draw(kFrame, [&](Vec2 p) {
+        return (0.5f + 0.05f * (texture(p) - 0.5f)) * (1 + 0.5f * std::sin(p.y / 14));
+    });
+    EXPECT_GT(stripes_of(shaded, whole()).share, 0.5f);
+    EXPECT_EQ(stripes_of(registration_picture(shaded, whole())).share, 0);
+    const Stripes painted = stripes_of(registration_picture(lines(0.4f), whole()));
+    EXPECT_EQ(painted.share, 1);
+    EXPECT_LT(std::abs(painted.along.x * std::cos(0.4f) + painted.along.y * std::sin(0.4f)), 0.03f);
+}
+
 TEST(Stripes, AMattesEdgeIsNoStructure) {
     Matte matte(kFrame);
     for (int y = 30; y < 90; ++y)

@@ -48,7 +48,7 @@ TEST(LostPlaces, FindsAFoldThatIsBeyondTheReachOfRegistration) {
         register_against(anchor, *cur, false, LatticeField(kFrame, 8), FlowQuality::kDraft);
     const Vec2 middle(170, 90);
     ASSERT_GT(distance(near.anchor_from_cur.at(middle), fold(middle)), 3);
-    const auto wider = with_noise(0.05).find(anchor, *cur, false, near, FlowQuality::kDraft);
+    const auto wider = with_noise(0.05).find(anchor, *cur, {}, near, FlowQuality::kDraft);
     ASSERT_TRUE(wider);
     for (const Vec2 p : {middle, Vec2(150, 70), Vec2(190, 110), Vec2(60, 60)})
         EXPECT_LT(distance(wider->anchor_from_cur.at(p), fold(p)), 0.5f);
@@ -59,8 +59,7 @@ TEST(LostPlaces, DoesNotLookWhereOnlyNoiseIsLeft) {
     const Anchor anchor{step_frame(draw(kFrame, texture)), LatticeField(kFrame, 8)};
     const auto cur = step_frame(draw(kFrame, [&](Vec2 p) { return texture(p + fold(p)); }));
     const Registered found = register_against(anchor, *cur, false, folded(), FlowQuality::kDraft);
-    EXPECT_FALSE(
-        with_noise(found.fit.residual).find(anchor, *cur, false, found, FlowQuality::kDraft));
+    EXPECT_FALSE(with_noise(found.fit.residual).find(anchor, *cur, {}, found, FlowQuality::kDraft));
 }
 
 TEST(LostPlaces, DoesNotTakeAnotherPictureForTheSurface) {
@@ -69,7 +68,7 @@ TEST(LostPlaces, DoesNotTakeAnotherPictureForTheSurface) {
     const auto cur = step_frame(draw(kFrame, other));
     const Registered found =
         register_against(anchor, *cur, false, LatticeField(kFrame, 8), FlowQuality::kDraft);
-    EXPECT_FALSE(with_noise(0.05).find(anchor, *cur, false, found, FlowQuality::kDraft));
+    EXPECT_FALSE(with_noise(0.05).find(anchor, *cur, {}, found, FlowQuality::kDraft));
 }
 
 // A faint plane that stands still, under shades that wander off: they are found again where they
@@ -90,7 +89,7 @@ TEST(LostPlaces, DoesNotFollowShades) {
     }));
     const Registered found =
         register_against(anchor, *cur, false, LatticeField(kFrame, 8), FlowQuality::kDraft);
-    EXPECT_FALSE(with_noise(0.12).find(anchor, *cur, false, found, FlowQuality::kDraft));
+    EXPECT_FALSE(with_noise(0.12).find(anchor, *cur, {}, found, FlowQuality::kDraft));
 }
 
 }  // namespace
