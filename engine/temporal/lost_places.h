@@ -24,9 +24,8 @@ class LostPlaces {
     /// `step`: the fit of the present frame under the step to it from the frame before.
     void note(const RegistrationFit& step);
     /// A better registration than `found`, from a wider search, `by` what the walk goes by; null
-    /// where `found` leaves little
-    /// unexplained, or nothing better was found. After searches in vain the next frames are not
-    /// searched.
+    /// where `found` leaves little unexplained, or nothing better was found. After searches in vain
+    /// the next frames are not searched.
     [[nodiscard]] std::optional<Registered> find(const Anchor& anchor, const StepFrame& cur,
                                                  FoundBy by, const Registered& found,
                                                  FlowQuality quality);
