@@ -143,9 +143,7 @@ LatticeField along_stripes(const LatticeField& field, const LatticeField& outlin
     return out;
 }
 
-float departure_along_stripes(const LatticeField& field, const LatticeField& outline,
-                              ViewU8x1 visible, ViewU8x1 extent, const Stripes& stripes) {
-    const LatticeField kept = along_stripes(field, outline, extent, stripes);
+float departure(const LatticeField& field, const LatticeField& held, ViewU8x1 visible) {
     double sum = 0;
     int count = 0;
     for (int j = 0; j < field.nodes().height(); ++j) {
@@ -154,26 +152,25 @@ float departure_along_stripes(const LatticeField& field, const LatticeField& out
             const int x = std::clamp(static_cast<int>(p.x), 0, visible.width() - 1);
             const int y = std::clamp(static_cast<int>(p.y), 0, visible.height() - 1);
             if (visible.row(y)[x] < 128) continue;
-            sum += static_cast<double>(glm::length(field.node(i, j) - kept.node(i, j)));
+            sum += static_cast<double>(distance(field.node(i, j), held.node(i, j)));
             ++count;
         }
     }
     return count > 0 ? static_cast<float>(sum / count) : 0.0f;
 }
 
-LatticeField kept_along_stripes(const LatticeField& field, const LatticeField& outline,
-                                ViewU8x1 extent, const Stripes& stripes) {
-    constexpr float kOwn_px = 4, kSlid_px = 8;  // of a frame 480 wide
-    LatticeField kept = along_stripes(field, outline, extent, stripes);
-    const float unit = static_cast<float>(extent.width()) / 480;
+LatticeField held_where_dragged(const LatticeField& field, const LatticeField& held) {
+    constexpr float kOwn_px = 4, kDragged_px = 8;  // of a frame 480 wide
+    LatticeField out = field;
+    const float unit = static_cast<float>(field.full_size().width) / 480;
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
-            const Vec2 back = kept.node(i, j) - field.node(i, j);
-            const float share = smooth_step(glm::length(back) / unit, kOwn_px, kSlid_px);
-            kept.set_node(i, j, field.node(i, j) + share * back);
+            const Vec2 back = held.node(i, j) - field.node(i, j);
+            const float share = smooth_step(glm::length(back) / unit, kOwn_px, kDragged_px);
+            out.set_node(i, j, field.node(i, j) + share * back);
         }
     }
-    return kept;
+    return out;
 }
 
 LatticeField changed_across_stripes(LatticeField field, const LatticeField& before,

@@ -29,17 +29,15 @@ struct Stripes {
 [[nodiscard]] LatticeField along_stripes(const LatticeField& field, const LatticeField& outline,
                                          ViewU8x1 extent, const Stripes& stripes);
 
-/// How far a motion departs from along_stripes() of it: the mean over what is `visible`, px. Pure.
-[[nodiscard]] float departure_along_stripes(const LatticeField& field, const LatticeField& outline,
-                                            ViewU8x1 visible, ViewU8x1 extent,
-                                            const Stripes& stripes);
+/// How far a motion departs from `held`, which is along_stripes() of it: the mean over what is
+/// `visible`, px. Pure.
+[[nodiscard]] float departure(const LatticeField& field, const LatticeField& held,
+                              ViewU8x1 visible);
 
-/// `field` with along_stripes() of it where the two are further apart than a surface moves beside
-/// its outline in a step: not below 4 px of a frame 480 wide, in full from 8 px on. A shade that
-/// passes over a corner drags it that far. Pure.
-[[nodiscard]] LatticeField kept_along_stripes(const LatticeField& field,
-                                              const LatticeField& outline, ViewU8x1 extent,
-                                              const Stripes& stripes);
+/// `field` with `held`, along_stripes() of it, where the two are further apart than a surface moves
+/// beside its outline in a step: not below 4 px of a frame 480 wide, in full from 8 px on. A shade
+/// that passes over a corner drags it that far. Pure.
+[[nodiscard]] LatticeField held_where_dragged(const LatticeField& field, const LatticeField& held);
 
 /// `field` with the places of `before` along the stripes, as far as `stripes` says, which are those
 /// of the picture that the fields lead to. Of one lattice. Pure.

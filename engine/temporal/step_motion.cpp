@@ -165,16 +165,12 @@ namespace {
 // and finds itself again there in every frame. That motion leaves the outline behind; the one that
 // is freed of light keeps to it. By how much more the plate's departs, as standard errors for the
 // freed one.
-double shade_lead(const OutlineView& now, const StepEvidence& step, const LatticeField& outline,
-                  const Stripes& stripes) {
+double shade_lead(float plate_departs_px, float freed_departs_px, int width) {
     constexpr double kMost = 6;
     constexpr float kNone_px = 2, kClear_px = 6;  // a step, of a frame 480 wide
-    const auto departure = [&](const LatticeField& motion) {
-        return departure_along_stripes(motion, outline, now.visible, now.extent, stripes);
-    };
-    const float more = departure(step.by_picture) - departure(*step.by_freed);
-    const float unit = static_cast<float>(now.visible.width()) / 480;
-    return kMost * static_cast<double>(smooth_step(more / unit, kNone_px, kClear_px));
+    const float unit = static_cast<float>(width) / 480;
+    const float more = (plate_departs_px - freed_departs_px) / unit;
+    return kMost * static_cast<double>(smooth_step(more, kNone_px, kClear_px));
 }
 
 // Along stripes raw motion says nothing, but follows noise, or stands still.
@@ -189,10 +185,16 @@ void add_lines(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
     };
     // A shade confuses what an outline moves with: of a cloth under one 0 to 0.43.
     constexpr double kMostlyOwn = 0.5;
-    if (out.by_freed && occluded_by(*out.by_freed) < kMostlyOwn) {
-        const Stripes painted = stripes_of(cur.picture());
-        *out.freed_lead += shade_lead(now, out, outline, painted);
-        out.by_freed = kept_along_stripes(*out.by_freed, outline, now.extent, painted);
+    const Stripes painted = out.by_freed ? stripes_of(cur.picture()) : Stripes{};
+    if (painted.share > 0 && occluded_by(*out.by_freed) < kMostlyOwn) {
+        const auto held = [&](const LatticeField& motion) {
+            return along_stripes(motion, outline, now.extent, painted);
+        };
+        const LatticeField held_freed = held(*out.by_freed);
+        *out.freed_lead +=
+            shade_lead(departure(out.by_picture, held(out.by_picture), now.visible),
+                       departure(*out.by_freed, held_freed, now.visible), now.visible.width());
+        out.by_freed = held_where_dragged(*out.by_freed, held_freed);
     }
     const bool freed = out.by_freed && *out.freed_lead > 0;
     const LatticeField& picture = freed ? *out.by_freed : out.by_picture;

@@ -109,15 +109,13 @@ constexpr Stripes kUpright{{0, 1}, 1};
 
 TEST(Stripes, HowFarAMotionLeavesTheOutlineIsTold) {
     const Matte region = with_lower_edge();
-    const LatticeField outline = uniform({0, 1});
-    EXPECT_NEAR(departure_along_stripes(uniform({4, 11}), outline, region, region, kUpright), 10,
-                0.3f);
-    EXPECT_NEAR(departure_along_stripes(uniform({4, 1}), outline, region, region, kUpright), 0,
-                0.1f)
-        << "across them the picture tells";
-    EXPECT_EQ(departure_along_stripes(uniform({4, 11}), outline, Matte(kFrame), region, kUpright),
-              0)
-        << "nothing is visible";
+    const auto departs = [&](Vec2 motion, const Matte& visible) {
+        const LatticeField field = uniform(motion);
+        return departure(field, along_stripes(field, uniform({0, 1}), region, kUpright), visible);
+    };
+    EXPECT_NEAR(departs({4, 11}, region), 10, 0.3f);
+    EXPECT_NEAR(departs({4, 1}, region), 0, 0.1f) << "across them the picture tells";
+    EXPECT_EQ(departs({4, 11}, Matte(kFrame)), 0) << "nothing is visible";
 }
 
 TEST(Stripes, WhatSlidesFarAlongThemIsHeldByTheOutline) {
@@ -129,7 +127,8 @@ TEST(Stripes, WhatSlidesFarAlongThemIsHeldByTheOutline) {
         for (int i = 0; i < dragged.nodes().width(); ++i)
             if (dragged.node_position(i, j).x > 100) dragged.set_node(i, j, {2, 9});
     }
-    const LatticeField kept = kept_along_stripes(dragged, outline, region, kUpright);
+    const LatticeField kept =
+        held_where_dragged(dragged, along_stripes(dragged, outline, region, kUpright));
     EXPECT_EQ(kept.at({40, 40}), dragged.at({40, 40}));
     EXPECT_LT(distance(kept.at({160, 40}), {2, 0}), 0.3f);
 }

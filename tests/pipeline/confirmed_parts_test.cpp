@@ -1,6 +1,8 @@
 // What is confirmed on a frame corrects the frames around it, there and nowhere else.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "engine/pipeline/matte_pass.h"
 #include "engine/pipeline/matte_stretch.h"
 #include "tests/pipeline/memory_shot.h"
@@ -63,12 +65,23 @@ class ConfirmedParts : public testing::Test {
             out += (matte.at(x, 56) > 127) - (narrow.at(x, 56) > 127);
         return out;
     }
-    // Away from what is confirmed its edge keeps its place to half a pixel: what a walk
-    // knows of the whole, such as the noise of the background, differs a little.
+    // Away from what is confirmed its edge, which no picture marks here, keeps its place to a tenth
+    // of a pixel in the mean and to half a pixel everywhere: what a walk knows of the whole, such
+    // as the noise of the background, differs a little.
     static void expect_same_left(const Matte& a, const Matte& b, int frame) {
-        for (int y = 0; y < a.height(); ++y)
-            for (int x = 0; x < kMiddle - 20; ++x)
-                ASSERT_NEAR(a.at(x, y), b.at(x, y), 127) << x << ", " << y << " on frame " << frame;
+        double sum = 0;
+        int edge = 0;
+        for (int y = 0; y < a.height(); ++y) {
+            for (int x = 0; x < kMiddle - 20; ++x) {
+                const int is = a.at(x, y), was = b.at(x, y);
+                ASSERT_NEAR(is, was, 127) << x << ", " << y << " on frame " << frame;
+                if (is == was && (is == 0 || is == 255)) continue;
+                sum += std::abs(is - was);
+                ++edge;
+            }
+        }
+        ASSERT_GT(edge, 0) << frame;
+        EXPECT_LT(sum / edge, 25) << frame;
     }
     void expect_as_confirmed(const Matte& matte, int frame) const {
         EXPECT_EQ(matte, with_confirmed(matte, shot_.parts.at(frame))) << frame;

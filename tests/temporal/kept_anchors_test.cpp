@@ -18,8 +18,8 @@ Vec2 bent(Vec2 p) {
     return {0, 2.5f * std::sin(p.x / 25)};
 }
 
-// On the first frame something in front of it hides a part, with what the surface shows 3 px
-// beside.
+// On the first frame something in front of it hides a part, with what the surface shows
+// 1.2 px beside.
 std::shared_ptr<const StepFrame> frame(bool first) {
     const WaveTexture texture(3);
     const Matte luma = draw(kFrame, [&](Vec2 p) {

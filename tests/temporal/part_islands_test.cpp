@@ -30,15 +30,12 @@ TEST(PartIslands, SmallPiecesAreTold) {
     fill(part, {30, 20, 38, 28}, 127);  // not inside
     const Matte islands = part_islands(part);
     ASSERT_EQ(islands.size(), part.size());
-    int count = 0;
     for (int y = 0; y < islands.height(); ++y) {
         for (int x = 0; x < islands.width(); ++x) {
             const bool in_island = x >= 26 && x < 32 && y >= 2 && y < 10;
             EXPECT_EQ(islands.at(x, y), in_island ? 255 : 0) << x << ", " << y;
-            count += islands.at(x, y) != 0 ? 1 : 0;
         }
     }
-    EXPECT_EQ(count, 48);
 }
 
 }  // namespace
