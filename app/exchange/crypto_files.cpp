@@ -1,10 +1,11 @@
 #include "app/exchange/crypto_files.h"
 
 #include <filesystem>
-#include <vector>
 
+#include "app/project/region_matte_sources.h"
 #include "engine/core/setting.h"
-#include "engine/media/sequence_pattern.h"
+#include "engine/media/cryptomatte.h"
+#include "engine/media/sequence_files.h"
 
 namespace weft {
 
@@ -20,17 +21,20 @@ Status name_crypto_files(Region& region, const std::string& plate) {
         matte.files = plate;
         return {};
     };
-    MatteSource extent = *region.matte;
-    WEFT_CHECK_OK(name(extent));
-    region.matte = std::move(extent);
-    std::vector<MatteSource> holdouts = *region.holdouts;
-    for (MatteSource& holdout : holdouts)
-        WEFT_CHECK_OK(name(holdout));
-    if (!holdouts.empty()) region.holdouts = std::move(holdouts);
-    std::vector<Zone> zones = *region.zones;
-    for (Zone& zone : zones)
-        WEFT_CHECK_OK(name(zone.matte));
-    if (!zones.empty()) region.zones = std::move(zones);
+    Status named;
+    change_matte_sources(region, [&](MatteSource& matte) {
+        if (named) named = name(matte);
+    });
+    return named;
+}
+
+Status check_crypto_names(const Region& region, const std::vector<int>& frames) {
+    for (const MatteSource* matte : matte_sources(region)) {
+        if (matte->select.crypto.empty()) continue;
+        WEFT_TRY(pattern, SequencePattern::parse(matte->files));
+        WEFT_CHECK_OK(
+            check_cryptomatte_names(existing_files(pattern, frames), matte->select.crypto));
+    }
     return {};
 }
 

@@ -51,7 +51,10 @@ Expected<CornerTrack> parse_json(const std::string& text) {
 Expected<CornerTrack> read_corner_track(const std::string& path,
                                         const CornerTrackContext& context) {
     WEFT_TRY(text, read_file(path, "The track"));
-    const std::size_t start = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    // Windows' Notepad begins a file with a byte order mark.
+    if (constexpr std::string_view kMark = "\xef\xbb\xbf"; text.starts_with(kMark))
+        text.erase(0, kMark.size());
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
     const bool is_json = start != std::string::npos && text[start] == '{';
     auto track = is_json ? parse_json(text) : parse_corner_track(text, context);
     if (!track) return fail_in(std::move(track).error(), "The track " + path);

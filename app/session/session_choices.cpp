@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "app/textures/larger_original.h"
 #include "engine/media/cryptomatte.h"
+#include "engine/media/cryptomatte_selection.h"
 #include "engine/media/sequence_pattern.h"
 #include "texture_db/library/library.h"
 
@@ -19,17 +20,13 @@ namespace fs = std::filesystem;
 
 // Adds a name to a comma-separated list, or removes it.
 std::string changed_names(const std::string& names, const std::string& name, bool subtract) {
-    std::vector<std::string> list;
-    for (std::size_t from = 0; from < names.size();) {
-        const std::size_t comma = std::min(names.find(',', from), names.size());
-        list.push_back(names.substr(from, comma - from));
-        from = comma + 1;
-    }
-    std::erase(list, name);
-    if (!subtract) list.push_back(name);
     std::string out;
-    for (const std::string& one : list)
-        out += (out.empty() ? "" : ",") + one;
+    const auto add = [&](std::string_view one) {
+        out += (out.empty() ? "" : ",") + std::string(one);
+    };
+    for (const std::string& one : split_crypto_names(names))
+        if (one != name) add(escaped_crypto_name(one));
+    if (!subtract) add(escaped_crypto_name(name));
     return out;
 }
 

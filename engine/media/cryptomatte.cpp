@@ -15,6 +15,7 @@
 #include "engine/core/input_file.h"
 #include "engine/core/setting.h"
 #include "engine/core/text.h"
+#include "engine/media/cryptomatte_selection.h"
 #include "engine/media/picture_file.h"
 #include "engine/media/raster_errors.h"
 
@@ -26,6 +27,7 @@ struct Layer {
     int part = 0;
     std::vector<std::array<int, 2>> ranks;  // channels of id and coverage
     std::map<std::string, std::uint32_t> ids;
+    std::string stored_as;  // "half, dwaa": what may have changed its ids
 };
 
 int channel_named(const OIIO::ImageSpec& spec, const std::string& name) {
@@ -65,6 +67,12 @@ std::string manifest_text(const OIIO::ImageSpec& spec, const std::string& key,
     return read_file(beside.string(), "The manifest", kManifestLimit_bytes).value_or(std::string());
 }
 
+// The format and codec of the layer's first id.
+std::string stored_as(const OIIO::ImageSpec& spec, int channel) {
+    const std::string format(spec.channelformat(channel).c_str());
+    return format + ", " + std::string(spec.get_string_attribute("compression", "none"));
+}
+
 void add_layers(const OIIO::ImageSpec& spec, int part, const std::string& path,
                 std::vector<Layer>& layers) {
     constexpr std::string_view kPrefix = "cryptomatte/";
@@ -79,8 +87,51 @@ void add_layers(const OIIO::ImageSpec& spec, int part, const std::string& path,
         // Without a manifest, names can still be matched by their hashes.
         if (auto ids = parse_cryptomatte_manifest(manifest_text(spec, key, path)))
             layer.ids = std::move(*ids);
-        if (!layer.ranks.empty()) layers.push_back(std::move(layer));
+        if (layer.ranks.empty()) continue;
+        layer.stored_as = stored_as(spec, layer.ranks.front()[0]);
+        layers.push_back(std::move(layer));
     }
+}
+
+// Whether ids may have lost bits where they were stored like this.
+bool may_round(std::string_view stored_as) {
+    constexpr std::array<std::string_view, 5> kLossy{"pxr24", "b44", "b44a", "dwaa", "dwab"};
+    const std::string_view codec = stored_as.substr(stored_as.find(", ") + 2);
+    return stored_as.starts_with("half") ||
+           std::find(kLossy.begin(), kLossy.end(), codec.substr(0, codec.find(':'))) !=
+               kLossy.end();
+}
+
+// Ids as PXR24 keeps them: 24 of 32 bits, rounded.
+constexpr std::uint32_t kLostBits = 0xff;
+std::uint32_t rounded_id(std::uint32_t id) {
+    return (id + (kLostBits + 1) / 2) & ~kLostBits;
+}
+
+// Where no id that covers anything has its last 8 bits, and none of them is `known`, each becomes
+// the known one that it was rounded from. Returns how many different ids stay unknown if none has
+// such an original, else 0.
+std::size_t restore_rounded_ids(std::vector<float>& samples, const std::set<std::uint32_t>& known) {
+    std::map<std::uint32_t, std::uint32_t> originals;
+    for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
+        if (samples[k] == 0.0f || !(samples[k + 1] > 0.0f)) continue;
+        const auto id = std::bit_cast<std::uint32_t>(samples[k]);
+        if ((id & kLostBits) != 0 || known.contains(id)) return 0;
+        originals.emplace(id, id);
+    }
+    bool any = false;
+    for (const std::uint32_t id : known) {
+        const auto rounded = originals.find(rounded_id(id));
+        if (rounded == originals.end()) continue;
+        rounded->second = id;
+        any = true;
+    }
+    if (!any) return originals.size();
+    for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
+        const auto original = originals.find(std::bit_cast<std::uint32_t>(samples[k]));
+        if (original != originals.end()) samples[k] = std::bit_cast<float>(original->second);
+    }
+    return 0;
 }
 
 class CryptoFile {
@@ -108,8 +159,10 @@ class CryptoFile {
 
     [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
 
-    // The display window's samples of a layer's ranks: id, coverage, id, coverage …
-    [[nodiscard]] Expected<std::vector<float>> samples(const Layer& layer, Size& size) {
+    // The display window's samples of a layer's ranks: id, coverage, id, coverage … An id that a
+    // codec has rounded is that of the manifest or of `also` again.
+    [[nodiscard]] Expected<std::vector<float>> samples(const Layer& layer, Size& size,
+                                                       const std::set<std::uint32_t>& also = {}) {
         input_->seek_subimage(layer.part, 0);
         const OIIO::ImageSpec spec = input_->spec();
         size = {spec.full_width, spec.full_height};
@@ -143,7 +196,20 @@ class CryptoFile {
                 }
             }
         }
-        return out;
+        std::set<std::uint32_t> known = also;
+        for (const auto& [name, id] : layer.ids)
+            known.insert(id);
+        const std::size_t unknown = restore_rounded_ids(out, known);
+        // One object that the manifest does not list may have such an id by chance.
+        const std::size_t enough = may_round(layer.stored_as) ? 1 : 2;
+        if (unknown < enough || layer.ids.empty()) return out;
+        return tl::unexpected(
+            unreadable(path_,
+                       "no id of its Cryptomatte '" + layer.name +
+                           "' is one of its objects': they have been "
+                           "rounded where it was written (" +
+                           layer.stored_as + ")",
+                       "Write Cryptomattes as 32-bit float with a lossless codec such as ZIP."));
     }
 
   private:
@@ -177,11 +243,11 @@ Expected<std::vector<CryptoObject>> objects_of(CryptoFile& file, const Layer& la
     return out;
 }
 
-// * matches any text.
+// kAnyText matches any text.
 bool matches(std::string_view text, std::string_view pattern) {
     std::size_t t = 0, p = 0, star = std::string_view::npos, mark = 0;
     while (t < text.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
+        if (p < pattern.size() && pattern[p] == kAnyText) {
             star = p++;
             mark = t;
         } else if (p < pattern.size() && pattern[p] == text[t]) {
@@ -193,7 +259,7 @@ bool matches(std::string_view text, std::string_view pattern) {
             return false;
         }
     }
-    while (p < pattern.size() && pattern[p] == '*')
+    while (p < pattern.size() && pattern[p] == kAnyText)
         ++p;
     return p == pattern.size();
 }
@@ -203,26 +269,59 @@ struct Wanted {
     std::set<std::uint32_t> ids;
 };
 
-// The ids of a name: in the layer that it names, else in the first layer that has it.
-std::optional<Wanted> find_name(const std::vector<Layer>& layers, std::string_view name) {
-    const std::size_t slash = name.find('/');
-    for (const bool qualified : {true, false}) {
-        if (qualified && slash == std::string_view::npos) continue;
-        const std::string_view where = qualified ? name.substr(0, slash) : std::string_view();
-        const std::string_view what = qualified ? name.substr(slash + 1) : name;
-        for (const Layer& layer : layers) {
-            if (!std::string_view(layer.name).ends_with(where)) continue;
-            Wanted wanted{&layer, {}};
-            for (const auto& [known, id] : layer.ids)
-                if (matches(known, what)) wanted.ids.insert(id);
-            if (layer.ids.empty()) wanted.ids.insert(cryptomatte_id(what));
-            if (!wanted.ids.empty()) return wanted;
-        }
-    }
-    return std::nullopt;
+bool ends_with(const Layer& layer, std::string_view where) {
+    return std::string_view(layer.name).ends_with(where);
 }
 
-Error no_such_name(const std::string& path, std::string_view name,
+// The part of a name that says its layer, and the rest. Names may hold a slash, too.
+std::pair<std::string_view, std::string_view> split_layer(const std::vector<Layer>& layers,
+                                                          std::string_view name) {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string_view::npos) return {{}, name};
+    const std::string_view where = name.substr(0, slash);
+    const bool known = std::any_of(layers.begin(), layers.end(),
+                                   [&](const Layer& layer) { return ends_with(layer, where); });
+    return known ? std::pair(where, name.substr(slash + 1)) : std::pair(std::string_view(), name);
+}
+
+// The ids of a name that the manifests list: in the layer that it names, else in the first layer
+// that has it.
+std::optional<Wanted> find_listed(const std::vector<Layer>& layers, std::string_view name) {
+    const auto [where, what] = split_layer(layers, name);
+    const auto find_in = [&](std::string_view in, std::string_view text) -> std::optional<Wanted> {
+        for (const Layer& layer : layers) {
+            if (!ends_with(layer, in)) continue;
+            Wanted wanted{&layer, {}};
+            for (const auto& [known, id] : layer.ids)
+                if (matches(known, text)) wanted.ids.insert(id);
+            if (!wanted.ids.empty()) return wanted;
+        }
+        return std::nullopt;
+    };
+    auto found = find_in(where, what);
+    return found || where.empty() ? found : find_in({}, name);
+}
+
+// Renderers list the objects that a frame shows, or none at all: what is not listed is looked for
+// by its hash, and is nowhere if no pixel has that.
+Wanted find_name(const std::vector<Layer>& layers, std::string_view name) {
+    if (auto listed = find_listed(layers, name)) return std::move(*listed);
+    const auto [where, what] = split_layer(layers, name);
+    const auto layer =
+        std::find_if(layers.begin(), layers.end(),
+                     [&, in = where](const Layer& one) { return ends_with(one, in); });
+    Wanted wanted{&*layer, {}};
+    if (what.find(kAnyText) == std::string_view::npos) wanted.ids.insert(cryptomatte_id(what));
+    return wanted;
+}
+
+// As an artist writes it.
+std::string shown_name(std::string name) {
+    std::replace(name.begin(), name.end(), kAnyText, '*');
+    return name;
+}
+
+Error no_such_name(const std::string& path, std::size_t frames, const std::string& name,
                    const std::vector<Layer>& layers) {
     constexpr std::size_t kShown = 12;
     std::string list;
@@ -232,7 +331,9 @@ Error no_such_name(const std::string& path, std::string_view name,
             if (shown++ < kShown) list += (list.empty() ? "" : ", ") + known;
         }
     }
-    return unreadable(path, "its Cryptomatte has no '" + std::string(name) + "'",
+    const std::string others =
+        frames > 1 ? ", nor has that of any other of " + std::to_string(frames) + " frames" : "";
+    return unreadable(path, "its Cryptomatte has no '" + shown_name(name) + "'" + others,
                       "It has: " + list + (shown > kShown ? ", …" : "") + ".");
 }
 
@@ -267,22 +368,53 @@ Expected<std::vector<CryptoObject>> list_cryptomatte(const std::string& path) {
     });
 }
 
+Status check_cryptomatte_names(const std::vector<std::string>& paths, std::string_view names) {
+    std::vector<std::string> missing = split_crypto_names(names);
+    std::optional<Error> first;
+    const auto find_in = [&](const std::string& path, bool in_pixels) {
+        return guarded(path, [&]() -> Status {
+            WEFT_TRY(file, CryptoFile::open(path));
+            std::vector<std::string> still;
+            for (std::string& name : missing) {
+                bool found = find_listed(file.layers(), name).has_value();
+                if (!found && in_pixels) {
+                    const Wanted wanted = find_name(file.layers(), name);
+                    Size size;
+                    WEFT_TRY(samples, file.samples(*wanted.layer, size, wanted.ids));
+                    for (std::size_t k = 0; !found && k + 1 < samples.size(); k += 2)
+                        found = samples[k + 1] > 0 &&
+                                wanted.ids.contains(std::bit_cast<std::uint32_t>(samples[k]));
+                }
+                if (!found) still.push_back(std::move(name));
+            }
+            missing = std::move(still);
+            if (!missing.empty() && !first)
+                first = no_such_name(path, paths.size(), missing.front(), file.layers());
+            return {};
+        });
+    };
+    // Manifests are quickly read; most names are in the first.
+    for (const bool in_pixels : {false, true}) {
+        first.reset();
+        for (std::size_t k = 0; k < paths.size() && !missing.empty(); ++k)
+            WEFT_CHECK_OK(find_in(paths[k], in_pixels));
+    }
+    if (missing.empty() || !first) return {};
+    return tl::unexpected(std::move(*first));
+}
+
 Expected<Matte> read_cryptomatte(const std::string& path, std::string_view names, Size expected) {
     return guarded(path, [&]() -> Expected<Matte> {
         WEFT_TRY(file, CryptoFile::open(path));
         std::map<const Layer*, std::set<std::uint32_t>> wanted;
-        for (std::size_t from = 0; from <= names.size();) {
-            const std::size_t comma = std::min(names.find(',', from), names.size());
-            const std::string_view name = names.substr(from, comma - from);
-            from = comma + 1;
-            const auto found = find_name(file.layers(), name);
-            if (!found) return tl::unexpected(no_such_name(path, name, file.layers()));
-            wanted[found->layer].insert(found->ids.begin(), found->ids.end());
+        for (const std::string& name : split_crypto_names(names)) {
+            const Wanted found = find_name(file.layers(), name);
+            wanted[found.layer].insert(found.ids.begin(), found.ids.end());
         }
         std::vector<double> sum;
         Size size;
         for (const auto& [layer, ids] : wanted) {
-            WEFT_TRY(samples, file.samples(*layer, size));
+            WEFT_TRY(samples, file.samples(*layer, size, ids));
             WEFT_CHECK_OK(
                 check_plate_size(path, "it", size, expected, "render it at the plate's size"));
             const std::size_t count = 2 * layer->ranks.size();

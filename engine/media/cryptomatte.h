@@ -25,11 +25,19 @@ struct CryptoObject {
 [[nodiscard]] Expected<std::vector<CryptoObject>> list_cryptomatte(const std::string& path);
 
 /// Combined coverage of the named objects, at the frame's display window. `names` is separated by
-/// commas; a name may be "LAYER/NAME", where LAYER is the end of a layer's name, and may contain *
-/// for any text. Errors: Unreadable for an unknown name, listing the known ones; a size other than
-/// `expected` (empty: any).
+/// commas (engine/media/cryptomatte_selection.h); a name may be "LAYER/NAME", where LAYER is the
+/// end of a layer's name, and may contain * for any text. An object that is not in the frame covers
+/// nothing; check_cryptomatte_names() tells whether it is in any. Ids that PXR24 has rounded are
+/// matched by what is left of them. Errors: Unreadable for a size other than `expected` (empty:
+/// any), and for ids that have lost more than that.
 [[nodiscard]] Expected<Matte> read_cryptomatte(const std::string& path, std::string_view names,
                                                Size expected);
+
+/// Whether each of `names`, as above, is in one of the files at least: in a manifest, or by its
+/// hash in a pixel. Reads no further than it must. Errors: Unreadable for a name that is in none,
+/// listing what the first file has; for a file that cannot be read, MissingFrames or Unreadable.
+[[nodiscard]] Status check_cryptomatte_names(const std::vector<std::string>& paths,
+                                             std::string_view names);
 
 /// The object with the most coverage at pixel (x, y) of the display window, in the first layer; an
 /// empty name if there is none. Errors: as list_cryptomatte(); Usage outside the picture.

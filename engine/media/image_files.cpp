@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include "engine/core/luma.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/plate_decode.h"
+#include "engine/media/plates.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
 
@@ -145,8 +147,25 @@ Expected<PlateFrame> read_image(const std::string& path, const std::string& laye
     return to_plate(raster);
 }
 
+std::string channel_of_mattes(const std::vector<std::string>& paths) {
+    constexpr std::size_t kMostLooks = 24;
+    const std::size_t looks = std::min(paths.size(), kMostLooks);
+    for (std::size_t k = 0; k < looks; ++k) {
+        const auto raster = read_raster(paths[k * paths.size() / looks], {});
+        if (!raster || !raster->has_alpha) return {};
+        if (has_transparency(*raster)) return "A";
+    }
+    return looks > 0 ? "Y" : std::string();
+}
+
 Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
+    if (has_movie_extension(path)) {
+        return fail(ErrorCode::kUsage, path +
+                                           " is a movie, and a matte is a sequence of pictures. "
+                                           "Write its frames as pictures, such as matte.####.png, "
+                                           "and give those.");
+    }
     if (!select.crypto.empty()) {
         WEFT_TRY(objects, read_cryptomatte(path, select.crypto, expected));
         if (select.invert) invert(objects);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
@@ -29,10 +30,16 @@ struct MatteSelect {
     bool operator==(const MatteSelect&) const = default;
 };
 
+/// The channel of a sequence of mattes for which none is given: "A" if the alpha of any of up to 24
+/// of them, spread over all, is not opaque everywhere, else "Y"; empty, which leaves the choice to
+/// each file, if one of those has no alpha or cannot be read. An element that fills one frame is
+/// opaque there, and still read by its alpha.
+[[nodiscard]] std::string channel_of_mattes(const std::vector<std::string>& paths);
+
 /// Coverage 0–255, of any size if `expected` is empty (rounded; 16-bit and float files are
 /// quantised). Errors: MissingFrames if there is no such file; Unreadable if it is not an image,
 /// lacks the channel, or differs in size from `expected` (the message gives both sizes); Usage for
-/// `value` on a float file.
+/// `value` on a float file, and for a movie.
 [[nodiscard]] Expected<Matte> read_matte(const std::string& path, const MatteSelect& select,
                                          Size expected);
 

@@ -16,6 +16,7 @@ struct Placeholder {
     std::size_t begin = 0;
     std::size_t length = 0;
     int padding = 1;
+    bool printf = false;
 };
 
 constexpr int kMaxPadding = 12;
@@ -38,7 +39,7 @@ Placeholder placeholder_at(std::string_view s, std::size_t i) {
     }
     // %4d would pad with blanks, which no renderer writes, so it is not a placeholder.
     if (end >= s.size() || s[end] != 'd' || (width > 0 && !zero)) return {};
-    return {i, end + 1 - i, std::max(1, std::min(width, kMaxPadding + 1))};
+    return {i, end + 1 - i, std::max(1, std::min(width, kMaxPadding + 1)), true};
 }
 
 std::vector<Placeholder> placeholders_in(std::string_view s) {
@@ -51,8 +52,10 @@ std::vector<Placeholder> placeholders_in(std::string_view s) {
     return found;
 }
 
-std::string padded(std::int64_t frame, int padding) {
+// With `sign_counts` the minus is one of the places, as printf counts them.
+std::string padded(std::int64_t frame, int padding, bool sign_counts) {
     std::string digits = std::to_string(frame < 0 ? -frame : frame);
+    if (frame < 0 && sign_counts) --padding;
     if (static_cast<int>(digits.size()) < padding) {
         digits.insert(0, static_cast<std::size_t>(padding) - digits.size(), '0');
     }
@@ -90,6 +93,7 @@ Expected<SequencePattern> SequencePattern::parse(std::string_view text) {
     const std::size_t begin = name_at + found[0].begin;
     pattern.numbered_ = true;
     pattern.padding_ = found[0].padding;
+    pattern.printf_ = found[0].printf;
     pattern.prefix_ = whole.substr(0, begin);
     pattern.suffix_ = whole.substr(begin + found[0].length);
     return pattern;
@@ -102,10 +106,11 @@ SequencePattern SequencePattern::single(std::string_view path) {
 }
 
 std::string SequencePattern::path_for(int frame) const {
-    return numbered_ ? prefix_ + padded(frame, padding_) + suffix_ : text_;
+    return numbered_ ? prefix_ + padded(frame, padding_, printf_) + suffix_ : text_;
 }
 
-std::optional<std::int64_t> SequencePattern::number_in(std::string_view path) const {
+std::optional<std::int64_t> SequencePattern::number_in(std::string_view path,
+                                                       bool sign_counts) const {
     if (!numbered_ || path.size() <= prefix_.size() + suffix_.size()) return std::nullopt;
     if (!path.starts_with(prefix_) || !path.ends_with(suffix_)) return std::nullopt;
     const std::string_view number =
@@ -117,14 +122,28 @@ std::optional<std::int64_t> SequencePattern::number_in(std::string_view path) co
     if (error != std::errc()) return std::nullopt;
     // #### would not write 00012, nor -0: each number has one file name, and each file name one
     // number.
-    if (padded(frame, padding_) != number) return std::nullopt;
+    if (padded(frame, padding_, sign_counts) != number) return std::nullopt;
     return frame;
 }
 
 std::optional<int> SequencePattern::frame_of(std::string_view path) const {
-    const auto number = number_in(path);
+    const auto number = number_in(path, printf_);
     if (!number || !is_frame_number(*number)) return std::nullopt;
     return static_cast<int>(*number);
+}
+
+Error SequencePattern::other_spelling(const std::string& path, std::int64_t frame) const {
+    const std::string places = std::to_string(padding_);
+    const std::string fitting =
+        printf_ ? std::string(static_cast<std::size_t>(padding_), '#') : "%0" + places + "d";
+    const std::string own = prefix_ + padded(frame, padding_, printf_) + suffix_;
+    Error error;
+    error.code = ErrorCode::kUsage;
+    error.message = path + " is frame " + std::to_string(frame) + " with its minus " +
+                    (printf_ ? "beside" : "as one of") + " the " + places + " places, but for " +
+                    text_ + " that frame is " + own + ". Write " + fitting +
+                    " for the frame number, or rename the files.";
+    return error;
 }
 
 Expected<std::vector<int>> SequencePattern::list_frames() const {
@@ -137,7 +156,9 @@ Expected<std::vector<int>> SequencePattern::list_frames() const {
     for (const std::filesystem::directory_iterator end; !error && entry != end;
          entry.increment(error)) {
         const std::string path = folder + entry->path().filename().string();
-        const auto number = number_in(path);
+        const auto number = number_in(path, printf_);
+        if (const auto other = number_in(path, !printf_); !number && other)
+            return tl::unexpected(other_spelling(path, *other));
         if (!number) continue;
         if (!is_frame_number(*number)) {
             return fail(ErrorCode::kUnreadable, path + " has a frame number beyond " +

@@ -96,9 +96,9 @@ TEST_F(Contract, FrameNumbersInAreFrameNumbersOut) {
     expect_success(run_replace({"--frames=-3-2x2", "-o", "b/f.@@@.png"}));
     EXPECT_EQ(names("b"), (Words{"f.-001.png", "f.-003.png", "f.001.png"}));
     expect_success(run_replace({"--frames", "2,-3", "-o", "c/%02d.png"}));
-    EXPECT_EQ(names("c"), (Words{"-03.png", "02.png"}));
+    EXPECT_EQ(names("c"), (Words{"-3.png", "02.png"}));  // the sign is one of printf's places
     // A frame does not depend on the other frames of the run.
-    EXPECT_EQ(bytes("b/f.-003.png"), bytes("c/-03.png"));
+    EXPECT_EQ(bytes("b/f.-003.png"), bytes("c/-3.png"));
 }
 
 TEST_F(Contract, ExistingFramesAreRefusedReplacedOrKept) {

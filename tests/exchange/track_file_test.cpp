@@ -36,6 +36,15 @@ TEST_F(TrackFile, ReadsJsonAndText) {
     EXPECT_EQ(text->begin()->first, 4);
 }
 
+TEST_F(TrackFile, MayBeginWithAByteOrderMark) {
+    const auto text = read(
+        "\xef\xbb\xbf"
+        "1 0 2 30 2 30 22 0 22\r\n2 1 2 31 2 31 22 1 22");
+    ASSERT_TRUE(text) << text.error().text();
+    EXPECT_EQ(text->size(), 2u);
+    EXPECT_DOUBLE_EQ(text->at(2)[0].x, 1);
+}
+
 TEST_F(TrackFile, NamesTheFileAndWhatIsWrong) {
     for (
         const char* wrong :

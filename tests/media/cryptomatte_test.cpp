@@ -4,26 +4,30 @@
 #include <bit>
 
 #include "engine/media/cryptomatte.h"
+#include "engine/media/cryptomatte_selection.h"
 #include "engine/media/image_files.h"
 #include "tests/media/media_fixture.h"
 
 namespace weft {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class CryptomatteTest : public MediaTest {
   protected:
     // 4×1: wholly the wall; three quarters wall, one the ball; wholly the ball; nothing.
-    void put(const std::string& name, const std::string& manifest) {
+    void put(const std::string& name, const std::string& manifest,
+             std::uint32_t wall_id = cryptomatte_id("Wall"),
+             std::uint32_t ball_id = cryptomatte_id("Ball")) {
         OIIO::ImageSpec spec(4, 1, 7, OIIO::TypeFloat);
         spec.channelnames = {"R", "G", "B", "obj00.r", "obj00.g", "obj00.b", "obj00.a"};
         spec.attribute("cryptomatte/1234567/name", "obj");
         spec.attribute("cryptomatte/1234567/hash", "MurmurHash3_32");
         spec.attribute("cryptomatte/1234567/conversion", "uint32_to_float32");
         if (!manifest.empty()) spec.attribute("cryptomatte/1234567/manifest", manifest);
-        const float wall = std::bit_cast<float>(cryptomatte_id("Wall"));
-        const float ball = std::bit_cast<float>(cryptomatte_id("Ball"));
+        const float wall = std::bit_cast<float>(wall_id);
+        const float ball = std::bit_cast<float>(ball_id);
         const std::vector<float> data{0, 0, 0, wall, 1,     0,    0,      //
                                       0, 0, 0, wall, 0.75f, ball, 0.25f,  //
                                       0, 0, 0, ball, 1,     0,    0,      //
@@ -71,12 +75,67 @@ TEST_F(CryptomatteTest, NamesAreFoundWithoutAManifest) {
 
 TEST_F(CryptomatteTest, WhatIsNotThereIsSaid) {
     put("a.exr", kManifest);
-    const auto none = read_cryptomatte(in("a.exr"), "Door", {});
+    const auto none = check_cryptomatte_names({in("a.exr"), in("a.exr")}, "Wall,Door");
     ASSERT_FALSE(none);
     EXPECT_THAT(none.error().message, HasSubstr("'Door'"));
     EXPECT_THAT(none.error().message, HasSubstr("Ball, Wall"));
     EXPECT_THAT(read_cryptomatte(in("a.exr"), "Wall", {5, 1}).error().message, HasSubstr("4x1"));
     EXPECT_EQ(list_cryptomatte(in("b.exr")).error().code, ErrorCode::kMissingFrames);
+}
+
+// Renderers list the objects that a frame shows only.
+TEST_F(CryptomatteTest, ObjectsMayBeMissingFromFrames) {
+    put("a.exr", R"({"Ball":"74d3ebe9"})", cryptomatte_id("Ball"));
+    put("b.exr", kManifest);
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "Wall", {}).value().at(0, 0), 0);
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "Wa*", {}).value().at(0, 0), 0);
+    EXPECT_TRUE(check_cryptomatte_names({in("a.exr"), in("b.exr")}, "Wall,B*"));
+    EXPECT_FALSE(check_cryptomatte_names({in("a.exr")}, "Wall"));
+    EXPECT_FALSE(check_cryptomatte_names({in("a.exr"), in("b.exr")}, "D*"));
+    // Without a manifest the pixels tell.
+    put("c.exr", "");
+    EXPECT_TRUE(check_cryptomatte_names({in("c.exr")}, "Wall"));
+    EXPECT_FALSE(check_cryptomatte_names({in("c.exr")}, "Door"));
+}
+
+TEST_F(CryptomatteTest, NamesMayHoldCommasAndStars) {
+    put("a.exr", R"({"wall, left":"2c388f97","Ball":"74d3ebe9","B*":"1"})");
+    for (const char* text : {"wall\\, left", "\"wall, left\"", "Ball, \"wall, left\"", "wall*"})
+        EXPECT_EQ(read_cryptomatte(in("a.exr"), text, {}).value().at(0, 0), 255) << text;
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "B\\*", {}).value().at(2, 0), 0);
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "B*", {}).value().at(2, 0), 255);
+}
+
+TEST(CryptomatteSelection, NamesComeBackAsTheyWere) {
+    for (const std::string name : {"Wall", "wall, left", "a\\", "\\,", "\"q\"", " lead", "*", ""})
+        EXPECT_THAT(split_crypto_names(escaped_crypto_name(name)), ElementsAre(name));
+    EXPECT_THAT(split_crypto_names("a , b\\c,\"d\"e"), ElementsAre("a", "b\\c", "\"d\"e"));
+    EXPECT_THAT(split_crypto_names("\"a, b\" ,c"), ElementsAre("a, b", "c"));
+    EXPECT_THAT(split_crypto_names("a*"), ElementsAre(std::string("a") + kAnyText));
+    EXPECT_EQ(escaped_crypto_name(std::string("a") + kAnyText), "a*");
+}
+
+// PXR24 keeps 24 bits of each float, rounded.
+TEST_F(CryptomatteTest, RoundedIdsAreMatchedByWhatIsLeft) {
+    put("a.exr", kManifest, 0x2c389000u, 0x74d3ec00u);
+    const Matte wall = read_cryptomatte(in("a.exr"), "Wall", {}).value();
+    EXPECT_EQ(std::vector<int>(wall.data(), wall.data() + 4), (std::vector<int>{255, 191, 0, 0}));
+    EXPECT_EQ(pick_cryptomatte(in("a.exr"), 2, 0).value().name, "Ball");
+    put("b.exr", "", 0x2c389000u, 0x74d3ec00u);
+    EXPECT_EQ(read_cryptomatte(in("b.exr"), "Wall", {}).value().at(0, 0), 255);
+}
+
+TEST_F(CryptomatteTest, IdsThatHalfHasRoundedAreNamed) {
+    put("a.exr", kManifest, 0x2c388000u, 0x74d3e000u);
+    const auto lost = read_cryptomatte(in("a.exr"), "Wall", {});
+    ASSERT_FALSE(lost);
+    EXPECT_EQ(lost.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(lost.error().message, HasSubstr("rounded"));
+}
+
+TEST_F(CryptomatteTest, OneUnlistedObjectIsNoSignOfRounding) {
+    put("a.exr", R"({"Door":"1"})", 0x2c389000u, 0x2c389000u);
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "Door", {}).value().at(0, 0), 0);
 }
 
 TEST(CryptomatteManifest, IsReadStrictly) {

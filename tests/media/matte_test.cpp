@@ -128,6 +128,25 @@ TEST_F(MatteFile, FloatFilesHaveNoIds) {
     EXPECT_EQ(read_matte(in("a.exr"), value(1), {2, 1}).error().code, ErrorCode::kUsage);
 }
 
+TEST_F(MatteFile, ASequenceHasOneChannel) {
+    put<std::uint8_t>("clear.png", 4, {10, 20, 30, 40, 50, 60, 70, 255}, OIIO::TypeUInt8);
+    put<std::uint8_t>("full.png", 4, {10, 20, 30, 255, 50, 60, 70, 255}, OIIO::TypeUInt8);
+    put<std::uint8_t>("rgb.png", 3, {10, 20, 30, 50, 60, 70}, OIIO::TypeUInt8);
+    EXPECT_EQ(channel_of_mattes({in("full.png"), in("clear.png"), in("full.png")}), "A");
+    EXPECT_EQ(channel_of_mattes({in("full.png"), in("full.png")}), "Y");
+    EXPECT_EQ(channel_of_mattes({in("rgb.png")}), "");
+    EXPECT_EQ(channel_of_mattes({in("none.png")}), "");
+    EXPECT_EQ(channel_of_mattes({}), "");
+}
+
+TEST_F(MatteFile, AMovieIsNotCalledDamaged) {
+    put_bytes(in("m.mkv"), {'x'}, 1);
+    const auto movie = read_matte(in("m.mkv"), {}, {});
+    ASSERT_FALSE(movie);
+    EXPECT_EQ(movie.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(movie.error().message, HasSubstr("is a movie"));
+}
+
 TEST_F(MatteFile, WrongSizeGivesBothSizes) {
     put<std::uint8_t>("a.png", 1, {0, 1, 128, 255}, OIIO::TypeUInt8);
     const auto matte = read_matte(in("a.png"), {}, {640, 360});

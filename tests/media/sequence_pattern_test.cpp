@@ -25,7 +25,9 @@ TEST(SequencePattern, WritesEachPlaceholder) {
 
 TEST(SequencePattern, SignComesBeforeThePadding) {
     EXPECT_EQ(pattern("p.####.exr").path_for(-12), "p.-0012.exr");
-    EXPECT_EQ(pattern("p.%04d.exr").path_for(-12), "p.-0012.exr");
+    EXPECT_EQ(pattern("p.%04d.exr").path_for(-12), "p.-012.exr");  // as C's printf
+    EXPECT_EQ(pattern("p.%04d.exr").frame_of("p.-012.exr"), -12);
+    EXPECT_EQ(pattern("p.%04d.exr").frame_of("p.-0012.exr"), std::nullopt);
     EXPECT_EQ(pattern("p.####.exr").frame_of("p.-0012.exr"), -12);
     EXPECT_EQ(pattern("p.%d.exr").path_for(-2147483647 - 1), "p.-2147483648.exr");
 }
@@ -72,6 +74,23 @@ TEST_F(SequenceFolder, ListsAscending) {
     }
     EXPECT_THAT(pattern(in("p.####.png")).list_frames().value(), ElementsAre(-3, 2, 10, 12345));
     EXPECT_THAT(pattern(in("p.%d.png")).list_frames().value(), ElementsAre(12345));
+}
+
+// Frames before 0 in the other spelling are not left out without a word.
+TEST_F(SequenceFolder, NegativeFramesAreReadAsTheyAreWritten) {
+    for (const char* name : {"p.-002.png", "p.-001.png", "p.0000.png", "p.0001.png"})
+        put_bytes(in(name), {'x'}, 1);
+    EXPECT_THAT(pattern(in("p.%04d.png")).list_frames().value(), ElementsAre(-2, -1, 0, 1));
+    const auto hashes = pattern(in("p.####.png")).list_frames();
+    ASSERT_FALSE(hashes);
+    EXPECT_EQ(hashes.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(hashes.error().message, HasSubstr("Write %04d"));
+
+    put_bytes(in("q.-0002.png"), {'x'}, 1);
+    EXPECT_THAT(pattern(in("q.####.png")).list_frames().value(), ElementsAre(-2));
+    const auto printf_style = pattern(in("q.%04d.png")).list_frames();
+    ASSERT_FALSE(printf_style);
+    EXPECT_THAT(printf_style.error().message, HasSubstr("Write ####"));
 }
 
 TEST_F(SequenceFolder, MissingFolderIsUnreadable) {
