@@ -6,12 +6,14 @@
 #include "app/exchange/crypto_files.h"
 #include "app/exchange/track_file.h"
 #include "app/shot/frame_plan.h"
+#include "app/shot/matte_channel.h"
 #include "app/shot/missing_frames.h"
 #include "app/shot/project_source.h"
 #include "app/shot/region_projection.h"
 #include "app/shot/shot_inputs.h"
 #include "app/shot/shown_sample.h"
 #include "app/shot/texture_file.h"
+#include "app/shot/trimmed_frames.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
 #include "engine/core/luma.h"
@@ -102,6 +104,20 @@ class ShotOpener {
                                  by({{setting}}) + ", or convert it.");
     }
 
+    void warn_of_transparency(const std::string& texture, const ImageF1& alpha) {
+        // What antialiasing or rounding leaves does not show.
+        constexpr float kOpaque = 0.99f;
+        const auto clear =
+            std::count_if(alpha.data(), alpha.data() + alpha.size_bytes() / sizeof(float),
+                          [](float a) { return a < kOpaque; });
+        if (clear == 0) return;
+        shot_.warnings.push_back("The texture " + texture + " is transparent in " +
+                                 std::to_string(clear) +
+                                 " pixels. A texture's alpha is not used, so they show the colour "
+                                 "that is stored there, often black. Crop it to what is opaque, or "
+                                 "put it over a colour first.");
+    }
+
     static Expected<ColorSpace> space(const std::string& given, const char* by_file_type) {
         return parse_color_space(given.empty() ? by_file_type : given);
     }
@@ -162,6 +178,10 @@ class ShotOpener {
             shot_.project.regions[k] = shot_.project.regions[k].with([&](Region& changed) {
                 frozen = name_crypto_files(changed, shot_.project.plate.path);
                 if (frozen) frozen = add_frozen_mattes(changed);
+                choose_matte_channels(changed, shot_.plate->frames());
+                if (std::string trimmed = leave_out_trimmed(changed, *shot_.plate);
+                    !trimmed.empty())
+                    shot_.warnings.push_back(std::move(trimmed));
             });
             const Region& region = *shot_.project.regions[k];
             auto added = frozen ? add_region(region) : std::move(frozen);
@@ -178,6 +198,7 @@ class ShotOpener {
     Status add_region(const Region& region) {
         RegionPlan plan;
         plan.random_key = region.id;
+        WEFT_CHECK_OK(check_crypto_names(region, shot_.plate->frames()));
         WEFT_CHECK_OK(project_mattes(*region.matte, *region.holdouts, plan));
         WEFT_CHECK_OK(project_zones(*region.zones, plan));
         WEFT_CHECK_OK(add_reference(region, plan));
@@ -284,6 +305,7 @@ class ShotOpener {
                                      std::to_string(picture.nonfinite) +
                                      " pixels of NaN or infinity; they are taken as black.");
         }
+        warn_of_transparency(path, picture.alpha);
         OpenTexture out;
         out.pixels = std::move(picture.rgb);
         out.space = texture_space;

@@ -11,11 +11,13 @@
 #include "app/shot/project_source.h"
 #include "app/shot/scene_cuts.h"
 #include "app/shot/shot_inputs.h"
+#include "engine/media/frame_writer.h"
 #include "tests/render/shot_fixture.h"
 
 namespace weft::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -56,6 +58,36 @@ TEST_F(OpenShot, TheFramesAreTheListOrAllOfThePlate) {
     some.settings.frames = "five";
     EXPECT_EQ(frames_to_render(some, *(*shot)->plate).error().code, ErrorCode::kUsage);
     EXPECT_EQ(frames_text({4, 5, 6, 12}), "frames 4-6,12");
+}
+
+// Editorial trims a shot; what was set for the frames that are gone waits for them.
+TEST_F(OpenShot, WhatIsSetBeyondATrimmedPlateIsLeftOut) {
+    const auto painted_on = [&](std::vector<int> frames) {
+        Project trimmed = project();
+        trimmed.regions[0] = trimmed.regions[0].with([&](Region& region) {
+            MatteSource matte;
+            for (const int frame : frames)
+                matte.keyframes[frame] = {in("masks/0003.png"), {}};
+            region.matte = std::move(matte);
+            region.reference_frames = {3, 8};
+        });
+        return open_shot(trimmed);
+    };
+    const auto shot = painted_on({-1, 3, 9});
+    ASSERT_TRUE(shot) << shot.error().text();
+    EXPECT_THAT((*shot)->plan.regions[0].matte_keys, ElementsAre(3));
+    EXPECT_THAT((*shot)->plan.regions[0].reference_frames, ElementsAre(3));
+    EXPECT_THAT((*shot)->warnings, Contains(HasSubstr("-1,8-9 is left out")));
+    EXPECT_EQ(painted_on({-1, 9}).error().code, ErrorCode::kMissingFrames);
+}
+
+TEST_F(OpenShot, ATransparentTextureGivesAWarning) {
+    ImageF1 alpha(Size{128, 128}, 1.0f);
+    alpha.at(5, 5) = 0;
+    ASSERT_TRUE(write_image(in("tile.png"), pattern_picture({128, 128}, 5), alpha, {}));
+    const auto shot = open_shot(project());
+    ASSERT_TRUE(shot) << shot.error().text();
+    EXPECT_THAT((*shot)->warnings, Contains(HasSubstr("transparent in 1 pixel")));
 }
 
 TEST_F(OpenShot, AGapIsHeldAndSaysWhichFrameIsShown) {
